@@ -1,0 +1,69 @@
+"""New human motion out of captured motion: matching, transforms, blending, motion graphs, synthesis.
+
+Conventions, everywhere: y is up, the ground is the plane y = 0; metres, seconds, radians; column vectors;
+quaternions are (w, x, y, z); a body whose heading is 0 faces +z, with its left at +x. Units are converted
+where a file is read or written, and nowhere else.
+
+Reading order
+-------------
+What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
+`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `matching`, `transitions`,
+`blending`, `motion_graph`, `synthesis`. What one sees: `plotting`, `demo`.
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mocap.errors import FormatError, MocapError, NoWalk, SkeletonMismatch
+    from mocap.files import load, load_skeleton, save
+    from mocap.motion import Motion, concatenate, resample
+    from mocap.skeleton import Skeleton
+    from mocap.transforms import PlanarTransform
+
+__version__ = "0.1.0"
+
+# Each name is imported when it is first used, so that `import mocap` costs next to nothing.
+_HOMES = {
+    "FormatError": "errors",
+    "MocapError": "errors",
+    "NoWalk": "errors",
+    "SkeletonMismatch": "errors",
+    "load": "files",
+    "load_skeleton": "files",
+    "save": "files",
+    "Motion": "motion",
+    "concatenate": "motion",
+    "resample": "motion",
+    "Skeleton": "skeleton",
+    "PlanarTransform": "transforms",
+}
+
+__all__ = [
+    "FormatError",
+    "MocapError",
+    "Motion",
+    "NoWalk",
+    "PlanarTransform",
+    "Skeleton",
+    "SkeletonMismatch",
+    "concatenate",
+    "load",
+    "load_skeleton",
+    "resample",
+    "save",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'mocap' has no attribute '{name}'")
+    return getattr(import_module(f"mocap.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

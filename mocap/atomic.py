@@ -1,0 +1,140 @@
+"""A text file is read whole or refused, and written whole or not at all."""
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap.errors import FormatError, MocapError
+
+Array = NDArray[np.float64]
+
+LARGEST = 1e9  # no length, angle or time in a motion file comes near
+
+
+def read_text(path: str | Path) -> str:
+    r"""Read a text file, its lines ended by "\n" whatever they ended with on disk.
+
+    Text that is not UTF-8 is read as Latin-1, which older exporters wrote.
+
+    Parameters
+    ----------
+    path : the file.
+
+    Returns
+    -------
+    Its text, without a byte order mark.
+
+    Raises
+    ------
+    MocapError : when the file cannot be opened.
+    FormatError : when it is empty, holds zero bytes, or an unresolved merge.
+
+    Examples
+    --------
+    >>> read_text("nowhere/walk.bvh")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot read nowhere/walk.bvh: No such file or directory.
+    """
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
+    if (zero := data.find(b"\0")) >= 0:
+        raise FormatError(path, data.count(b"\n", 0, zero) + 1, "text", "a zero byte, as in a binary file")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if not text.strip():
+        raise FormatError(path, None, "some text", "an empty file")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    if (marker := f"\n{text}".find("\n<<<<<<< ")) >= 0:
+        got = "'<<<<<<<', an unresolved merge: take one of its two versions"
+        raise FormatError(path, text.count("\n", 0, marker) + 1, "one version of the file", got)
+    return text
+
+
+@contextmanager
+def replacing(path: str | Path) -> Iterator[Path]:
+    """Write beside a file, then put the new one in its place in a single step.
+
+    Whatever goes wrong inside the `with` block, an interruption too, the old file stays as it was
+    and nothing is left beside it.
+
+    Parameters
+    ----------
+    path : the file to make or replace.
+
+    Yields
+    ------
+    A path in the same folder, with the same suffix, to write to.
+
+    Raises
+    ------
+    MocapError : when the folder is missing or cannot be written to.
+
+    Examples
+    --------
+    >>> with replacing("nowhere/walk.bvh") as beside:
+    ...     beside.write_text("")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
+    """
+    path = Path(path)
+    try:
+        folder = tempfile.TemporaryDirectory(prefix=".", dir=path.parent, ignore_cleanup_errors=True)
+        with folder as beside:  # a folder, so that the new file gets the permissions of any other
+            yield Path(beside, path.name)
+            Path(beside, path.name).replace(path)
+    except OSError as error:
+        raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
+
+
+def lines(text: str) -> Iterator[tuple[int, list[str]]]:
+    r"""Go through the lines that say something: their numbers, from 1, and their words; `#` starts a comment.
+
+    Examples
+    --------
+    >>> list(lines("1  # first frame\n\nroot 0 1.5"))
+    [(1, ['1']), (3, ['root', '0', '1.5'])]
+    """
+    for number, line in enumerate(text.split("\n"), 1):
+        if words := line.partition("#")[0].split():
+            yield number, words
+
+
+def to_numbers(path: str | Path, line: int, words: list[str], expected: str, count: int) -> Array:
+    """Turn words into numbers, every one of them finite and below 10⁹.
+
+    Parameters
+    ----------
+    path, line, expected : what the error names.
+    words : what stands in the file.
+    count : how many there must be.
+
+    Returns
+    -------
+    The numbers, shape (len(words),).
+
+    Raises
+    ------
+    FormatError : for more or fewer words, one that is no number, or one that no motion needs.
+
+    Examples
+    --------
+    >>> to_numbers("a.bvh", 3, ["1.5", "7.6e-016"], "2 numbers", 2)
+    array([1.5e+00, 7.6e-16])
+    """
+    if len(words) != count:
+        raise FormatError(path, line, expected, str(len(words)))
+    try:
+        numbers = np.array([float(word) for word in words])
+    except ValueError as error:
+        raise FormatError(path, line, expected, f"'{' '.join(words)}'") from error
+    if not np.all(np.abs(numbers) < LARGEST):  # false for nan, too
+        raise FormatError(path, line, f"{expected}, all below {LARGEST:g}", f"'{' '.join(words)}'")
+    return numbers

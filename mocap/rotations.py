@@ -1,0 +1,195 @@
+"""Unit quaternions as arrays `(..., 4)`, scalar first (w, x, y, z): a thin adapter over SciPy.
+
+This module alone knows in which order a quaternion's numbers stand. All functions broadcast over
+leading axes, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b first.
+"""
+
+import warnings
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+Array = NDArray[np.float64]
+
+IDENTITY: Array = np.array([1.0, 0.0, 0.0, 0.0])
+IDENTITY.flags.writeable = False
+
+
+def _rotation(quaternions: ArrayLike) -> Rotation:
+    return Rotation.from_quat(np.asarray(quaternions, float).reshape(-1, 4), scalar_first=True)
+
+
+def _quaternions(rotation: Rotation, shape: tuple[int, ...]) -> Array:
+    return np.asarray(rotation.as_quat(scalar_first=True), float).reshape(*shape, 4)
+
+
+def from_euler(order: str, angles: ArrayLike) -> Array:
+    """Build quaternions from Euler angles.
+
+    Parameters
+    ----------
+    order : the axes in SciPy's notation: "ZXY" turns about the body's own axes, R = Rz Rx Ry, as BVH
+        does; "xyz" about the fixed ones, R = Rz Ry Rx, as Acclaim files do.
+    angles : shape (..., len(order)), radians.
+
+    Returns
+    -------
+    Quaternions, shape (..., 4).
+
+    Examples
+    --------
+    >>> from_euler("y", [np.pi]).round(6) + 0.0
+    array([0., 0., 1., 0.])
+    """
+    angles = np.asarray(angles, float)
+    return _quaternions(Rotation.from_euler(order, angles.reshape(-1, len(order))), angles.shape[:-1])
+
+
+def to_euler(order: str, quaternions: ArrayLike) -> Array:
+    """Read Euler angles off quaternions: the inverse of `from_euler` for three axes.
+
+    Parameters
+    ----------
+    order : three axes in SciPy's notation, as for `from_euler`.
+    quaternions : shape (..., 4).
+
+    Returns
+    -------
+    Angles, shape (..., 3), radians; where two axes fall together (gimbal lock) the third is 0.
+
+    Examples
+    --------
+    >>> to_euler("ZXY", from_euler("ZXY", [0.1, 0.2, 0.3])).round(6)
+    array([0.1, 0.2, 0.3])
+    """
+    shape = np.shape(quaternions)[:-1]
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Gimbal lock")
+        return np.asarray(_rotation(quaternions).as_euler(order), float).reshape(*shape, 3)
+
+
+def from_matrix(matrices: ArrayLike) -> Array:
+    """Convert rotation matrices, shape (..., 3, 3), to quaternions, shape (..., 4).
+
+    Examples
+    --------
+    >>> from_matrix(np.eye(3))
+    array([1., 0., 0., 0.])
+    """
+    matrices = np.asarray(matrices, float)
+    return _quaternions(Rotation.from_matrix(matrices.reshape(-1, 3, 3)), matrices.shape[:-2])
+
+
+def to_matrix(quaternions: ArrayLike) -> Array:
+    """Convert quaternions, shape (..., 4), to rotation matrices, shape (..., 3, 3).
+
+    Examples
+    --------
+    >>> to_matrix([1, 0, 0, 0])[0]
+    array([1., 0., 0.])
+    """
+    shape = np.shape(quaternions)[:-1]
+    return np.asarray(_rotation(quaternions).as_matrix(), float).reshape(*shape, 3, 3)
+
+
+def from_rotvec(vectors: ArrayLike) -> Array:
+    """Convert rotation vectors (axis times angle in radians), shape (..., 3), to quaternions, shape (..., 4).
+
+    Examples
+    --------
+    >>> from_rotvec([0, 0, np.pi]).round(6) + 0.0
+    array([0., 0., 0., 1.])
+    """
+    vectors = np.asarray(vectors, float)
+    return _quaternions(Rotation.from_rotvec(vectors.reshape(-1, 3)), vectors.shape[:-1])
+
+
+def to_rotvec(quaternions: ArrayLike) -> Array:
+    """Convert quaternions to rotation vectors, shape (..., 3), of at most π radians.
+
+    Examples
+    --------
+    >>> to_rotvec(about_y(-0.5)).round(6) + 0.0
+    array([ 0. , -0.5,  0. ])
+    """
+    shape = np.shape(quaternions)[:-1]
+    return np.asarray(_rotation(quaternions).as_rotvec(), float).reshape(*shape, 3)
+
+
+def about_y(angles: ArrayLike) -> Array:
+    """Build the turns by `angles` (radians, shape (...)) about the vertical, shape (..., 4).
+
+    Examples
+    --------
+    >>> rotate(about_y(np.pi / 2), [0, 0, 1]).round(6) + 0.0
+    array([1., 0., 0.])
+    """
+    half = np.asarray(angles, float) / 2
+    return np.stack([np.cos(half), np.zeros_like(half), np.sin(half), np.zeros_like(half)], axis=-1)
+
+
+def multiply(first: ArrayLike, second: ArrayLike) -> Array:
+    """Compose rotations: the result turns by `second`, then by `first`; shapes (..., 4) broadcast.
+
+    Examples
+    --------
+    >>> multiply(about_y(0.1), about_y(0.2)).round(6) == about_y(0.3).round(6)
+    array([ True,  True,  True,  True])
+    """
+    a, b = np.broadcast_arrays(np.asarray(first, float), np.asarray(second, float))
+    return _quaternions(_rotation(a) * _rotation(b), a.shape[:-1])
+
+
+def inverse(quaternions: ArrayLike) -> Array:
+    """Turn the other way: the conjugates of unit quaternions, shape (..., 4).
+
+    Examples
+    --------
+    >>> inverse([1.0, 0.0, 0.0, 0.0]) + 0.0
+    array([1., 0., 0., 0.])
+    """
+    return np.asarray(quaternions, float) * [1.0, -1.0, -1.0, -1.0]
+
+
+def rotate(quaternions: ArrayLike, vectors: ArrayLike) -> Array:
+    """Turn vectors, shape (..., 3), by quaternions, shape (..., 4); leading axes broadcast.
+
+    Examples
+    --------
+    >>> rotate([1, 0, 0, 0], [1, 2, 3])
+    array([1., 2., 3.])
+    """
+    return np.asarray((to_matrix(quaternions) @ np.asarray(vectors, float)[..., None])[..., 0])
+
+
+def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
+    """Interpolate the short way round: start · exp(amount · log(start⁻¹ · end)).
+
+    Parameters
+    ----------
+    start, end : shape (..., 4).
+    amount : shape (...), 0 at `start`, 1 at `end`.
+
+    Returns
+    -------
+    Quaternions, shape (..., 4).
+
+    Examples
+    --------
+    >>> slerp(about_y(0.2), about_y(0.4), 0.5).round(6) == about_y(0.3).round(6)
+    array([ True,  True,  True,  True])
+    """
+    difference = to_rotvec(multiply(inverse(start), end))
+    return multiply(start, from_rotvec(np.asarray(amount, float)[..., None] * difference))
+
+
+def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
+    """Measure the angle, in [0, π] radians and shape (...), of the turn from one rotation to another.
+
+    Examples
+    --------
+    >>> float(angle_between(about_y(0.1), about_y(-0.3)).round(6))
+    0.4
+    """
+    return np.asarray(np.linalg.norm(to_rotvec(multiply(inverse(first), second)), axis=-1))

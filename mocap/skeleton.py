@@ -1,0 +1,120 @@
+"""The body: a tree of joints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap.errors import MocapError, SkeletonMismatch
+
+Array = NDArray[np.float64]
+
+_SIDES = [("left", "right"), ("Left", "Right"), ("_l", "_r"), ("_L", "_R"), ("l", "r"), ("L", "R")]
+
+
+def frozen(values: ArrayLike, dtype: type[np.generic]) -> NDArray[np.generic]:
+    """Copy into an array that nobody can write to."""
+    array: NDArray[np.generic] = np.array(values, dtype)
+    array.flags.writeable = False
+    return array
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """A tree of joints; end sites are ordinary joints without children.
+
+    Parameters
+    ----------
+    names : J unique names.
+    parents : shape (J,), the index of each joint's parent; -1 for joint 0, the root, and
+        `parents[j] < j` for every other.
+    offsets : shape (J, 3), metres: where a joint sits in the frame of its parent.
+
+    Raises
+    ------
+    MocapError : where one of these does not hold.
+
+    Examples
+    --------
+    >>> leg = Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
+    >>> len(leg), leg.index("knee"), leg.children(1)
+    (3, 1, [2])
+    """
+
+    names: Sequence[str]
+    parents: NDArray[np.intp]
+    offsets: Array
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "names", tuple(self.names))
+        object.__setattr__(self, "parents", frozen(self.parents, np.intp))
+        object.__setattr__(self, "offsets", frozen(self.offsets, np.float64))
+        count = len(self.names)
+        if count == 0:
+            raise MocapError("A skeleton needs at least one joint.")
+        if len(set(self.names)) < count:
+            twice = sorted({name for name in self.names if self.names.count(name) > 1})
+            raise MocapError(f"Joint names must be unique; given twice: {', '.join(twice)}.")
+        if self.parents.shape != (count,) or self.offsets.shape != (count, 3):
+            raise MocapError(
+                f"{count} joints need parents ({count},) and offsets ({count}, 3), "
+                f"got {self.parents.shape} and {self.offsets.shape}."
+            )
+        if self.parents[0] != -1 or np.any(self.parents[1:] < 0):
+            raise MocapError("Joint 0, and no other, is the root with parent -1.")
+        if np.any(late := self.parents >= np.arange(count)):
+            raise MocapError(f"Joint '{self.names[int(late.argmax())]}' stands before its parent.")
+        if not np.isfinite(self.offsets).all():
+            joint = self.names[int(np.argwhere(~np.isfinite(self.offsets))[0, 0])]
+            raise MocapError(f"The offset of joint '{joint}' is not a finite number.")
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __repr__(self) -> str:
+        return f"Skeleton({len(self)} joints, root '{self.names[0]}')"
+
+    def index(self, name: str) -> int:
+        """Find a joint by its name."""
+        if name not in self.names:
+            raise MocapError(f"No joint '{name}'; there are: {', '.join(self.names)}.")
+        return self.names.index(name)
+
+    def children(self, joint: int) -> list[int]:
+        """List the joints that hang on `joint`."""
+        return [int(child) for child in np.flatnonzero(self.parents == joint)]
+
+    def side(self, joint: int) -> str:
+        """Tell "left" from "right" by a joint whose name is the mirror image; "middle" where there is none.
+
+        Examples
+        --------
+        >>> body = Skeleton(["lowerback", "lfoot", "rfoot"], [-1, 0, 0], np.eye(3))
+        >>> [body.side(joint) for joint in range(3)]
+        ['middle', 'left', 'right']
+        """
+        name = self.names[joint]
+        for left, right in _SIDES:
+            if left in name and name.replace(left, right, 1) in self.names:
+                return "left"
+            if right in name and name.replace(right, left, 1) in self.names:
+                return "right"
+        return "middle"
+
+    def require_same(self, other: Skeleton) -> None:
+        """Raise `SkeletonMismatch` unless `other` has the same joints in the same tree, and as long bones."""
+        if self is other:
+            return
+        if missing := set(self.names) ^ set(other.names):
+            raise SkeletonMismatch(f"The skeletons differ in these joints: {', '.join(sorted(missing))}.")
+        if tuple(self.names) != tuple(other.names) or not np.array_equal(self.parents, other.parents):
+            raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
+        gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
+        if gaps.max() > 1e-6:
+            joint = int(gaps.argmax())
+            raise SkeletonMismatch(
+                f"The skeletons' bones differ: '{self.names[joint]}' sits {100 * gaps[joint]:.2g} cm apart."
+            )

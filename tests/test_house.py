@@ -1,0 +1,92 @@
+"""The house: its layers, its bounds, its tools."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from itertools import chain
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+
+ROOT = Path(__file__).parents[1]
+PACKAGE = ROOT / "mocap"
+MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
+
+LAYERS = [
+    {"errors", "progress", "rotations"},
+    {"atomic", "skeleton"},
+    {"amc", "bvh_hierarchy", "motion"},
+    {"acclaim", "bvh", "kinematics", "transforms"},
+    {"files"},
+    {"__init__"},
+]
+
+
+def imported(path: Path, *, at_import: bool = False) -> set[str]:
+    """Name the modules of the package that a module imports; `at_import`: only those outside functions."""
+    found: set[str] = set()
+    tree = ast.parse(path.read_text())
+    for node in tree.body if at_import else ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module == "mocap":
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("mocap."):
+            found.add(str(node.module).split(".")[1])
+        elif isinstance(node, ast.Import):
+            found |= {a.name.split(".")[1] for a in node.names if a.name.startswith("mocap.")}
+    return found
+
+
+def test_every_module_has_one_layer():
+    assert sorted(name for layer in LAYERS for name in layer) == sorted(MODULES)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_module_imports_only_from_lower_layers(name):
+    level = next(i for i, layer in enumerate(LAYERS) if name in layer)
+    below = set().union(*LAYERS[:level])
+    assert imported(MODULES[name]) <= below
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_module_is_short_and_so_are_its_functions(name):
+    text = MODULES[name].read_text()
+    assert len(text.splitlines()) <= 300
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            body = node.body[1:] if ast.get_docstring(node) else node.body
+            lines = body[-1].end_lineno - body[0].lineno + 1 if body else 0
+            assert lines <= 30, f"{name}.{node.name} has {lines} lines"
+
+
+def test_importing_the_package_is_light():
+    code = "import sys, mocap; print(sorted({m.split('.')[0] for m in sys.modules} & set(sys.argv[1:])))"
+    heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy"]
+    done = subprocess.run([sys.executable, "-c", code, *heavy], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_every_dependency_has_a_lower_bound():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    needs = [*project["dependencies"], *chain(*project["optional-dependencies"].values())]
+    for need in map(Requirement, needs):
+        assert need.name == "mocap" or any(s.operator == ">=" for s in need.specifier), need
+
+
+def run(*command: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.tools
+def test_style():
+    run("ruff", "check", ".")
+    run("ruff", "format", "--check", ".")
+
+
+@pytest.mark.tools
+def test_types():
+    run("mypy")

@@ -1,0 +1,76 @@
+"""Quaternions against matrices, and against SciPy's own slerp."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from scipy.spatial.transform import Rotation, Slerp
+
+from mocap import rotations
+from tests.strategies import random_quaternions, seeds
+
+
+@given(seeds)
+def test_multiply_is_the_product_of_the_matrices(seed):
+    a, b = random_quaternions(np.random.default_rng(seed), 2, 3, 4)
+    product = rotations.to_matrix(a) @ rotations.to_matrix(b)
+    assert rotations.to_matrix(rotations.multiply(a, b)) == pytest.approx(product, abs=1e-12)
+
+
+@given(seeds)
+def test_group_axioms(seed):
+    a, b, c = random_quaternions(np.random.default_rng(seed), 3, 5)
+    left = rotations.multiply(rotations.multiply(a, b), c)
+    right = rotations.multiply(a, rotations.multiply(b, c))
+    assert rotations.angle_between(left, right) == pytest.approx(0, abs=1e-7)
+    assert rotations.angle_between(rotations.multiply(a, rotations.inverse(a)), rotations.IDENTITY) == (
+        pytest.approx(0, abs=1e-7)
+    )
+
+
+@given(seeds)
+def test_every_form_goes_there_and_back(seed):
+    q = random_quaternions(np.random.default_rng(seed), 2, 7)
+    for back in (
+        rotations.from_matrix(rotations.to_matrix(q)),
+        rotations.from_rotvec(rotations.to_rotvec(q)),
+        rotations.from_euler("ZXY", rotations.to_euler("ZXY", q)),
+        rotations.from_euler("xyz", rotations.to_euler("xyz", q)),
+    ):
+        assert rotations.angle_between(q, back) == pytest.approx(0, abs=1e-6)
+
+
+def test_euler_orders_are_products_of_single_turns():
+    angles = a, b, c = 0.3, -0.7, 1.1
+    single = [rotations.from_euler(axis, [v]) for axis, v in zip("xyz", angles, strict=True)]
+    x, y, z = rotations.to_matrix(single)
+    assert rotations.to_matrix(rotations.from_euler("xyz", [a, b, c])) == pytest.approx(z @ y @ x)
+    assert rotations.to_matrix(rotations.from_euler("ZXY", [c, a, b])) == pytest.approx(z @ x @ y)
+
+
+def test_gimbal_lock_keeps_the_rotation():
+    locked = rotations.from_euler("ZXY", [0.4, np.pi / 2, 0.3])
+    back = rotations.from_euler("ZXY", rotations.to_euler("ZXY", locked))
+    assert rotations.angle_between(locked, back) == pytest.approx(0, abs=1e-6)
+
+
+def test_scalar_first():
+    assert rotations.about_y(np.pi) == pytest.approx([0, 0, 1, 0])
+    assert rotations.rotate(rotations.about_y(np.pi / 2), [[0, 0, 1], [1, 0, 0]]) == (
+        pytest.approx(np.array([[1, 0, 0], [0, 0, -1]]))
+    )
+
+
+@given(seeds)
+def test_slerp_is_scipys(seed):
+    random = np.random.default_rng(seed)
+    ends = random_quaternions(random, 2)
+    amounts = random.random(6)
+    oracle = Slerp([0, 1], Rotation.from_quat(ends, scalar_first=True))(amounts).as_matrix()
+    assert rotations.to_matrix(rotations.slerp(*ends, amounts)) == pytest.approx(oracle, abs=1e-9)
+
+
+@given(seeds)
+def test_slerp_takes_the_short_way_whatever_the_signs(seed):
+    a, b = random_quaternions(np.random.default_rng(seed), 2)
+    middle = rotations.slerp(a, -b, 0.5)
+    assert rotations.angle_between(a, middle) == pytest.approx(rotations.angle_between(a, b) / 2, abs=1e-6)
