@@ -19,7 +19,10 @@ LAYERS = [
     {"atomic", "skeleton"},
     {"amc", "bvh_hierarchy", "motion"},
     {"acclaim", "bvh", "kinematics", "transforms"},
-    {"files"},
+    {"blending", "files", "matching"},
+    {"transitions"},
+    {"motion_graph"},
+    {"synthesis"},
     {"__init__"},
 ]
 

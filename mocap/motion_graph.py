@@ -1,0 +1,153 @@
+"""Motion graphs: every way through the clips that looks like one motion, as a `networkx` graph [KGP02].
+
+A node is a choice point (clip, frame): "the next frame is this one". An edge from it is either a stretch of
+that clip up to its next choice point, or a transition: `window` blended frames into another place. So each
+edge gives the frames [start, end) of a motion, and the frames of a walk are those of its edges in order.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import networkx as nx
+
+from mocap.errors import MocapError, NoWalk
+from mocap.motion import Motion, require_alike
+from mocap.progress import Progress
+from mocap.transitions import Transition, find_transitions
+
+Node = tuple[int, int]
+
+
+@dataclass(frozen=True, eq=False)
+class MotionGraph:
+    """A graph over clips; it holds records, the frames stay in the clips.
+
+    Parameters
+    ----------
+    clips : the motions, which the nodes' first numbers count.
+    window : frames in a transition.
+    graph : the `networkx.MultiDiGraph`. Nodes are pairs (clip, frame). Edges have `kind` ("clip" or
+        "transition") and `frames`; transitions also `cost` (RMS distance, metres) and `transform`, which
+        lays the clip they lead to on the one they come from.
+
+    Notebook: 00-quickstart
+    """
+
+    clips: tuple[Motion, ...]
+    window: int
+    graph: nx.MultiDiGraph
+
+    def __repr__(self) -> str:
+        return (
+            f"MotionGraph({len(self.clips)} clips, {self.graph.number_of_nodes()} nodes, "
+            f"{self.graph.number_of_edges()} edges, {self.count('transition')} of them transitions)"
+        )
+
+    def count(self, kind: str) -> int:
+        """Count the edges of a kind, "clip" or "transition"."""
+        return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
+
+    @property
+    def frames(self) -> int:
+        """Frames of the clips that the graph can play."""
+        return sum(e["frames"] for _, _, e in self.graph.edges(data=True) if e["kind"] == "clip")
+
+
+def build(
+    clips: Sequence[Motion], *, window: int, threshold: float, progress: Progress = iter
+) -> MotionGraph:
+    """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate, with different names.
+    window : frames in a transition, about a third of a second.
+    threshold : the largest RMS distance of the points that a transition may bridge, metres.
+    progress : wraps the pairs of clips as they are compared, to show a bar.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window.
+
+    Notebook: 00-quickstart
+    """
+    found = find_transitions(clips, window=window, below=threshold, progress=progress)
+    return from_transitions(clips, found, window=window)
+
+
+def from_transitions(
+    clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int
+) -> MotionGraph:
+    """Build the motion graph with just these transitions.
+
+    A transition leaves its first clip at the frame where its window starts, and enters the second at
+    the frame after the window ends [KGP02, 3.3].
+    """
+    require_alike(clips)
+    _require_names(clips)
+    graph = nx.MultiDiGraph()
+    for clip, motion in enumerate(clips):
+        graph.add_nodes_from([(clip, 0), (clip, len(motion))])
+    for t in transitions:
+        ends = (t.source, t.leave), (t.target, t.enter + window)
+        graph.add_edge(*ends, kind="transition", frames=window, cost=t.cost, transform=t.transform)
+    # Within a clip the nodes stand in the order of time, so each is joined to the one after it.
+    for (clip, start), (same, end) in pairwise(sorted(graph)):
+        if clip == same:
+            graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start)
+    return MotionGraph(tuple(clips), window, graph)
+
+
+def _require_names(clips: Sequence[Motion]) -> None:
+    names = [clip.name for clip in clips]
+    if not names:
+        raise MocapError("A motion graph needs at least one clip.")
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise MocapError(f"Clips need different names; given twice: {', '.join(twice)}.")
+
+
+def prune(motion_graph: MotionGraph) -> MotionGraph:
+    """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
+
+    The largest is the one that can play most frames of the clips [KGP02, 3.4]; what is left out are dead
+    ends, and sinks that a walk could never leave again.
+
+    Raises
+    ------
+    NoWalk : where no component has an edge, so that every walk ends.
+
+    Notebook: 00-quickstart
+    """
+    graph = motion_graph.graph
+    parts = [replace(motion_graph, graph=graph.subgraph(c)) for c in nx.strongly_connected_components(graph)]
+    largest = max(parts, key=lambda part: (part.frames, part.graph.number_of_edges()))
+    if largest.graph.number_of_edges() == 0:
+        raise NoWalk("The graph has no cycle, so every walk through it ends: allow costlier transitions.")
+    return replace(motion_graph, graph=largest.graph.copy())
+
+
+def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
+    """Find the lowest threshold, in metres, at which the motion graph of some clips has a cycle.
+
+    Raises
+    ------
+    NoWalk : where there is none at any threshold.
+    """
+    found = sorted(find_transitions(clips, window=window, below=float("inf")), key=lambda t: t.cost)
+    low, high = 0, len(found)
+    while (
+        low < high
+    ):  # invariant: the first `high` transitions make a cycle, or high is all; the first `low` do not
+        middle = (low + high) // 2
+        if _has_cycle(from_transitions(clips, found[: middle + 1], window=window)):
+            high = middle
+        else:
+            low = middle + 1
+    if low == len(found):
+        raise NoWalk("No two windows of these clips join into a cycle: add clips that start and end alike.")
+    return found[low].cost
+
+
+def _has_cycle(motion_graph: MotionGraph) -> bool:
+    return not nx.is_directed_acyclic_graph(motion_graph.graph)

@@ -1,0 +1,111 @@
+"""The graph's frames add up, and pruning leaves what brute force leaves."""
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.errors import MocapError, NoWalk
+from mocap.motion_graph import MotionGraph, build, from_transitions, prune, smallest_threshold
+from mocap.transforms import IDENTITY
+from mocap.transitions import Transition
+from tests.strategies import wave
+
+CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
+WINDOW = 8
+
+transitions = st.lists(
+    st.builds(
+        Transition,
+        st.integers(0, 1),
+        st.integers(0, 60),
+        st.integers(0, 1),
+        st.integers(0, 60),
+        st.floats(0.01, 1),
+        st.just(IDENTITY),
+    ),
+    max_size=8,
+)
+
+
+def test_an_edge_for_every_transition_and_every_stretch():
+    graph = from_transitions(CLIPS, [Transition(0, 30, 1, 20, 0.02, IDENTITY)], window=WINDOW)
+    assert sorted(graph.graph.edges(data="kind")) == [
+        ((0, 0), (0, 30), "clip"),
+        ((0, 30), (0, 90), "clip"),
+        ((0, 30), (1, 28), "transition"),
+        ((1, 0), (1, 28), "clip"),
+        ((1, 28), (1, 70), "clip"),
+    ]
+    assert graph.frames == 160
+    assert graph.count("transition") == 1
+    assert repr(graph) == "MotionGraph(2 clips, 6 nodes, 5 edges, 1 of them transitions)"
+
+
+@given(transitions)
+def test_the_stretches_of_a_clip_are_the_clip(found):
+    graph = from_transitions(CLIPS, found, window=WINDOW)
+    frames = [0, 0]
+    for (clip, start), (_, end), edge in graph.graph.edges(data=True):
+        if edge["kind"] == "clip":
+            frames[clip] += edge["frames"]
+            assert edge["frames"] == end - start > 0
+        else:
+            assert edge["frames"] == WINDOW
+    assert frames == [90, 70]
+    assert graph.count("transition") == len(found)
+
+
+@given(transitions)
+def test_pruning_keeps_the_largest_set_of_nodes_that_reach_each_other(found):
+    whole = from_transitions(CLIPS, found, window=WINDOW)
+    reach = nx.floyd_warshall_numpy(nx.DiGraph(whole.graph), weight=None) < np.inf
+    mutual = reach & reach.T
+    nodes = list(whole.graph)
+    parts = [
+        MotionGraph(whole.clips, WINDOW, whole.graph.subgraph(np.array(nodes, "i,i")[row].tolist()))
+        for row in mutual
+    ]
+    most = max(part.frames for part in parts)
+    if all(part.graph.number_of_edges() == 0 for part in parts):
+        with pytest.raises(NoWalk, match="no cycle"):
+            prune(whole)
+        return
+    pruned = prune(whole)
+    assert pruned.frames == most
+    assert nx.is_strongly_connected(pruned.graph)
+    assert min(degree for _, degree in pruned.graph.out_degree()) >= 1
+
+
+def test_building_finds_transitions_below_the_threshold():
+    loose, strict = (build(CLIPS, window=WINDOW, threshold=t) for t in (0.08, 0.02))
+    costs = [cost for _, _, cost in strict.graph.edges(data="cost") if cost is not None]
+    assert 0 < strict.count("transition") < loose.count("transition")
+    assert max(costs) < 0.02
+
+
+def test_pruning_leaves_the_graph_it_was_given_alone():
+    whole = build(CLIPS, window=WINDOW, threshold=0.05)
+    before = set(whole.graph)
+    assert set(prune(whole).graph) < before
+    assert set(whole.graph) == before
+
+
+def test_below_the_smallest_threshold_there_is_no_walk():
+    least = smallest_threshold(CLIPS, window=WINDOW)
+    with pytest.raises(NoWalk):
+        prune(build(CLIPS, window=WINDOW, threshold=least))
+    assert prune(build(CLIPS, window=WINDOW, threshold=least * 1.0001)).graph.number_of_edges() > 0
+
+
+def test_a_clip_that_only_fits_its_window_once_never_has_a_walk():
+    with pytest.raises(NoWalk, match="add clips that start and end alike"):
+        smallest_threshold([wave(WINDOW)], window=WINDOW)
+
+
+def test_clips_need_names_of_their_own():
+    with pytest.raises(MocapError, match="given twice: wave"):
+        build([wave(30), wave(30)], window=WINDOW, threshold=0.1)
+    with pytest.raises(MocapError, match="at least one clip"):
+        build([], window=WINDOW, threshold=0.1)
