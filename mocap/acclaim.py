@@ -217,7 +217,12 @@ def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> S
         waiting += [(child, len(joints), end) for child in reversed(children.get(name, []))]
         joints.append((name, parent, offset))
     names, parents, offsets = zip(*joints, strict=True)
-    return Skeleton(names, np.array(parents), np.array(offsets))
+    # The root's axis is how it stands at rest, not one that its angles turn about.
+    end = Bone(np.zeros(3), rotations.IDENTITY, ())
+    known = [bones.get(name, end) for name in names]
+    axes = [rotations.IDENTITY, *(bone.axis for bone in known[1:])]
+    dofs = ["".join(dof[1] for dof in bone.dofs if dof in TURNS) for bone in known]
+    return Skeleton(names, np.array(parents), np.array(offsets), np.array(axes), dofs)
 
 
 def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float = 120.0) -> Motion:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,6 +32,11 @@ class Skeleton:
     parents : shape (J,), the index of each joint's parent; -1 for joint 0, the root, and
         `parents[j] < j` for every other.
     offsets : shape (J, 3), metres: where a joint sits in the frame of its parent.
+    axes : shape (J, 4), quaternions C: how a file's own axes of a joint are turned against those of its
+        parent's frame, so that angles M in the file mean the rotation C M C⁻¹; by default not at all.
+    dofs : the axes about which a joint can turn, in the order of turning about fixed axes, such as "xyz" or
+        "x"; by default "xyz", and "" for a joint without children. Like `axes`, they say how a file tells
+        the motion's angles; a motion itself may turn any joint any way.
 
     Raises
     ------
@@ -47,11 +52,27 @@ class Skeleton:
     names: Sequence[str]
     parents: NDArray[np.intp]
     offsets: Array
+    axes: Array = field(default_factory=lambda: np.empty((0, 4)))
+    dofs: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "names", tuple(self.names))
         object.__setattr__(self, "parents", frozen(self.parents, np.intp))
         object.__setattr__(self, "offsets", frozen(self.offsets, np.float64))
+        self._check_tree()
+        count = len(self.names)
+        unturned = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+        object.__setattr__(self, "axes", frozen(self.axes if len(self.axes) else unturned, np.float64))
+        free = ["xyz" if joint in self.parents else "" for joint in range(count)]
+        object.__setattr__(self, "dofs", tuple(self.dofs or free))
+        if self.axes.shape != (count, 4) or not np.allclose(np.linalg.norm(self.axes, axis=-1), 1):
+            raise MocapError(f"{count} joints need axes ({count}, 4) of length 1, got {self.axes.shape}.")
+        if len(self.dofs) != count or not all(
+            set(d) <= set("xyz") and len(set(d)) == len(d) for d in self.dofs
+        ):
+            raise MocapError(f"{count} joints need as many dofs, such as 'xyz', 'x' or '', got {self.dofs}.")
+
+    def _check_tree(self) -> None:
         count = len(self.names)
         if count == 0:
             raise MocapError("A skeleton needs at least one joint.")

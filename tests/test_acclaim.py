@@ -110,6 +110,14 @@ def test_joints_sit_where_bones_start(write):
     assert np.allclose(skeleton.offsets, offsets)
 
 
+def test_joints_remember_how_their_file_tells_angles(write):
+    skeleton = acclaim.read_skeleton(write("a.asf", ASF)).skeleton
+    assert skeleton.dofs == ("xyz", "", "xz", "", "zy", "")
+    half = math.sqrt(0.5)
+    assert np.allclose(skeleton.axes[2], [half, 0, 0, half])
+    assert np.allclose(skeleton.axes[[0, 1, 3, 4, 5]], [1, 0, 0, 0])
+
+
 def test_positions_worked_out_by_hand(write):
     motion = read(write)
     assert (len(motion), motion.fps, motion.name) == (2, 120.0, "a")

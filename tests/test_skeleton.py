@@ -19,6 +19,10 @@ ZEROS = np.zeros((2, 3))
         ((["a", "b"], [0, 0], ZEROS), "no other, is the root"),
         ((["a", "b"], [-1, 1], ZEROS), "'b' stands before its parent"),
         ((["a", "b"], [-1, 0], [[0, 0, 0], [0, np.nan, 0]]), "'b' is not a finite"),
+        ((["a", "b"], [-1, 0], ZEROS, np.ones((2, 4))), r"axes \(2, 4\) of length 1"),
+        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:1]), r"axes \(2, 4\) of length 1, got \(1, 4\)"),
+        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:2], ["xx", ""]), "as many dofs"),
+        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:2], ["x"]), "as many dofs"),
     ],
 )
 def test_a_bad_skeleton_is_refused(arguments, message):
@@ -33,6 +37,12 @@ def test_arrays_are_copies_that_nobody_writes_to():
     assert body.offsets[1].tolist() == [0, 0, 0]
     with pytest.raises(ValueError, match="read-only"):
         body.offsets[0] = 1
+
+
+def test_joints_turn_about_unturned_axes_unless_told_otherwise():
+    body = Skeleton(["a", "b"], [-1, 0], ZEROS)
+    assert body.axes.tolist() == [[1, 0, 0, 0]] * 2
+    assert body.dofs == ("xyz", "")
 
 
 def test_an_unknown_joint_is_named_with_those_there_are():
