@@ -218,8 +218,8 @@ def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> S
         joints.append((name, parent, offset))
     names, parents, offsets = zip(*joints, strict=True)
     # The root's axis is how it stands at rest, not one that its angles turn about.
-    end = Bone(np.zeros(3), rotations.IDENTITY, ())
-    known = [bones.get(name, end) for name in names]
+    stub = Bone(np.zeros(3), rotations.IDENTITY, ())  # an end site
+    known = [bones.get(name, stub) for name in names]
     axes = [rotations.IDENTITY, *(bone.axis for bone in known[1:])]
     dofs = ["".join(dof[1] for dof in bone.dofs if dof in TURNS) for bone in known]
     return Skeleton(names, np.array(parents), np.array(offsets), np.array(axes), dofs)
