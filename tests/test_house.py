@@ -23,6 +23,7 @@ LAYERS = [
     {"transitions"},
     {"motion_graph"},
     {"synthesis"},
+    {"plotting"},
     {"__init__"},
 ]
 
@@ -68,6 +69,12 @@ def test_importing_the_package_is_light():
     heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy"]
     done = subprocess.run([sys.executable, "-c", code, *heavy], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_plotting_stays_out_of_the_method():
+    code = "import sys, mocap.synthesis, mocap.files; print('matplotlib' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
 
 
 def test_every_dependency_has_a_lower_bound():
