@@ -1,107 +1,34 @@
-"""Pictures: stick figures, distance grids, graphs, paths, animations.
+"""Pictures: stick figures, distance images, paths, curves, graphs, animations.
 
-Every function draws on `ax` (a new one by default) and gives back the artists it made. Colours are those
-of Okabe and Ito, which colour-blind readers tell apart. The world's (z, x, y) are the picture's (x, y, z).
+Every function draws on `ax` (a new one by default), computes nothing of its own, and gives back the artists
+it made. What stands on 3D ground comes from `stage`, graphs from `graph_drawing`, files from `animation`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
+from matplotlib.collections import PathCollection
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from mpl_toolkits.mplot3d import Axes3D
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike, NDArray
-from PIL import Image
-from scipy.ndimage import gaussian_filter1d
 
-from mocap.atomic import replacing
-from mocap.errors import MocapError
+from mocap.animation import save_animation as save_animation
+from mocap.footprints import Footprint
+from mocap.graph_drawing import node_link as node_link
+from mocap.graph_drawing import pruning as pruning
+from mocap.graph_drawing import timeline as timeline
 from mocap.kinematics import joint_positions
-from mocap.matching import distinct_joints
-from mocap.motion import Motion, resample
-from mocap.motion_graph import MotionGraph
-from mocap.progress import Progress
-from mocap.skeleton import Skeleton
+from mocap.motion import Motion
+from mocap.stage import TALL, StickFigure, to_picture
+from mocap.stage import stage as stage
+from mocap.style import ASKED, COLOURS, CURVES, MARK, PATH, SOURCES
 
 Array = NDArray[np.float64]
-
-COLOURS = {"left": "#0072B2", "right": "#D55E00", "middle": "#333333"}
-PATH, MARK, FLOOR, QUIET = "#E69F00", "#CC79A7", "#DDDDDD", "#999999"
-TALL = 1.9  # metres of height that pictures show
-
-
-def _picture(points: ArrayLike) -> Array:
-    """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring."""
-    return np.roll(np.asarray(points, float), 1, axis=-1)
-
-
-def stage(centre: ArrayLike = (0.0, 0.0), reach: float = 1.0, *, ax: Axes3D | None = None) -> Axes3D:
-    """Set up a square of ground with lines every half metre, `reach` metres each way from `centre` (x, z)."""
-    ax = ax or _filled(plt.figure(figsize=(5, 5)))
-    ax.set_axis_off()
-    ax.computed_zorder = False  # the ground lies below the feet, from wherever one looks
-    ax.view_init(elev=14, azim=-55)
-    ax.set_proj_type("persp", focal_length=0.6)
-    ax.set_box_aspect((2 * reach, 2 * reach, TALL), zoom=1.55)
-    ax.add_collection3d(Line3DCollection(np.zeros((1, 2, 3)), colors=FLOOR, linewidths=0.8, zorder=0))
-    _look_at(ax, np.asarray(centre, float), reach)
-    return ax
-
-
-def _filled(figure: Figure) -> Axes3D:
-    return figure.add_axes((0, 0, 1, 1), projection="3d")
-
-
-def _look_at(ax: Axes3D, centre: Array, reach: float) -> None:
-    """Show the ground around a point (x, z); its lines stay where they are in the world."""
-    x, z = centre
-    ax.set(xlim=(z - reach, z + reach), ylim=(x - reach, x + reach), zlim=(0, TALL))
-    along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
-    lines = [[(x0, 0, z - reach), (x0, 0, z + reach)] for x0 in along]
-    lines += [[(x - reach, 0, z0), (x + reach, 0, z0)] for z0 in across]
-    ax.collections[0].set_segments(_picture(lines))
-
-
-class StickFigure:
-    """A body drawn as lines on 3D axes, left and right in colours of their own, the head as a dot.
-
-    Parameters
-    ----------
-    skeleton : the body.
-    ax : 3D axes, as from `stage`.
-    alpha : 1 for a solid body, less for a ghost.
-    """
-
-    def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0) -> None:
-        self.ends = distinct_joints(skeleton)[1:]  # a bone that several joints share is drawn once
-        self.starts = skeleton.parents[self.ends]
-        # The line from a parent to its child is the parent's bone.
-        self.sides = np.array([skeleton.side(int(parent)) for parent in self.starts])
-        self.head = [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
-        self.bones = {
-            side: Line3DCollection(np.zeros((1, 2, 3)), colors=colour, linewidths=2.4, alpha=alpha, zorder=3)
-            for side, colour in COLOURS.items()
-        }
-        for part in self.bones.values():
-            ax.add_collection3d(part)
-        (self.dot,) = ax.plot([], [], [], "o", color=COLOURS["middle"], markersize=11, alpha=alpha, zorder=3)
-
-    def pose(self, points: Array) -> None:
-        """Move to the joint positions `points`, shape (J, 3), metres."""
-        segments = _picture(np.stack([points[self.starts], points[self.ends]], axis=1))
-        for side, part in self.bones.items():
-            part.set_segments(segments[self.sides == side])
-        if self.head:
-            self.dot.set_data_3d(*_picture(points[self.head].mean(axis=0))[:, None])
 
 
 def stick_figure(
@@ -123,15 +50,48 @@ def stick_figure(
     """
     shown = [frames] if isinstance(frames, int) else list(frames)
     points = joint_positions(motion)[shown]
-    if ax is None:
-        low, high = (f(points[..., [0, 2]], axis=(0, 1)) for f in (np.min, np.max))
-        ax = stage((low + high) / 2, max(1.2, *(high - low)) / 2 + 0.3)
-    ax.plot(*_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
+    ax = ax or _stage_around(points)
+    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
     ghosts = [0.15 + 0.35 * k / len(shown) for k in range(len(shown) - 1)]
     figures = [StickFigure(motion.skeleton, ax, alpha) for alpha in (*ghosts, 1.0)]
     for figure, pose in zip(figures, points, strict=True):
         figure.pose(pose)
     return figures
+
+
+def _stage_around(points: Array) -> Axes3D:
+    """Set up ground that is wide and tall enough for points, shape (..., 3)."""
+    low, high = (f(points.reshape(-1, 3), axis=0) for f in (np.min, np.max))
+    centre, wide = (low + high)[[0, 2]] / 2, (high - low)[[0, 2]]
+    return stage(centre, max(1.2, *wide) / 2 + 0.3, tall=max(TALL, high[1]))
+
+
+def laid_over(
+    first: Motion, second: Motion, *, every: int = 5, ax: Axes3D | None = None
+) -> tuple[list[StickFigure], list[StickFigure]]:
+    """Draw two motions over each other, each in one colour, to see how well they match.
+
+    Parameters
+    ----------
+    first, second : the motions, where they are: `transforms` lays one on the other.
+    every : frames from one pose to the next.
+    ax : 3D axes; by default a new `stage` around both.
+
+    Returns
+    -------
+    The figures of each.
+    """
+    clouds = [joint_positions(motion)[::every] for motion in (first, second)]
+    ax = ax or _stage_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
+    drawn = []
+    for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
+        figures = [StickFigure(motion.skeleton, ax, 0.7, colour) for _ in points]
+        for figure, pose in zip(figures, points, strict=True):
+            figure.pose(pose)
+        ax.plot([], [], [], color=colour, linewidth=2.4, label=motion.name)
+        drawn.append(figures)
+    ax.legend(loc="upper left", frameon=False)
+    return drawn[0], drawn[1]
 
 
 def distance_image(
@@ -182,84 +142,96 @@ def path_from_above(
 
     Notebook: 00-quickstart
     """
-    ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
+    ax = _from_above(ax)
     x, z = motion.root_positions[:, [0, 2]].T
     at = np.asarray(seams, int)
     lines = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
     lines += ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
     lines += ax.plot(x[at], z[at], "D", color=MARK, markersize=5, label="seams" if len(at) else None)
-    ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
-    if not ax.xaxis_inverted():
-        ax.invert_xaxis()  # y is up: seen from above, x grows to the left when z grows upwards
     return lines
 
 
-def timeline(motion_graph: MotionGraph, *, ax: Axes | None = None) -> LineCollection:
-    """Draw a motion graph: a bar a clip, along time, and an arc a transition, from leaving to entering.
-
-    Notebook: 00-quickstart
-    """
-    ax = ax or plt.figure(figsize=(7, 0.7 * len(motion_graph.clips) + 1), layout="constrained").add_subplot()
-    fps = motion_graph.clips[0].fps
-    arcs = []
-    for start, end, edge in motion_graph.graph.edges(data=True):
-        ends = np.array([[start[1] / fps, -start[0]], [end[1] / fps, -end[0]]])
-        if edge["kind"] == "clip":
-            ax.plot(*ends.T, color=COLOURS["left"], linewidth=5, solid_capstyle="butt")
-        else:
-            arcs.append(_arc(*ends))
-    for clip, motion in enumerate(motion_graph.clips):
-        ax.plot([0, len(motion) / fps], [-clip, -clip], color=QUIET, linewidth=1, zorder=0)
-    transitions = LineCollection(
-        arcs, colors=MARK, linewidths=0.5, alpha=min(1.0, 0.03 + 100 / (len(arcs) + 1))
-    )
-    ax.add_collection(transitions)
-    ax.set_yticks([-clip for clip in range(len(motion_graph.clips))], [m.name for m in motion_graph.clips])
-    ax.set(xlabel="time in the clip (s)")
-    ax.spines[["top", "right", "left"]].set_visible(False)
-    return transitions
-
-
-def _arc(start: Array, end: Array) -> Array:
-    """Bend a line, upwards at its middle, so that arcs within one clip are seen."""
-    t = np.linspace(0, 1, 17)[:, None]
-    return start + t * (end - start) + 4 * t * (1 - t) * [0, 0.45]
-
-
-def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progress: Progress = iter) -> Path:
-    """Write an animated GIF: the stick figure on the ground, followed by the camera, and its path.
+def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCollection:
+    """Draw where feet stood, seen from above, left and right in their colours; longer stands are larger.
 
     Parameters
     ----------
-    motion : what to show.
-    path : the file to write, ending in .gif; nothing is left behind when writing fails.
-    fps : pictures a second; GIFs count in hundredths of a second, so 25, 50 and 20 are exact.
-    progress : wraps the pictures as they are drawn, to show a bar.
+    prints : as from `footprints.footprints`.
+    ax : axes, as `path_from_above` gives them; new ones by default.
 
     Returns
     -------
-    The path.
-
-    Raises
-    ------
-    MocapError : for another suffix, and where the file cannot be written.
+    The prints.
     """
-    if Path(path).suffix.lower() != ".gif":
-        raise MocapError(f"An animation is written as .gif, got '{path}'.")
-    motion = resample(motion, fps)
-    points = joint_positions(motion)
-    centres = gaussian_filter1d(motion.root_positions[:, [0, 2]], fps / 3, axis=0, mode="nearest")
-    figure = Figure(figsize=(5, 5))
-    canvas = FigureCanvasAgg(figure)  # draws whatever pyplot is set to, and needs no screen
-    ax = stage(centres[0], ax=_filled(figure))
-    (body,) = stick_figure(motion, 0, ax=ax)
-    pictures = []
-    for frame in progress(range(len(motion))):
-        _look_at(ax, centres[frame], 1.0)
-        body.pose(points[frame])
-        canvas.draw()
-        pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
-    first, *rest = (picture.quantize(32, dither=Image.Dither.NONE) for picture in pictures)
-    with replacing(path) as beside:
-        first.save(beside, save_all=True, append_images=rest, duration=round(1000 / fps), loop=0)
-    return Path(path)
+    ax = _from_above(ax)
+    at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)
+    sizes = [12 + 40 * (1 - np.exp(-(step.end - step.start) / 60)) for step in prints]
+    colours = [COLOURS[step.side] for step in prints]
+    return ax.scatter(at[:, 0], at[:, 1], s=sizes, facecolors=colours, alpha=0.6, linewidths=0, zorder=3)
+
+
+def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None) -> list[Line2D]:
+    """Draw a path that was asked for, black, under the one that was walked [KGP02, Fig. 6].
+
+    Parameters
+    ----------
+    path : shape (N, 2), points (x, z), metres.
+    motion : the walk.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The path asked for, the path walked, and its start.
+    """
+    ax = _from_above(ax)
+    asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")
+    walked = path_from_above(motion, ax=ax)
+    walked[0].set_label("walked")
+    ax.legend(frameon=False)
+    return [*asked, *walked[:2]]
+
+
+def joint_curve(
+    values: ArrayLike,
+    *,
+    fps: float,
+    seams: ArrayLike = (),
+    labels: Sequence[str] = (),
+    ax: Axes | None = None,
+) -> list[Line2D]:
+    """Draw what a joint does over time, across seams, where a curve must neither jump nor bend sharply.
+
+    Parameters
+    ----------
+    values : shape (F,) or (F, K), such as a joint's heights or its angles.
+    fps : frames a second.
+    seams : transitions, shape (N, 2), as frames [start, end); they are shaded.
+    labels : what the K curves are, with their units.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The K curves.
+    """
+    ax = ax or plt.figure(figsize=(6, 2.8), layout="constrained").add_subplot()
+    columns = np.reshape(values, (len(np.asarray(values)), -1))
+    for start, end in np.reshape(seams, (-1, 2)) / fps:
+        ax.axvspan(start, end, color=MARK, alpha=0.25, linewidth=1)
+    curves = ax.plot(np.arange(len(columns)) / fps, columns, linewidth=1.6)
+    for number, curve in enumerate(curves):
+        curve.set_color(CURVES[number % len(CURVES)])
+    for curve, label in zip(curves, labels, strict=False):
+        curve.set_label(label)
+    if len(labels) > 1:
+        ax.legend(frameon=False)
+    ax.set(xlabel="time (s)", ylabel=labels[0] if len(labels) == 1 else None)
+    ax.spines[["top", "right"]].set_visible(False)
+    return curves
+
+
+def _from_above(ax: Axes | None) -> Axes:
+    """Make axes for the ground seen from above: with y up, x grows to the left when z grows upwards."""
+    ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
+    ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
+    ax.xaxis.set_inverted(True)
+    return ax

@@ -15,15 +15,16 @@ PACKAGE = ROOT / "mocap"
 MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
-    {"errors", "progress", "rotations"},
+    {"errors", "progress", "rotations", "style"},
     {"atomic", "skeleton"},
     {"amc", "bvh_hierarchy", "motion"},
     {"acclaim", "bvh", "kinematics", "transforms"},
     {"blending", "files", "matching"},
-    {"transitions"},
-    {"motion_graph"},
-    {"synthesis"},
+    {"footprints", "stage", "transitions"},
+    {"animation", "motion_graph"},
+    {"graph_drawing", "synthesis"},
     {"plotting"},
+    {"widgets"},
     {"__init__"},
 ]
 

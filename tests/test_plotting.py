@@ -9,14 +9,13 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from PIL import Image
 
 from mocap import plotting
-from mocap.errors import MocapError
+from mocap.footprints import footprints
 from mocap.kinematics import joint_positions
 from mocap.matching import distance_grid
-from mocap.motion_graph import build
 from mocap.skeleton import Skeleton
+from mocap.stage import to_picture
 from tests.strategies import wave
 
 
@@ -27,7 +26,7 @@ def no_figure_stays_open():
 
 
 def test_world_axes_are_not_mirrored():
-    x, y, z = plotting._picture(np.eye(3))
+    x, y, z = to_picture(np.eye(3))
     assert np.cross(x, y) == pytest.approx(z)
     assert y.tolist() == [0, 0, 1]  # up is up
 
@@ -35,7 +34,7 @@ def test_world_axes_are_not_mirrored():
 def test_a_stick_figure_has_every_bone_where_the_joints_are():
     motion = wave(30)
     (figure,) = plotting.stick_figure(motion, 12)
-    (root, elbow, hand, side) = plotting._picture(joint_positions(motion)[12])
+    (root, elbow, hand, side) = to_picture(joint_positions(motion)[12])
     drawn = np.concatenate([part._segments3d for part in figure.bones.values()])
     expected = {tuple(np.round([*a, *b], 9)) for a, b in ((root, elbow), (elbow, hand), (root, side))}
     assert {tuple(np.round(segment.ravel(), 9)) for segment in np.asarray(drawn)} == expected
@@ -90,40 +89,50 @@ def test_a_path_from_above_is_not_mirrored():
     assert start.get_xdata() == pytest.approx(motion.root_positions[0, 0])
 
 
-def test_the_timeline_has_an_arc_a_transition():
-    graph = build([wave(90, name="a"), wave(70, phase=1, name="b", seed=1)], window=8, threshold=0.05)
-    arcs = plotting.timeline(graph)
-    assert len(arcs.get_segments()) == graph.count("transition") > 0
-    start, end, _ = next(edge for edge in graph.graph.edges(data="kind") if edge[2] == "transition")
-    arc = arcs.get_segments()[0]
-    assert arc[0] == pytest.approx([start[1] / 30, -start[0]])
-    assert arc[-1] == pytest.approx([end[1] / 30, -end[0]])
-    assert [label.get_text() for label in arcs.axes.get_yticklabels()] == ["a", "b"]
+def test_two_motions_laid_over_each_other_have_a_colour_each():
+    first, second = wave(20, name="a"), wave(20, phase=1, name="b")
+    figures = plotting.laid_over(first, second, every=5)
+    for motion, drawn in zip((first, second), figures, strict=True):
+        tips = [figure.bones["middle"]._segments3d[-1][-1] for figure in drawn]
+        assert np.asarray(tips) == pytest.approx(to_picture(joint_positions(motion)[::5, 3]))
+    colours = {tuple(figure.bones["middle"].get_color()[0]) for drawn in figures for figure in drawn}
+    assert len(colours) == 2
+    legend = figures[0][0].dot.axes.get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["a", "b"]
 
 
-def test_an_animation_has_a_picture_every_time_step(tmp_path):
-    motion = wave(31)  # one second
-    path = plotting.save_animation(motion, tmp_path / "wave.gif", fps=20)
-    with Image.open(path) as gif:
-        assert gif.n_frames == 21
-        assert gif.info["duration"] == 50
-        first = np.asarray(gif.convert("RGB"))
-        gif.seek(10)
-        assert np.any(np.asarray(gif.convert("RGB")) != first)
-    assert list(tmp_path.iterdir()) == [path]
+def test_high_poses_are_seen_whole():
+    tall = replace(wave(3), root_positions=wave(3).root_positions * 3)
+    (figure,) = plotting.stick_figure(tall)
+    assert figure.dot.axes.get_zlim()[1] >= joint_positions(tall)[0, :, 1].max()
 
 
-def test_nothing_is_written_and_no_figure_left_when_drawing_is_interrupted(tmp_path):
-    def interrupted(items):
-        yield items[0]
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        plotting.save_animation(wave(30), tmp_path / "wave.gif", progress=interrupted)
-    assert list(tmp_path.iterdir()) == []
-    assert plt.get_fignums() == []
+def test_footprints_stand_where_feet_did():
+    motion = wave(80)
+    prints = footprints(motion)
+    drawn = plotting.footprints(prints)
+    assert drawn.get_offsets().tolist() == [[step.x, step.z] for step in prints]
+    assert drawn.axes.xaxis_inverted()
 
 
-def test_only_gifs_are_written(tmp_path):
-    with pytest.raises(MocapError, match=r"written as \.gif, got"):
-        plotting.save_animation(wave(9), tmp_path / "wave.mov")
+def test_the_path_asked_for_lies_under_the_path_walked():
+    motion = wave(30)
+    asked, walked, start = plotting.asked_and_walked([[0, 0], [0, 1], [1, 1]], motion)
+    assert np.transpose(asked.get_data()).tolist() == [[0, 0], [0, 1], [1, 1]]
+    assert np.transpose(walked.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
+    assert asked.get_zorder() <= walked.get_zorder()
+    assert (asked.get_color(), walked.get_color()) == ("#000000", "#E69F00")
+    assert start.get_ydata() == pytest.approx(motion.root_positions[0, 2])
+
+
+def test_a_joints_curve_is_in_seconds_with_its_seams_shaded():
+    values = np.arange(20.0).reshape(10, 2)
+    curves = plotting.joint_curve(values, fps=10, seams=[[2, 5], [7, 9]], labels=["x (m)", "y (m)"])
+    assert [curve.get_ydata().tolist() for curve in curves] == values.T.tolist()
+    assert curves[0].get_xdata() == pytest.approx(np.arange(10) / 10)
+    spans = [
+        patch.get_extents().transformed(patch.axes.transData.inverted()) for patch in curves[0].axes.patches
+    ]
+    assert np.ravel([span.intervalx for span in spans]) == pytest.approx([0.2, 0.5, 0.7, 0.9])
+    (single,) = plotting.joint_curve(values[:, 0], fps=10, labels=["height (m)"])
+    assert single.axes.get_ylabel() == "height (m)"

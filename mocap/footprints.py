@@ -1,0 +1,51 @@
+"""Where feet stood, read from a motion's contacts."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap.kinematics import joint_positions
+from mocap.motion import Motion
+
+
+class Footprint(NamedTuple):
+    """A `joint` of a body's `side` that stood in frames [start, end), on average at (x, z), metres."""
+
+    joint: str
+    side: str
+    start: int
+    end: int
+    x: float
+    z: float
+
+
+def footprints(motion: Motion) -> list[Footprint]:
+    """List where joints stood: one print for each run of frames in which `motion.contacts` has one down.
+
+    Parameters
+    ----------
+    motion : the motion; one without contacts leaves no prints.
+
+    Returns
+    -------
+    The prints, joint by joint, each joint's in the order of time.
+
+    Examples
+    --------
+    >>> from mocap.skeleton import Skeleton
+    >>> foot = Skeleton(["lfoot"], [-1], [[0, 0, 0]])
+    >>> still = np.tile([1.0, 0, 0, 0], (4, 1, 1))
+    >>> footprints(Motion(foot, np.ones((4, 3)), still, 30.0, contacts={"lfoot": [1, 1, 0, 1]}))
+    [Footprint(joint='lfoot', side='middle', start=0, end=2, x=1.0, z=1.0), ...start=3, end=4, x=1.0, z=1.0)]
+    """
+    if not motion.contacts:
+        return []
+    points = joint_positions(motion)
+    prints = []
+    for name, down in motion.contacts.items():
+        joint = motion.skeleton.index(name)
+        changes = np.flatnonzero(np.diff(down, prepend=False, append=False)).reshape(-1, 2).tolist()
+        for start, end in changes:
+            x, _, z = points[start:end, joint].mean(axis=0).tolist()
+            prints.append(Footprint(name, motion.skeleton.side(joint), start, end, x, z))
+    return prints
