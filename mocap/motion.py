@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap import rotations
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.skeleton import Skeleton as Skeleton
-from mocap.skeleton import frozen
+from mocap.skeleton import Skeleton, frozen
 
 Array = NDArray[np.float64]
 Marks = Mapping[str, NDArray[np.bool_]]
