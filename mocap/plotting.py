@@ -14,7 +14,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
-from mpl_toolkits.mplot3d import Axes3D
 from numpy.typing import ArrayLike, NDArray
 
 from mocap.animation import save_animation as save_animation
@@ -22,76 +21,14 @@ from mocap.footprints import Footprint
 from mocap.graph_drawing import node_link as node_link
 from mocap.graph_drawing import pruning as pruning
 from mocap.graph_drawing import timeline as timeline
-from mocap.kinematics import joint_positions
 from mocap.motion import Motion
-from mocap.stage import TALL, StickFigure, to_picture
+from mocap.stage import film_strip as film_strip
+from mocap.stage import laid_over as laid_over
 from mocap.stage import stage as stage
-from mocap.style import ASKED, COLOURS, CURVES, MARK, PATH, SOURCES
+from mocap.stage import stick_figure as stick_figure
+from mocap.style import ASKED, COLOURS, CURVES, MARK, PATH
 
 Array = NDArray[np.float64]
-
-
-def stick_figure(
-    motion: Motion, frames: Sequence[int] | int = 0, *, ax: Axes3D | None = None
-) -> list[StickFigure]:
-    """Draw poses of a motion: the last one solid, those before it as ghosts, and the root's path below.
-
-    Parameters
-    ----------
-    motion : the motion.
-    frames : which frames; one or several.
-    ax : 3D axes; by default a new `stage` around these poses.
-
-    Returns
-    -------
-    A figure a pose.
-
-    Notebook: 00-quickstart
-    """
-    shown = [frames] if isinstance(frames, int) else list(frames)
-    points = joint_positions(motion)[shown]
-    ax = ax or _stage_around(points)
-    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
-    ghosts = [0.15 + 0.35 * k / len(shown) for k in range(len(shown) - 1)]
-    figures = [StickFigure(motion.skeleton, ax, alpha) for alpha in (*ghosts, 1.0)]
-    for figure, pose in zip(figures, points, strict=True):
-        figure.pose(pose)
-    return figures
-
-
-def _stage_around(points: Array) -> Axes3D:
-    """Set up ground that is wide and tall enough for points, shape (..., 3)."""
-    low, high = (f(points.reshape(-1, 3), axis=0) for f in (np.min, np.max))
-    centre, wide = (low + high)[[0, 2]] / 2, (high - low)[[0, 2]]
-    return stage(centre, max(1.2, *wide) / 2 + 0.3, tall=max(TALL, high[1]))
-
-
-def laid_over(
-    first: Motion, second: Motion, *, every: int = 5, ax: Axes3D | None = None
-) -> tuple[list[StickFigure], list[StickFigure]]:
-    """Draw two motions over each other, each in one colour, to see how well they match.
-
-    Parameters
-    ----------
-    first, second : the motions, where they are: `transforms` lays one on the other.
-    every : frames from one pose to the next.
-    ax : 3D axes; by default a new `stage` around both.
-
-    Returns
-    -------
-    The figures of each.
-    """
-    clouds = [joint_positions(motion)[::every] for motion in (first, second)]
-    ax = ax or _stage_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
-    drawn = []
-    for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
-        figures = [StickFigure(motion.skeleton, ax, 0.7, colour) for _ in points]
-        for figure, pose in zip(figures, points, strict=True):
-            figure.pose(pose)
-        ax.plot([], [], [], color=colour, linewidth=2.4, label=motion.name)
-        drawn.append(figures)
-    ax.legend(loc="upper left", frameon=False)
-    return drawn[0], drawn[1]
 
 
 def distance_image(

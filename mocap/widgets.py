@@ -1,4 +1,4 @@
-"""Experiments for notebooks: a picture that follows its controls.
+"""Experiments for notebooks: a picture that follows its controls; and the players, by their short names.
 
 What `explore` shows is one output with three faces: the live controls where Python runs, a PNG where it does
 not (a code host, a printed page), and a sentence where there are no pictures.
@@ -24,6 +24,9 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from mocap.errors import MocapError
+from mocap.live import draw_path as draw_path
+from mocap.live import linked as linked
+from mocap.player import play as play
 
 Drawn = Figure | Sequence[Artist]
 SLOW = 0.15  # seconds; a callback that takes longer waits until the reader's hand rests

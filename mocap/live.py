@@ -1,0 +1,130 @@
+"""Players that Python and the reader move together, and the canvas on which one draws a path.
+
+`player.js` in its second shell, `anywidget`: `frame`, `scene` and `path` are traits, which both sides may set
+and observe.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap.errors import MocapError
+from mocap.motion import Motion
+from mocap.player import SCRIPT, Player, play
+
+Array = NDArray[np.float64]
+Follow = Callable[[Array], Motion | Player]
+
+
+@cache
+def _live_player() -> type[Any]:
+    """Make the class of the widget, which needs anywidget and so is not there without it."""
+    try:
+        import anywidget
+        import traitlets
+    except ImportError as error:
+        raise MocapError("A linked player needs anywidget: pip install 'mocap[notebooks]'.") from error
+
+    class LivePlayer(anywidget.AnyWidget):
+        """A player whose `frame` Python may set and observe."""
+
+        _esm = SCRIPT.read_text("utf-8")
+        scene = traitlets.Dict().tag(sync=True)
+        frame = traitlets.Int(0).tag(sync=True)
+        path: traitlets.List[Any] = traitlets.List().tag(sync=True)
+        message = traitlets.Unicode().tag(sync=True)
+
+        def show(self, player: Player, **extra: bool) -> None:
+            self.player = player
+            self.scene = player.scene | extra
+            self.frame = 0
+
+        @traitlets.validate("frame")
+        def _in_range(self, proposal: dict[str, Any]) -> int:
+            frame, frames = int(proposal["value"]), self.scene["frames"]
+            if not 0 <= frame < frames:
+                raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
+            return frame
+
+        def __repr__(self) -> str:
+            return f"LivePlayer({self.player.alt!r})"
+
+        def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:  # noqa: ANN401
+            live: Any = super()._repr_mimebundle_(**options)
+            still, metadata = self.player._repr_mimebundle_()
+            return {**live[0], **still}, metadata
+
+    return LivePlayer
+
+
+def linked(player: Player) -> Any:  # noqa: ANN401
+    """Link a player to Python: set its `frame` to go there, `observe` it to follow the reader.
+
+    Parameters
+    ----------
+    player : as from `play`.
+
+    Returns
+    -------
+    A widget with the trait `frame`; a notebook shows it as the last line of a cell.
+
+    Raises
+    ------
+    MocapError : where anywidget is not installed, and when a frame is set that the player lacks.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = linked(play(datasets.sample("walk_straight")))
+    >>> walk.observe(lambda change: print("now at", change.new), "frame")
+    >>> walk.frame = 12
+    now at 12
+    """
+    widget = _live_player()(scene=player.scene)
+    widget.player = player
+    return widget
+
+
+def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
+    """Let the reader draw a path on the ground, and show a walk along it.
+
+    Parameters
+    ----------
+    follow : from a path, shape (N, 2), points (x, z) in metres, to a motion, or a `play` of one.
+    path : what is drawn already when the canvas appears.
+
+    Returns
+    -------
+    A linked player; its `path` is what the reader drew last, `error` what `follow` raised at it, or None.
+
+    Raises
+    ------
+    MocapError : where anywidget is not installed.
+    Exception : whatever `follow` raises at the first path; later, the canvas shows it.
+    """
+    points = np.reshape(np.asarray(path, float), (-1, 2))
+    canvas = linked(_along(follow, points))
+    canvas.scene = canvas.scene | {"drawable": True}
+    canvas.path = points.tolist()
+    canvas.error = None
+
+    def walk(change: dict[str, Any]) -> None:
+        try:
+            canvas.show(_along(follow, np.array(change["new"], float)), drawable=True, autoplay=True)
+            canvas.error, canvas.message = None, ""
+        except Exception as error:  # whatever a student's function raises belongs on the page
+            canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
+
+    canvas.observe(walk, "path")
+    return canvas
+
+
+def _along(follow: Follow, path: Array) -> Player:
+    made = follow(path)
+    return replace(made if isinstance(made, Player) else play(made), path=path)

@@ -1,0 +1,147 @@
+"""A browser, and JupyterLab in it; nothing may leave the machine.
+
+Pictures of what was seen are kept in the folder that MOCAP_ARTEFACTS names, else in pytest's own.
+"""
+
+import contextlib
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+LAB = [
+    "--ServerApp.ip=127.0.0.1",
+    "--ServerApp.port_retries=0",
+    "--ServerApp.open_browser=False",
+    "--ServerApp.allow_root=True",
+    "--IdentityProvider.token=",
+    "--LabApp.news_url=None",
+    "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
+    "--LabApp.extension_manager=readonly",
+    "--LabApp.expose_app_in_browser=True",
+]
+CHROMIUM = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+
+def wait_until(what, seconds=30.0):
+    """Ask again and again until the answer is yes, and give it."""
+    end = time.monotonic() + seconds
+    while not (answer := what()):
+        assert time.monotonic() < end, f"not within {seconds} s"
+        time.sleep(0.05)
+    return answer
+
+
+@pytest.fixture(scope="session")
+def artefacts(tmp_path_factory):
+    folder = Path(os.environ.get("MOCAP_ARTEFACTS") or tmp_path_factory.mktemp("artefacts"))
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def browser():
+    program = shutil.which("chromium") or shutil.which("chromium-browser")
+    if program is None:
+        pytest.skip("no Chromium here: apt-get install chromium")
+    playwright = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
+    with playwright.sync_playwright() as p:
+        chromium = p.chromium.launch(executable_path=program, args=CHROMIUM)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def page(browser):
+    """Yield a fresh page; afterwards no request has left the machine, and the console holds no error."""
+    context = browser.new_context(viewport={"width": 1200, "height": 900})
+    page, away, errors = context.new_page(), [], []
+
+    def stay(route):
+        at = urlsplit(route.request.url)
+        if at.scheme in ("http", "https", "ws", "wss") and at.hostname != "127.0.0.1":
+            away.append(route.request.url)
+            route.abort()
+        else:
+            route.continue_()
+
+    page.route("**/*", stay)
+    page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    yield page
+    context.close()
+    assert away == []
+    assert errors == []
+
+
+@pytest.fixture(scope="session")
+def lab(tmp_path_factory):
+    """Start JupyterLab on a free port, with folders of its own; yield its address and the notebooks' folder."""
+    pytest.importorskip("jupyterlab", reason="pip install 'mocap[notebooks]'")
+    home = tmp_path_factory.mktemp("lab")
+    notebooks = home / "notebooks"
+    notebooks.mkdir()
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    own = {
+        "JUPYTER_CONFIG_DIR": home / "config",
+        "JUPYTER_DATA_DIR": home / "data",
+        "JUPYTER_RUNTIME_DIR": home / "runtime",
+        "JUPYTERLAB_SETTINGS_DIR": home / "settings",
+        "JUPYTERLAB_WORKSPACES_DIR": home / "workspaces",
+        "PYTHONPATH": Path(__file__).parents[2],
+    }
+    command = [sys.executable, "-m", "jupyterlab", *LAB, f"--ServerApp.port={port}", str(notebooks)]
+    with (home / "log").open("w") as log:
+        server = subprocess.Popen(
+            command, env=os.environ | {k: str(v) for k, v in own.items()}, stdout=log, stderr=log
+        )
+    try:
+        address = f"http://127.0.0.1:{port}"
+        wait_until(lambda: answers(address + "/api/status"), 60)
+        yield address, notebooks
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
+def answers(address):
+    with contextlib.suppress(urllib.error.URLError, ConnectionError):
+        return urllib.request.urlopen(address, timeout=2).status == 200
+    return False
+
+
+@pytest.fixture
+def run(lab, page):
+    """Give a function that opens a notebook, runs all of it, and waits for the end."""
+    address, folder = lab
+
+    def opened(notebook, name):
+        (folder / name).write_text(notebook)
+        page.goto(f"{address}/lab/tree/{name}?reset")
+        kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status"
+        wait_until(lambda: page.evaluate(kernel) == "idle", 60)
+        page.evaluate("jupyterapp.commands.execute('application:toggle-left-area')")
+        page.evaluate("window.ran = jupyterapp.commands.execute('notebook:run-all-cells').then(() => 'ran')")
+        assert page.evaluate("window.ran") == "ran"
+        wait_until(lambda: page.evaluate(kernel) == "idle", 60)
+        return page
+
+    return opened

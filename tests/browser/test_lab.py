@@ -1,0 +1,138 @@
+"""Experiments and players in JupyterLab, as a reader meets them."""
+
+import nbformat
+import pytest
+
+from tests.browser.conftest import wait_until
+
+CELLS = {
+    "start": """
+        import ipywidgets, numpy as np
+        from mocap import datasets, plotting, resample
+        from mocap.kinematics import joint_positions
+        from mocap.widgets import draw_path, explore, linked, play
+        walk = resample(datasets.sample("walk_circle"), 30)[:240]
+        points = joint_positions(walk)
+        (body,) = plotting.stick_figure(walk, 0)""",
+    "explore": """
+        def pose(frame=0):
+            if frame == 239:
+                raise ValueError("here the clip ends")
+            return body.pose(points[frame])
+        explore(pose, alt="A stick figure at a frame.", frame=(0, 239))""",
+    "play": "play(walk)",
+    "linked": """
+        live = linked(play(walk, follow=False))
+        said = ipywidgets.Label("Python has heard nothing")
+        live.observe(lambda change: setattr(said, "value", f"Python is at {live.frame}"), "frame")
+        live""",
+    "said": "said",
+    "draw": """
+        def follow(path):
+            length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+            if length < 1:
+                raise ValueError("a path of less than a metre")
+            drawn.value = f"Python was asked for {length:.1f} m"
+            return walk
+        drawn = ipywidgets.Label()
+        canvas = draw_path(follow, [[0, 0], [1, 2], [0, 4]])
+        canvas""",
+    "drawn": "drawn",
+    "set": "live.frame = 33",
+}
+
+
+@pytest.fixture
+def notebook(run):
+    """Run a notebook of all cells; give the page, and a function that finds a cell's output."""
+    import textwrap
+
+    cells = [nbformat.v4.new_code_cell(textwrap.dedent(text).strip()) for text in CELLS.values()]
+    page = run(nbformat.writes(nbformat.v4.new_notebook(cells=cells)), "all.ipynb")
+    order = list(CELLS)
+
+    def cell(name):
+        found = page.locator(".jp-Notebook .jp-CodeCell").nth(order.index(name))
+        found.scroll_into_view_if_needed()
+        return found
+
+    return page, cell
+
+
+def state(place):
+    return place.locator(".mocap-player").evaluate("root => root.player.frame()")
+
+
+def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artefacts):
+    page, cell = notebook
+    experiment = cell("explore")
+    picture = experiment.locator("img")
+    wait_until(lambda: picture.is_visible())
+    first = picture.get_attribute("src")
+    experiment.locator(".noUi-handle").focus()
+    page.keyboard.press("ArrowRight")
+    wait_until(lambda: picture.get_attribute("src") != first)
+    page.keyboard.press("End")
+    wait_until(lambda: experiment.get_by_text("ValueError: here the clip ends").is_visible())
+    assert not picture.is_visible()
+    page.screenshot(path=artefacts / "lab-error.png")
+    page.keyboard.press("Home")
+    wait_until(lambda: picture.is_visible())
+    assert not experiment.get_by_text("ValueError").is_visible()
+    page.screenshot(path=artefacts / "lab-explore.png")
+
+
+def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):
+    page, cell = notebook
+    place = cell("play")
+    wait_until(lambda: place.locator("canvas").is_visible())
+    wait_until(lambda: state(place) > 5)
+    place.locator("canvas").focus()
+    page.keyboard.press(" ")
+    stopped = state(place)
+    page.keyboard.press("ArrowRight")
+    assert state(place) == stopped + 1
+    place.get_by_role("slider").focus()
+    page.keyboard.press("ArrowRight")
+    assert state(place) == stopped + 2
+    page.screenshot(path=artefacts / "lab-player.png")
+
+
+def test_python_and_the_reader_move_one_frame(notebook):
+    page, cell = notebook
+    place = cell("linked")
+    wait_until(lambda: state(place) == 33)  # as the last cell says
+    place.locator("canvas").focus()
+    page.keyboard.press("ArrowRight")
+    wait_until(lambda: cell("said").get_by_text("Python is at 34").is_visible())
+    cell("linked").get_by_role("button", name="play").click()
+    wait_until(lambda: state(place) > 40)
+    cell("linked").get_by_role("button", name="pause").click()
+    stopped = state(place)
+    wait_until(lambda: cell("said").get_by_text(f"Python is at {stopped}").is_visible())
+
+
+def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
+    page, cell = notebook
+    place = cell("draw")
+    place.get_by_role("button", name="draw a path").click()
+    place.get_by_label("follow").uncheck()
+    box = place.locator("canvas").bounding_box()
+
+    def draw(*pixels):
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for dx, dy in pixels:
+            page.mouse.move(x + dx, y + dy, steps=8)
+        page.mouse.up()
+
+    draw((100, 10), (160, 60), (60, 90))
+    wait_until(lambda: place.locator(".mocap-player").get_attribute("data-playing") == "true")
+    assert "Python was asked for" in cell("drawn").locator(".jp-OutputArea-output").inner_text()
+    cell("draw")
+    page.screenshot(path=artefacts / "lab-path.png")
+    asked = place.locator(".mocap-player").evaluate("root => root.player.scene.asked.length")
+    assert asked > 5
+    draw((12, 0))
+    wait_until(lambda: place.get_by_text("ValueError: a path of less than a metre").is_visible())

@@ -1,0 +1,215 @@
+"""The page that `Player.page` writes, in a browser: it plays, listens, and asks nobody for anything."""
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from mocap.player import play
+from tests.browser.conftest import wait_until
+from tests.strategies import wave
+
+PLAYER = "document.querySelector('.mocap-player').player"
+
+
+@pytest.fixture
+def shown(page, tmp_path):
+    """Give a function that shows a player's page, and waits for its first picture."""
+
+    def show(player, **media):
+        page.emulate_media(**media)
+        file = tmp_path / "player.html"
+        file.write_text(player.page(), "utf-8")
+        page.goto(file.as_uri())
+        wait_until(lambda: page.evaluate(f"{PLAYER}?.pictures > 0"))
+        return page
+
+    return show
+
+
+def colours(page):
+    """Give the canvas's pixels, shape (height, width, 3)."""
+    shot = Image.open(io.BytesIO(page.locator("canvas").screenshot())).convert("RGB")
+    return np.asarray(shot).astype(int)
+
+
+def frame(page):
+    return page.evaluate(f"{PLAYER}.frame()")
+
+
+def test_it_plays_by_itself_and_stops(shown, artefacts):
+    page = shown(play(wave(300)))
+    assert page.locator(".mocap-player").get_attribute("data-playing") == "true"
+    before = colours(page)
+    wait_until(lambda: frame(page) > 20)
+    assert np.any(colours(page) != before)
+    page.get_by_role("button", name="pause").click()
+    page.screenshot(path=artefacts / "page.png")
+    still = frame(page)
+    page.wait_for_timeout(200)
+    assert frame(page) == still
+
+
+def test_who_wants_less_motion_gets_none_unasked(shown):
+    page = shown(play(wave(300)), reduced_motion="reduce")
+    page.wait_for_timeout(200)
+    assert frame(page) == 0
+    page.get_by_role("button", name="play").click()
+    wait_until(lambda: frame(page) > 3)
+
+
+@pytest.fixture
+def still(shown):
+    """Give a page whose player rests at frame 0."""
+
+    def show(player):
+        return shown(player, reduced_motion="reduce")
+
+    return show
+
+
+def test_scrubbing_goes_to_a_frame(still):
+    page = still(play(wave(300)))
+    before = colours(page)
+    page.get_by_role("slider", name="frame").focus()
+    page.keyboard.press("End")
+    assert frame(page) == 299
+    wait_until(lambda: "frame 299 of 300" in page.locator("output").inner_text())
+    assert np.any(colours(page) != before)
+
+
+def test_the_places_drawn_are_those_of_the_motion(still):
+    from mocap.kinematics import joint_positions
+
+    motion = wave(61)
+    page = still(play(motion))
+    pose = page.evaluate(f"Array.from({PLAYER}.characters[0].pose(1.5))")  # frame 45
+    assert np.reshape(pose, (-1, 3)) == pytest.approx(joint_positions(motion)[45], abs=1e-4)
+    between = page.evaluate(f"Array.from({PLAYER}.characters[0].pose(45.5 / 30))")
+    middle = joint_positions(motion)[45:47].mean(axis=0)
+    assert np.reshape(between, (-1, 3)) == pytest.approx(middle, abs=1e-4)
+
+
+def test_the_view_is_not_mirrored(still):
+    page = still(play(wave(61)))
+    view = f"{PLAYER}.camera"
+    page.evaluate(f"{view}.yaw = 0; {view}.pitch = 0; {view}.place([0, 0, 0], 5, 400, 400)")
+    right, up, ahead = page.evaluate(f"{view}.see(1, 0, 0)")  # from the front a body's left is at the right
+    assert (right, up, ahead) == pytest.approx((1, 0, 5))
+    pixel = page.evaluate(f"{view}.place([0, 1, 0], 5, 400, 300); {view}.pixel({view}.see(0.5, 0, -1.5))")
+    assert page.evaluate(f"{view}.ground({pixel[0]}, {pixel[1]})") == pytest.approx([0.5, -1.5])
+
+
+def test_keys_play_step_turn_and_zoom(still):
+    page = still(play(wave(300)))
+    page.locator("canvas").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowLeft")
+    assert frame(page) == 1
+    yaw, zoom = page.evaluate(f"{PLAYER}.camera.yaw"), page.evaluate(f"{PLAYER}.camera.zoom")
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("+")
+    assert page.evaluate(f"{PLAYER}.camera.yaw") > yaw
+    assert page.evaluate(f"{PLAYER}.camera.zoom") > zoom
+    page.keyboard.press(" ")
+    wait_until(lambda: frame(page) > 5)
+    page.keyboard.press(" ")
+    assert not page.evaluate(f"{PLAYER}.playing")
+
+
+def test_the_mouse_turns_and_the_wheel_zooms(still):
+    page = still(play(wave(300)))
+    box = page.locator("canvas").bounding_box()
+    x, y = box["x"] + 200, box["y"] + 200
+    yaw, before = page.evaluate(f"{PLAYER}.camera.yaw"), colours(page)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 90, y + 20, steps=5)
+    page.mouse.up()
+    assert page.evaluate(f"{PLAYER}.camera.yaw") == pytest.approx(yaw - 90 / 150)
+    assert np.any(colours(page) != before)
+    page.mouse.wheel(0, -200)
+    wait_until(lambda: page.evaluate(f"{PLAYER}.camera.zoom") > 1.2)
+    page.get_by_role("button", name="reset view").click()
+    assert page.evaluate(f"{PLAYER}.camera.zoom") == 1
+
+
+def test_two_fingers_zoom(still):
+    page = still(play(wave(300)))
+    touch = """([id, kind, x, y]) => document.querySelector('canvas').dispatchEvent(new PointerEvent(kind,
+        {pointerId: id, pointerType: 'touch', isPrimary: id === 5, clientX: x, clientY: y, bubbles: true}))"""
+    page.evaluate("Element.prototype.setPointerCapture = () => {}")  # no finger is really there
+    box = page.locator("canvas").bounding_box()
+    for id, kind, x in ((5, "down", 100), (6, "down", 200), (6, "move", 300), (6, "up", 300), (5, "up", 100)):
+        page.evaluate(touch, [id, f"pointer{kind}", box["x"] + x, box["y"] + 100])
+    assert page.evaluate(f"{PLAYER}.camera.zoom") == pytest.approx(2)
+
+
+def test_the_camera_follows_or_stays(still):
+    page = still(play(wave(300)))
+    page.evaluate(f"{PLAYER}.seek(9)")
+    assert page.evaluate(f"{PLAYER}.target()[2]") == pytest.approx(270 * 0.02, abs=0.1)
+    page.get_by_label("follow").uncheck()
+    assert page.evaluate(f"{PLAYER}.target()[2]") == pytest.approx(150 * 0.02, abs=0.1)
+
+
+def test_ghosts_footprints_and_sources_are_seen(still, artefacts):
+    page = still(play(wave(300), sources=[(0, "first"), (150, "second")]))
+    assert page.locator(".legend").inner_text() == "firstsecond"
+    page.evaluate(f"{PLAYER}.seek(4)")
+    assert page.evaluate(f"{PLAYER}.characters[0].colourAt(4)") == "#009E73"
+    assert page.evaluate(f"{PLAYER}.characters[0].colourAt(5)") == "#CC79A7"
+    page.wait_for_timeout(100)
+    before = colours(page)
+    page.get_by_label("ghosts").check()
+    page.wait_for_timeout(100)
+    assert np.any(colours(page) != before)
+    page.screenshot(path=artefacts / "page-ghosts.png")
+    prints = page.evaluate(f"{PLAYER}.characters[0].prints.length")
+    assert prints == 8  # the hand is down in half of each of 7.5 periods
+
+
+def test_a_print_is_strong_while_the_foot_stands(still):
+    motion = replace(wave(90), contacts={"hand": np.arange(90) < 30})
+    page = still(play(motion, follow=False))
+    page.evaluate(f"{PLAYER}.painted = []; {PLAYER}.disc = (p, r, c, a) => {PLAYER}.painted.push(a); 0")
+    page.evaluate(f"{PLAYER}.seek(0.5); {PLAYER}.draw(); {PLAYER}.seek(2); {PLAYER}.draw()")
+    assert page.evaluate(f"[...new Set({PLAYER}.painted)]") == [0.95, 0.25]
+
+
+def test_several_characters_of_other_lengths_play_together(still, artefacts):
+    page = still(play(wave(90, name="a"), wave(300, phase=2, name="b"), follow=False))
+    assert page.locator("output").inner_text().startswith("frame 0 of 300")
+    assert page.locator(".legend").inner_text() == "ab"
+    page.evaluate(f"{PLAYER}.seek(9)")
+    assert page.evaluate(f"{PLAYER}.characters[0].pose(9)[2]") == pytest.approx(89 * 0.02, abs=0.05)
+    page.screenshot(path=artefacts / "page-two.png")
+
+
+def test_a_single_frame_is_shown(still):
+    page = still(play(wave(1)))
+    page.get_by_role("button", name="play").click()
+    page.wait_for_timeout(100)
+    assert frame(page) == 0
+    assert np.ptp(colours(page)) > 100
+
+
+def test_every_part_that_takes_keys_keeps_them_from_jupyterlab(still):
+    page = still(play(wave(9)))
+    parts = page.locator(".mocap-player :is(canvas, button, input, select)")
+    assert parts.count() >= 7
+    assert {p.get_attribute("data-lm-suppress-shortcuts") for p in parts.all()} == {"true"}
+
+
+def test_without_scripts_the_picture_stands_there(browser, tmp_path, artefacts):
+    file = tmp_path / "player.html"
+    file.write_text(play(wave(60)).page(), "utf-8")
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto(file.as_uri())
+    assert page.get_by_role("img", name="A stick figure plays wave").is_visible()
+    page.screenshot(path=artefacts / "page-without-scripts.png")
+    context.close()
