@@ -14,6 +14,12 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="mocap", description="New human motion out of captured motion.")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add_demo(commands)
+    _add_view(commands)
+    figures = commands.add_parser("figures", help="draw the pictures of the README and the course anew")
+    figures.add_argument(
+        "folder", nargs="?", type=Path, default=Path("figures"), help="(default: %(default)s)"
+    )
+    figures.set_defaults(run=_figures)
     lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
     lab.add_argument(
         "folder",
@@ -55,6 +61,43 @@ def _add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -
     add("--seconds", type=float, default=12.0, help="length of the new walk (default: %(default)g)")
     add("--seed", type=int, default=0, help="another seed, another walk (default: %(default)s)")
     demo.set_defaults(run=_demo)
+
+
+def _add_view(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    view = commands.add_parser(
+        "view",
+        help="play a clip in the browser",
+        description="Play a clip in the browser, on a page that needs nothing else and can be passed on.",
+    )
+    add = view.add_argument
+    add("clip", type=Path, help="a motion file")
+    add("-o", "--out", type=Path, help="keep the page, or a .gif, .mp4 or .png instead, and open no browser")
+    add("--skeleton", type=Path, help="the .asf file of an .amc clip (default: the one beside it that fits)")
+    add("--scale", type=float, help="metres in a unit of a .bvh clip (default: 0.01)")
+    view.set_defaults(run=_view)
+
+
+def _view(options: argparse.Namespace) -> int:
+    import tempfile
+    import webbrowser
+
+    from mocap import files, plotting
+
+    clip = files.load(options.clip, skeleton=options.skeleton, scale=options.scale)
+    out = options.out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{options.clip.stem}.html")
+    plotting.save_animation(clip, out, progress=partial(bar, what="drawing"))
+    print(f"{'wrote':<12} {out}")
+    if options.out is None and not webbrowser.open(out.as_uri()):
+        print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
+    return 0
+
+
+def _figures(options: argparse.Namespace) -> int:
+    from mocap import gallery
+
+    for path in gallery.draw_all(options.folder):
+        print(f"{'wrote':<12} {path}")
+    return 0
 
 
 def _demo(options: argparse.Namespace) -> int:

@@ -22,6 +22,25 @@ Array = NDArray[np.float64]
 Follow = Callable[[Array], Motion | Player]
 
 
+class _Shown:
+    """What a live player has beside its traits: the player it shows, and its output in a notebook."""
+
+    player: Player
+
+    def show(self, player: Player, **extra: bool) -> None:
+        self.player = player
+        self.frame = 0  # which every motion has
+        self.scene = player.scene | extra
+
+    def __repr__(self) -> str:
+        return f"LivePlayer({self.player.alt!r})"
+
+    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:  # noqa: ANN401
+        live: Any = super()._repr_mimebundle_(**options)  # type: ignore[misc]  # of the widget
+        still, metadata = self.player._repr_mimebundle_()
+        return {**live[0], **still}, metadata
+
+
 @cache
 def _live_player() -> type[Any]:
     """Make the class of the widget, which needs anywidget and so is not there without it."""
@@ -31,7 +50,7 @@ def _live_player() -> type[Any]:
     except ImportError as error:
         raise MocapError("A linked player needs anywidget: pip install 'mocap[notebooks]'.") from error
 
-    class LivePlayer(anywidget.AnyWidget):
+    class LivePlayer(_Shown, anywidget.AnyWidget):
         """A player whose `frame` Python may set and observe."""
 
         _esm = SCRIPT.read_text("utf-8")
@@ -40,25 +59,12 @@ def _live_player() -> type[Any]:
         path: traitlets.List[Any] = traitlets.List().tag(sync=True)
         message = traitlets.Unicode().tag(sync=True)
 
-        def show(self, player: Player, **extra: bool) -> None:
-            self.player = player
-            self.scene = player.scene | extra
-            self.frame = 0
-
         @traitlets.validate("frame")
         def _in_range(self, proposal: dict[str, Any]) -> int:
             frame, frames = int(proposal["value"]), self.scene["frames"]
             if not 0 <= frame < frames:
                 raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
             return frame
-
-        def __repr__(self) -> str:
-            return f"LivePlayer({self.player.alt!r})"
-
-        def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:  # noqa: ANN401
-            live: Any = super()._repr_mimebundle_(**options)
-            still, metadata = self.player._repr_mimebundle_()
-            return {**live[0], **still}, metadata
 
     return LivePlayer
 
@@ -108,15 +114,16 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     MocapError : where anywidget is not installed.
     Exception : whatever `follow` raises at the first path; later, the canvas shows it.
     """
+    on_canvas = {"drawable": True, "follow": False}
     points = np.reshape(np.asarray(path, float), (-1, 2))
     canvas = linked(_along(follow, points))
-    canvas.scene = canvas.scene | {"drawable": True}
+    canvas.scene = canvas.scene | on_canvas
     canvas.path = points.tolist()
     canvas.error = None
 
     def walk(change: dict[str, Any]) -> None:
         try:
-            canvas.show(_along(follow, np.array(change["new"], float)), drawable=True, autoplay=True)
+            canvas.show(_along(follow, np.array(change["new"], float)), **on_canvas, autoplay=True)
             canvas.error, canvas.message = None, ""
         except Exception as error:  # whatever a student's function raises belongs on the page
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"

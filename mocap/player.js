@@ -139,18 +139,19 @@ class Player {
   }
 
   load(scene) {
-    const bytes = toBytes(scene.data);
+    const bytes = toBytes(scene.data), again = scene.drawable && this.scene;
     this.scene = scene;
     this.characters = scene.characters.map((packed) => new Character(packed, bytes));
     this.seconds = (scene.frames - 1) / scene.fps;
-    this.follow.checked = scene.follow;
+    if (!again) this.follow.checked = scene.follow; // who has drawn a path keeps the view for the next one
+    if (scene.drawable && !again) { this.drawing = true; this.camera.pitch = 0.9; }
     this.canvas.setAttribute("aria-label", `${scene.alt} ${KEYS}`);
     this.scrub.max = scene.frames - 1;
     this.drawButton.hidden = !scene.drawable;
     this.drawn = [];
     this.message.textContent = this.model?.get("message") ?? "";
     this.showSources();
-    this.frameAll();
+    if (!again) this.frameAll();
     this.seek(0);
     this.toggle(Boolean(scene.autoplay) && !this.calm);
   }

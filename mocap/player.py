@@ -131,7 +131,7 @@ class Player:
     def html(self) -> str:
         """Give the player as part of a page; its picture stays where no script runs."""
         data = base64.b64encode(self.scene["data"]).decode()
-        scene = json.dumps({**self.scene, "data": data, "autoplay": True}).replace("</", "<\\/")
+        scene = json.dumps({**self.scene, "data": data, "autoplay": True}).replace("<", "\\u003c")
         picture, alt = base64.b64encode(self.picture).decode(), html.escape(self.alt)
         return (
             f'<div class="mocap-player"><img alt="{alt}" src="data:image/png;base64,{picture}">'

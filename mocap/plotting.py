@@ -160,7 +160,7 @@ def joint_curve(
     for curve, label in zip(curves, labels, strict=False):
         curve.set_label(label)
     if len(labels) > 1:
-        ax.legend(frameon=False)
+        ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=len(labels))
     ax.set(xlabel="time (s)", ylabel=labels[0] if len(labels) == 1 else None)
     ax.spines[["top", "right"]].set_visible(False)
     return curves

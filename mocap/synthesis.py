@@ -143,3 +143,14 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
             found.append(Seam(frame, data["cost"]))
         frame += data["frames"]
     return found
+
+
+def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:
+    """Tell which clip a walk plays from which frame on; within a transition it changes half-way."""
+    found, frame = [(0, motion_graph.clips[walk[0][0][0]].name)], 0
+    for start, end, key in walk:
+        data = motion_graph.graph.edges[start, end, key]
+        if data["kind"] == "transition" and end[0] != start[0]:
+            found.append((frame + data["frames"] // 2, motion_graph.clips[end[0]].name))
+        frame += data["frames"]
+    return found

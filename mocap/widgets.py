@@ -107,9 +107,10 @@ class Experiment:
         self._canvas = BlittedFigure()
         self._seconds = 0.0
         self._waiting: asyncio.TimerHandle | None = None
-        self.picture = ipywidgets.Image(format="png", tooltip=alt)
+        self.picture = ipywidgets.Image(format="png")  # has no alt of its own: the sentence stands below
         self.message = ipywidgets.HTML(layout={"display": "none"})
-        self.box = ipywidgets.VBox([*controls.values(), self.picture, self.message])
+        sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
+        self.box = ipywidgets.VBox([*controls.values(), self.picture, self.message, sentence])
         self.box.layout.align_items = "flex-start"
         self.refresh()
         if self.error:

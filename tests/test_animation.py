@@ -1,5 +1,7 @@
 """Motions as files, read back."""
 
+import sys
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ from PIL import Image
 
 from mocap import plotting
 from mocap.errors import MocapError
+from mocap.player import play
 from tests.strategies import wave
 
 
@@ -33,6 +36,41 @@ def test_nothing_is_written_and_no_figure_left_when_drawing_is_interrupted(tmp_p
     assert plt.get_fignums() == []
 
 
-def test_only_gifs_are_written(tmp_path):
-    with pytest.raises(MocapError, match=r"written as \.gif, got"):
+def test_a_film_is_read_back_as_mp4(tmp_path):
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+    path = plotting.save_animation(wave(31), tmp_path / "wave.mp4", fps=20)
+    frames, seconds = ffmpeg.count_frames_and_secs(str(path))
+    assert frames == 21
+    assert seconds == pytest.approx(21 / 20, abs=0.06)
+
+
+def test_an_interrupted_film_leaves_nothing(tmp_path):
+    pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+
+    def interrupted(items):
+        yield items[0]
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        plotting.save_animation(wave(30), tmp_path / "wave.mp4", progress=interrupted)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_imageio_ffmpeg_one_sentence_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(MocapError, match=r"pip install 'mocap\[video\]'"):
+        plotting.save_animation(wave(9), tmp_path / "wave.mp4")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_strip_and_a_page_are_the_players(tmp_path):
+    motion = wave(30)
+    strip = plotting.save_animation(motion, tmp_path / "wave.png")
+    page = plotting.save_animation(motion, tmp_path / "wave.HTML")
+    assert strip.read_bytes() == play(motion).picture
+    assert page.read_text("utf-8") == play(motion).page()
+
+
+def test_another_ending_is_refused(tmp_path):
+    with pytest.raises(MocapError, match=r"written as \.gif, \.mp4, \.png or \.html, got"):
         plotting.save_animation(wave(9), tmp_path / "wave.mov")

@@ -26,7 +26,7 @@ LAYERS = [
     {"animation", "live"},
     {"graph_drawing", "synthesis"},
     {"plotting"},
-    {"demo", "lab", "widgets"},
+    {"demo", "gallery", "lab", "widgets"},
     {"__init__", "__main__"},
 ]
 

@@ -68,7 +68,7 @@ def browser():
 
 
 @pytest.fixture
-def page(browser):
+def page(browser, artefacts, request):
     """Yield a fresh page; afterwards no request has left the machine, and the console holds no error."""
     context = browser.new_context(viewport={"width": 1200, "height": 900})
     page, away, errors = context.new_page(), [], []
@@ -85,6 +85,7 @@ def page(browser):
     page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
     page.on("pageerror", lambda error: errors.append(str(error)))
     yield page
+    page.screenshot(path=artefacts / f"{request.node.name}.png")
     context.close()
     assert away == []
     assert errors == []
@@ -92,7 +93,7 @@ def page(browser):
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory):
-    """Start JupyterLab on a free port, with folders of its own; yield its address and the notebooks' folder."""
+    """Start JupyterLab on a free port with folders of its own; yield its address, and the notebooks'."""
     pytest.importorskip("jupyterlab", reason="pip install 'mocap[notebooks]'")
     home = tmp_path_factory.mktemp("lab")
     notebooks = home / "notebooks"

@@ -1,0 +1,215 @@
+"""The pictures of the README and of the notebooks' headers, all from the bundled clips.
+
+Each function draws one and gives its figure. `draw_all` writes them, with what was drawn in numbers beside
+the pixels, so that a test can find a stale one whatever version of matplotlib drew it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import networkx as nx
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.lines import Line2D
+from mpl_toolkits.mplot3d import Axes3D
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from numpy.typing import NDArray
+from PIL import Image
+
+from mocap import datasets, matching, motion_graph, plotting, synthesis, transitions
+from mocap.atomic import replacing
+from mocap.errors import MocapError
+from mocap.footprints import footprints
+from mocap.kinematics import joint_positions
+from mocap.motion import Motion, resample
+from mocap.motion_graph import MotionGraph
+
+Array = NDArray[np.float64]
+
+WINDOW = 10  # frames at 30 Hz
+
+EIGHT = nx.DiGraph([(1, 2), (2, 3), (3, 4), (5, 6), (6, 7), (7, 8), (3, 6), (6, 2), (2, 7), (7, 1)])
+"""Two clips, cut at their nodes 1 to 4 and 5 to 8: 4 and 8 are dead ends, and nothing leads back to 5."""
+
+
+@cache
+def _graph() -> MotionGraph:
+    clips = [resample(datasets.sample(name), 30) for name in datasets.SAMPLES]
+    return motion_graph.prune(motion_graph.build(clips, window=WINDOW, threshold=0.04))
+
+
+def draw_walk() -> Figure:
+    """Draw a new walk: poses along its path."""
+    graph = _graph()
+    walk = synthesis.to_motion(graph, synthesis.random_walk(graph, seconds=9, seed=7))
+    low, high = (f(walk.root_positions[:, [0, 2]], axis=0) for f in (np.min, np.max))
+    figure = plt.figure(figsize=(9, 4))
+    ax: Axes3D = figure.add_axes((0, -0.6, 1, 2.2), projection="3d")
+    plotting.stage((low + high) / 2, max(high - low) / 2 + 0.9, ax=ax)
+    ax.view_init(elev=15, azim=-75)
+    plotting.stick_figure(walk, range((len(walk) - 1) % 18, len(walk), 18), ax=ax)
+    return figure
+
+
+def draw_nodes() -> Figure:
+    """Draw two clips with nodes inserted where transitions leave and enter."""
+    clips = [resample(datasets.sample(name), 30)[:240] for name in ("walk_circle", "walk_curve_1")]
+    found = transitions.find_transitions(clips, window=WINDOW, below=0.04)
+    best = sorted((t for t in found if t.source != t.target), key=lambda t: t.cost)[:8]
+    figure = plt.figure(figsize=(8, 2.4), layout="constrained")
+    arcs = plotting.timeline(
+        motion_graph.from_transitions(clips, best, window=WINDOW), ax=figure.add_subplot()
+    )
+    arcs.set(alpha=1, linewidths=1.6)
+    return figure
+
+
+def draw_distances() -> Figure:
+    """Draw the distance image of two clips with its minima."""
+    first, second = (resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2"))
+    grid = matching.distance_grid(first, second, window=WINDOW)
+    minima = transitions.local_minima(grid, 0.05**2)
+    names = (first.name, second.name)
+    plotting.distance_image(grid, fps=30, minima=minima, names=names)
+    return plt.gcf()
+
+
+def draw_pruning() -> Figure:
+    """Draw the graph of eight nodes before and after pruning."""
+    largest = max(nx.strongly_connected_components(EIGHT), key=len)
+    places = {node: ((node - 1) % 4, -1.3 * ((node - 1) // 4)) for node in EIGHT}
+    figure = plt.figure(figsize=(8, 2.9), layout="constrained")
+    before, after = figure.subplots(1, 2)
+    plotting.node_link(EIGHT, places=places, ax=before)
+    plotting.node_link(EIGHT, places=places, kept=EIGHT.subgraph(largest), ax=after)
+    before.set_title("before pruning")
+    after.set_title("after: what a walk can use for ever")
+    return figure
+
+
+def draw_path() -> Figure:
+    """Draw a path, black, and the best of 16 random walks along it, yellow, with its footprints."""
+    angle = np.linspace(0, 1.2 * np.pi, 60)
+    path = 3.2 * np.stack([1 - np.cos(angle), np.sin(angle)], axis=-1)
+    walks = [_laid_on(path, seed) for seed in range(16)]
+    best = min(walks, key=lambda walk: np.abs(_spread(walk, path) - path).mean())
+    plotting.asked_and_walked(path, best)
+    plotting.footprints(footprints(best), ax=plt.gca())
+    return plt.gcf()
+
+
+def _laid_on(path: Array, seed: int) -> Motion:
+    """Walk at random as long as a path is, and lay the walk on it as well as it goes."""
+    graph = _graph()
+    walk = synthesis.to_motion(graph, synthesis.random_walk(graph, seconds=12, seed=seed))
+    steps = np.linalg.norm(np.diff(walk.root_positions[:, [0, 2]], axis=0), axis=1)
+    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+    walk = walk[: max(WINDOW, int(np.searchsorted(np.cumsum(steps), length)))]
+    upright = [np.insert(points, 1, 0.0, axis=-1) for points in (path, _spread(walk, path))]
+    return matching.align(*upright).motion(walk)
+
+
+def _spread(walk: Motion, path: Array) -> Array:
+    """Give as many places of a walk as a path has points, evenly spread over its frames."""
+    frames = np.linspace(0, len(walk) - 1, len(path)).round().astype(int)
+    places: Array = walk.root_positions[frames][:, [0, 2]]
+    return places
+
+
+def draw_seam() -> Figure:
+    """Draw the feet's heights across the seams of a walk."""
+    graph = _graph()
+    edges = synthesis.random_walk(graph, seconds=6, seed=3)
+    walk = synthesis.to_motion(graph, edges)
+    feet = [walk.skeleton.index(name) for name in ("lfoot", "rfoot")]
+    heights = 100 * joint_positions(walk)[:, feet, 1]
+    seams = [(seam.frame, seam.frame + WINDOW) for seam in synthesis.seams(graph, edges)]
+    labels = ["left ankle (cm)", "right ankle (cm)"]
+    plotting.joint_curve(heights, fps=30, seams=seams, labels=labels)
+    return plt.gcf()
+
+
+def draw_match() -> Figure:
+    """Draw two windows that match, laid over each other."""
+    graph = _graph()
+    found = [edge for edge in graph.graph.edges(data=True) if edge[2]["kind"] == "transition"]
+    start, end, edge = min((e for e in found if e[0][0] != e[1][0]), key=lambda e: e[2]["cost"])
+    first = graph.clips[start[0]][start[1] : start[1] + WINDOW]
+    second = edge["transform"].motion(graph.clips[end[0]][end[1] - WINDOW : end[1]])
+    plotting.laid_over(first, second, every=WINDOW - 1)
+    return plt.gcf()
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {
+    "walk": draw_walk,
+    "nodes": draw_nodes,
+    "distances": draw_distances,
+    "pruning": draw_pruning,
+    "path": draw_path,
+    "seam": draw_seam,
+    "match": draw_match,
+}
+
+
+def draw_all(folder: Path) -> list[Path]:
+    """Draw every picture anew, as PNG, with its `fingerprint` inside.
+
+    Parameters
+    ----------
+    folder : where to write; it must be there.
+
+    Returns
+    -------
+    The files.
+    """
+    written = []
+    with plt.rc_context({"figure.dpi": 110, "svg.hashsalt": "mocap"}):
+        for name, draw in PICTURES.items():
+            figure = draw()
+            drawn = {"Software": None, "Description": json.dumps(fingerprint(figure))}
+            with replacing(folder / f"{name}.png") as beside:
+                figure.savefig(beside, dpi=110, metadata=drawn)
+            plt.close(figure)
+            written.append(folder / f"{name}.png")
+    return written
+
+
+def fingerprint(figure: Figure) -> dict[str, list[float]]:
+    """Sum up what a figure's lines, bundles of lines and images show: how many numbers, mean, deviation."""
+    readings: dict[type, Callable[[Any], Any]] = {
+        Line2D: lambda line: [line.get_xydata()],
+        LineCollection: lambda lines: lines.get_segments(),
+        Line3DCollection: lambda lines: lines._segments3d,
+        AxesImage: lambda image: [image.get_array()],
+    }
+    sums = {}
+    artists = [artist for axes in figure.axes for artist in axes.get_children()]
+    for kind, read in readings.items():
+        drawn = [np.ravel(part) for artist in artists if type(artist) is kind for part in read(artist)]
+        numbers = np.concatenate([*drawn, np.zeros(0)])
+        if numbers.size:
+            sums[kind.__name__] = [len(numbers), *np.round([numbers.mean(), numbers.std()], 4).tolist()]
+    return sums
+
+
+def drawn_in(path: Path) -> dict[str, list[float]]:
+    """Read the fingerprint in a picture that `draw_all` wrote.
+
+    Raises
+    ------
+    MocapError : for a file that is missing, or holds none.
+    """
+    try:
+        with Image.open(path) as picture:
+            text = picture.info["Description"]
+    except (OSError, KeyError) as error:
+        raise MocapError(f"{path} is no picture of `python -m mocap figures`.") from error
+    return dict(json.loads(text))

@@ -1,0 +1,58 @@
+"""The pictures in figures/ are those that the package draws now."""
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import networkx as nx
+import pytest
+
+from mocap import gallery
+from mocap.errors import MocapError
+
+FIGURES = Path(__file__).parents[1] / "figures"
+
+
+def test_figures_holds_just_these_pictures():
+    assert {path.name for path in FIGURES.iterdir()} == {f"{name}.png" for name in gallery.PICTURES}
+
+
+@pytest.mark.parametrize("name", gallery.PICTURES)
+def test_no_picture_is_stale(name):
+    figure = gallery.PICTURES[name]()
+    kept, now = gallery.drawn_in(FIGURES / f"{name}.png"), gallery.fingerprint(figure)
+    plt.close("all")
+    assert kept.keys() == now.keys(), "draw them anew: python -m mocap figures"
+    for kind, numbers in now.items():
+        assert kept[kind] == pytest.approx(numbers, rel=1e-3, abs=1e-3), f"{name}: python -m mocap figures"
+
+
+def test_a_changed_picture_has_another_fingerprint():
+    prints = []
+    for height in (1.0, 1.01):
+        plt.plot([0, 1], [0, height])
+        prints.append(gallery.fingerprint(plt.gcf()))
+        plt.close()
+    assert prints[0]["Line2D"] != pytest.approx(prints[1]["Line2D"], rel=1e-3)
+
+
+def test_the_eight_node_graph_has_dead_ends_and_an_entry_that_nothing_reaches():
+    kept = max(nx.strongly_connected_components(gallery.EIGHT), key=len)
+    assert kept == {1, 2, 3, 6, 7}
+    assert [n for n in gallery.EIGHT if gallery.EIGHT.out_degree(n) == 0] == [4, 8]
+    assert gallery.EIGHT.in_degree(5) == 0
+
+
+def test_all_are_written_with_their_fingerprints(tmp_path, monkeypatch):
+    monkeypatch.setattr(gallery, "PICTURES", {"pruning": gallery.draw_pruning})
+    (path,) = gallery.draw_all(tmp_path)
+    assert gallery.drawn_in(path) == gallery.fingerprint(gallery.draw_pruning())
+    again = path.read_bytes()
+    gallery.draw_all(tmp_path)
+    assert path.read_bytes() == again
+    plt.close("all")
+    with pytest.raises(MocapError, match="is no picture of"):
+        gallery.drawn_in(tmp_path / "nowhere.png")
