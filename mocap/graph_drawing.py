@@ -70,8 +70,8 @@ def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = N
 
 
 def _arcs(ends: Array) -> Array:
-    """Bend lines (E, 2, 2), upwards at their middles so that those within one clip are seen: (E, 17, 2)."""
-    t = np.linspace(0, 1, 17)[:, None]
+    """Bend lines (E, 2, 2), upwards at their middles so that those within one clip are seen: (E, 13, 2)."""
+    t = np.linspace(0, 1, 13)[:, None]
     start, end = ends[:, :1], ends[:, 1:]
     return start + t * (end - start) + 4 * t * (1 - t) * [0, 0.45]
 

@@ -63,7 +63,10 @@ class Camera {
 
 function toBytes(data) {
   if (typeof data !== "string") return data.buffer.slice(data.byteOffset, data.byteOffset + data.byteLength);
-  return Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0)).buffer;
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(data).buffer;
+  const letters = atob(data), bytes = new Uint8Array(letters.length); // browsers from before 2025
+  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
+  return bytes.buffer;
 }
 
 // A character: where its joints are at any time.
@@ -462,6 +465,7 @@ class Player {
     this.canvas.classList.toggle("drawing", this.drawing);
     Object.assign(this.root.dataset, { frame, playing: this.playing });
     this.pictures++;
+    this.firstPicture ??= performance.now();
   }
 
   end() { this.resized.disconnect(); this.seen.disconnect(); clearTimeout(this.telling); cancelAnimationFrame(this.waiting); }

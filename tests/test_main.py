@@ -2,10 +2,13 @@
 
 import subprocess
 import sys
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 
-from mocap import files, lab
+from mocap import files, gallery, lab
 from mocap.__main__ import main
 from tests.strategies import wave
 
@@ -112,3 +115,37 @@ def test_an_installed_package_copies_its_notebooks_and_keeps_edited_ones(monkeyp
     assert lab.course_folder(mine) == mine
     assert (mine / "00-quickstart.ipynb").read_text() == "{}"
     assert (mine / "01-next.ipynb").read_text() == "edited"
+
+
+def test_view_opens_a_page_of_the_clip(clips, capsys, monkeypatch):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or True)
+    assert main(["view", str(clips / "a.bvh")]) == 0
+    (address,) = opened
+    page = Path(url2pathname(urlsplit(address).path))
+    assert "A stick figure plays a" in page.read_text("utf-8")
+    assert str(page) in capsys.readouterr().out
+
+
+def test_view_says_where_the_page_is_when_no_browser_opens(clips, capsys, monkeypatch):
+    monkeypatch.setattr("webbrowser.open", lambda address: False)
+    assert main(["view", str(clips / "a.bvh")]) == 0
+    assert "open that page yourself" in capsys.readouterr().err
+
+
+def test_view_keeps_a_file_and_opens_nothing(clips, monkeypatch):
+    monkeypatch.setattr("webbrowser.open", lambda address: pytest.fail("opened"))
+    assert main(["view", str(clips / "a.bvh"), "-o", str(clips / "a.png")]) == 0
+    assert (clips / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_view_of_no_clip_is_one_sentence(clips, capsys):
+    assert main(["view", str(clips / "missing.bvh")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_figures_are_drawn_where_one_says(tmp_path, monkeypatch):
+    monkeypatch.setattr("mocap.gallery.PICTURES", {"pruning": gallery.draw_pruning})
+    assert main(["figures", str(tmp_path)]) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["pruning.png"]
+    assert main(["figures", str(tmp_path / "nowhere")]) == 2

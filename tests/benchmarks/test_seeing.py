@@ -1,0 +1,135 @@
+"""How quick pictures, experiments and the player are, on a machine that does nothing else meanwhile.
+
+Run them alone, and see the numbers: pytest -m benchmark -n 0 -s tests/benchmarks/test_seeing.py
+"""
+
+import statistics
+import time
+from functools import partial
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from mocap import plotting
+from mocap.datasets import sample
+from mocap.kinematics import joint_positions
+from mocap.motion_graph import from_transitions
+from mocap.player import play
+from mocap.synthetic import walk
+from mocap.transforms import PlanarTransform
+from mocap.transitions import Transition
+from mocap.widgets import explore
+from tests.browser.conftest import artefacts, browser, page, wait_until  # noqa: F401  (fixtures)
+from tests.strategies import wave
+
+pytestmark = pytest.mark.benchmark
+
+
+@pytest.fixture(autouse=True)
+def no_figure_stays_open():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def minute():
+    """Return three characters of 38 joints, 60 s at 120 Hz."""
+    return [walk([[x, 0], [x, 55]], speed=0.85)[: 60 * 120] for x in (-1, 0, 1)]
+
+
+def seconds(work):
+    """Give the processor's seconds, which others on the machine disturb less than the clock's."""
+    start = time.process_time()
+    work()
+    return time.process_time() - start
+
+
+def median_change(experiment):
+    slider = experiment.controls["frame"]
+    return statistics.median(seconds(partial(setattr, slider, "value", frame)) for frame in range(0, 800, 40))
+
+
+def drawn(artists):
+    """Time the drawing of a figure's pixels, after what made its artists."""
+    del artists
+    plt.gcf().canvas.draw()
+
+
+def test_an_experiment_changes_within_60_ms():
+    motion = sample("walk_circle")[:1200]
+    points = joint_positions(motion)
+    (body,) = plotting.stick_figure(motion, 0)
+    moving = explore(lambda frame: body.pose(points[frame]), alt="A pose.", frame=(0, 1199))
+    afresh = explore(
+        lambda frame: plotting.stick_figure(motion, frame)[0].dot.figure, alt="A pose.", frame=(0, 1199)
+    )
+    blitted, whole = median_change(moving), median_change(afresh)
+    print(f"\nan experiment: {1000 * blitted:.1f} ms a change, {1000 * whole:.0f} ms with a new figure")
+    assert blitted <= 0.060
+    assert blitted < whole / 3
+
+
+def test_a_grid_is_drawn_within_150_ms():
+    grid = np.random.default_rng(0).random((1000, 1000))
+    took = min(seconds(lambda: drawn(plotting.distance_image(grid, fps=30))) for _ in range(3))
+    print(f"\na grid of 1000 by 1000: {1000 * took:.0f} ms")
+    assert took <= 0.150
+
+
+@pytest.mark.parametrize("most", [1000, 5000])
+def test_a_timeline_of_5000_transitions_is_drawn_within_500_ms(most):
+    random = np.random.default_rng(0)
+    clips = [wave(900, name=f"clip{k}") for k in range(8)]
+    ends = random.integers(0, [8, 880, 8, 880], size=(5000, 4)).tolist()
+    found = [Transition(a, i, b, j, random.random(), PlanarTransform(0, 0, 0)) for a, i, b, j in ends]
+    graph = from_transitions(clips, found, window=10)
+    took = min(seconds(lambda: drawn(plotting.timeline(graph, most=most))) for _ in range(3))
+    print(f"\na timeline, {most} of 5000 transitions shown: {1000 * took:.0f} ms")
+    assert took <= 0.500
+
+
+def test_a_minute_of_three_characters_is_sent_in_12_mb(minute):
+    made = seconds(lambda: play(*minute).page())
+    size = len(play(*minute).page())
+    print(f"\nthree characters for a minute: {size / 1e6:.1f} MB, packed in {made:.1f} s")
+    assert size <= 12e6
+
+
+def test_the_player_shows_55_pictures_a_second(minute, page, tmp_path):  # noqa: F811
+    file = tmp_path / "three.html"
+    file.write_text(play(*minute).page(), "utf-8")
+    page.goto(file.as_uri())
+    player = "document.querySelector('.mocap-player').player"
+    wait_until(lambda: page.evaluate(f"{player}?.pictures > 0"))
+    first = page.evaluate(f"{player}.firstPicture")  # after the page was asked for
+    page.wait_for_timeout(1000)
+    before, start = page.evaluate(f"{player}.pictures"), page.evaluate("performance.now()")
+    page.wait_for_timeout(4000)
+    after, end = page.evaluate(f"{player}.pictures"), page.evaluate("performance.now()")
+    rate = 1000 * (after - before) / (end - start)
+    print(f"\nthe player: {rate:.1f} pictures a second, the first after {first:.0f} ms")
+    assert rate >= 55
+    assert first <= 300
+
+
+def test_a_thousand_drawings_leave_memory_flat():
+    import resource
+
+    def draw(frame=0):
+        figure = plt.figure(figsize=(3, 3))
+        figure.add_subplot().plot([0, 1], [0, frame])
+        return figure
+
+    experiment = explore(draw, alt="A line.", frame=(0, 9))
+    kilobytes = []
+    for frame in range(1000):
+        experiment.controls["frame"].value = frame % 10
+        kilobytes.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+    grown = (kilobytes[-1] - kilobytes[200]) / 1024
+    print(f"\n800 drawings more: {grown:.1f} MB")
+    assert grown < 20

@@ -1,0 +1,28 @@
+"""The notebooks of the course, opened, run and played with as a reader would."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.browser.conftest import wait_until
+
+NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
+FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_runs_and_all_its_sliders_move(notebook, run, artefacts):
+    page = run(notebook.read_text("utf-8"), notebook.name)
+    assert page.locator(FAILED).count() == 0
+    for number in range(page.locator(".noUi-handle").count()):
+        handle = page.locator(".noUi-handle").nth(number)
+        handle.scroll_into_view_if_needed()
+        handle.focus()
+        box = page.locator(".widget-vbox").filter(has=handle).last
+        for key in ("End", "Home"):
+            before = handle.get_attribute("aria-valuenow")
+            page.keyboard.press(key)
+            wait_until(lambda h=handle, b=before: h.get_attribute("aria-valuenow") != b or b == "0.0", 5)
+            page.wait_for_timeout(300)
+            assert "Error:" not in box.inner_text()
+    page.screenshot(path=artefacts / f"{notebook.stem}.png")
