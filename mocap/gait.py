@@ -199,7 +199,7 @@ def mix(figures: Sequence[ArrayLike], weights: Array) -> Array:
 
 def mix_rolls(rolls: Sequence[Roll], weights: Array) -> Roll:
     """Mix how a foot rolls and swings in several gaits; `weights` (gaits,) add up to one."""
-    if weights.max() == 1:
+    if weights.max() > 1 - 1e-9:  # but for rounding, one gait alone
         return rolls[int(weights.argmax())]
     flat, heel_off, lift = (weights @ [roll[:3] for roll in rolls]).tolist()
     knots = [np.linspace(roll.heel_off, 1 + roll.flat, 20) for roll in rolls]

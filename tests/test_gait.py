@@ -73,7 +73,7 @@ def test_a_mixed_roll_begins_and_ends_as_the_two():
     rolls = [WALK.roll, JOG.roll]
     assert mix_rolls(rolls, np.array([1.0, 0.0])) is WALK.roll
     assert mix_rolls(rolls, np.array([0.0, 1.0])) is JOG.roll
-    near = mix_rolls(rolls, np.array([1e-9, 1 - 1e-9]))
+    near = mix_rolls(rolls, np.array([1e-6, 1 - 1e-6]))
     phase = np.linspace(JOG.roll.lift, 1, 50)
     assert np.degrees(foot_pitch(near, phase) - foot_pitch(JOG.roll, phase)) == pytest.approx(0, abs=0.5)
     half = mix_rolls(rolls, np.array([0.5, 0.5]))
