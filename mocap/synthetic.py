@@ -1,7 +1,7 @@
 """Walks made from nothing but figures: the clips that come with the package.
 
 How a walk is made: a course tells, frame by frame, how far the walker has come, where in the cycle and in
-which gait (`courses`); the feet are planted along the route (`footsteps`); the gait's tables swing the
+which gait (`pacing`); the feet are planted along the route (`footsteps`); the gait's tables swing the
 trunk and the arms (`gait`); and the legs join the two (`walker`). Small random differences from step to
 step see to it that no two frames are the same.
 """
@@ -16,11 +16,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from mocap import rotations
-from mocap.courses import Course, changing, drift, halting, steady
 from mocap.errors import MocapError
 from mocap.footsteps import FootPath, Route, Steps, foot_path, winding
 from mocap.gait import JOG, SNEAK, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
 from mocap.motion import Motion
+from mocap.pacing import Course, changing, drift, halting, steady
 from mocap.walker import FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
 
 Array = NDArray[np.float64]

@@ -21,7 +21,7 @@ LAYERS = [
     {"amc", "bvh_hierarchy", "motion"},
     {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
     {"blending", "files", "gait", "matching", "walker"},
-    {"courses", "transitions"},
+    {"pacing", "transitions"},
     {"motion_graph", "synthetic"},
     {"datasets", "synthesis"},
     {"plotting"},

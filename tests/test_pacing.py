@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mocap.courses import PAD, changing, drift, halting, steady
 from mocap.gait import JOG, SNEAK, WALK
+from mocap.pacing import PAD, changing, drift, halting, steady
 from mocap.walker import FPS
 
 STAGES = [(0, 1.0, 0), (5, 1.0, 0), (7, 2.8, 1), (14, 2.8, 1), (16, 1.0, 0), (20, 1.0, 0)]
