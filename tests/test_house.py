@@ -18,10 +18,10 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 LAYERS = [
     {"errors", "progress", "rotations"},
     {"atomic", "skeleton"},
-    {"amc", "bvh_hierarchy", "motion"},
+    {"amc", "bvh_hierarchy", "legs", "motion"},
     {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"blending", "files", "gait", "matching", "walker"},
-    {"synthetic", "transitions"},
+    {"blending", "files", "gait", "homework_slips", "leg_posing", "matching", "plants", "walker"},
+    {"footskate", "joining", "quality", "synthetic", "transitions"},
     {"datasets", "motion_graph"},
     {"synthesis"},
     {"plotting"},
