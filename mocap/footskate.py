@@ -27,7 +27,7 @@ from mocap.plants import least_frames, runs, settle
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-FADE = 0.07  # seconds in which a correction dies away, where no other plant is near
+FADE = 0.06  # seconds in which a correction dies away, where no other plant is near
 STRAIGHT = np.radians(5.0)  # a knee less bent counts as bent by this: no leg rules the root alone
 
 
@@ -99,15 +99,16 @@ def foot_target(motion: Motion, leg: Leg, positions: Array) -> FootTarget:
     flat, down = (motion.contacts[motion.skeleton.names[joint]] for joint in (leg.ankle, leg.ball))
     length = float(leg.lengths(motion.skeleton)[2])
     places = place_plants((ankle, ball), (flat, down), length)
+    # Where only the ball stands, the ankle stays as near as the foot's length allows to where it is on its
+    # way from and to its own plants: that the foot must turn a little is seen less than a leg that stretches.
+    near = ankle + smooth_fill(places[0] - ankle, flat, motion.fps)
+    away = near - places[1]
+    behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
+    goal = np.where(flat[:, None], places[0], behind)
     turn = np.zeros_like(ankle)
-    both = flat & down
-    sole = ball - ankle
-    turn[both] = rotations.to_rotvec(rotations.between(sole[both], (places[1] - places[0])[both]))
-    turn = smooth_fill(turn, both, motion.fps)
-    # Where only the ball stands, the ankle is where the foot, turned as it is, leads back to.
-    behind = places[1] - rotations.rotate(rotations.from_rotvec(turn), sole)
-    goal = np.where(flat[:, None], places[0], np.where(down[:, None], behind, ankle))
-    return FootTarget(ankle + smooth_fill(goal - ankle, flat | down, motion.fps), turn)
+    turn[down] = rotations.to_rotvec(rotations.between((ball - ankle)[down], (places[1] - goal)[down]))
+    moved = smooth_fill(goal - ankle, flat | down, motion.fps)
+    return FootTarget(ankle + moved, smooth_fill(turn, down, motion.fps))
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:

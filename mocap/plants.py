@@ -23,7 +23,7 @@ SPAN = 0.05  # seconds: no foot comes to stand, nor takes a step, in less
 GRAVITY = 9.81
 # How far from standing to swinging speed, on a logarithmic scale, a plant may start, and how far it lasts.
 # The ankle's shares are the smaller: where the foot rolls over heel and ball it creeps away without a jolt.
-ANKLE, BALL = (0.2, 0.3), (0.4, 0.5)
+ANKLE, BALL = (0.2, 0.3), (0.45, 0.55)
 LOW = 0.25  # how far up from where it stands to the top of its swing a joint may be while it stands
 
 

@@ -117,12 +117,10 @@ def test_captured_feet_creep_and_afterwards_stand(real_data, trial, fps):
     assert slides(clip).max() > 0.01
     assert slides(cleaned).max() < 1e-9
     moved = np.abs(cleaned.root_positions - clip.root_positions)
-    assert np.sqrt((moved**2).sum(-1).mean()) < 0.012
-    assert moved.max() < 0.035
-    everywhere = list(range(len(clip.skeleton)))
-    assert accelerations(cleaned, KNEES).max() <= max(
-        np.percentile(accelerations(clip, everywhere), 99.9), accelerations(clip, KNEES).max()
-    )
+    assert np.sqrt((moved**2).sum(-1).mean()) < 0.006
+    assert moved.max() < 0.018
+    knees, own = (np.percentile(accelerations(m, KNEES), 99.9) for m in (cleaned, clip))
+    assert knees <= 1.05 * own
 
 
 def curve(seed):
