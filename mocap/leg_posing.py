@@ -100,7 +100,7 @@ def pose_leg(motion: Motion, leg: Leg, poses: GlobalPoses, ankle: Array, turn: A
         frame = int(far.argmax())
         raise MocapError(
             f"'{motion.name}', frame {frame}: '{motion.skeleton.names[leg.ankle]}' would have to be "
-            f"{100 * (distance - hinge.reach)[frame]:.1f} cm out of its leg's reach; are its contacts true?"
+            f"{100 * (distance - hinge.reach)[frame]:.2g} cm out of its leg's reach; are its contacts true?"
         )
     bend = rotations.from_rotvec(hinge.turn(distance)[:, None] * hinge.axis)
     bent = knee - hip + rotations.rotate(bend, foot - knee)

@@ -65,7 +65,8 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
     Raises
     ------
-    MocapError : for names that the skeleton lacks, or joints of which one is not the parent of the next.
+    MocapError : for names that the skeleton lacks, joints of which one is not the parent of the next, and
+        bones without a length.
     """
     leg = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball)))
     for above, below in pairwise(leg):
@@ -74,6 +75,10 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
             raise MocapError(
                 f"In a leg each joint hangs on the one before, but '{names[below]}' hangs on "
                 f"'{names[skeleton.parents[below]]}', not on '{names[above]}'."
+            )
+        if not np.linalg.norm(skeleton.offsets[below]) > 1e-6:
+            raise MocapError(
+                f"'{skeleton.names[below]}' sits on '{skeleton.names[above]}': a bone needs a length."
             )
     return leg
 

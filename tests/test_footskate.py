@@ -123,6 +123,11 @@ def test_captured_feet_creep_and_afterwards_stand(real_data, trial, fps):
     assert knees <= 1.05 * own
 
 
+def test_a_cartwheel_with_its_feet_in_the_air_is_no_trouble(real_data):
+    clip = mark_plants(load(real_data / "cmu" / "49" / "49_08.amc"))
+    assert slides(clean_up(clip)).max() < 1e-9
+
+
 def curve(seed):
     random = np.random.default_rng(seed)
     known = random.random(14) < 0.4

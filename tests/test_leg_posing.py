@@ -77,9 +77,7 @@ def test_the_hinge_says_how_far_a_leg_reaches():
 def test_a_target_out_of_reach_names_frame_and_distance():
     target = ANKLE.copy()
     target[7] = HIP[7] + [0, -1.0, 0]
-    with pytest.raises(
-        MocapError, match=r"frame 7: 'lfoot' would have to be 14\.1 cm out of its leg's reach"
-    ):
+    with pytest.raises(MocapError, match="frame 7: 'lfoot' would have to be 14 cm out of its leg's reach"):
         pose_leg(CLIP, LEFT, POSES, target, np.zeros((len(CLIP), 3)))
 
 

@@ -51,6 +51,9 @@ def test_legs_can_be_named_by_hand():
         name_leg(skeleton, "h1", "k1", "a1", "toe")
     with pytest.raises(MocapError, match="'a2' hangs on 'k2', not on 'k1'"):
         name_leg(skeleton, "h1", "k1", "a2", "b2")
+    flat = Skeleton(["h", "k", "a", "b"], [-1, 0, 1, 2], [[0, 0, 0], [0, -1, 0], [0, -1, 0], [0, 0, 0]])
+    with pytest.raises(MocapError, match="'b' sits on 'a': a bone needs a length"):
+        name_leg(flat, "h", "k", "a", "b")
 
 
 def test_a_foot_needs_a_joint_at_its_end():
