@@ -33,9 +33,9 @@ STRAIGHT = np.radians(5.0)  # a knee less bent counts as bent by this: no leg ru
 
 
 class FootTarget(NamedTuple):
-    """Where an ankle shall be, `ankle` (F, 3), metres, and how its foot turns, `turn` (F, 3), rotation vectors.
+    """Where an ankle shall be, `ankle` (F, 3) in metres, and how its foot turns, `turn` (F, 3) in radians.
 
-    `planted` (F,) says when the ankle or the ball stands.
+    Turns are rotation vectors in the world's frame; `planted` (F,) says when the ankle or the ball stands.
     """
 
     ankle: Array

@@ -72,6 +72,8 @@ IDENTITY = PlanarTransform(0.0, 0.0, 0.0)
 def heading(quaternions: ArrayLike) -> Array:
     """Read the direction a body faces off its root: θ = atan2(-R₂₀, R₀₀), the homework's formula.
 
+    It looks where the body's left points, and is lost where that is straight up or down; `facing` is not.
+
     Parameters
     ----------
     quaternions : root orientations, shape (..., 4).
