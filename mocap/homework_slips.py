@@ -5,6 +5,7 @@ docstring names the slip and the mend.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,7 +32,7 @@ def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
     planar = lay_on_ground(motion, target, frame)
     roots = planar.root_positions
     lifted = roots + (target.root_positions[frame] - roots[0])
-    return Motion(motion.skeleton, lifted, planar.rotations, motion.fps, motion.name)
+    return replace(planar, root_positions=lifted)
 
 
 def lay_on_ground(motion: Motion, target: Motion, frame: int) -> Motion:
