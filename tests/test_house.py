@@ -17,15 +17,14 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations"},
-    {"atomic", "skeleton"},
-    {"amc", "bvh_hierarchy", "motion"},
-    {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"blending", "files", "gait", "matching", "walker"},
-    {"pacing", "transitions"},
-    {"motion_graph", "synthetic"},
-    {"datasets", "synthesis"},
-    {"plotting"},
-    {"demo", "lab"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "skeleton"},
+    {"amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
+    {"files", "homework_slips", "leg_posing", "matching", "plants", "synthetic"},
+    {"datasets", "footskate", "joining", "quality", "transitions"},
+    {"motion_graph"},
+    {"plotting", "synthesis"},
+    {"demo"},
     {"__init__", "__main__"},
 ]
 
