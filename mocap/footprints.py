@@ -2,10 +2,9 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from mocap.kinematics import joint_positions
 from mocap.motion import Motion
+from mocap.plants import runs
 
 
 class Footprint(NamedTuple):
@@ -34,6 +33,7 @@ def footprints(motion: Motion) -> list[Footprint]:
     --------
     >>> from mocap.skeleton import Skeleton
     >>> foot = Skeleton(["lfoot"], [-1], [[0, 0, 0]])
+    >>> import numpy as np
     >>> still = np.tile([1.0, 0, 0, 0], (4, 1, 1))
     >>> footprints(Motion(foot, np.ones((4, 3)), still, 30.0, contacts={"lfoot": [1, 1, 0, 1]}))
     [Footprint(joint='lfoot', side='middle', start=0, end=2, x=1.0, z=1.0), ...start=3, end=4, x=1.0, z=1.0)]
@@ -44,8 +44,7 @@ def footprints(motion: Motion) -> list[Footprint]:
     prints = []
     for name, down in motion.contacts.items():
         joint = motion.skeleton.index(name)
-        changes = np.flatnonzero(np.diff(down, prepend=False, append=False)).reshape(-1, 2).tolist()
-        for start, end in changes:
+        for start, end in runs(down).tolist():
             x, _, z = points[start:end, joint].mean(axis=0).tolist()
             prints.append(Footprint(name, motion.skeleton.side(joint), start, end, x, z))
     return prints

@@ -17,16 +17,15 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations", "style"},
-    {"atomic", "skeleton"},
-    {"amc", "bvh_hierarchy", "motion"},
-    {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"blending", "files", "gait", "matching", "walker"},
-    {"footprints", "stage", "synthetic", "transitions"},
-    {"datasets", "motion_graph", "player"},
-    {"animation", "live"},
-    {"graph_drawing", "synthesis"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "skeleton"},
+    {"amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
+    {"files", "homework_slips", "leg_posing", "matching", "plants", "synthetic"},
+    {"datasets", "footprints", "footskate", "joining", "quality", "stage", "transitions"},
+    {"motion_graph", "player"},
+    {"animation", "graph_drawing", "live", "synthesis"},
     {"plotting"},
-    {"demo", "gallery", "lab", "widgets"},
+    {"demo", "gallery", "widgets"},
     {"__init__", "__main__"},
 ]
 
