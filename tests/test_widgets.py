@@ -154,12 +154,10 @@ def test_a_slow_drawing_waits_until_the_hand_rests(monkeypatch):
 
 @pytest.mark.parametrize("pyplot", [False, True])
 def test_drawings_leave_no_figure_and_no_memory_behind(pyplot):
-    figures = []
+    plt.close("all")
 
     def draw(frame):
-        figure = plt.figure(figsize=(1, 1)) if pyplot else Figure(figsize=(1, 1))
-        figures[:] = [figure]
-        return figure
+        return plt.figure(figsize=(1, 1)) if pyplot else Figure(figsize=(1, 1))
 
     experiment = explore(draw, alt="Nothing.", frame=(0, 9))
     for frame in range(10):
