@@ -21,7 +21,7 @@ LAYERS = [
     {"acclaim", "bvh", "kinematics", "transforms"},
     {"blending", "files", "matching"},
     {"transitions"},
-    {"motion_graph"},
+    {"motion_graph", "segment_graph"},
     {"synthesis"},
     {"plotting"},
     {"__init__"},

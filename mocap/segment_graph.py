@@ -1,0 +1,279 @@
+"""The homework's graph: clips cut into segments, joined where the end of one is like the start of another.
+
+A node is a segment, an edge says what may follow it. Where the homework's program slips, the mended way is
+the default and its own way an option: `weighting="distance"` makes the worse match the likelier one, and
+`drift=True` lays segments on one another in height too, so that a walk slowly rises or sinks. Three more
+slips are not kept: angles that flip on their way through Euler angles, segments after a transition that
+start on the last frame of the one before (so that it is shown twice), and clips changed in place.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap import rotations
+from mocap.blending import blend
+from mocap.errors import MocapError, NoWalk
+from mocap.matching import root_grid
+from mocap.motion import Motion, concatenate, require_alike
+from mocap.skeleton import Skeleton
+from mocap.transforms import IDENTITY, PlanarTransform, heading
+
+Array = NDArray[np.float64]
+
+BONE_WEIGHTS = {
+    "femur": 50, "tibia": 30, "foot": 15, "toes": 5, "lowerback": 50, "upperback": 40, "thorax": 30,
+    "lowerneck": 20, "upperneck": 15, "head": 5, "clavicle": 30, "humerus": 15, "radius": 5,
+}  # fmt: skip
+"""How much a bone counts, out of 480; left and right alike, bones not named here not at all."""
+
+
+class Segment(NamedTuple):
+    """Frames [start, end) of a clip, which is told by its number."""
+
+    clip: int
+    start: int
+    end: int
+
+
+def cut(clips: Sequence[Motion], segment: int = 200) -> list[Segment]:
+    """Cut clips into segments of equal length; the last of a clip takes what would be too short for another.
+
+    Examples
+    --------
+    >>> still = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), np.zeros((500, 3)), [[[1, 0, 0, 0]]] * 500, 120)
+    >>> [(start, end) for _, start, end in cut([still])]
+    [(0, 200), (200, 500)]
+    """
+    if segment < 1:
+        raise MocapError(f"A segment needs at least one frame, got {segment}.")
+    found = []
+    for clip, motion in enumerate(clips):
+        starts = range(0, max(len(motion) - segment, 0) + 1, segment)
+        found += [Segment(clip, *ends) for ends in pairwise([*starts, len(motion)])]
+    return found
+
+
+def segment_distances(
+    clips: Sequence[Motion], segments: Sequence[Segment], *, window: int, metric: str = "euler"
+) -> Array:
+    """Measure how far the end of each segment is from the beginning of each.
+
+    Parameters
+    ----------
+    clips, segments : as for `cut`.
+    window : frames compared: the last of one segment, the first of the other.
+    metric : "euler", as the homework's program does: Σ over the frames of Σ w_b ‖Δ‖, with Δ the differences
+        of a bone's file angles in degrees, each the short way round, and w_b its share of `BONE_WEIGHTS`; or
+        "root", as its report says: the mean of root distance and root angle, metres plus radians.
+
+    Returns
+    -------
+    D, shape (n, n): entry [i, j] for j after i.
+    """
+    frames = np.arange(window)
+    firsts = np.cumsum([0, *(len(clip) for clip in clips)])  # of each clip, in all of them together
+    clip, start, end = np.array(segments).T
+    tails, heads = firsts[clip] + end - window, firsts[clip] + start
+    together = concatenate(clips)
+    if metric == "root":
+        ends, beginnings = ([together[f : f + window] for f in starts] for starts in (tails, heads))
+        return np.array([[root_grid(a, b, window=window)[0, 0] for b in beginnings] for a in ends])
+    if metric != "euler":
+        raise MocapError(f"There are the metrics 'euler' and 'root', not '{metric}'.")
+    weights = _bone_weights(clips[0].skeleton)
+    angles = _file_angles(together)[:, weights > 0]  # (F, bones, 3), degrees
+    beginnings = angles[heads[:, None] + frames]  # (n, window, bones, 3)
+    apart = ((angles[tail : tail + window] - beginnings + 180) % 360 - 180 for tail in tails)
+    return np.array([(np.linalg.norm(gaps, axis=-1) @ weights[weights > 0]).sum(-1) for gaps in apart])
+
+
+def _bone_weights(skeleton: Skeleton) -> Array:
+    found = [BONE_WEIGHTS.get(name, BONE_WEIGHTS.get(name[1:], 0)) for name in skeleton.names]
+    if not any(found):
+        raise MocapError(
+            f"The homework's metric knows bones such as 'lfemur' and 'thorax', and the skeleton has none of "
+            f"them but {', '.join(skeleton.names[:5])} …: use metric='root'."
+        )
+    return np.array(found) / 480
+
+
+def _file_angles(motion: Motion) -> Array:
+    """Read off the joints the angles about x, y, z that an Acclaim file holds, degrees; 0 without a dof."""
+    skeleton = motion.skeleton
+    angles = np.zeros((len(motion), len(skeleton), 3))
+    turns = rotations.multiply(
+        rotations.multiply(rotations.inverse(skeleton.axes), motion.rotations), skeleton.axes
+    )
+    for joint, dofs in enumerate(skeleton.dofs):
+        order = dofs + "".join(sorted(set("xyz") - set(dofs)))
+        found = rotations.to_euler(order, turns[:, joint])
+        for place, axis in enumerate(dofs):
+            angles[:, joint, "xyz".index(axis)] = np.degrees(found[:, place])
+    return angles
+
+
+def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the metric
+    clips: Sequence[Motion],
+    segment: int = 200,
+    window: int = 50,
+    threshold: float = 185,
+    weighting: str = "inverse",
+    *,
+    metric: str = "euler",
+) -> nx.DiGraph:
+    """Build the homework's graph: each segment is followed by its successor, or by one of another clip.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one rate.
+    segment : frames in a segment.
+    window : frames compared, and later blended.
+    threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
+    weighting : how those share what probability the successor leaves, which is a half where there is one:
+        "inverse", in proportion to 1 / D, or "distance", in proportion to D as the homework has it.
+    metric : "euler" or "root", as for `segment_distances`.
+
+    Returns
+    -------
+    Nodes 0 … n-1 with `clip`, `start`, `end`; edges with `kind` ("clip" for the successor, "transition"),
+    `probability` and, for a transition, `cost`, which is D. `graph.graph` holds `window`.
+
+    Raises
+    ------
+    MocapError, SkeletonMismatch : for clips that do not go together, or too short; for unknown words.
+    """
+    if not clips:
+        raise MocapError("A segment graph needs at least one clip.")
+    if weighting not in ("inverse", "distance"):
+        raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
+    require_alike(clips)
+    segments = cut(clips, segment)
+    _check_lengths(clips, segments, window)
+    distances = segment_distances(clips, segments, window=window, metric=metric)
+    graph = nx.DiGraph(window=window)
+    graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(segments))
+    for node, part in enumerate(segments):
+        others = [j for j, s in enumerate(segments) if s.clip != part.clip and distances[node, j] < threshold]
+        goes_on = node + 1 < len(segments) and segments[node + 1].clip == part.clip
+        if goes_on:
+            graph.add_edge(node, node + 1, kind="clip", probability=0.5 if others else 1.0)
+        costs = distances[node, others]
+        odds = costs if weighting == "distance" else 1 / np.maximum(costs, 1e-9)
+        shares = odds / max(odds.sum(), 1e-300) * (0.5 if goes_on else 1.0)
+        for other, cost, share in zip(others, costs.tolist(), shares.tolist(), strict=True):
+            graph.add_edge(node, other, kind="transition", probability=share, cost=cost)
+    return graph
+
+
+def _check_lengths(clips: Sequence[Motion], segments: Sequence[Segment], window: int) -> None:
+    """Raise unless each segment holds a window to enter by, one to leave by, and something between."""
+    if window < 1:
+        raise MocapError(f"A window needs at least one frame, got {window}.")
+    for part in segments:
+        if part.end - part.start <= 2 * window:
+            raise MocapError(
+                f"'{clips[part.clip].name}': a segment of {part.end - part.start} frames is too short for "
+                f"windows of {window} at both its ends."
+            )
+
+
+def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | None = None) -> list[int]:
+    """Walk from segment to segment by the edges' probabilities.
+
+    Parameters
+    ----------
+    graph : from `segment_graph`.
+    count : how many segments.
+    seed : the same seed gives the same walk.
+    start : the first segment; by default one drawn at random.
+
+    Raises
+    ------
+    NoWalk : for a start that the graph lacks, and for a walk that reaches a segment nothing follows.
+    """
+    if count < 1:
+        raise MocapError(f"A walk needs at least one segment, got {count}.")
+    random = np.random.default_rng(seed)
+    walk = [int(random.integers(len(graph))) if start is None else start]
+    if walk[0] not in graph:
+        raise NoWalk(f"The graph has no segment {walk[0]}.")
+    while len(walk) < count:
+        following = graph[walk[-1]]
+        if not following:
+            raise NoWalk(f"Nothing follows segment {walk[-1]}, where the walk is after {len(walk)} segments.")
+        odds = [edge["probability"] for edge in following.values()]
+        walk.append(int(random.choice(list(following), p=odds)))
+    return walk
+
+
+def segment_motion(
+    clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int], *, drift: bool = False
+) -> Motion:
+    """Play a walk: successors follow as they are, others are laid on the window that they blend with.
+
+    The first frame of a segment that follows by a transition takes heading and place of the frame `window`
+    before the end. Over the window the pose goes over by u = (1 + sin(π i / (k-1) - π/2)) / 2.
+
+    Parameters
+    ----------
+    clips : those the graph was built of.
+    graph : from `segment_graph`.
+    walk : segments, each with an edge to the next.
+    drift : take over the height of the frame too, as the homework does.
+
+    Returns
+    -------
+    All the segments' frames, less a window a transition.
+
+    Raises
+    ------
+    NoWalk : for an empty walk, or one that jumps.
+    """
+    if not walk or walk[0] not in graph:
+        raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")
+    window = graph.graph["window"]
+    place, lift = IDENTITY, 0.0
+    current, pieces = _frames(clips, graph, walk[0]), []
+    for here, there in pairwise(walk):
+        if not graph.has_edge(here, there):
+            raise NoWalk(f"The walk jumps from segment {here} to segment {there}.")
+        following = _frames(clips, graph, there)
+        if graph.edges[here, there]["kind"] == "clip":
+            pieces.append(current)
+            current = _placed(following, place, lift)
+            continue
+        tail = current[-window:]
+        place = _lay(following, tail)
+        lift = tail.root_positions[0, 1] - following.root_positions[0, 1] if drift else 0.0
+        following = _placed(following, place, lift)
+        pieces += [current[:-window], blend(tail, following[:window], 1 - _ease(window))]
+        current = following[window:]
+    return replace(concatenate([*pieces, current]), name="walk")
+
+
+def _frames(clips: Sequence[Motion], graph: nx.DiGraph, node: int) -> Motion:
+    part = Segment(**graph.nodes[node])
+    return clips[part.clip][part.start : part.end]
+
+
+def _lay(motion: Motion, on: Motion) -> PlanarTransform:
+    """Find the transform that takes the first frame of one motion to that of another."""
+    angle = float(heading(on.rotations[0, 0]) - heading(motion.rotations[0, 0]))
+    x, _, z = on.root_positions[0] - PlanarTransform(angle, 0.0, 0.0).points(motion.root_positions[0])
+    return PlanarTransform(angle, float(x), float(z))
+
+
+def _placed(motion: Motion, place: PlanarTransform, lift: float) -> Motion:
+    """Move a segment; one that has never been moved stays bit for bit."""
+    moved = motion if place is IDENTITY else place.motion(motion)
+    return replace(moved, root_positions=np.add(moved.root_positions, [0.0, lift, 0.0])) if lift else moved
+
+
+def _ease(window: int) -> Array:
+    return (1 + np.sin(np.linspace(-np.pi / 2, np.pi / 2, window))) / 2
