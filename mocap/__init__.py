@@ -8,7 +8,7 @@ Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
 `acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `matching`, `transitions`,
-`blending`, `motion_graph`, `synthesis`. What one sees: `plotting`, `demo`.
+`blending`, `segment_graph`, `motion_graph`, `pruning`, `synthesis`. What one sees: `plotting`, `demo`.
 
 References
 ----------
@@ -19,7 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mocap.errors import FormatError, MocapError, NoWalk, SkeletonMismatch
+    from mocap.errors import FormatError, MocapError, MocapWarning, NoWalk, SkeletonMismatch
     from mocap.files import load, load_skeleton, save
     from mocap.motion import Motion, concatenate, resample
     from mocap.skeleton import Skeleton
@@ -31,6 +31,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "FormatError": "errors",
     "MocapError": "errors",
+    "MocapWarning": "errors",
     "NoWalk": "errors",
     "SkeletonMismatch": "errors",
     "load": "files",
@@ -46,6 +47,7 @@ _HOMES = {
 __all__ = [
     "FormatError",
     "MocapError",
+    "MocapWarning",
     "Motion",
     "NoWalk",
     "PlanarTransform",

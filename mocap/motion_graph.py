@@ -5,18 +5,20 @@ that clip up to its next choice point, or a transition: `window` blended frames 
 edge gives the frames [start, end) of a motion, and the frames of a walk are those of its edges in order.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, product
 
 import networkx as nx
 
 from mocap.errors import MocapError, NoWalk
-from mocap.motion import Motion, require_alike
+from mocap.motion import Motion, require_alike, resample
 from mocap.progress import Progress
+from mocap.pruning import Labels, prune_graph
 from mocap.transitions import Transition, find_transitions
 
 Node = tuple[int, int]
+Thresholds = Mapping[tuple[str, str], float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +30,9 @@ class MotionGraph:
     clips : the motions, which the nodes' first numbers count.
     window : frames in a transition.
     graph : the `networkx.MultiDiGraph`. Nodes are pairs (clip, frame). Edges have `kind` ("clip" or
-        "transition") and `frames`; transitions also `cost` (RMS distance, metres) and `transform`, which
-        lays the clip they lead to on the one they come from.
+        "transition"), `frames`, and `labels`, a frozenset of all labels that some frame bears which they
+        play or blend; transitions also `cost` (RMS distance, metres) and `transform`, which lays the clip
+        they lead to on the one they come from.
 
     Notebook: 00-quickstart
     """
@@ -55,15 +58,24 @@ class MotionGraph:
 
 
 def build(
-    clips: Sequence[Motion], *, window: int, threshold: float, progress: Progress = iter
+    clips: Sequence[Motion],
+    *,
+    window: int,
+    threshold: float | Thresholds,
+    fps: float | None = None,
+    progress: Progress = iter,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
     Parameters
     ----------
-    clips : motions of one skeleton and one frame rate, with different names.
+    clips : motions of one skeleton, with different names.
     window : frames in a transition, about a third of a second.
-    threshold : the largest RMS distance of the points that a transition may bridge, metres.
+    threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
+        pair of labels, as in {("walk", "walk"): 0.03, ("walk", "run"): 0.06}. The order in a pair does not
+        matter, "" stands for frames without a label, pairs that are not named get no transitions, and where
+        frames bear several labels the strictest pair counts.
+    fps : the rate to resample the clips to; by default they must have one rate already, and keep it.
     progress : wraps the pairs of clips as they are compared, to show a bar.
 
     Raises
@@ -72,8 +84,47 @@ def build(
 
     Notebook: 00-quickstart
     """
-    found = find_transitions(clips, window=window, below=threshold, progress=progress)
-    return from_transitions(clips, found, window=window)
+    _require_names(clips)
+    if fps is not None:
+        clips = [resample(clip, fps) for clip in clips]
+    if not isinstance(threshold, Mapping):
+        found = find_transitions(clips, window=window, below=threshold, progress=progress)
+        return from_transitions(clips, found, window=window)
+    _check_thresholds(clips, threshold)
+    found = find_transitions(clips, window=window, below=max(threshold.values()), progress=progress)
+    either = {frozenset(pair): below for pair, below in threshold.items()}
+    close = [t for t in found if t.cost < _threshold(either, *_ends_labels(clips, t, window))]
+    return from_transitions(clips, close, window=window)
+
+
+def _check_thresholds(clips: Sequence[Motion], thresholds: Thresholds) -> None:
+    known = {"", *(label for clip in clips for label in clip.labels)}
+    if not thresholds:
+        raise MocapError("There is no threshold for any pair of labels.")
+    for pair, below in thresholds.items():
+        if not set(pair) <= known:
+            raise MocapError(
+                f"The threshold for {pair} is for a label that no clip has; there are: "
+                f"{', '.join(sorted(known - {''})) or 'none'}."
+            )
+        if not below > 0:
+            raise MocapError(f"The threshold for {pair} must be above 0 m, got {below} m.")
+
+
+def _threshold(either: Mapping[frozenset[str], float], here: Labels, there: Labels) -> float:
+    """Find the strictest threshold that two sets of labels are under."""
+    return min(either.get(frozenset(pair), 0.0) for pair in product(here or {""}, there or {""}))
+
+
+def _labels(motion: Motion, start: int, end: int) -> Labels:
+    """Collect the labels that the frames [start, end) bear."""
+    return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
+
+
+def _ends_labels(clips: Sequence[Motion], t: Transition, window: int) -> tuple[Labels, Labels]:
+    """Collect the labels of the two windows that a transition blends."""
+    here, there = clips[t.source], clips[t.target]
+    return _labels(here, t.leave, t.leave + window), _labels(there, t.enter, t.enter + window)
 
 
 def from_transitions(
@@ -84,18 +135,22 @@ def from_transitions(
     A transition leaves its first clip at the frame where its window starts, and enters the second at
     the frame after the window ends [KGP02, 3.3].
     """
-    require_alike(clips)
     _require_names(clips)
+    require_alike(clips)
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
-        ends = (t.source, t.leave), (t.target, t.enter + window)
-        graph.add_edge(*ends, kind="transition", frames=window, cost=t.cost, transform=t.transform)
+        here, there = _ends_labels(clips, t, window)
+        edge = {"kind": "transition", "frames": window, "labels": here | there}
+        graph.add_edge(
+            (t.source, t.leave), (t.target, t.enter + window), **edge, cost=t.cost, transform=t.transform
+        )
     # Within a clip the nodes stand in the order of time, so each is joined to the one after it.
     for (clip, start), (same, end) in pairwise(sorted(graph)):
         if clip == same:
-            graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start)
+            edge = {"kind": "clip", "frames": end - start, "labels": _labels(clips[clip], start, end)}
+            graph.add_edge((clip, start), (clip, end), **edge)
     return MotionGraph(tuple(clips), window, graph)
 
 
@@ -107,24 +162,30 @@ def _require_names(clips: Sequence[Motion]) -> None:
         raise MocapError(f"Clips need different names; given twice: {', '.join(twice)}.")
 
 
-def prune(motion_graph: MotionGraph) -> MotionGraph:
+def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: int = 1) -> MotionGraph:
     """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
 
     The largest is the one that can play most frames of the clips [KGP02, 3.4]; what is left out are dead
-    ends, and sinks that a walk could never leave again.
+    ends, and sinks that a walk could never leave again. `pruning.prune_graph` also tells why each edge went.
+
+    Parameters
+    ----------
+    motion_graph : left as it is.
+    by_labels : keep a component for every set of labels, made of edges with just these, and the ways between.
+    least_frames : a warning tells where fewer frames of clip stay.
 
     Raises
     ------
     NoWalk : where no component has an edge, so that every walk ends.
 
+    Warns
+    -----
+    MocapWarning : for components with too few frames, and for those from which no way leads to another.
+
     Notebook: 00-quickstart
     """
-    graph = motion_graph.graph
-    parts = [replace(motion_graph, graph=graph.subgraph(c)) for c in nx.strongly_connected_components(graph)]
-    largest = max(parts, key=lambda part: (part.frames, part.graph.number_of_edges()))
-    if largest.graph.number_of_edges() == 0:
-        raise NoWalk("The graph has no cycle, so every walk through it ends: allow costlier transitions.")
-    return replace(motion_graph, graph=largest.graph.copy())
+    pruning = prune_graph(motion_graph.graph, by_labels=by_labels, least_frames=least_frames)
+    return replace(motion_graph, graph=pruning.graph)
 
 
 def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:

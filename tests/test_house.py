@@ -17,7 +17,7 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations"},
-    {"atomic", "skeleton"},
+    {"atomic", "pruning", "skeleton"},
     {"amc", "bvh_hierarchy", "motion"},
     {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
     {"blending", "files", "gait", "matching", "walker"},
