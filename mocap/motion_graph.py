@@ -47,6 +47,11 @@ class MotionGraph:
             f"{self.graph.number_of_edges()} edges, {self.count('transition')} of them transitions)"
         )
 
+    @property
+    def fps(self) -> float:
+        """Frames a second, of all clips."""
+        return self.clips[0].fps
+
     def count(self, kind: str) -> int:
         """Count the edges of a kind, "clip" or "transition"."""
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))

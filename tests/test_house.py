@@ -23,7 +23,7 @@ LAYERS = [
     {"blending", "files", "gait", "matching", "walker"},
     {"segment_graph", "synthetic", "transitions"},
     {"datasets", "motion_graph"},
-    {"synthesis"},
+    {"graph_files", "graph_summary", "merging", "synthesis"},
     {"plotting"},
     {"demo", "lab"},
     {"__init__", "__main__"},
