@@ -61,6 +61,12 @@ def fingerprint(motion: Motion) -> str:
     return digest.hexdigest()
 
 
+def require_suffix(path: str | Path, suffix: str) -> None:
+    """Raise unless a file to write has the right suffix; its capital letters are fine."""
+    if Path(path).suffix.lower() != suffix:
+        raise MocapError(f"This graph is written as {suffix}, got '{path}'.")
+
+
 def save(motion_graph: MotionGraph, path: str | Path) -> None:
     """Write a motion graph to an `.npz` file; a file that exists is replaced once the new one is whole.
 
@@ -73,8 +79,7 @@ def save(motion_graph: MotionGraph, path: str | Path) -> None:
     ------
     MocapError : for another suffix, and where the file cannot be written.
     """
-    if Path(path).suffix.lower() != ".npz":
-        raise MocapError(f"A motion graph is written as .npz, got '{path}'.")
+    require_suffix(path, ".npz")
     clips, graph = motion_graph.clips, motion_graph.graph
     number = {node: row for row, node in enumerate(graph)}
     edges = list(graph.edges(keys=True, data=True))
@@ -225,8 +230,7 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
     ------
     MocapError : for another suffix, a clip's name that XML cannot hold, and a file that cannot be written.
     """
-    if Path(path).suffix.lower() != ".graphml":
-        raise MocapError(f"GraphML is written as .graphml, got '{path}'.")
+    require_suffix(path, ".graphml")
     plain = nx.MultiDiGraph()
     names = [clip.name for clip in motion_graph.clips]
     if unfit := [name for name in names if not name.isprintable()]:

@@ -54,7 +54,7 @@ class Summary(NamedTuple):
                 (name(here), f"leads to {', '.join(sorted(map(name, there))) or 'nothing else'}")
                 for here, there in self.reachable.items()
             ]
-        return "\n".join(f"{what:<10} {text}" for what, text in rows)
+        return "\n".join(f"{what:<12} {text}" for what, text in rows)
 
 
 def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:

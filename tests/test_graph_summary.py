@@ -49,7 +49,7 @@ def test_a_pruned_graph_is_told_in_a_few_lines():
     assert 0 < told.mean_wait < told.worst_wait < 3
     assert [line.split()[0] for line in told.table().splitlines()] == ["frames", "nodes", "edges", "turn-off"]
     whole = summary(build(CLIPS, window=WINDOW, threshold=0.05).graph, fps=30.0)
-    assert whole.table().endswith("turn-off   none before the end of some clip")
+    assert whole.table().endswith("turn-off     none before the end of some clip")
 
 
 def test_it_tells_which_labels_can_be_reached():
@@ -60,8 +60,8 @@ def test_it_tells_which_labels_can_be_reached():
     walk, run = frozenset({"walk"}), frozenset({"run"})
     one_way = from_transitions(clips, [Transition(0, 82, 1, 20, 0.01, IDENTITY)], window=WINDOW)
     assert summary(one_way.graph, fps=30.0).reachable == {walk: {run}, run: set()}
-    assert "walk       leads to run" in summary(one_way.graph, fps=30.0).table()
-    assert "run        leads to nothing else" in summary(one_way.graph, fps=30.0).table()
+    assert "walk         leads to run" in summary(one_way.graph, fps=30.0).table()
+    assert "run          leads to nothing else" in summary(one_way.graph, fps=30.0).table()
 
 
 def test_an_empty_graph_has_a_summary():
