@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import networkx as nx
+import numpy as np
 
 from mocap.errors import MocapError, NoWalk
 from mocap.motion import Motion, require_alike
@@ -134,7 +135,8 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     ------
     NoWalk : where there is none at any threshold.
     """
-    found = sorted(find_transitions(clips, window=window, below=float("inf")), key=lambda t: t.cost)
+    found = find_transitions(clips, window=window, below=float("inf"))
+    found = found[np.argsort(found.cost, kind="stable")]
     low, high = 0, len(found)
     while (
         low < high
