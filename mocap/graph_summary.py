@@ -6,14 +6,12 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from mocap.errors import MocapError
 from mocap.kinematics import velocities
 from mocap.matching import point_cloud
 from mocap.motion import Motion
-from mocap.pruning import Labels, name, reached
+from mocap.pruning import Labels, largest_component, name, reached
 from mocap.transforms import PlanarTransform
 from mocap.transitions import Transition
 
@@ -199,17 +197,10 @@ class _Growing:
 
     def largest(self, transitions: int) -> tuple[int, int]:
         """Count the nodes and the frames of the component that plays most frames."""
-        start, end = np.concatenate([self.stretches, self.ways[:transitions]]).T
-        matrix = coo_array((np.ones(len(start), bool), (start, end)), shape=(self.count, self.count))
-        _, part = connected_components(matrix, directed=True, connection="strong")
-        inside = part[start] == part[end]
-        if not inside.any():
-            return 0, 0
-        here = inside[: len(self.frames)]
-        frames = np.bincount(part[self.stretches[here, 0]], self.frames[here], minlength=part.max() + 1)
-        edges = np.bincount(part[start[inside]], minlength=part.max() + 1)
-        best = np.lexsort([edges, frames])[-1]
-        return int(((part == best) & (self.since <= transitions)).sum()), int(frames[best])
+        ways = np.concatenate([self.stretches, self.ways[:transitions]])
+        frames = np.concatenate([self.frames, np.zeros(transitions, int)])
+        inside, played = largest_component(ways, frames, self.count)
+        return int((inside & (self.since <= transitions)).sum()), played
 
 
 def velocity_jumps(clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int) -> Array:

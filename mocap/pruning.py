@@ -16,16 +16,20 @@ from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from itertools import permutations
+from itertools import compress, permutations
 
 import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from mocap.errors import MocapWarning, NoWalk
 
 Labels = frozenset[str]
 Nodes = frozenset[Hashable]
 Edge = tuple[Hashable, Hashable, int]  # start, end, key
-Stretch = tuple[Hashable, Hashable, int]  # start, end, frames of clip
+Indices = NDArray[np.int64]
 
 NO_LABELS: Labels = frozenset()
 
@@ -114,7 +118,11 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
         component to the second.
     """
-    found = {labels: _largest_component(edges) for labels, edges in _sorted_edges(graph, by_labels).items()}
+    nodes = list(graph)
+    found = {
+        labels: (frozenset(compress(nodes, inside)), frames)
+        for labels, (inside, frames) in _largest_components(graph, by_labels).items()
+    }
     components = {labels: nodes for labels, (nodes, _) in found.items() if nodes}
     if not components:
         one = " of edges with the same labels" if len(found) > 1 else ""
@@ -133,33 +141,50 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     return Pruning(pruned, components, removed, tuple(reasons))
 
 
-def _sorted_edges(graph: nx.MultiDiGraph, by_labels: bool) -> dict[Labels, list[Stretch]]:
-    """Sort the edges by their labels, or all into one; keep their ends and how many frames they play."""
-    found: dict[Labels, list[Stretch]] = {}
-    for start, end, edge in graph.edges(data=True):
-        frames = edge["frames"] if edge["kind"] == "clip" else 0
-        found.setdefault(edge.get("labels", NO_LABELS) if by_labels else NO_LABELS, []).append(
-            (start, end, frames)
-        )
-    return found
+def _largest_components(
+    graph: nx.MultiDiGraph, by_labels: bool
+) -> dict[Labels, tuple[NDArray[np.bool_], int]]:
+    """Find the largest component of each label set, or of all edges: its nodes as a mask, its frames."""
+    number = {node: n for n, node in enumerate(graph)}
+    ways = np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
+    edges = [edge for _, _, edge in graph.edges(data=True)]
+    frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
+    labels = [edge.get("labels", NO_LABELS) if by_labels else NO_LABELS for edge in edges]
+    sets = {one: n for n, one in enumerate(dict.fromkeys(labels))}
+    which = np.array([sets[one] for one in labels], int)
+    return {
+        one: largest_component(ways[which == n], frames[which == n], len(graph)) for one, n in sets.items()
+    }
 
 
-def _largest_component(edges: Iterable[Stretch]) -> tuple[Nodes, int]:
-    """Find the component with most frames, of equal ones that with most edges; none without a cycle."""
-    graph = nx.DiGraph()
-    graph.add_edges_from((start, end) for start, end, _ in edges)
-    parts = list(nx.strongly_connected_components(graph))
-    number = {node: part for part, nodes in enumerate(parts) for node in nodes}
-    inside: Counter[int] = Counter()
-    frames: Counter[int] = Counter()
-    for start, end, length in edges:
-        if number[start] == number[end]:
-            inside[number[start]] += 1
-            frames[number[start]] += length
-    if not inside:
-        return frozenset(), 0
-    best = max(inside, key=lambda part: (frames[part], inside[part]))
-    return frozenset(parts[best]), frames[best]
+def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArray[np.bool_], int]:
+    """Find the strongly connected component that plays most frames; of equal ones, that with most edges.
+
+    Parameters
+    ----------
+    ways : edges from node to node, numbers from 0 to count - 1, shape (E, 2).
+    frames : what each plays, shape (E,).
+    count : how many nodes there are.
+
+    Returns
+    -------
+    Which nodes are in it, shape (count,), and its frames; none of them where there is no cycle.
+
+    Examples
+    --------
+    >>> largest_component(np.array([[0, 1], [1, 0], [1, 2], [2, 2]]), np.array([3, 4, 9, 5]), 3)
+    (array([ True,  True, False]), 7)
+    """
+    start, end = ways.T
+    matrix = coo_array((np.ones(len(ways), bool), (start, end)), shape=(count, count))
+    _, part = connected_components(matrix, directed=True, connection="strong")
+    inside = part[start] == part[end]
+    if not inside.any():
+        return np.zeros(count, bool), 0
+    edges = np.bincount(part[start[inside]])
+    played = np.bincount(part[start[inside]], frames[inside])
+    best = np.lexsort([edges, played])[-1]
+    return part == best, int(played[best])
 
 
 def _induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
