@@ -15,7 +15,7 @@ import numpy as np
 from mocap.errors import MocapError, NoWalk
 from mocap.motion import Motion, require_alike, resample
 from mocap.progress import Progress
-from mocap.pruning import Labels, prune_graph
+from mocap.pruning import Labels, prune_graph, uncollected
 from mocap.transitions import Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
@@ -99,6 +99,7 @@ def _labels(motion: Motion, start: int, end: int) -> Labels:
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 
 
+@uncollected()
 def from_transitions(
     clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int
 ) -> MotionGraph:
@@ -106,6 +107,10 @@ def from_transitions(
 
     A transition leaves its first clip at the frame where its window starts, and enters the second at
     the frame after the window ends [KGP02, 3.3].
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for clips that do not go together, and transitions outside them.
     """
     _require_names(clips)
     require_alike(clips)
@@ -113,6 +118,7 @@ def from_transitions(
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
+        _require_inside(clips, t, window)
         here = _labels(clips[t.source], t.leave, t.leave + window)
         there = _labels(clips[t.target], t.enter, t.enter + window)
         edge = {"kind": "transition", "frames": window, "labels": here | there}
@@ -125,6 +131,14 @@ def from_transitions(
             edge = {"kind": "clip", "frames": end - start, "labels": _labels(clips[clip], start, end)}
             graph.add_edge((clip, start), (clip, end), **edge)
     return MotionGraph(tuple(clips), window, graph)
+
+
+def _require_inside(clips: Sequence[Motion], t: Transition, window: int) -> None:
+    for clip, start in ((t.source, t.leave), (t.target, t.enter)):
+        if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
+            raise MocapError(
+                f"A transition of {window} frames from frame {start} of clip {clip} lies outside the clips."
+            )
 
 
 def _require_names(clips: Sequence[Motion]) -> None:

@@ -11,9 +11,11 @@ The functions take any `networkx.MultiDiGraph`. Of its edges they read `frames`,
 asked to, `labels`.
 """
 
+import gc
 import warnings
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import compress, permutations
@@ -72,6 +74,21 @@ class Pruning:
         return "\n".join(lines)
 
 
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Pause Python's garbage collector while a graph grows.
+
+    It would go through all edges made so far again and again, and find no rubbish: four fifths of the time.
+    """
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
 def name(labels: Labels) -> str:
     """Write a label set, as in "turn+walk"."""
     return "+".join(sorted(labels)) or "no label"
@@ -92,6 +109,7 @@ def notes_example() -> nx.MultiDiGraph:
     return graph
 
 
+@uncollected()
 def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames: int = 1) -> Pruning:
     """Keep the largest strongly connected component, of all edges or of every label set's.
 
@@ -118,10 +136,11 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
         component to the second.
     """
-    nodes = list(graph)
+    number = {node: n for n, node in enumerate(graph)}
+    ways = np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
     found = {
-        labels: (frozenset(compress(nodes, inside)), frames)
-        for labels, (inside, frames) in _largest_components(graph, by_labels).items()
+        labels: (frozenset(compress(number, inside)), frames)
+        for labels, (inside, frames) in _largest_components(graph, ways, by_labels).items()
     }
     components = {labels: nodes for labels, (nodes, _) in found.items() if nodes}
     if not components:
@@ -131,8 +150,8 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     pruned = _induced(graph, kept)
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in (*_too_short(frames, least_frames), *_missing_ways(pruned, components)):
-        warnings.warn(message, MocapWarning, stacklevel=3)
-    reasons = _reasons(graph, kept)
+        warnings.warn(message, MocapWarning, stacklevel=4)  # whoever called `motion_graph.prune`
+    reasons = _reasons(graph, ways, kept)
     removed = {
         (start, end, key): reasons[start if end in kept else end]
         for start, end, key in graph.edges(keys=True)
@@ -142,11 +161,9 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
 
 def _largest_components(
-    graph: nx.MultiDiGraph, by_labels: bool
+    graph: nx.MultiDiGraph, ways: Indices, by_labels: bool
 ) -> dict[Labels, tuple[NDArray[np.bool_], int]]:
     """Find the largest component of each label set, or of all edges: its nodes as a mask, its frames."""
-    number = {node: n for n, node in enumerate(graph)}
-    ways = np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
     edges = [edge for _, _, edge in graph.edges(data=True)]
     frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
     labels = [edge.get("labels", NO_LABELS) if by_labels else NO_LABELS for edge in edges]
@@ -175,16 +192,21 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArr
     >>> largest_component(np.array([[0, 1], [1, 0], [1, 2], [2, 2]]), np.array([3, 4, 9, 5]), 3)
     (array([ True,  True, False]), 7)
     """
-    start, end = ways.T
-    matrix = coo_array((np.ones(len(ways), bool), (start, end)), shape=(count, count))
-    _, part = connected_components(matrix, directed=True, connection="strong")
-    inside = part[start] == part[end]
+    part = _components(ways, count)
+    start, end = part[ways].T
+    inside = start == end
     if not inside.any():
         return np.zeros(count, bool), 0
-    edges = np.bincount(part[start[inside]])
-    played = np.bincount(part[start[inside]], frames[inside])
+    edges = np.bincount(start[inside])
+    played = np.bincount(start[inside], frames[inside])
     best = np.lexsort([edges, played])[-1]
     return part == best, int(played[best])
+
+
+def _components(ways: Indices, count: int) -> Indices:
+    """Give each node the number of its strongly connected component."""
+    matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
+    return np.asarray(connected_components(matrix, directed=True, connection="strong")[1])
 
 
 def _induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
@@ -199,14 +221,17 @@ def _induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
     return part
 
 
-def _reasons(graph: nx.MultiDiGraph, kept: Nodes) -> dict[Hashable, Reason]:
+def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashable, Reason]:
     """Say of every node that goes what is wrong with it."""
-    on_cycle = {n for part in nx.strongly_connected_components(graph) if len(part) > 1 for n in part}
-    on_cycle |= {node for node in graph if graph.has_edge(node, node)}
+    part = _components(ways, len(graph))
+    on_cycle = np.bincount(part)[part] > 1
+    on_cycle[ways[ways[:, 0] == ways[:, 1], 0]] = True
     after = reached(graph, kept)
     before = reached(graph.reverse(copy=False), kept)
     return {
-        node: _reason(node in on_cycle, node in before, node in after) for node in graph if node not in kept
+        node: _reason(cycle, node in before, node in after)
+        for node, cycle in zip(graph, on_cycle.tolist(), strict=True)
+        if node not in kept
     }
 
 
