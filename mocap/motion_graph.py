@@ -6,6 +6,7 @@ edge gives the frames [start, end) of a motion, and the frames of a walk are tho
 """
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -15,7 +16,7 @@ import numpy as np
 from mocap.errors import MocapError, NoWalk
 from mocap.motion import Motion, require_alike
 from mocap.progress import Progress
-from mocap.transitions import Transition, find_transitions
+from mocap.transitions import Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
 
@@ -56,7 +57,12 @@ class MotionGraph:
 
 
 def build(
-    clips: Sequence[Motion], *, window: int, threshold: float, progress: Progress = iter
+    clips: Sequence[Motion],
+    *,
+    window: int,
+    threshold: Thresholds,
+    progress: Progress = iter,
+    executor: Executor | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
@@ -64,8 +70,9 @@ def build(
     ----------
     clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
-    threshold : the largest RMS distance of the points that a transition may bridge, metres.
-    progress : wraps the pairs of clips as they are compared, to show a bar.
+    threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
+        pair of labels, as for `find_transitions`.
+    progress, executor : to show a bar while the clips are compared, and where to do that.
 
     Raises
     ------
@@ -73,7 +80,7 @@ def build(
 
     Notebook: 00-quickstart
     """
-    found = find_transitions(clips, window=window, below=threshold, progress=progress)
+    found = find_transitions(clips, window=window, below=threshold, progress=progress, executor=executor)
     return from_transitions(clips, found, window=window)
 
 

@@ -24,7 +24,7 @@ LAYERS = [
     {"cloud_grid"},
     {"matching", "minima"},
     {"synthetic", "transitions"},
-    {"datasets", "motion_graph"},
+    {"datasets", "motion_graph", "thresholds"},
     {"synthesis"},
     {"plotting"},
     {"demo", "lab"},
