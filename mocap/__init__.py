@@ -7,8 +7,9 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `matching`, `transitions`,
-`blending`, `segment_graph`, `motion_graph`, `pruning`, `synthesis`. What one sees: `plotting`, `demo`.
+`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `point_clouds`, `cloud_grid`,
+`matching`, `minima`, `transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`, `thresholds`,
+`merging`, `graph_summary`, `graph_files`, `synthesis`. What one sees: `plotting`, `demo`.
 
 References
 ----------

@@ -148,7 +148,7 @@ def _fit(a: Cloud, b: Cloud, i: NDArray[np.intp], j: NDArray[np.intp]) -> tuple[
     The grid has D as a difference of larger numbers; measured point by point it is right down to 0.
     """
     frames = np.arange(a.paths.shape[1])
-    scale = np.float32(len(frames) ** -0.5)  # the square root of a frame's weight
+    scale = a.heights.dtype.type(len(frames) ** -0.5)  # the square root of a frame's weight
 
     def windows(cloud: Cloud, starts: NDArray[np.intp]) -> tuple[NDArray[Any], NDArray[Any]]:
         each = starts[:, None] + frames

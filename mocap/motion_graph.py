@@ -6,6 +6,7 @@ edge gives the frames [start, end) of a motion, and the frames of a walk are tho
 """
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -13,7 +14,7 @@ import networkx as nx
 import numpy as np
 
 from mocap.errors import MocapError, NoWalk
-from mocap.motion import Motion, require_alike, resample
+from mocap.motion import Motion, require_alike
 from mocap.progress import Progress
 from mocap.pruning import Labels, prune_graph, uncollected
 from mocap.transitions import Thresholds, Transition, find_transitions
@@ -67,30 +68,28 @@ def build(
     *,
     window: int,
     threshold: Thresholds,
-    fps: float | None = None,
     progress: Progress = iter,
+    executor: Executor | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
     Parameters
     ----------
-    clips : motions of one skeleton, with different names.
+    clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
     threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
-        pair of labels, as in {("walk", "walk"): 0.03, ("walk", "run"): 0.06}: see `find_transitions`.
-    fps : the rate to resample the clips to; by default they must have one rate already, and keep it.
-    progress : wraps the pairs of clips as they are compared, to show a bar.
+        pair of labels, as for `find_transitions`.
+    progress, executor : to show a bar while the clips are compared, and where to do that.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window.
+    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window. Clips
+        at different rates are not resampled unasked: `build([resample(clip, 30) for clip in clips], ...)`.
 
     Notebook: 00-quickstart
     """
     _require_names(clips)
-    if fps is not None:
-        clips = [resample(clip, fps) for clip in clips]
-    found = find_transitions(clips, window=window, below=threshold, progress=progress)
+    found = find_transitions(clips, window=window, below=threshold, progress=progress, executor=executor)
     return from_transitions(clips, found, window=window)
 
 

@@ -24,7 +24,7 @@ LAYERS = [
     {"cloud_grid"},
     {"matching", "minima"},
     {"segment_graph", "synthetic", "transitions"},
-    {"datasets", "motion_graph"},
+    {"datasets", "motion_graph", "thresholds"},
     {"graph_files", "graph_summary", "merging", "synthesis"},
     {"plotting"},
     {"demo", "lab"},
