@@ -17,17 +17,16 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations"},
-    {"atomic", "pruning", "skeleton"},
-    {"amc", "bvh_hierarchy", "motion"},
-    {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"blending", "files", "gait", "point_clouds", "walker"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "pruning", "skeleton"},
+    {"amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
+    {"files", "homework_slips", "leg_posing", "plants", "point_clouds", "synthetic"},
     {"cloud_grid"},
     {"matching", "minima"},
-    {"segment_graph", "synthetic", "transitions"},
-    {"datasets", "motion_graph", "thresholds"},
-    {"graph_files", "graph_summary", "merging", "synthesis"},
-    {"plotting"},
-    {"demo", "lab"},
+    {"datasets", "footskate", "joining", "quality", "segment_graph", "transitions"},
+    {"motion_graph", "thresholds"},
+    {"graph_files", "graph_summary", "merging", "plotting", "synthesis"},
+    {"demo"},
     {"__init__", "__main__"},
 ]
 
