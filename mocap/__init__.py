@@ -10,7 +10,8 @@ What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. W
 `acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `point_clouds`, `cloud_grid`,
 `matching`, `minima`, `transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`, `thresholds`,
 `merging`, `graph_summary`, `graph_files`, `synthesis`. Seams and feet: `joining`, `quality`, `legs`,
-`plants`, `leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `plotting`, `demo`.
+`plants`, `leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `plotting`,
+`demo`.
 
 References
 ----------
