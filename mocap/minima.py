@@ -133,7 +133,7 @@ def _block_minima(a: Block, b: Block, below: float) -> Array:
     found = [np.empty((6, 0))]
     for rows, columns in tiles(a.stop - a.start, b.stop - b.start, upper=a.start == b.start):
         (top, part_a), (left, part_b) = a.part(rows), b.part(columns)
-        minima = local_minima(cloud_distances(part_a, part_b, taper), below**2)
+        minima = local_minima(cloud_distances(part_a, part_b, taper), below * below)
         i, j = minima[:, 0] + top, minima[:, 1] + left
         own = (i >= a.start + rows.start) & (i < a.start + rows.stop)
         own &= (j >= b.start + columns.start) & (j < b.start + columns.stop)
