@@ -17,17 +17,16 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations"},
-    {"atomic", "skeleton"},
-    {"amc", "bvh_hierarchy", "motion"},
-    {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"blending", "files", "gait", "point_clouds", "walker"},
-    {"cloud_grid"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "skeleton"},
+    {"amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
+    {"files", "homework_slips", "leg_posing", "plants", "point_clouds", "synthetic"},
+    {"cloud_grid", "datasets", "footskate"},
     {"matching", "minima"},
-    {"pacing", "transitions"},
-    {"motion_graph", "synthetic", "thresholds"},
-    {"datasets", "synthesis"},
-    {"plotting"},
-    {"demo", "lab"},
+    {"joining", "quality", "transitions"},
+    {"motion_graph", "thresholds"},
+    {"plotting", "synthesis"},
+    {"demo"},
     {"__init__", "__main__"},
 ]
 
