@@ -18,14 +18,14 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 LAYERS = [
     {"errors", "progress", "rotations"},
     {"atomic", "footsteps", "inverse_kinematics", "lab", "pruning", "skeleton"},
-    {"amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"amc", "bvh_hierarchy", "gait", "graph_summary", "legs", "motion", "walker"},
     {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
     {"files", "homework_slips", "leg_posing", "plants", "point_clouds", "synthetic"},
-    {"cloud_grid"},
+    {"cloud_grid", "datasets", "footskate"},
     {"matching", "minima"},
-    {"datasets", "footskate", "joining", "quality", "segment_graph", "transitions"},
+    {"joining", "quality", "segment_graph", "transitions"},
     {"motion_graph", "thresholds"},
-    {"graph_files", "graph_summary", "merging", "plotting", "synthesis"},
+    {"graph_files", "merging", "plotting", "synthesis"},
     {"demo"},
     {"__init__", "__main__"},
 ]
