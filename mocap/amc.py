@@ -98,7 +98,7 @@ def _read_columns(text: str, counts: Mapping[str, int]) -> dict[str, Array] | No
             return None
     places = [place for place, word in enumerate(pattern) if word is None]
     try:
-        numbers = np.array([list(map(float, words[place::width])) for place in places])
+        numbers = np.array([np.array(words[place::width], float) for place in places])
     except ValueError:
         return None
     if not (all(map(str.isdecimal, words[::width])) and np.all(np.diff(numbers[0]) == 1)):

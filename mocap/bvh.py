@@ -85,7 +85,7 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     words = text[times.end() :].split()
     if len(words) == count * width:
         try:
-            values = np.array(list(map(float, words)))
+            values = np.array(words, float)
         except ValueError:
             values = np.array([np.nan])
         if np.all(np.abs(values) < LARGEST):

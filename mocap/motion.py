@@ -81,7 +81,7 @@ class Motion:
             raise MocapError(
                 f"Motion '{self.name}' holds a number that is not finite in frame {int(finite.argmin())}."
             )
-        error = np.abs(np.linalg.norm(self.rotations, axis=-1) - 1)
+        error = np.abs(np.sqrt(np.einsum("fjk,fjk->fj", self.rotations, self.rotations)) - 1)
         if error.max() > 1e-6:
             frame, joint = np.unravel_index(error.argmax(), error.shape)
             raise MocapError(

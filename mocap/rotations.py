@@ -2,6 +2,7 @@
 
 This module alone knows in which order a quaternion's numbers stand. All functions broadcast over
 leading axes, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b first.
+Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own.
 """
 
 import warnings
@@ -42,8 +43,17 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
     >>> from_euler("y", [np.pi]).round(6) + 0.0
     array([0., 0., 1., 0.])
     """
-    angles = np.asarray(angles, float)
-    return _quaternions(Rotation.from_euler(order, angles.reshape(-1, len(order))), angles.shape[:-1])
+    halves = np.moveaxis(np.asarray(angles, float), -1, 0) / 2
+    turns = list(zip(order.lower(), np.cos(halves), np.sin(halves), strict=True))
+    q = np.zeros((4, *halves.shape[1:]))
+    q[0] = 1.0
+    for axis, cos, sin in turns if order.isupper() else reversed(turns):
+        i = "xyz".index(axis)
+        same, left, right = 1 + i, 1 + (i + 1) % 3, 1 + (i + 2) % 3
+        # q (cos + sin e): the product with e swaps the numbers in two pairs
+        q[[0, same]] = cos * q[[0, same]] + sin * np.stack([-q[same], q[0]])
+        q[[left, right]] = cos * q[[left, right]] + sin * np.stack([q[right], -q[left]])
+    return np.moveaxis(q, 0, -1)
 
 
 def to_euler(order: str, quaternions: ArrayLike) -> Array:
@@ -89,8 +99,18 @@ def to_matrix(quaternions: ArrayLike) -> Array:
     >>> to_matrix([1, 0, 0, 0])[0]
     array([1., 0., 0.])
     """
-    shape = np.shape(quaternions)[:-1]
-    return np.asarray(_rotation(quaternions).as_matrix(), float).reshape(*shape, 3, 3)
+    quaternions = np.asarray(quaternions, float)
+    squares = np.einsum("...i,...i", quaternions, quaternions)
+    w, x, y, z = np.moveaxis(quaternions, -1, 0) * np.sqrt(2 / squares)
+    rows = [
+        [1 - y * y - z * z, x * y - w * z, x * z + w * y],
+        [x * y + w * z, 1 - x * x - z * z, y * z - w * x],
+        [x * z - w * y, y * z + w * x, 1 - x * x - y * y],
+    ]
+    matrices = np.empty((*quaternions.shape[:-1], 3, 3))
+    for i, j in np.ndindex(3, 3):
+        matrices[..., i, j] = rows[i][j]
+    return matrices
 
 
 def from_rotvec(vectors: ArrayLike) -> Array:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
 from mocap import rotations
@@ -45,6 +46,18 @@ def test_euler_orders_are_products_of_single_turns():
     x, y, z = rotations.to_matrix(single)
     assert rotations.to_matrix(rotations.from_euler("xyz", [a, b, c])) == pytest.approx(z @ y @ x)
     assert rotations.to_matrix(rotations.from_euler("ZXY", [c, a, b])) == pytest.approx(z @ x @ y)
+
+
+ORDERS = ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XY", "ZX", "Y"]
+
+
+@given(seeds, st.sampled_from([*ORDERS, *map(str.lower, ORDERS)]))
+def test_from_euler_and_to_matrix_agree_with_scipy(seed, order):
+    angles = np.random.default_rng(seed).uniform(-7, 7, (2, 3, len(order)))
+    expected = Rotation.from_euler(order, angles.reshape(6, -1))
+    found = rotations.from_euler(order, angles)
+    assert rotations.angle_between(found.reshape(6, 4), expected.as_quat(scalar_first=True)).max() < 1e-12
+    assert rotations.to_matrix(1.001 * found).reshape(6, 3, 3) == pytest.approx(expected.as_matrix())
 
 
 def test_gimbal_lock_keeps_the_rotation():
