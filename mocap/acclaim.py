@@ -89,7 +89,7 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
             raise FormatError(path, line, "a new bone's name, one word", f"'{' '.join(words)}'")
         bones[words[0]] = _bone(path, block, unit, degrees)
     children = _hierarchy(path, sections[":hierarchy"], bones)
-    return AcclaimSkeleton(_skeleton(children, bones), bones, unit, degrees)
+    return AcclaimSkeleton(grown(children, bones), bones, unit, degrees)
 
 
 def _units(path: str | Path, fields: Fields) -> tuple[float, bool]:
@@ -191,7 +191,7 @@ def _bone(path: str | Path, fields: Fields, unit: float, degrees: bool) -> Bone:
 
 
 def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -> dict[str, list[str]]:
-    """List every bone's children; a bone without any gets its end for a child."""
+    """List the bones' children."""
     children: dict[str, list[str]] = {}
     free = set(bones) - {"root"}
     for number, (parent, *names) in lines:
@@ -204,17 +204,21 @@ def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -
             children.setdefault(parent, []).extend(names)
     if "root" not in children:
         raise FormatError(path, None, "bones below 'root' in :hierarchy", "none")
-    return {name: [f"{name}_end"] for name in bones} | children
+    return children
 
 
-def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
-    """Follow the hierarchy down from the root, depth first; what it does not reach is left out."""
+def grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
+    """Follow the hierarchy down from the root, depth first; what it does not reach is left out.
+
+    A bone without children gets its end for one, unless it has no length.
+    """
     joints: list[tuple[str, int, Array]] = []
     waiting = [("root", -1, np.zeros(3))]  # name, parent, offset
     while waiting:
         name, parent, offset = waiting.pop()
         end = bones[name].vector if name in bones and joints else np.zeros(3)
-        waiting += [(child, len(joints), end) for child in reversed(children.get(name, []))]
+        ends = [f"{name}_end"] if np.any(end) else []
+        waiting += [(child, len(joints), end) for child in reversed(children.get(name, ends))]
         joints.append((name, parent, offset))
     names, parents, offsets = zip(*joints, strict=True)
     # The root's axis is how it stands at rest, not one that its angles turn about.
@@ -225,7 +229,7 @@ def _skeleton(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> S
     return Skeleton(names, np.array(parents), np.array(offsets), np.array(axes), dofs)
 
 
-def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float = 120.0) -> Motion:
+def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) -> Motion:
     """Read an AMC file.
 
     The root stands at its position at rest + T, turned by M O with O its orientation at rest.
@@ -234,7 +238,8 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float = 120.0) -> M
     ----------
     path : the file.
     asf : its skeleton.
-    fps : frames a second, which the file does not tell; most of the CMU database has 120.
+    fps : frames a second. By default what a comment "# fps 30" at the start says, as `mocap` writes it, and
+        120 without one, as most of the CMU database has.
 
     Returns
     -------
@@ -244,18 +249,18 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float = 120.0) -> M
     ------
     FormatError : naming the line that breaks the format, or does not fit the skeleton.
     """
-    keywords, numbers = read_frames(path, asf.dofs(), asf.needed())
+    keywords, numbers, rate = read_frames(path, asf.dofs(), asf.needed())
     degrees = ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
     local = np.tile(rotations.IDENTITY, (len(numbers["root"]), len(asf.skeleton), 1))
     for name in asf.needed():
         _refuse_stretching(path, name, asf.bones[name], numbers[name])
-        local[:, asf.skeleton.index(name)] = _turns(name, asf.bones[name], numbers[name], degrees)
+        local[:, asf.skeleton.index(name)] = turned(name, asf.bones[name], numbers[name], degrees)
     root = asf.bones["root"]
     moves = np.zeros((len(local), 3))
     for column, move in zip(numbers["root"].T, root.dofs, strict=True):
         if move in MOVES:
             moves[:, MOVES.index(move)] = column
-    return Motion(asf.skeleton, root.vector + moves * asf.unit, local, fps, Path(path).stem)
+    return Motion(asf.skeleton, root.vector + moves * asf.unit, local, fps or rate or 120.0, Path(path).stem)
 
 
 def _refuse_stretching(path: str | Path, name: str, bone: Bone, numbers: Array) -> None:
@@ -266,14 +271,15 @@ def _refuse_stretching(path: str | Path, name: str, bone: Bone, numbers: Array) 
         raise FormatError(path, None, expected, f"{numbers[frame, still[place]]:g} in frame {frame}")
 
 
-def _turns(name: str, bone: Bone, numbers: Array, degrees: bool) -> Array:
-    """Turn a bone's numbers (F, dofs) into quaternions (F, 4)."""
+def turned(name: str, bone: Bone, numbers: Array, degrees: bool) -> Array:
+    """Turn a bone's numbers (F, dofs) into quaternions (F, 4), in its parent's frame."""
     turns = [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
     angles = np.radians(numbers[:, turns]) if degrees else numbers[:, turns]
     order = "".join(bone.dofs[place][1] for place in turns)
-    turned = rotations.from_euler(order, angles) if order else np.tile(rotations.IDENTITY, (len(angles), 1))
-    if name == "root":
-        return rotations.multiply(turned, bone.axis)
-    # C M C⁻¹ is linear in M: where it takes 1, i, j and k says it all
-    units = rotations.multiply(rotations.multiply(bone.axis, np.eye(4)), rotations.inverse(bone.axis))
-    return turned @ units
+    own = rotations.from_euler(order, angles) if order else np.tile(rotations.IDENTITY, (len(angles), 1))
+    return rotations.multiply(own, bone.axis) if name == "root" else own @ conjugation(bone.axis)
+
+
+def conjugation(axis: Array) -> Array:
+    """Give the matrix (4, 4) for M @ matrix = C M C⁻¹, which is linear in M: it holds where 1, i, j, k go."""
+    return rotations.multiply(rotations.multiply(axis, np.eye(4)), rotations.inverse(axis))

@@ -94,6 +94,31 @@ def replacing(path: str | Path) -> Iterator[Path]:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
 
 
+def write_text(path: str | Path, text: str) -> None:
+    """Write a text file as UTF-8, whole or not at all."""
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8", newline="\n")
+
+
+def rounded(numbers: Array, precision: int, name: str) -> Array:
+    """Round the numbers of a motion for printing, without -0.0.
+
+    Raises
+    ------
+    MocapError : for a number that reading would refuse.
+
+    Examples
+    --------
+    >>> rounded(np.array([-0.04, 1.26]), 1, "walk")
+    array([0. , 1.3])
+    """
+    if np.any(np.abs(numbers) >= LARGEST):
+        raise MocapError(
+            f"'{name}' goes {LARGEST:g} units far, or turns by as many degrees: no file holds it."
+        )
+    return np.round(numbers, precision) + 0.0
+
+
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
     r"""Go through the lines that say something: their numbers, from 1, and their words; `#` starts a comment.
 

@@ -122,6 +122,11 @@ class Motion:
         return (len(self) - 1) / self.fps
 
 
+def turning(motion: Motion) -> NDArray[np.bool_]:
+    """Tell which joints, shape (J,), ever turn against their parents by more than the noise of computing."""
+    return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
+
+
 def resample(motion: Motion, fps: float) -> Motion:
     """Show a motion at another frame rate: roots interpolated on lines, rotations by slerp.
 

@@ -105,8 +105,8 @@ def test_other_formats_are_refused(folder, tmp_path):
         files.load("walk.c3d")
     with pytest.raises(MocapError, match="load_skeleton reads it"):
         files.load("walk.asf")
-    with pytest.raises(MocapError, match=r"writes only .bvh yet"):
-        files.save(motion, tmp_path / "b.amc")
+    with pytest.raises(MocapError, match=r"mocap writes .amc .with .asf. and .bvh"):
+        files.save(motion, tmp_path / "b.fbx")
     with pytest.raises(MocapError, match=r"give an .asf file"):
         files.load_skeleton("walk.bvh")
 

@@ -1,0 +1,88 @@
+"""How long reading, writing and kinematics take, as ratios to the bare work they cannot do without.
+
+Run them alone: python -m pytest -m benchmark --benchmark-enable -n 0 -o addopts= tests/benchmarks/test_files.py
+The table that pytest-benchmark prints has seconds; the assertions hold the ratios.
+"""
+
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from mocap import files, rotations
+from mocap.kinematics import forward_kinematics
+from mocap.motion import Motion
+
+pytestmark = pytest.mark.benchmark
+
+
+def seconds(work, rounds=7):
+    """Return the least time of a few: what the work takes when nothing else disturbs it."""
+    best = np.inf
+    for _ in range(rounds):
+        start = time.perf_counter()
+        work()
+        best = min(best, time.perf_counter() - start)
+    return best
+
+
+@pytest.fixture(scope="module")
+def clip(real_data):
+    return real_data / "hw3/walk_fwd_circle.AMC"
+
+
+@pytest.fixture(scope="module")
+def motion(clip):
+    return files.load(clip)
+
+
+def numbers_of(path):
+    """Return the numbers alone of a file's frames, as text."""
+    text = path.read_text()
+    text = text.partition("Frame Time")[2].partition("\n")[2] or text.partition(":DEGREES")[2]
+    return " ".join(word for word in text.split() if not word[0].isalpha())
+
+
+def test_reading_amc(benchmark, clip):
+    numbers = numbers_of(clip)
+    benchmark(files.load, clip)
+    assert benchmark.stats["min"] <= 3 * seconds(lambda: np.array(numbers.split(), float))
+
+
+def test_reading_bvh(benchmark, motion, tmp_path):
+    files.save(motion, tmp_path / "a.bvh")
+    numbers = numbers_of(tmp_path / "a.bvh")
+    benchmark(files.load, tmp_path / "a.bvh")
+    assert benchmark.stats["min"] <= 3 * seconds(lambda: np.array(numbers.split(), float))
+
+
+@pytest.mark.parametrize("suffix", ["amc", "bvh"])
+def test_writing(benchmark, motion, tmp_path, suffix):
+    path = tmp_path / f"a.{suffix}"
+    benchmark(files.save, motion, path)
+    values = np.array(numbers_of(path).split(), float)
+    assert benchmark.stats["min"] <= 3 * seconds(lambda: "%.6f " * len(values) % tuple(values))
+
+
+def test_forward_kinematics(benchmark, motion):
+    local = np.tile(motion.rotations, (3, 1, 1))[:15000]
+    long = Motion(motion.skeleton, np.zeros((15000, 3)), local, 120.0)
+    benchmark(forward_kinematics, long)
+    turns = rotations.to_matrix(np.swapaxes(local, 0, 1))  # (J, F, 3, 3)
+    parents = motion.skeleton.parents
+
+    def chain():
+        whole = np.empty_like(turns)
+        whole[0] = turns[0]
+        for joint in range(1, len(parents)):
+            whole[joint] = whole[parents[joint]] @ turns[joint]
+
+    assert benchmark.stats["min"] < 3 * seconds(chain)
+
+
+def test_importing_is_light():
+    code = "import time, mocap, sys; assert 'matplotlib' not in sys.modules; print(time.process_time())"
+    runs = [subprocess.check_output([sys.executable, "-c", code], text=True) for _ in range(5)]
+    assert min(map(float, runs)) < 0.25
