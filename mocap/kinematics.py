@@ -34,7 +34,7 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 
     Examples
     --------
-    >>> from mocap.motion import Skeleton
+    >>> from mocap.skeleton import Skeleton
     >>> arm = Skeleton(["shoulder", "hand"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
     >>> turn = Motion(arm, [[0, 2, 0]], [[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]], 30.0)
     >>> forward_kinematics(turn).positions[0, 1].round(6) + 0.0

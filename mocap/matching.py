@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap.errors import MocapError
 from mocap.kinematics import joint_positions
-from mocap.motion import Motion, Skeleton, require_alike
+from mocap.motion import Motion, require_alike
+from mocap.skeleton import Skeleton
 from mocap.transforms import PlanarTransform
 
 Array = NDArray[np.float64]

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap import rotations
-from mocap.errors import MocapError
-from mocap.skeleton import Skeleton as Skeleton
-from mocap.skeleton import frozen
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.skeleton import Skeleton, frozen
 
 Array = NDArray[np.float64]
 Marks = Mapping[str, NDArray[np.bool_]]
@@ -208,7 +207,10 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 def require_alike(motions: Sequence[Motion]) -> None:
     """Raise unless all motions share one skeleton and one frame rate."""
     for motion in motions[1:]:
-        motions[0].skeleton.require_same(motion.skeleton)
+        try:
+            motions[0].skeleton.require_same(motion.skeleton)
+        except SkeletonMismatch as error:
+            raise SkeletonMismatch(f"'{motions[0].name}' and '{motion.name}': {error}") from None
         if motion.fps != motions[0].fps:
             raise MocapError(
                 f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz: "

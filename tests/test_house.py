@@ -1,6 +1,7 @@
 """The house: its layers, its bounds, its tools."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -18,13 +19,14 @@ LAYERS = [
     {"errors", "progress", "rotations"},
     {"atomic", "skeleton"},
     {"amc", "bvh_hierarchy", "motion"},
-    {"acclaim", "bvh", "kinematics", "transforms"},
-    {"acclaim_writer", "blending", "matching"},
-    {"files", "transitions"},
-    {"motion_graph"},
+    {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
+    {"acclaim_writer", "blending", "gait", "matching", "walker"},
+    {"files", "synthetic", "transitions"},
+    {"datasets", "motion_graph"},
     {"synthesis"},
     {"plotting"},
-    {"__init__"},
+    {"demo", "lab"},
+    {"__init__", "__main__"},
 ]
 
 
@@ -64,6 +66,21 @@ def test_a_module_is_short_and_so_are_its_functions(name):
             assert lines <= 30, f"{name}.{node.name} has {lines} lines"
 
 
+def public_functions() -> dict[str, ast.FunctionDef]:
+    return {
+        f"{name}.{node.name}": node
+        for name, path in MODULES.items()
+        for node in ast.parse(path.read_text()).body
+        if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
+    }
+
+
+def test_a_docstring_names_only_notebooks_that_use_the_function():
+    for name, node in public_functions().items():
+        for notebook in re.findall(r"Notebook: (\S+)", ast.get_docstring(node) or ""):
+            assert node.name in (ROOT / "notebooks" / f"{notebook}.ipynb").read_text(), name
+
+
 def test_importing_the_package_is_light():
     code = "import sys, mocap; print(sorted({m.split('.')[0] for m in sys.modules} & set(sys.argv[1:])))"
     heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy"]
@@ -72,7 +89,7 @@ def test_importing_the_package_is_light():
 
 
 def test_plotting_stays_out_of_the_method():
-    code = "import sys, mocap.synthesis, mocap.files; print('matplotlib' in sys.modules)"
+    code = "import sys, mocap.synthesis, mocap.files, mocap.datasets; print('matplotlib' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

@@ -116,7 +116,7 @@ def test_concatenation_keeps_frames_and_fills_missing_marks():
 def test_only_motions_that_go_together_are_concatenated():
     with pytest.raises(MocapError, match="nothing to concatenate"):
         concatenate([])
-    with pytest.raises(SkeletonMismatch):
+    with pytest.raises(SkeletonMismatch, match="'random1' and 'wave': The skeletons differ in"):
         concatenate([random_motion(1), wave(3)])
     with pytest.raises(MocapError, match="30 Hz, 'wave' at 60 Hz"):
         concatenate([wave(3), replace(wave(3), fps=60)])

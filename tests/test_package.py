@@ -1,5 +1,8 @@
 """The names at the top of the package."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 import mocap
@@ -14,3 +17,11 @@ def test_every_name_is_there():
 def test_another_name_is_not():
     with pytest.raises(AttributeError, match="no attribute 'walk'"):
         _ = mocap.walk
+
+
+def test_the_ten_lines_of_the_readme_run(tmp_path, monkeypatch):
+    readme = (Path(__file__).parents[1] / "README.md").read_text()
+    (lines,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    monkeypatch.chdir(tmp_path)
+    exec(lines.replace("seconds=20", "seconds=2"), {})
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["walk.bvh", "walk.gif"]

@@ -1,6 +1,6 @@
 """How long reading, writing and kinematics take, as ratios to the bare work they cannot do without.
 
-Run them alone: python -m pytest -m benchmark --benchmark-enable -n 0 -o addopts= tests/benchmarks/test_files.py
+Run them alone: pytest -m benchmark -n 0 tests/benchmarks/test_files.py
 The table that pytest-benchmark prints has seconds; the assertions hold the ratios.
 """
 

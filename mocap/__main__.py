@@ -1,0 +1,108 @@
+"""The command `mocap`, or `python -m mocap`."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+from mocap.errors import MocapError
+from mocap.progress import bar
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="mocap", description="New human motion out of captured motion.")
+    commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    _add_demo(commands)
+    lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
+    lab.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path("mocap-course"),
+        help="where an installed package puts its copy of the notebooks (default: %(default)s)",
+    )
+    lab.set_defaults(run=_lab)
+    return parser
+
+
+def _add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    demo = commands.add_parser(
+        "demo",
+        help="make a new walk out of clips, as walk.bvh and walk.gif",
+        description="Build a motion graph of some clips, prune it, walk through it at random, and write the "
+        "new motion as walk.bvh (centimetres) and walk.gif.",
+    )
+    add = demo.add_argument
+    add(
+        "clips",
+        nargs="*",
+        type=Path,
+        help=".amc or .bvh files or folders of them (default: the bundled clips)",
+    )
+    add(
+        "-o", "--out", type=Path, default=Path("mocap-demo"), help="folder to write to (default: %(default)s)"
+    )
+    add(
+        "--skeleton",
+        type=Path,
+        help="the .asf file of the .amc clips (default: the one beside them that fits)",
+    )
+    add("--scale", type=float, help="metres in a unit of the .bvh clips (default: 0.01)")
+    add("--fps", type=float, default=30.0, help="frames a second to work at (default: %(default)g)")
+    add("--window", type=float, default=1 / 3, help="seconds of a transition (default: %(default).2f)")
+    add("--threshold", type=float, default=4.0, help="worst match allowed, cm RMS (default: %(default)g)")
+    add("--seconds", type=float, default=12.0, help="length of the new walk (default: %(default)g)")
+    add("--seed", type=int, default=0, help="another seed, another walk (default: %(default)s)")
+    demo.set_defaults(run=_demo)
+
+
+def _demo(options: argparse.Namespace) -> int:
+    from mocap import demo, files, plotting
+
+    if options.clips:
+        progress = partial(bar, what="reading")
+        clips = demo.load_all(
+            options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
+        )
+    else:
+        from mocap import datasets
+
+        clips = [datasets.sample(name) for name in datasets.SAMPLES]
+    settings = demo.Settings(
+        options.fps, options.window, options.threshold / 100, options.seconds, options.seed
+    )
+    result = demo.run(clips, settings, partial(bar, what="comparing"))
+    print(result.table())
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MocapError(f"Cannot make the folder {options.out}: {error.strerror}.") from error
+    files.save(result.walk, options.out / "walk.bvh")
+    print(f"{'wrote':<12} {options.out / 'walk.bvh'}")
+    plotting.save_animation(result.walk, options.out / "walk.gif", progress=partial(bar, what="drawing"))
+    print(f"{'wrote':<12} {options.out / 'walk.gif'}")
+    return 0
+
+
+def _lab(options: argparse.Namespace) -> int:
+    from mocap import lab
+
+    return lab.open_course(options.folder)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; give its exit status: 0, or 2 where the input is at fault, or 130 when interrupted."""
+    options = _parser().parse_args(arguments)
+    try:
+        return int(options.run(options))
+    except MocapError as error:
+        print(f"mocap: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("mocap: interrupted; nothing half-written is left.", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,31 @@
+"""Clips to work with: the bundled ones, which need no network."""
+
+from functools import cache
+
+from mocap import synthetic
+from mocap.motion import Motion
+
+SAMPLES: tuple[str, ...] = synthetic.NAMES
+"""The names of the bundled clips."""
+
+
+@cache
+def sample(name: str = "walk_circle") -> Motion:
+    """Give a bundled clip: generated, the same each time, at 120 Hz, with its foot plants as contacts.
+
+    Parameters
+    ----------
+    name : one of `SAMPLES`.
+
+    Raises
+    ------
+    MocapError : for another name.
+
+    Examples
+    --------
+    >>> sample("walk_straight").skeleton
+    Skeleton(38 joints, root 'root')
+
+    Notebook: 00-quickstart
+    """
+    return synthetic.generate(name)
