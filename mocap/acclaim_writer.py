@@ -221,16 +221,19 @@ def _numbers(name: str, bone: Bone, local: Array) -> Array:
         own = rotations.multiply(local, rotations.inverse(bone.axis))
     else:
         own = local @ conjugation(rotations.inverse(bone.axis))  # C⁻¹ L C
-    order = "".join(bone.dofs[place][1] for place in turns)
+    if turns:
+        numbers[:, turns] = np.degrees(_angles("".join(bone.dofs[place][1] for place in turns), own))
+    return numbers
+
+
+def _angles(order: str, own: Array) -> Array:
+    """Read continuous angles (F, axes in `order`) off rotations (F, 4); what needs more axes is lost."""
     # The axes that a bone lacks come last, where it needs no more than the angle 0 about them.
     angles = rotations.to_euler(order + "".join(sorted(set("xyz") - set(order))), own)
     if len(order) == 3:
-        angles = rotations.continuous(order, angles)
-    elif len(order) == 2:
-        back = np.cos(angles[:, 2:]) < 0  # the twin (a + π, π - b, c + π) has the smaller c
-        angles = np.unwrap(np.where(back, angles * [1, -1, 1] + np.pi, angles), axis=0)
-    numbers[:, turns] = np.degrees(np.unwrap(angles, axis=0)[:, : len(order)])
-    return numbers
+        return rotations.continuous(order, angles)
+    back = np.cos(angles[:, 2:]) < 0  # the twin (a + π, π - b, c + π) has the smaller c
+    return np.unwrap(np.where(back, angles * [1, -1, 1] + np.pi, angles)[:, : len(order)], axis=0)
 
 
 def _add_moves(motion: Motion, asf: AcclaimSkeleton, numbers: Array) -> None:
