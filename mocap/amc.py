@@ -69,7 +69,7 @@ def _rate(path: str | Path, text: str) -> float | None:
 
 def first_frame(path: str | Path) -> dict[str, int]:
     """Count the numbers that the first frame of an AMC file has for each bone."""
-    return _opening(read_text(path))[2]
+    return _opening(read_text(path, most=100_000))[2]
 
 
 def fits(counts: Mapping[str, int], dofs: Dofs, needed: Collection[str]) -> bool:
