@@ -250,7 +250,7 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     FormatError : naming the line that breaks the format, or does not fit the skeleton.
     """
     keywords, numbers, rate = read_frames(path, asf.dofs(), asf.needed())
-    degrees = ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
+    degrees = _in_degrees(keywords, asf)
     local = np.tile(rotations.IDENTITY, (len(numbers["root"]), len(asf.skeleton), 1))
     for name in asf.needed():
         _refuse_stretching(path, name, asf.bones[name], numbers[name])
@@ -263,6 +263,21 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     return Motion(asf.skeleton, root.vector + moves * asf.unit, local, fps or rate or 120.0, Path(path).stem)
 
 
+def read_angles(path: str | Path, asf: AcclaimSkeleton) -> dict[str, Array]:
+    """Give each bone's angles, shape (F, rotational dofs), degrees, as they stand in the file."""
+    keywords, numbers, _ = read_frames(path, asf.dofs(), asf.needed())
+    unit = 1.0 if _in_degrees(keywords, asf) else np.degrees(1.0)
+    return {name: unit * numbers[name][:, _turning(asf.bones[name])] for name in asf.needed()}
+
+
+def _in_degrees(keywords: set[str], asf: AcclaimSkeleton) -> bool:
+    return ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
+
+
+def _turning(bone: Bone) -> list[int]:
+    return [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
+
+
 def _refuse_stretching(path: str | Path, name: str, bone: Bone, numbers: Array) -> None:
     still = [place for place, dof in enumerate(bone.dofs) if dof not in TURNS and name != "root"]
     if np.any(moving := numbers[:, still] != 0):
@@ -273,7 +288,7 @@ def _refuse_stretching(path: str | Path, name: str, bone: Bone, numbers: Array) 
 
 def turned(name: str, bone: Bone, numbers: Array, degrees: bool) -> Array:
     """Turn a bone's numbers (F, dofs) into quaternions (F, 4), in its parent's frame."""
-    turns = [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
+    turns = _turning(bone)
     angles = np.radians(numbers[:, turns]) if degrees else numbers[:, turns]
     order = "".join(bone.dofs[place][1] for place in turns)
     own = rotations.from_euler(order, angles) if order else np.tile(rotations.IDENTITY, (len(angles), 1))

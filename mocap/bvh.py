@@ -11,6 +11,7 @@ import re
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,14 @@ SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
+
+
+class Channels(NamedTuple):
+    """A BVH file as it stands: its joints, the numbers of all channels (F, channels), the frame rate."""
+
+    joints: list[Joint]
+    values: Array
+    fps: float
 
 
 def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> Motion:
@@ -51,6 +60,22 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
     ------
     FormatError : naming the line that breaks the format.
     """
+    joints, values, rate = read_channels(path, fps=fps)
+    places, local = _poses(joints, values)
+    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
+        joints, places, local = _without_reference(joints, places, local)
+    for joint, place in zip(joints[1:], np.swapaxes(places, 0, 1)[1:], strict=True):
+        if _moves(place, scale):
+            got = f"one that moves by {scale * np.ptp(place, axis=0).max():.2g} m"
+            raise FormatError(path, joint.line, f"'{joint.name}' in one place below its parent", got)
+    offsets = np.vstack([np.zeros((1, 3)), scale * places[0, 1:]])
+    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
+    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
+    return Motion(skeleton, scale * places[:, 0], local, rate, Path(path).stem)
+
+
+def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
+    """Read a BVH file as it stands; `fps` goes before its frame time."""
     text = read_text(path)
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
@@ -62,17 +87,18 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
         got = f"'{' '.join(text[start.end() :][:80].split())}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
     values = _values(path, text, times, sum(len(joint.channels) for joint in joints))
-    places, local = _poses(joints, values)
-    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
-        joints, places, local = _without_reference(joints, places, local)
-    for joint, place in zip(joints[1:], np.swapaxes(places, 0, 1)[1:], strict=True):
-        if _moves(place, scale):
-            got = f"one that moves by {scale * np.ptp(place, axis=0).max():.2g} m"
-            raise FormatError(path, joint.line, f"'{joint.name}' in one place below its parent", got)
-    offsets = np.vstack([np.zeros((1, 3)), scale * places[0, 1:]])
-    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
-    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
-    return Motion(skeleton, scale * places[:, 0], local, fps or _rate(path, text, times), Path(path).stem)
+    return Channels(joints, values, fps or _rate(path, text, times))
+
+
+def read_angles(path: str | Path) -> dict[str, Array]:
+    """Give each joint's angles, shape (F, rotation channels), degrees, as they stand in the file."""
+    joints, values, _ = read_channels(path, fps=1.0)
+    found, column = {}, 0
+    for joint in joints:
+        turns = [column + place for place, name in enumerate(joint.channels) if name in ROTATIONS]
+        found[joint.name] = values[:, turns]
+        column += len(joint.channels)
+    return found
 
 
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:

@@ -55,6 +55,10 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     subject : only trials of this person.
     kind : only trials whose description has this word, whatever its case.
 
+    Raises
+    ------
+    MocapError : when there is none.
+
     Examples
     --------
     >>> [trial.name for trial in trials(subject=127, kind="walk")]
@@ -66,6 +70,10 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
         asked = subject in (None, int(person)) and _says(row["description"], kind)
         if file.endswith(".amc") and asked:
             found.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
+    if not found:
+        subjects = ", ".join(sorted({name.split("/")[0] for name in _registry()}))
+        wanted = f"subject {subject or 'any'} with '{kind or ''}'"
+        raise MocapError(f"No trial of {wanted} is listed; the subjects are {subjects}.")
     return found
 
 
@@ -110,9 +118,7 @@ def cmu(
         return load(fetch(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
     if subject is None and kind is None:
         raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
-    if not (chosen := trials(subject, kind)):
-        raise MocapError(f"No trial of subject {subject or 'any'} and kind '{kind or 'any'}' is listed.")
-    return [cmu(trial.name) for trial in chosen]
+    return [cmu(trial.name) for trial in trials(subject, kind)]
 
 
 def fetch(name: str) -> Path:
@@ -129,11 +135,8 @@ def fetch(name: str) -> Path:
     try:
         return Path(store.fetch(name, downloader=_download))
     except RequestException as error:
-        answer = (
-            f"answers {error.response.status_code}"
-            if error.response is not None
-            else "breaks off, or does not answer"
-        )
+        status = error.response.status_code if error.response is not None else None
+        answer = f"answers {status}" if status else "breaks off or does not answer"
         raise MocapError(f"{url} {answer}: try again later, or {hint}.") from error
     except ValueError as error:  # the checksum
         raise MocapError(f"{url} is not the file listed: its checksum differs; {hint}.") from error

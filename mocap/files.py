@@ -4,12 +4,17 @@ import math
 from pathlib import Path
 from typing import TypedDict, Unpack
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mocap import acclaim, amc, bvh
 from mocap.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
 from mocap.atomic import read_text, write_text
 from mocap.errors import MocapError
 from mocap.motion import Motion
 from mocap.skeleton import Skeleton
+
+Array = NDArray[np.float64]
 
 
 def load(
@@ -83,6 +88,22 @@ def load_skeleton(path: str | Path) -> Skeleton:
     if Path(path).suffix.lower() != ".asf":
         raise MocapError(f"Cannot read a skeleton from {path}: give an .asf file.")
     return acclaim.read_skeleton(path).skeleton
+
+
+def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
+    """Give each joint's angles as they stand in the file, shape (F, its axes), degrees.
+
+    `load` makes rotations of them, which hold no jump where an angle jumps from 180° to -180°.
+
+    Parameters
+    ----------
+    path, skeleton : as for `load`.
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".bvh":
+        return bvh.read_angles(path)
+    asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
+    return acclaim.read_angles(path, acclaim.read_skeleton(asf))
 
 
 class Form(TypedDict, total=False):

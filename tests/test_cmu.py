@@ -56,7 +56,7 @@ class Handler(BaseHTTPRequestHandler):
 @pytest.fixture
 def server(monkeypatch, tmp_path):
     server = Server()
-    thread = threading.Thread(target=server.serve_forever)
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,))
     thread.start()
     kinds = ["walk", "Run, walk", "sleepwalking"]
     rows = {
@@ -97,7 +97,9 @@ def test_a_trial_is_fetched_once(server, tmp_path, capsys):
 def test_a_subject_and_a_kind(server):
     assert [motion.name for motion in datasets.cmu(subject=7)] == ["07_01", "07_02"]
     assert [motion.name for motion in datasets.cmu(kind="run")] == ["07_01", "08_01"]
-    with pytest.raises(MocapError, match="No trial of subject 8 and kind 'swim' is listed"):
+    with pytest.raises(
+        MocapError, match="No trial of subject 8 with 'swim' is listed; the subjects are 07, 08"
+    ):
         datasets.cmu(subject=8, kind="swim")
     with pytest.raises(MocapError, match="Which trials"):
         datasets.cmu()

@@ -20,12 +20,12 @@ LAYERS = [
     {"atomic", "skeleton"},
     {"amc", "bvh_hierarchy", "motion"},
     {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"acclaim_writer", "blending", "gait", "matching", "walker"},
+    {"acclaim_writer", "blending", "gait", "inspection", "matching", "walker"},
     {"files", "synthetic", "transitions"},
-    {"cmu", "motion_graph"},
+    {"cmu", "conversion", "motion_graph"},
     {"datasets", "synthesis"},
     {"plotting"},
-    {"demo", "lab"},
+    {"commands", "demo", "lab"},
     {"__init__", "__main__"},
 ]
 
