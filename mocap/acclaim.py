@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mocap import rotations
 from mocap.amc import read_frames
-from mocap.atomic import lines, read_text, to_numbers
+from mocap.atomic import check_room, lines, read_text, to_numbers
 from mocap.errors import FormatError
 from mocap.motion import Motion
 from mocap.skeleton import Skeleton
@@ -250,8 +250,9 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     FormatError : naming the line that breaks the format, or does not fit the skeleton.
     """
     keywords, numbers, rate = read_frames(path, asf.dofs(), asf.needed())
-    degrees = _in_degrees(keywords, asf)
-    local = np.tile(rotations.IDENTITY, (len(numbers["root"]), len(asf.skeleton), 1))
+    degrees, frames = _in_degrees(keywords, asf), len(numbers["root"])
+    check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
+    local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
     for name in asf.needed():
         _refuse_stretching(path, name, asf.bones[name], numbers[name])
         local[:, asf.skeleton.index(name)] = turned(name, asf.bones[name], numbers[name], degrees)

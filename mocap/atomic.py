@@ -103,6 +103,17 @@ def write_text(path: str | Path, text: str) -> None:
         beside.write_text(text, encoding="utf-8", newline="\n")
 
 
+def check_room(path: str | Path, poses: int, numbers: int) -> None:
+    """Refuse a file whose few numbers would fill the memory with poses of joints that have none.
+
+    Raises
+    ------
+    FormatError : for over 10 million poses of one joint, and fewer than a number to ten of them.
+    """
+    if poses > 10_000_000 and poses > 10 * numbers:
+        raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
+
+
 def rounded(numbers: Array, precision: int, name: str) -> Array:
     """Round the numbers of a motion for printing, without -0.0.
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap import rotations
-from mocap.atomic import LARGEST, read_text, rounded, to_numbers, write_text
+from mocap.atomic import LARGEST, check_room, read_text, rounded, to_numbers, write_text
 from mocap.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.errors import FormatError, MocapError
 from mocap.motion import Motion, turning
@@ -87,6 +87,7 @@ def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
         got = f"'{' '.join(text[start.end() :][:80].split())}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
     values = _values(path, text, times, sum(len(joint.channels) for joint in joints))
+    check_room(path, len(values) * len(joints), values.size)
     return Channels(joints, values, fps or _rate(path, text, times))
 
 
