@@ -7,8 +7,8 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `matching`, `transitions`,
-`blending`, `motion_graph`, `synthesis`. What one sees: `plotting`, `demo`.
+`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about: `matching`,
+`transitions`, `blending`, `motion_graph`, `synthesis`. What one sees: `plotting`, `demo`.
 
 References
 ----------

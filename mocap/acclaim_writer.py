@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap import rotations
-from mocap.acclaim import INCH, MOVES, TURNS, AcclaimSkeleton, Bone, conjugation, grown, turned
+from mocap.acclaim import conjugation, turned
+from mocap.acclaim_skeleton import INCH, MOVES, TURNS, AcclaimSkeleton, Bone, grown
 from mocap.atomic import rounded
 from mocap.errors import MocapError
 from mocap.motion import Motion, turning

@@ -77,7 +77,7 @@ def _convert(options: argparse.Namespace) -> int:
     failed = [outcome for outcome in outcomes if outcome.problem]
     print(f"{'converted':<10} {len(outcomes) - len(failed)} of {len(outcomes)}")
     for outcome in failed:
-        print(f"{'failed':<10} {outcome.source}: {outcome.problem}")
+        print(f"{'failed':<10} {outcome.problem}")
     return 2 if failed else 0
 
 

@@ -26,7 +26,7 @@ class Options(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """A file, what it was to become, and why it did not, or None."""
+    """A file, what it was to become, and why it did not (a sentence that names one of the two), or None."""
 
     source: Path
     target: Path
@@ -97,7 +97,8 @@ def _convert(source: Path, target: Path, options: Options) -> Outcome:
         target.parent.mkdir(parents=True, exist_ok=True)
         save(motion, target, widen=options.widen)
     except MocapError as error:
-        return Outcome(source, target, str(error))
+        named = any(str(path) in str(error) for path in (source, target))
+        return Outcome(source, target, str(error) if named else f"{source}: {error}")
     except OSError as error:
         return Outcome(source, target, f"Cannot make the folder {target.parent}: {error.strerror}.")
     return Outcome(source, target, None)

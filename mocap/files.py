@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mocap import acclaim, amc, bvh
 from mocap.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
 from mocap.atomic import read_text, write_text
-from mocap.errors import MocapError
+from mocap.errors import FormatError, MocapError
 from mocap.motion import Motion
 from mocap.skeleton import Skeleton
 
@@ -201,9 +201,7 @@ def _skeleton_for(path: Path) -> Path:
         return fitting[0]
     found = ", ".join(file.name for file in fitting or beside) or "no .asf file"
     problem = "several fit" if fitting else "none fits"
-    raise MocapError(
-        f"Which skeleton {path} has is not clear; beside it, {problem} ({found}): name it by skeleton=."
-    )
+    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", f"{problem} ({found})")
 
 
 def _fits(file: Path, counts: dict[str, int]) -> bool:

@@ -169,6 +169,8 @@ def test_degrees_and_radians(write):
         (ASF, radians.replace(":DEGREES", ":RADIANS")),
         (in_radians, AMC),
         (in_radians, radians.replace(":DEGREES\n", "")),
+        (in_radians.replace("rad\n", "Radians\n"), AMC),
+        (ASF.replace("angle deg", "angle degrees"), AMC),
         (ASF, AMC.replace(":DEGREES\n", "")),
     ]:
         assert np.allclose(read(write, asf, text).rotations, expected)

@@ -53,7 +53,7 @@ def test_convert_a_folder_and_name_what_failed(clips, tmp_path, capsys):
     assert main(["convert", str(clips), str(tmp_path / "out"), "--to", "amc"]) == 2
     told = capsys.readouterr().out
     assert "converted  2 of 3\n" in told
-    assert f"failed     {clips / 'broken.bvh'}: {clips / 'broken.bvh'}: expected a line 'MOTION'" in told
+    assert f"failed     {clips / 'broken.bvh'}: expected a line 'MOTION'" in told
     made = sorted(str(p.relative_to(tmp_path / "out")) for p in (tmp_path / "out").rglob("*.*"))
     assert made == ["a.amc", "a.asf", "more/b.amc", "more/b.asf"]
     assert same(tmp_path / "out/more/b.amc", clips / "more/b.BVH")

@@ -65,7 +65,7 @@ def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
 @pytest.mark.parametrize(
     ("skeletons", "message"),
     [
-        ({}, r"none fits \(no .asf file\): name it by skeleton="),
+        ({}, r"named by skeleton=, got none fits \(no .asf file\)"),
         ({"a": ("tail", 1), "b": ("tail", 1)}, r"none fits \(a.ASF, b.ASF\)"),
         ({"a": ("spine", 1), "b": ("spine", 2)}, r"several fit \(a.ASF, b.ASF\)"),
     ],

@@ -18,7 +18,7 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 LAYERS = [
     {"errors", "progress", "rotations"},
     {"atomic", "skeleton"},
-    {"amc", "bvh_hierarchy", "motion"},
+    {"acclaim_skeleton", "amc", "bvh_hierarchy", "motion"},
     {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
     {"acclaim_writer", "blending", "gait", "inspection", "matching", "walker"},
     {"files", "synthetic", "transitions"},
