@@ -180,7 +180,7 @@ def _digits(numbers: Array) -> str:
 
 
 def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
-    """Write the text of an AMC file: every number in degrees or units, every curve continuous.
+    r"""Write the text of an AMC file: every number in degrees or units, every curve continuous.
 
     Parameters
     ----------
@@ -195,6 +195,17 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
     Raises
     ------
     MocapError : when a bone cannot turn, or the root not move, as the motion does.
+
+    Examples
+    --------
+    >>> dog = Skeleton(["root", "tail"], [-1, 0], [[0, 0, 0], [0, 0, 0]], dofs=["xyz", "x"])
+    >>> wag = Motion(dog, [[0, 0, 0]], [[[1, 0, 0, 0], rotations.about_y(0.1)]], 30.0, "wag")
+    >>> to_amc(wag, to_acclaim(dog))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: 'wag' does not fit its bones: 'tail', which turns about rx, would lose 5.7° ...
+    >>> wide = to_acclaim(widened(wag))
+    >>> to_amc(wag, wide, precision=2).split("\n")[-3:]
+    ['root 0.00 0.00 0.00 0.00 0.00 0.00', 'tail 0.00 5.73 0.00', '']
     """
     tolerance = max(LOST, 2 * 10.0**-precision)  # degrees; the second is what rounding loses anyway
     numbers, losses = {}, []

@@ -77,6 +77,11 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
     Returns
     -------
     What became of each.
+
+    Examples
+    --------
+    >>> convert([(Path("gone.bvh"), Path("walk.amc"))], Options())[0].problem
+    'Cannot read gone.bvh: No such file or directory.'
     """
     if len(pairs) == 1:
         return [_convert(*pairs[0], options)]

@@ -98,6 +98,16 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
     Parameters
     ----------
     path, skeleton : as for `load`.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> turned = Motion(bone, [[0, 0, 0]], [[[0, 0, 1, 0], [1, 0, 0, 0]]], 30.0)
+    >>> with TemporaryDirectory() as folder:
+    ...     save(turned, f"{folder}/turned.bvh")
+    ...     read_angles(f"{folder}/turned.bvh")["root"]  # z, x, y
+    array([[  0.,   0., 180.]])
     """
     path = Path(path)
     if path.suffix.lower() == ".bvh":

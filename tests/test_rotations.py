@@ -66,6 +66,24 @@ def test_gimbal_lock_keeps_the_rotation():
     assert rotations.angle_between(locked, back) == pytest.approx(0, abs=1e-6)
 
 
+@pytest.mark.parametrize("order", [*ORDERS[:6], *map(str.lower, ORDERS[:6])])
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("start", [0, 150])
+def test_angles_stay_continuous_through_gimbal_lock(order, sign, start):
+    """The second angle stays at ±90° for a long while, and may begin there, as the others turn on."""
+    time = np.linspace(0, 1, 401)[start:]
+    second = sign * np.minimum(1.3 + 0.9 * time - 4 * np.maximum(time - 0.7, 0), np.pi / 2)
+    angles = np.stack([2 * time + 1, second, 0.9 * np.sin(3 * time) + 0.5], axis=-1)
+    assert (np.abs(second) == np.pi / 2).sum() > 100
+    turns = rotations.from_euler(order, angles)
+    found = rotations.continuous(order, rotations.to_euler(order, turns))
+    assert rotations.angle_between(rotations.from_euler(order, found), turns).max() < 1e-12
+    leave = (np.abs(second) == np.pi / 2).nonzero()[0].max()  # where the third angle is free no more
+    steps = np.abs(np.diff(found, axis=0))
+    assert np.delete(steps, leave, axis=0).max() < 0.05
+    assert steps[leave].max() < 0.5
+
+
 def test_scalar_first():
     assert rotations.about_y(np.pi) == pytest.approx([0, 0, 1, 0])
     assert rotations.rotate(rotations.about_y(np.pi / 2), [[0, 0, 1], [1, 0, 0]]) == (
