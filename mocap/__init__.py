@@ -7,12 +7,18 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about: `matching`,
-`transitions`, `blending`, `motion_graph`, `synthesis`. What one sees: `plotting`, `demo`.
+`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about:
+`matching`, `transitions`, `blending`, `motion_graph`, `synthesis`. Seams and feet: `joining`, `quality`,
+`legs`, `plants`, `leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees:
+`plotting`, `demo`.
+
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [KSG02] L. Kovar, J. Schreiner, M. Gleicher, *Footskate Cleanup for Motion Capture Editing*, SCA 2002,
+   doi 10.1145/545261.545277.
+.. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
 """
 
 from importlib import import_module

@@ -17,15 +17,14 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations"},
-    {"atomic", "skeleton"},
-    {"acclaim_skeleton", "amc", "bvh_hierarchy", "motion"},
-    {"acclaim", "bvh", "footsteps", "inverse_kinematics", "kinematics", "transforms"},
-    {"acclaim_writer", "blending", "gait", "inspection", "matching", "walker"},
-    {"files", "synthetic", "transitions"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "skeleton"},
+    {"acclaim_skeleton", "amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
+    {"acclaim_writer", "homework_slips", "inspection", "leg_posing", "matching", "plants", "synthetic"},
+    {"files", "footskate", "joining", "quality", "transitions"},
     {"cmu", "conversion", "motion_graph"},
-    {"datasets", "synthesis"},
-    {"plotting"},
-    {"commands", "demo", "lab"},
+    {"datasets", "plotting", "synthesis"},
+    {"commands", "demo"},
     {"__init__", "__main__"},
 ]
 
