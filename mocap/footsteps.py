@@ -203,8 +203,9 @@ def foot_path(steps: Steps, phase: Array, foot: Foot) -> FootPath:
     """
     rolls = steps.rolls
     changes = [k for k in range(1, len(rolls)) if rolls[k] != rolls[k - 1]]
-    # One roll passes to the next in the middle of a plant, where the sole lies flat by both.
-    middles = [steps.strikes[k] + (rolls[k - 1].flat + rolls[k].heel_off) / 2 for k in changes]
+    # One roll passes to the next in the middle of the time in which the sole lies flat by both.
+    both = [(steps.strikes[k], rolls[k - 1], rolls[k]) for k in changes]
+    middles = [s + (max(a.flat, b.flat) + min(a.heel_off, b.heel_off)) / 2 for s, a, b in both]
     parts = np.split(phase, np.searchsorted(phase, middles))
     pieces = [_roll_on(steps, part, rolls[k], foot) for k, part in zip([0, *changes], parts, strict=True)]
     return FootPath(*map(np.concatenate, zip(*pieces, strict=True)))

@@ -191,6 +191,13 @@ def test_a_planted_joint_stands_still(name, joint):
 
 
 @pytest.mark.parametrize("name", CLIPS)
+def test_plants_and_the_gaps_between_them_last(name):
+    for joint, mark in CLIPS[name].contacts.items():
+        changes = np.flatnonzero(np.diff(mark.astype(int)))
+        assert np.diff(changes).min() >= 6, joint  # frames: a twentieth of a second
+
+
+@pytest.mark.parametrize("name", CLIPS)
 def test_nothing_goes_through_the_floor(name):
     motion = CLIPS[name]
     positions = joint_positions(motion)
