@@ -7,11 +7,11 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `point_clouds`, `cloud_grid`,
-`matching`, `minima`, `transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`, `thresholds`,
-`merging`, `graph_summary`, `graph_files`, `synthesis`. Seams and feet: `joining`, `quality`, `legs`,
-`plants`, `leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `plotting`,
-`demo`.
+`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about:
+`point_clouds`, `cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`,
+`motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`, `synthesis`. Seams and
+feet: `joining`, `quality`, `legs`, `plants`, `leg_posing`, `footskate`; what once went wrong:
+`homework_slips`. What one sees: `plotting`, `demo`.
 
 References
 ----------
