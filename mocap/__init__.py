@@ -7,9 +7,11 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `matching`, `transitions`,
-`blending`, `motion_graph`, `synthesis`. Seams and feet: `joining`, `quality`, `legs`, `plants`,
-`leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `plotting`, `demo`.
+`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about:
+`point_clouds`, `cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`,
+`motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`, `synthesis`. Seams and
+feet: `joining`, `quality`, `legs`, `plants`, `leg_posing`, `footskate`; what once went wrong:
+`homework_slips`. What one sees: `plotting`, `demo`.
 
 References
 ----------
@@ -23,7 +25,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mocap.errors import FormatError, MocapError, NoWalk, SkeletonMismatch
+    from mocap.errors import FormatError, MocapError, MocapWarning, NoWalk, SkeletonMismatch
     from mocap.files import load, load_skeleton, save
     from mocap.motion import Motion, concatenate, resample
     from mocap.skeleton import Skeleton
@@ -35,6 +37,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "FormatError": "errors",
     "MocapError": "errors",
+    "MocapWarning": "errors",
     "NoWalk": "errors",
     "SkeletonMismatch": "errors",
     "load": "files",
@@ -50,6 +53,7 @@ _HOMES = {
 __all__ = [
     "FormatError",
     "MocapError",
+    "MocapWarning",
     "Motion",
     "NoWalk",
     "PlanarTransform",

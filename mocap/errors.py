@@ -37,3 +37,7 @@ class SkeletonMismatch(MocapError):
 
 class NoWalk(MocapError):
     """A graph in which the walk asked for does not exist."""
+
+
+class MocapWarning(UserWarning):
+    """Something that was asked for can be had only in part; the message says how much of it."""

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
-import networkx as nx
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -24,7 +23,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
 from PIL import Image
 
-from mocap import datasets, matching, motion_graph, plotting, synthesis, transitions
+from mocap import datasets, matching, motion_graph, plotting, pruning, synthesis, transitions
 from mocap.atomic import replacing
 from mocap.errors import MocapError
 from mocap.footprints import footprints
@@ -35,9 +34,6 @@ from mocap.motion_graph import MotionGraph
 Array = NDArray[np.float64]
 
 WINDOW = 10  # frames at 30 Hz
-
-EIGHT = nx.DiGraph([(1, 2), (2, 3), (3, 4), (5, 6), (6, 7), (7, 8), (3, 6), (6, 2), (2, 7), (7, 1)])
-"""Two clips, cut at their nodes 1 to 4 and 5 to 8: 4 and 8 are dead ends, and nothing leads back to 5."""
 
 
 @cache
@@ -84,14 +80,15 @@ def draw_distances() -> Figure:
 
 def draw_pruning() -> Figure:
     """Draw the graph of eight nodes before and after pruning."""
-    largest = max(nx.strongly_connected_components(EIGHT), key=len)
-    places = {node: ((node - 1) % 4, -1.3 * ((node - 1) // 4)) for node in EIGHT}
-    figure = plt.figure(figsize=(8, 2.9), layout="constrained")
+    graph = pruning.notes_example()
+    corners = [(0, 1), (1, 2), (1, 0), (-0.2, -0.6), (3.6, 2.4), (2.2, 2), (3, 1), (2.2, 0)]
+    places = dict(zip(range(1, 9), corners, strict=True))
+    figure = plt.figure(figsize=(8, 3.4), layout="constrained")
     before, after = figure.subplots(1, 2)
-    plotting.node_link(EIGHT, places=places, ax=before)
-    plotting.node_link(EIGHT, places=places, kept=EIGHT.subgraph(largest), ax=after)
-    before.set_title("before pruning")
-    after.set_title("after: what a walk can use for ever")
+    plotting.node_link(graph, places=places, ax=before)
+    plotting.node_link(graph, places=places, kept=pruning.prune_graph(graph).graph, ax=after)
+    before.set_title("before pruning", y=0.94)
+    after.set_title("after: 4 is a sink, 5 a dead end", y=0.94)
     return figure
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.patches import FancyArrowPatch
+from matplotlib.path import Path
 from numpy.typing import ArrayLike, NDArray
 
 from mocap.errors import MocapError
@@ -128,12 +129,11 @@ def _name(node: object) -> str:
 
 
 def _arrow(start: Sequence[float], end: Sequence[float], kept: bool) -> FancyArrowPatch:
-    """Bend an arrow to its left, so that there and back are two; a loop leaves and comes back above."""
-    (x, y), loop = end, np.array_equal(start, end)
+    """Bend an arrow to its left, so that there and back are two; one to its own start goes round above."""
     return FancyArrowPatch(
         (start[0], start[1]),
-        (x + 1e-3, y) if loop else (x, y),
-        connectionstyle="arc3,rad=-90" if loop else "arc3,rad=0.15",
+        (end[0], end[1]),
+        connectionstyle=_round_above if np.array_equal(start, end) else "arc3,rad=0.15",  # type: ignore[arg-type]  # any callable will do
         arrowstyle="-|>",
         mutation_scale=12,
         shrinkA=11,
@@ -145,7 +145,13 @@ def _arrow(start: Sequence[float], end: Sequence[float], kept: bool) -> FancyArr
     )
 
 
-def pruning(
+def _round_above(start: Sequence[float], _: object, *, shrinkA: float, **__: object) -> Path:
+    """Lead a loop round the top of a disc of radius `shrinkA`, pixels."""
+    corners = np.array([(-0.5, 0.8), (-1.5, 2.8), (1.5, 2.8), (0.5, 0.95)])
+    return Path(start + shrinkA * corners, [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4])
+
+
+def before_and_after(
     whole: MotionGraph, pruned: MotionGraph, *, axes: ArrayLike | None = None
 ) -> tuple[LineCollection, LineCollection]:
     """Draw a motion graph before and after pruning, one above the other.

@@ -6,15 +6,18 @@ edge gives the frames [start, end) of a motion, and the frames of a walk are tho
 """
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import networkx as nx
+import numpy as np
 
 from mocap.errors import MocapError, NoWalk
 from mocap.motion import Motion, require_alike
 from mocap.progress import Progress
-from mocap.transitions import Transition, find_transitions
+from mocap.pruning import Labels, prune_graph, uncollected
+from mocap.transitions import Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
 
@@ -28,8 +31,9 @@ class MotionGraph:
     clips : the motions, which the nodes' first numbers count.
     window : frames in a transition.
     graph : the `networkx.MultiDiGraph`. Nodes are pairs (clip, frame). Edges have `kind` ("clip" or
-        "transition") and `frames`; transitions also `cost` (RMS distance, metres) and `transform`, which
-        lays the clip they lead to on the one they come from.
+        "transition"), `frames`, and `labels`, a frozenset of all labels that some frame bears which they
+        play or blend; transitions also `cost` (RMS distance, metres) and `transform`, which lays the clip
+        they lead to on the one they come from.
 
     Notebook: 00-quickstart
     """
@@ -44,6 +48,11 @@ class MotionGraph:
             f"{self.graph.number_of_edges()} edges, {self.count('transition')} of them transitions)"
         )
 
+    @property
+    def fps(self) -> float:
+        """Frames a second, of all clips."""
+        return self.clips[0].fps
+
     def count(self, kind: str) -> int:
         """Count the edges of a kind, "clip" or "transition"."""
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
@@ -55,7 +64,12 @@ class MotionGraph:
 
 
 def build(
-    clips: Sequence[Motion], *, window: int, threshold: float, progress: Progress = iter
+    clips: Sequence[Motion],
+    *,
+    window: int,
+    threshold: Thresholds,
+    progress: Progress = iter,
+    executor: Executor | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
@@ -63,19 +77,28 @@ def build(
     ----------
     clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
-    threshold : the largest RMS distance of the points that a transition may bridge, metres.
-    progress : wraps the pairs of clips as they are compared, to show a bar.
+    threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
+        pair of labels, as for `find_transitions`.
+    progress, executor : to show a bar while the clips are compared, and where to do that.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window.
+    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window. Clips
+        at different rates are not resampled unasked: `build([resample(clip, 30) for clip in clips], ...)`.
 
     Notebook: 00-quickstart
     """
-    found = find_transitions(clips, window=window, below=threshold, progress=progress)
+    _require_names(clips)
+    found = find_transitions(clips, window=window, below=threshold, progress=progress, executor=executor)
     return from_transitions(clips, found, window=window)
 
 
+def _labels(motion: Motion, start: int, end: int) -> Labels:
+    """Collect the labels that the frames [start, end) bear."""
+    return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
+
+
+@uncollected()
 def from_transitions(
     clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int
 ) -> MotionGraph:
@@ -83,20 +106,38 @@ def from_transitions(
 
     A transition leaves its first clip at the frame where its window starts, and enters the second at
     the frame after the window ends [KGP02, 3.3].
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for clips that do not go together, and transitions outside them.
     """
-    require_alike(clips)
     _require_names(clips)
+    require_alike(clips)
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
-        ends = (t.source, t.leave), (t.target, t.enter + window)
-        graph.add_edge(*ends, kind="transition", frames=window, cost=t.cost, transform=t.transform)
+        _require_inside(clips, t, window)
+        here = _labels(clips[t.source], t.leave, t.leave + window)
+        there = _labels(clips[t.target], t.enter, t.enter + window)
+        edge = {"kind": "transition", "frames": window, "labels": here | there}
+        graph.add_edge(
+            (t.source, t.leave), (t.target, t.enter + window), **edge, cost=t.cost, transform=t.transform
+        )
     # Within a clip the nodes stand in the order of time, so each is joined to the one after it.
     for (clip, start), (same, end) in pairwise(sorted(graph)):
         if clip == same:
-            graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start)
+            edge = {"kind": "clip", "frames": end - start, "labels": _labels(clips[clip], start, end)}
+            graph.add_edge((clip, start), (clip, end), **edge)
     return MotionGraph(tuple(clips), window, graph)
+
+
+def _require_inside(clips: Sequence[Motion], t: Transition, window: int) -> None:
+    for clip, start in ((t.source, t.leave), (t.target, t.enter)):
+        if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
+            raise MocapError(
+                f"A transition of {window} frames from frame {start} of clip {clip} lies outside the clips."
+            )
 
 
 def _require_names(clips: Sequence[Motion]) -> None:
@@ -107,24 +148,30 @@ def _require_names(clips: Sequence[Motion]) -> None:
         raise MocapError(f"Clips need different names; given twice: {', '.join(twice)}.")
 
 
-def prune(motion_graph: MotionGraph) -> MotionGraph:
+def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: int = 1) -> MotionGraph:
     """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
 
     The largest is the one that can play most frames of the clips [KGP02, 3.4]; what is left out are dead
-    ends, and sinks that a walk could never leave again.
+    ends, and sinks that a walk could never leave again. `pruning.prune_graph` also tells why each edge went.
+
+    Parameters
+    ----------
+    motion_graph : left as it is.
+    by_labels : keep a component for every set of labels, made of edges with just these, and the ways between.
+    least_frames : a warning tells where fewer frames of clip stay.
 
     Raises
     ------
     NoWalk : where no component has an edge, so that every walk ends.
 
+    Warns
+    -----
+    MocapWarning : for components with too few frames, and for those from which no way leads to another.
+
     Notebook: 00-quickstart
     """
-    graph = motion_graph.graph
-    parts = [replace(motion_graph, graph=graph.subgraph(c)) for c in nx.strongly_connected_components(graph)]
-    largest = max(parts, key=lambda part: (part.frames, part.graph.number_of_edges()))
-    if largest.graph.number_of_edges() == 0:
-        raise NoWalk("The graph has no cycle, so every walk through it ends: allow costlier transitions.")
-    return replace(motion_graph, graph=largest.graph.copy())
+    pruning = prune_graph(motion_graph.graph, by_labels=by_labels, least_frames=least_frames)
+    return replace(motion_graph, graph=pruning.graph)
 
 
 def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
@@ -134,7 +181,8 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     ------
     NoWalk : where there is none at any threshold.
     """
-    found = sorted(find_transitions(clips, window=window, below=float("inf")), key=lambda t: t.cost)
+    found = find_transitions(clips, window=window, below=float("inf"))
+    found = found[np.argsort(found.cost, kind="stable")]
     low, high = 0, len(found)
     while (
         low < high

@@ -7,6 +7,7 @@ it made. What stands on 3D ground comes from `stage`, graphs from `graph_drawing
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -18,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap.animation import save_animation as save_animation
 from mocap.footprints import Footprint
+from mocap.graph_drawing import before_and_after as before_and_after
 from mocap.graph_drawing import node_link as node_link
-from mocap.graph_drawing import pruning as pruning
 from mocap.graph_drawing import timeline as timeline
 from mocap.motion import Motion
 from mocap.stage import film_strip as film_strip
@@ -32,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 def distance_image(
-    grid: Array,
+    grid: NDArray[np.floating[Any]],
     *,
     fps: float,
     minima: ArrayLike = (),

@@ -17,8 +17,8 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike, NDArray
 
 from mocap.kinematics import joint_positions
-from mocap.matching import distinct_joints
 from mocap.motion import Motion
+from mocap.point_clouds import distinct_joints
 from mocap.skeleton import Skeleton
 from mocap.style import COLOURS, FLOOR, PATH, SOURCES
 

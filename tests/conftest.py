@@ -21,7 +21,7 @@ def real_data() -> Path:
     return folder
 
 
-ASKED_FOR = ("benchmark",)
+ASKED_FOR = ("benchmark", "exhaustive")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

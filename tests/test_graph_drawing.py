@@ -53,7 +53,7 @@ def test_where_arcs_are_many_the_cheapest_are_shown(graph):
 
 def test_before_and_after_pruning_share_their_axes(graph):
     pruned = prune(graph)
-    before, after = plotting.pruning(graph, pruned)
+    before, after = plotting.before_and_after(graph, pruned)
     assert len(before.get_segments()) == graph.count("transition")
     assert len(after.get_segments()) == pruned.count("transition")
     assert f"{graph.graph.number_of_nodes()} nodes" in before.axes.get_title()

@@ -17,15 +17,18 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations", "style"},
-    {"atomic", "footsteps", "inverse_kinematics", "lab", "skeleton"},
-    {"amc", "bvh_hierarchy", "gait", "legs", "motion", "walker"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "pruning", "skeleton"},
+    {"acclaim_skeleton", "amc", "bvh_hierarchy", "gait", "graph_summary", "legs", "motion", "walker"},
     {"acclaim", "blending", "bvh", "kinematics", "pacing", "transforms"},
-    {"files", "homework_slips", "leg_posing", "matching", "plants", "synthetic"},
-    {"datasets", "footprints", "footskate", "joining", "quality", "stage", "transitions"},
-    {"motion_graph", "player"},
-    {"animation", "graph_drawing", "live", "synthesis"},
+    {"acclaim_writer", "homework_slips", "inspection", "leg_posing", "plants", "point_clouds", "synthetic"},
+    {"cloud_grid", "files", "footprints", "footskate", "stage"},
+    {"cmu", "conversion", "matching", "minima", "player"},
+    {"animation", "commands", "datasets", "joining", "live", "quality", "segment_graph", "transitions"},
+    {"motion_graph", "thresholds"},
+    {"graph_drawing", "graph_files", "merging", "synthesis"},
     {"plotting"},
     {"demo", "gallery", "widgets"},
+    {"show_commands"},
     {"__init__", "__main__"},
 ]
 
