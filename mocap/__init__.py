@@ -11,8 +11,7 @@ What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. W
 `point_clouds`, `cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`,
 `motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`, `synthesis`. Seams and
 feet: `joining`, `quality`, `legs`, `plants`, `leg_posing`, `footskate`; what once went wrong:
-`homework_slips`. What one sees: `stage`, `plotting`,
-`player`, `widgets`, `demo`.
+`homework_slips`. What one sees: `stage`, `plotting`, `player`, `widgets`, `demo`.
 
 References
 ----------

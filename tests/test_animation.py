@@ -30,6 +30,7 @@ def test_nothing_is_written_and_no_figure_left_when_drawing_is_interrupted(tmp_p
         yield items[0]
         raise KeyboardInterrupt
 
+    plt.close("all")
     with pytest.raises(KeyboardInterrupt):
         plotting.save_animation(wave(30), tmp_path / "wave.gif", progress=interrupted)
     assert list(tmp_path.iterdir()) == []
