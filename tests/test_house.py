@@ -23,6 +23,7 @@ LAYERS = [
     {"blending", "files", "gait", "matching", "walker"},
     {"segment_graph", "synthetic", "transitions"},
     {"datasets", "motion_graph"},
+    {"walks"},
     {"synthesis"},
     {"plotting"},
     {"demo", "lab"},

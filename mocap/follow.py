@@ -1,0 +1,250 @@
+"""Walking along a path drawn on the ground [KGP02, 5.1], and how well it went."""
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap.compiling import CompiledGraph, compile_graph
+from mocap.courses import Course, Prices
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.layered_search import Beam, Found, search_layers, start_states
+from mocap.motion import Motion
+from mocap.motion_graph import MotionGraph, Node
+from mocap.paths import GroundPath
+from mocap.synthesis import to_motion
+from mocap.transforms import PlanarTransform
+from mocap.walks import Edge, ranges
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+SPACING = 0.02  # metres between the points of a course
+ASTRAY = 0.15  # metres from the path at which a walk has left it
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What is asked for beside the path.
+
+    Parameters
+    ----------
+    labels : (metres, label): from so far along the path on, what kind of motion, as in
+        [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
+    times : (metres, seconds): when to pass there; between two such places, at a steady pace.
+    heading : the direction to start in, radians; by default the path's own.
+    start : the node to start at; by default whichever is best.
+    least : progress in metres a second that even standing counts as, so that no walk stands for ever.
+    """
+
+    labels: Sequence[tuple[float, str]] = ()
+    times: Sequence[tuple[float, float]] = ()
+    heading: float | None = None
+    start: Node | None = None
+    least: float = 0.1
+
+
+class Departure(NamedTuple):
+    """Where a walk leaves its path: from and to how far along it, and how far at worst, all in metres."""
+
+    start: float
+    end: float
+    worst: float
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A walk along a path, and how well it keeps to it.
+
+    Parameters
+    ----------
+    graph, path : what was walked through, and along.
+    walk : its edges.
+    place : lays the walk's first clip at the start of the path.
+    along : shape (F,), metres of path by frame.
+    off : shape (F,), metres from the path by frame: the nearest point of it within half a metre of `along`.
+    unlabelled : shape (F,), the frames without the label asked for.
+    found : the search's own account.
+    """
+
+    graph: MotionGraph
+    path: GroundPath
+    walk: list[Edge]
+    place: PlanarTransform
+    along: Array
+    off: Array
+    unlabelled: NDArray[np.bool_]
+    found: Found
+
+    def motion(self, *, name: str = "walk") -> Motion:
+        """Play the walk where it follows the path."""
+        return to_motion(self.graph, self.walk, name=name, place=self.place)
+
+    @property
+    def seconds(self) -> float:
+        """How long the motion lasts."""
+        return len(self.off) / self.graph.clips[0].fps
+
+    @property
+    def seams_a_second(self) -> float:
+        """Transitions in a second of motion."""
+        kinds = [self.graph.graph.edges[edge]["kind"] for edge in self.walk]
+        return kinds.count("transition") / self.seconds
+
+    @property
+    def progress(self) -> float:
+        """The share of the path that was walked, 1 for all of it."""
+        return float(min(1.0, self.along[-1] / self.path.length))
+
+    @property
+    def departures(self) -> list[Departure]:
+        """List the stretches more than 15 cm off the path."""
+        astray = np.concatenate([[False], self.off > ASTRAY, [False]])
+        starts, ends = np.flatnonzero(np.diff(astray)).reshape(-1, 2).T
+        return [
+            Departure(float(self.along[a]), float(self.along[b - 1]), float(self.off[a:b].max()))
+            for a, b in zip(starts, ends, strict=True)
+        ]
+
+    def report(self) -> str:
+        """Tell in one line how well the walk keeps to the path."""
+        told = (
+            f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
+            f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst, "
+            f"{self.seams_a_second:.2f} seams a second"
+        )
+        if self.unlabelled.any():
+            told += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
+        return told + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
+
+
+def follow_path(
+    graph: MotionGraph | CompiledGraph,
+    path: GroundPath,
+    wishes: Wishes | None = None,
+    *,
+    beam: Beam | None = None,
+    prices: Prices | None = None,
+) -> Followed:
+    """Find a walk whose root, seen from above, follows a path.
+
+    The search is that of `layered_search`; its time is linear in the path's length. Where no clip turns as the
+    path does, the walk cuts the corner and comes back; a warning tells where, and how far off it is.
+
+    Parameters
+    ----------
+    graph : pruned, so that walks do not end; compile it yourself to follow many paths.
+    path : where to walk.
+    wishes : labels, times and the start.
+    beam : how thoroughly to search.
+    prices : how much seams and wishes count against the distance.
+
+    Raises
+    ------
+    NoWalk : for a label that the graph lacks or that cannot be reached, a start outside it, or a dead end.
+    MocapError : for a path longer than these clips walk in an hour, and wishes that make no sense.
+
+    Warns
+    -----
+    MocapWarning : where the walk is more than 15 cm off the path.
+    """
+    wishes, compiled = wishes or Wishes(), compile_graph(graph)
+    course = make_course(compiled, path, wishes)
+    starts = _starts(compiled, course, wishes)
+    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
+    found = search_layers(compiled, course, starts, beam or Beam(), prices or Prices())
+    followed = _followed(compiled, path, course, found)
+    if departures := followed.departures:
+        worst = max(departures, key=lambda d: d.worst)
+        warnings.warn(
+            f"The walk leaves the path {len(departures)} times, the furthest by {100 * worst.worst:.0f} cm "
+            f"at {worst.start:.1f} to {worst.end:.1f} m: no clips turn as it does there.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return followed
+
+
+def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Course:
+    """Lay out along a path what is wished for there.
+
+    Raises
+    ------
+    MocapError : for a path longer than these clips walk in an hour, and for wishes that make no sense.
+    NoWalk : for a label that the graph lacks.
+    """
+    _check_length(graph, path)
+    if not (np.isfinite(wishes.least) and wishes.least > 0):
+        raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
+    for number in (number for wish in (*wishes.labels, *wishes.times) for number in wish if number != wish[1]):
+        if not 0 <= number <= path.length:
+            raise MocapError(f"A wish for {number} m lies outside the path of {path.length:.1f} m.")
+    points = path.resampled(SPACING).points
+    along = np.linspace(0, path.length, len(points))
+    label = np.full(len(points), -1)
+    for start, name in sorted(wishes.labels):
+        label[along >= start - 1e-9] = _label(graph, name)
+    return Course(points[:, 1] + 1j * points[:, 0], float(along[1]), label, _clock(along, wishes), wishes.least)
+
+
+def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
+    fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
+    if path.length > 3600 * fastest:
+        raise MocapError(
+            f"The path is {path.length:.0f} m long, more than these clips walk in an hour "
+            f"({3600 * fastest:.0f} m, at {fastest:.2f} m/s): is it in metres?"
+        )
+
+
+def _clock(along: Array, wishes: Wishes) -> Array:
+    """Interpolate the times asked for; beyond the first and the last any time will do."""
+    if not wishes.times:
+        return np.full(len(along), np.nan)
+    places, times = np.array(sorted(wishes.times), float).T
+    if not (np.isfinite(times).all() and times.min() >= 0 and (np.diff(times) > 0).all()):
+        raise MocapError(f"Times must grow along the path from 0 s on, got {times.tolist()}.")
+    if (np.diff(places) <= 0).any():
+        raise MocapError(f"Two times are asked for in one place: {places.tolist()} m.")
+    return np.interp(along, places, times, left=np.nan, right=np.nan)
+
+
+def _label(graph: CompiledGraph, name: str) -> int:
+    """Number a label, -1 for any."""
+    if name and name not in graph.labels:
+        raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {', '.join(graph.labels) or 'none'}.")
+    return graph.labels.index(name) if name else -1
+
+
+def _starts(graph: CompiledGraph, course: Course, wishes: Wishes) -> States:
+    """Stand at the start of the course, at every node or at the one asked for, about to go the way it leads."""
+    nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
+    way = course.points[np.abs(course.points - course.points[0]).argmax() if len(course.points) < 15 else 15]
+    heading = float(np.angle(way - course.points[0])) if wishes.heading is None else wishes.heading
+    if not np.isfinite(heading):
+        raise MocapError(f"The heading to start in must be a finite number of radians, got {heading}.")
+    return start_states(graph, nodes, complex(course.points[0]), heading)
+
+
+def _require_labels(graph: CompiledGraph, labels: list[str], starts: Indices) -> None:
+    """Raise `NoWalk` unless the labels can be had one after the other."""
+    source = graph.source.graph
+    nodes = {graph.nodes[start] for start in starts}
+    for label in filter(None, labels):
+        nodes = reached(source, nodes)
+        there = {end for start, end, edge in source.edges(data=True) if start in nodes and label in edge["labels"]}
+        if not there:
+            can = sorted({name for _, _, edge in source.out_edges(nodes, data=True) for name in edge["labels"]})
+            raise NoWalk(f"No walk reaches the label '{label}' here; it can reach: {', '.join(can) or 'none'}.")
+        nodes = there
+
+
+def _followed(graph: CompiledGraph, path: GroundPath, course: Course, found: Found) -> Followed:
+    """Play the walk's track, and measure how far it is from the path."""
+    place = PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real)
+    table = edge_table(graph.source, found.walk)
+    before = places(table, place)
+    frames = graph.frames
+    return Followed(graph.source, path, found.walk, place, found.along, off, unlabelled, found)

@@ -1,0 +1,257 @@
+"""The best walk along a line on the ground: a search in layers, vectorised over its states.
+
+Depth first, as in the paper, drowns in a dense graph: of dozens of choices a second it has tried few when
+time runs out. But what a walk can still do depends only on where it stands: at which node, in which place,
+turned which way. So here all walks advance together, a few centimetres of path at a time. Of those that
+stand alike only the best goes on (dominance), and of these the `width` most promising (a beam). The time is
+linear in the path's length.
+
+The promise of a walk is what it has cost, and what it would cost to let its clip just play on for half a
+second, though no more than `rescue`: by then a transition could have mended it. Without this a walk that has
+just paid for a turn looks worse than one about to run off the path.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap.compiling import CompiledGraph
+from mocap.courses import Course, Prices
+from mocap.errors import NoWalk
+from mocap.walks import Edge, ranges
+
+Array = NDArray[np.float64]
+Points = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Beam:
+    """How thoroughly to search, and what counts beside the squared distance from the path.
+
+    Parameters
+    ----------
+    width : walks that go on in a layer.
+    layer : metres of path that a layer is long.
+    place, turn : walks nearer than this, metres and radians, at the same node stand alike.
+    rescue : the most that is expected to be lost where a walk is about to leave the path, m².
+    seconds : time to search; when it is over, the best walk so far is taken.
+    """
+
+    width: int = 100
+    layer: float = 0.05
+    place: float = 0.15
+    turn: float = 0.2
+    rescue: float = 0.3
+    seconds: float = np.inf
+
+
+class States(NamedTuple):
+    """Walks so far: where each stands, and what it cost; `trail` and `edge` lead back to its start."""
+
+    node: Indices
+    turn: Points  # places the node's clip: p -> turn · p + move
+    move: Points
+    along: Array  # metres of path
+    frames: Indices
+    cost: Array
+    trail: Indices  # the number of the state before
+    edge: Indices  # that led here, -1 at a start
+
+    def take(self, chosen: NDArray[np.generic]) -> States:
+        """Choose some of the states, by numbers or by a mask."""
+        return States(*(values[chosen] for values in self))
+
+
+class Found(NamedTuple):
+    """The best walk found.
+
+    The start's clip is placed by p -> turn · p + move; `along` says how far along the path each frame counts;
+    `expanded` states were followed, `cut` ones dropped as no better or less promising; `stopped` is "" or
+    says what ended the search too early.
+    """
+
+    walk: list[Edge]
+    turn: complex
+    move: complex
+    along: Array
+    cost: float
+    expanded: int
+    cut: int
+    stopped: str
+
+
+def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: float) -> States:
+    """Stand at each of some nodes, over a place and about to move in a direction (radians)."""
+    turn = np.exp(1j * (heading - graph.going[nodes]))
+    still, none = np.zeros(len(nodes)), np.zeros(len(nodes), np.intp)
+    return States(nodes, turn, place - turn * graph.at[nodes], still, none, still, none - 1, none - 1)
+
+
+def search_layers(
+    graph: CompiledGraph, course: Course, starts: States, beam: Beam, prices: Prices
+) -> Found:
+    """Find a walk from one of some starts to the end of a course.
+
+    The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², and `prices`. One
+    thing is better than there: after each edge s slides half-way to the point abreast, so that a walk which
+    cuts a corner does not have to lose the metres that it saved.
+
+    Returns
+    -------
+    The best walk; after Ctrl-C or when the time is over, the best so far.
+
+    Raises
+    ------
+    NoWalk : where every walk ends before the course does.
+    """
+    run = _Run(graph, course, beam, prices)
+    run.waiting[0] = [starts]
+    stopped = ""
+    try:
+        stopped = run.to_the_end()
+    except KeyboardInterrupt:
+        stopped = "interrupted"
+    return run.found(stopped)
+
+
+class _Run:
+    """A search under way: the states that wait in each layer, and how every state came about."""
+
+    def __init__(self, graph: CompiledGraph, course: Course, beam: Beam, prices: Prices) -> None:
+        self.graph, self.course, self.beam, self.prices = graph, course, beam, prices
+        step = np.maximum(graph.step, course.least / graph.fps)
+        start = np.cumsum(step) - step
+        self.along = start + step - np.repeat(start[graph.track_first], graph.frames)  # since the edge's start
+        self.length = self.along[graph.track_first + graph.frames - 1]
+        seam = prices.seam + prices.match * graph.cost**2
+        self.price = np.where(graph.blended, seam, 0.0)
+        self.ahead_along = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
+        self.waiting: dict[int, list[States]] = {}
+        self.history: list[States] = []
+        self.expanded = self.cut = 0
+        self.best: States | None = None
+
+    def to_the_end(self) -> str:
+        """Work through the layers; say what stopped it before the last one."""
+        deadline = time.monotonic() + self.beam.seconds
+        while self.waiting:
+            layer = min(self.waiting)
+            if time.monotonic() > deadline:
+                return "out of time"
+            states = _joined(self.waiting[layer])
+            new = self.follow(self.select(states) if self.history else states)
+            del self.waiting[layer]
+            self.sort(new)
+        return ""
+
+    def select(self, states: States) -> States:
+        """Keep the best of those that stand alike, and of these the `width` most promising."""
+        beam, key = self.beam, states.node.astype(np.int64)
+        body = (states.move + states.turn * self.graph.at[states.node]) / beam.place
+        for value in (body.real, body.imag, np.angle(states.turn) / beam.turn):
+            key = (key << 14) + (np.floor(value).astype(np.int64) & 0x3FFF)
+        ahead = states.move[:, None] + states.turn[:, None] * self.graph.ahead[states.node]
+        off = _square(ahead - self.course.at(states.along[:, None] + self.ahead_along[states.node]))
+        # Each of the points ahead stands for a share of half a second's frames.
+        loss = off.sum(axis=1) * self.graph.fps / 6
+        order = np.argsort(states.cost + np.minimum(loss, beam.rescue), kind="stable")
+        _, first = np.unique(key[order], return_index=True)
+        chosen = order[np.sort(first)[: beam.width]]
+        self.cut += len(order) - len(chosen)
+        return states.take(chosen)
+
+    def follow(self, states: States) -> States:
+        """Take every edge from some states."""
+        graph, before = self.graph, self.expanded
+        self.history.append(states)
+        self.expanded += len(states.node)
+        first = graph.first[states.node]
+        count = graph.first[states.node + 1] - first
+        of, edge = np.repeat(np.arange(len(first)), count), ranges(first, count)
+        old = states.take(of)
+        node, turn = graph.target[edge], old.turn * graph.turn[edge]
+        move = old.move + old.turn * graph.move[edge]
+        along = old.along + self.length[edge]
+        along += self.slide(move + turn * graph.at[node], along, self.length[edge] / 2)
+        cost = old.cost + self.price[edge] + self.wanting(old, edge)
+        return States(node, turn, move, along, old.frames + graph.frames[edge], cost, before + of, edge)
+
+    def slide(self, body: Points, along: Array, most: Array) -> Array:
+        """Measure half the way along the path to where it passes the body."""
+        here = self.course.at(along)
+        way = self.course.at(along + self.course.spacing) - here
+        abreast = ((body - here) * way.conj()).real / np.maximum(np.abs(way), 1e-9)
+        return np.clip(abreast / 2, -most, most)
+
+    def wanting(self, states: States, edge: Indices) -> Array:
+        """Sum up over each edge's frames how far they are from what is wished."""
+        graph, course, prices = self.graph, self.course, self.prices
+        if not len(edge):
+            return np.empty(0)
+        frames = graph.frames[edge]
+        first = np.cumsum(frames) - frames
+        row, of = ranges(graph.track_first[edge], frames), np.repeat(np.arange(len(edge)), frames)
+        along = states.along[of] + self.along[row]
+        body = states.move[of] + states.turn[of] * graph.track[row]
+        off = _square(body - course.at(along))
+        point = np.minimum((along / course.spacing).astype(np.intp), len(course.points) - 1)
+        frame = states.frames[of] + row - graph.track_first[edge][of]
+        if len(graph.labels) and (course.label >= 0).any():
+            label = course.label[point]
+            off += prices.label * ((label >= 0) & ~graph.bears[label, row])
+        if not np.isnan(course.clock).all():
+            late = frame / graph.fps - course.clock[point]
+            off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
+        for other in course.others:
+            near = course.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
+            off += prices.crowding * np.maximum(near, 0.0) ** 2
+        return np.asarray(np.add.reduceat(off, first))
+
+    def sort(self, new: States) -> None:
+        """Sort states into the layers they have reached; those at the end compete for the best."""
+        done = new.along >= self.course.length
+        for state in np.flatnonzero(done):
+            if self.best is None or new.cost[state] < self.best.cost[0]:
+                self.best = new.take(np.array([state]))
+        # No cost is below 0, so what costs as much as the best walk cannot become better.
+        new = new.take(~done & (new.cost < (np.inf if self.best is None else self.best.cost[0])))
+        layer = (new.along / self.beam.layer).astype(np.intp)
+        for reached in np.unique(layer):
+            self.waiting.setdefault(int(reached), []).append(new.take(layer == reached))
+
+    def found(self, stopped: str) -> Found:
+        """Trace the best walk back to its start; where none has arrived, the best of those under way."""
+        if self.best is None and not stopped:
+            reached = max(float(states.along.max()) for states in self.history)
+            raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
+        if not self.history:
+            raise NoWalk(f"The search was {stopped} before its first step.")
+        best = self.best or self.history[-1].take(np.array([self.history[-1].cost.argmin()]))
+        history = _joined(self.history)
+        state, edge = int(best.trail[0]), int(best.edge[0])
+        edges: list[int] = []
+        states: list[int] = []
+        while edge >= 0:
+            edges.append(edge)
+            states.append(state)
+            state, edge = int(history.trail[state]), int(history.edge[state])
+        edges, states = edges[::-1], states[::-1]
+        frames = self.graph.frames[edges]
+        along = np.repeat(history.along[states], frames) + self.along[ranges(self.graph.track_first[edges], frames)]
+        walk = [self.graph.edges[edge] for edge in edges]
+        turn, move = (complex(values[states[0]]) for values in (history.turn, history.move))
+        return Found(walk, turn, move, along, float(best.cost[0]), self.expanded, self.cut, stopped)
+
+
+def _square(numbers: Points) -> Array:
+    return np.asarray(numbers.real**2 + numbers.imag**2)
+
+
+def _joined(parts: list[States]) -> States:
+    return States(*(np.concatenate(values) for values in zip(*parts, strict=True)))
