@@ -7,10 +7,11 @@ import matplotlib
 matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
+import networkx as nx
 import numpy as np
 
 import mocap
-from mocap import datasets, motion_graph, plotting, synthesis
+from mocap import datasets, motion_graph, plotting, pruning, synthesis
 
 FOLDER = Path(__file__).parent
 
@@ -30,5 +31,36 @@ def draw_walk() -> None:
     plt.close(figure)
 
 
+def draw_pruning() -> None:
+    """Draw the eight-node graph of the notes: what stays in colour, and what goes, with the reason."""
+    graph = pruning.notes_example()
+    found = pruning.prune_graph(graph)
+    places = {
+        1: (0, 1),
+        2: (1, 2),
+        3: (1, 0),
+        4: (-0.2, -0.5),
+        5: (3.6, 2.3),
+        6: (2.2, 2),
+        7: (3, 1),
+        8: (2.2, 0),
+    }
+    figure, ax = plt.subplots(figsize=(6, 3.6), layout="constrained")
+    stays = [plotting.COLOURS["left"] if node in found.graph else plotting.QUIET for node in graph]
+    drawn = [edge for edge in graph.edges(keys=True) if edge not in found.removed]
+    look = {"ax": ax, "node_size": 500, "arrowsize": 14, "connectionstyle": "arc3,rad=0.08"}
+    nx.draw_networkx_nodes(graph, places, node_color=stays, ax=ax, node_size=500)
+    nx.draw_networkx_labels(graph, places, font_color="white", ax=ax)
+    nx.draw_networkx_edges(graph, places, drawn, width=1.8, edge_color=plotting.COLOURS["left"], **look)
+    nx.draw_networkx_edges(graph, places, list(found.removed), style=":", edge_color=plotting.QUIET, **look)
+    ax.annotate("a sink: it reaches only itself", places[4], (18, -4), textcoords="offset points")
+    ax.annotate("a dead end: on no cycle", places[5], (-14, 12), textcoords="offset points", ha="right")
+    ax.set_axis_off()
+    ax.margins(0.12)
+    figure.savefig(FOLDER / "pruning.png", dpi=110)
+    plt.close(figure)
+
+
 if __name__ == "__main__":
     draw_walk()
+    draw_pruning()

@@ -1,12 +1,14 @@
 """The command `mocap`, or `python -m mocap`."""
 
 import argparse
+import math
 import sys
+import warnings
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 from mocap.progress import bar
 
 
@@ -14,6 +16,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="mocap", description="New human motion out of captured motion.")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add_demo(commands)
+    _add_graph(commands)
     lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
     lab.add_argument(
         "folder",
@@ -43,6 +46,15 @@ def _add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -
     add(
         "-o", "--out", type=Path, default=Path("mocap-demo"), help="folder to write to (default: %(default)s)"
     )
+    _add_settings(demo)
+    add("--seconds", type=float, default=12.0, help="length of the new walk (default: %(default)g)")
+    add("--seed", type=int, default=0, help="another seed, another walk (default: %(default)s)")
+    demo.set_defaults(run=_demo)
+
+
+def _add_settings(command: argparse.ArgumentParser) -> None:
+    """Add the options of how to read clips and build a graph of them."""
+    add = command.add_argument
     add(
         "--skeleton",
         type=Path,
@@ -52,9 +64,68 @@ def _add_demo(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -
     add("--fps", type=float, default=30.0, help="frames a second to work at (default: %(default)g)")
     add("--window", type=float, default=1 / 3, help="seconds of a transition (default: %(default).2f)")
     add("--threshold", type=float, default=4.0, help="worst match allowed, cm RMS (default: %(default)g)")
-    add("--seconds", type=float, default=12.0, help="length of the new walk (default: %(default)g)")
-    add("--seed", type=int, default=0, help="another seed, another walk (default: %(default)s)")
-    demo.set_defaults(run=_demo)
+
+
+def _add_graph(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    graph = commands.add_parser(
+        "graph",
+        help="build a motion graph and save it, or tell about a saved one",
+        usage="mocap graph [options] CLIPS... -o graph.npz\n       mocap graph info graph.npz",
+        description="Build the motion graph of some clips, prune it and save it; or, with the word info "
+        "and a saved graph, tell what it can play.",
+    )
+    add = graph.add_argument
+    add("clips", nargs="+", type=Path, help=".amc or .bvh files or folders of them; or: info graph.npz")
+    add("-o", "--out", type=Path, default=Path("graph.npz"), help="file to write (default: %(default)s)")
+    _add_settings(graph)
+    add("--by-labels", action="store_true", help="keep the largest component of each set of labels")
+    add("--whole", action="store_true", help="do not prune")
+    add("--graphml", type=Path, help="write the graph for other tools as well, as .graphml")
+    graph.set_defaults(run=_graph)
+
+
+def _graph(options: argparse.Namespace) -> int:
+    from mocap import demo, graph_files, graph_summary, motion_graph
+
+    if options.clips[0] == Path("info"):
+        return _graph_info(options.clips[1:])
+    graph_files.require_suffix(options.out, ".npz")
+    graph_files.require_suffix(options.graphml or "x.graphml", ".graphml")
+    if not math.isfinite(options.window * options.fps):
+        raise MocapError(f"There is no window of {options.window} s at {options.fps} Hz.")
+    window = max(2, round(options.window * options.fps))
+    clips = demo.load_all(
+        options.clips, skeleton=options.skeleton, scale=options.scale, progress=partial(bar, what="reading")
+    )
+    graph = motion_graph.build(
+        clips,
+        window=window,
+        threshold=options.threshold / 100,
+        fps=options.fps,
+        progress=partial(bar, what="comparing"),
+    )
+    if not options.whole:
+        graph = motion_graph.prune(graph, by_labels=options.by_labels)
+    print(graph_summary.summary(graph.graph, fps=graph.fps).table())
+    graph_files.save(graph, options.out)
+    print(f"{'wrote':<12} {options.out}")
+    if options.graphml:
+        graph_files.write_graphml(graph, options.graphml)
+        print(f"{'wrote':<12} {options.graphml}")
+    return 0
+
+
+def _graph_info(paths: Sequence[Path]) -> int:
+    from mocap import graph_files, graph_summary
+
+    if len(paths) != 1:
+        raise MocapError(f"`mocap graph info` tells about one saved graph, got {len(paths)} files.")
+    found = graph_files.read(paths[0])
+    for name, frames in zip(found.names, found.frames, strict=True):
+        print(f"{'clip':<12} {name}: {frames} frames at {found.fps:g} Hz, {frames / found.fps:.1f} s")
+    print(f"{'window':<12} {found.window} frames, {found.window / found.fps:.2f} s")
+    print(graph_summary.summary(found.graph, fps=found.fps).table())
+    return 0
 
 
 def _demo(options: argparse.Namespace) -> int:
@@ -91,11 +162,18 @@ def _lab(options: argparse.Namespace) -> int:
     return lab.open_course(options.folder)
 
 
+def _tell(message: Warning | str, *_place: object, **_more: object) -> None:
+    print(f"mocap: {message}", file=sys.stderr)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; give its exit status: 0, or 2 where the input is at fault, or 130 when interrupted."""
     options = _parser().parse_args(arguments)
     try:
-        return int(options.run(options))
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", MocapWarning)
+            warnings.showwarning = _tell
+            return int(options.run(options))
     except MocapError as error:
         print(f"mocap: {error}", file=sys.stderr)
         return 2

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from mocap.errors import NoWalk
 from mocap.motion_graph import MotionGraph, Node
 from mocap.transforms import heading
-from mocap.walks import Edge, FrameTable, edge_table, frame_table, require_node
+from mocap.walks import Edge, FrameTable, edge_table, frame_table, ranges, require_node
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -131,6 +131,22 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
         labels=labels,
         bears=_bearing(graph, frames, labels),
     )
+
+
+def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
+    """Place the root on the ground in every frame of a walk, and tell which of the graph's frames these are.
+
+    Parameters
+    ----------
+    graph : N nodes, E edges.
+    edges : numbers of edges, each starting where the one before ends.
+    turn, move : place the first edge's clip: p -> turn · p + move.
+    """
+    turns = np.cumprod([turn, *graph.turn[edges]])[:-1]
+    moves = move + np.concatenate([[0], np.cumsum(turns * graph.move[edges])[:-1]])
+    frames = graph.frames[edges]
+    rows = ranges(graph.track_first[edges], frames)
+    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.track[rows], rows
 
 
 class _Roots:

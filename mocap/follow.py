@@ -8,18 +8,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap.compiling import CompiledGraph, compile_graph
+from mocap.compiling import AHEAD, CompiledGraph, compile_graph, walk_track
 from mocap.courses import Course, Prices
 from mocap.errors import MocapError, MocapWarning, NoWalk
-from mocap.layered_search import Beam, Found, search_layers, start_states
+from mocap.layered_search import Beam, Found, States, search_layers, start_states
 from mocap.motion import Motion
 from mocap.motion_graph import MotionGraph, Node
 from mocap.paths import GroundPath
+from mocap.pruning import reached
 from mocap.synthesis import to_motion
 from mocap.transforms import PlanarTransform
-from mocap.walks import Edge, ranges
+from mocap.walks import Edge
 
 Array = NDArray[np.float64]
+Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
 SPACING = 0.02  # metres between the points of a course
@@ -179,7 +181,9 @@ def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Cours
     _check_length(graph, path)
     if not (np.isfinite(wishes.least) and wishes.least > 0):
         raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
-    for number in (number for wish in (*wishes.labels, *wishes.times) for number in wish if number != wish[1]):
+    for number in (
+        number for wish in (*wishes.labels, *wishes.times) for number in wish if number != wish[1]
+    ):
         if not 0 <= number <= path.length:
             raise MocapError(f"A wish for {number} m lies outside the path of {path.length:.1f} m.")
     points = path.resampled(SPACING).points
@@ -187,7 +191,9 @@ def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Cours
     label = np.full(len(points), -1)
     for start, name in sorted(wishes.labels):
         label[along >= start - 1e-9] = _label(graph, name)
-    return Course(points[:, 1] + 1j * points[:, 0], float(along[1]), label, _clock(along, wishes), wishes.least)
+    return Course(
+        points[:, 1] + 1j * points[:, 0], float(along[1]), label, _clock(along, wishes), wishes.least
+    )
 
 
 def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
@@ -214,7 +220,9 @@ def _clock(along: Array, wishes: Wishes) -> Array:
 def _label(graph: CompiledGraph, name: str) -> int:
     """Number a label, -1 for any."""
     if name and name not in graph.labels:
-        raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {', '.join(graph.labels) or 'none'}.")
+        raise NoWalk(
+            f"No clip of the graph bears the label '{name}'; there are: {', '.join(graph.labels) or 'none'}."
+        )
     return graph.labels.index(name) if name else -1
 
 
@@ -234,17 +242,41 @@ def _require_labels(graph: CompiledGraph, labels: list[str], starts: Indices) ->
     nodes = {graph.nodes[start] for start in starts}
     for label in filter(None, labels):
         nodes = reached(source, nodes)
-        there = {end for start, end, edge in source.edges(data=True) if start in nodes and label in edge["labels"]}
+        there = {
+            end for start, end, edge in source.edges(data=True) if start in nodes and label in edge["labels"]
+        }
         if not there:
-            can = sorted({name for _, _, edge in source.out_edges(nodes, data=True) for name in edge["labels"]})
-            raise NoWalk(f"No walk reaches the label '{label}' here; it can reach: {', '.join(can) or 'none'}.")
+            can = sorted(
+                {name for _, _, edge in source.out_edges(nodes, data=True) for name in edge["labels"]}
+            )
+            raise NoWalk(
+                f"No walk reaches the label '{label}' here; it can reach: {', '.join(can) or 'none'}."
+            )
         nodes = there
 
 
 def _followed(graph: CompiledGraph, path: GroundPath, course: Course, found: Found) -> Followed:
-    """Play the walk's track, and measure how far it is from the path."""
-    place = PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real)
-    table = edge_table(graph.source, found.walk)
-    before = places(table, place)
-    frames = graph.frames
-    return Followed(graph.source, path, found.walk, place, found.along, off, unlabelled, found)
+    """Measure how far a walk is from its path, and where it lacks its label."""
+    body, rows = walk_track(graph, found.edges, found.turn, found.move)
+    label = course.label[np.minimum(found.along / course.spacing, len(course.points) - 1).astype(np.intp)]
+    bears = graph.bears[label, rows] if graph.labels else np.zeros(len(rows), bool)
+    return Followed(
+        graph.source,
+        path,
+        [graph.edges[edge] for edge in found.edges],
+        PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real),
+        found.along,
+        _distance(course, body, found.along),
+        (label >= 0) & ~bears,
+        found,
+    )
+
+
+def _distance(course: Course, body: Points, along: Array) -> Array:
+    """Measure how far the body is from the path within half a metre of where it should be."""
+    reach = int(0.5 / course.spacing) + 1
+    near = (along / course.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
+    start = course.points[np.clip(near, 0, len(course.points) - 2)]  # (F, pieces)
+    piece = course.points[np.clip(near, 0, len(course.points) - 2) + 1] - start
+    share = ((body[:, None] - start) * piece.conj()).real / np.abs(piece) ** 2
+    return np.asarray(np.abs(body[:, None] - start - np.clip(share, 0, 1) * piece).min(axis=1))

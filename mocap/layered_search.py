@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from mocap.compiling import CompiledGraph
 from mocap.courses import Course, Prices
 from mocap.errors import NoWalk
-from mocap.walks import Edge, ranges
+from mocap.walks import ranges
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -71,12 +71,12 @@ class States(NamedTuple):
 class Found(NamedTuple):
     """The best walk found.
 
-    The start's clip is placed by p -> turn · p + move; `along` says how far along the path each frame counts;
+    `edges` are numbers in the compiled graph; the first one's clip is placed by p -> turn · p + move; `along` says how far along the path each frame counts;
     `expanded` states were followed, `cut` ones dropped as no better or less promising; `stopped` is "" or
     says what ended the search too early.
     """
 
-    walk: list[Edge]
+    edges: Indices
     turn: complex
     move: complex
     along: Array
@@ -93,9 +93,7 @@ def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: 
     return States(nodes, turn, place - turn * graph.at[nodes], still, none, still, none - 1, none - 1)
 
 
-def search_layers(
-    graph: CompiledGraph, course: Course, starts: States, beam: Beam, prices: Prices
-) -> Found:
+def search_layers(graph: CompiledGraph, course: Course, starts: States, beam: Beam, prices: Prices) -> Found:
     """Find a walk from one of some starts to the end of a course.
 
     The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², and `prices`. One
@@ -127,7 +125,9 @@ class _Run:
         self.graph, self.course, self.beam, self.prices = graph, course, beam, prices
         step = np.maximum(graph.step, course.least / graph.fps)
         start = np.cumsum(step) - step
-        self.along = start + step - np.repeat(start[graph.track_first], graph.frames)  # since the edge's start
+        self.along = (
+            start + step - np.repeat(start[graph.track_first], graph.frames)
+        )  # since the edge's start
         self.length = self.along[graph.track_first + graph.frames - 1]
         seam = prices.seam + prices.match * graph.cost**2
         self.price = np.where(graph.blended, seam, 0.0)
@@ -243,10 +243,14 @@ class _Run:
             state, edge = int(history.trail[state]), int(history.edge[state])
         edges, states = edges[::-1], states[::-1]
         frames = self.graph.frames[edges]
-        along = np.repeat(history.along[states], frames) + self.along[ranges(self.graph.track_first[edges], frames)]
-        walk = [self.graph.edges[edge] for edge in edges]
+        along = (
+            np.repeat(history.along[states], frames)
+            + self.along[ranges(self.graph.track_first[edges], frames)]
+        )
         turn, move = (complex(values[states[0]]) for values in (history.turn, history.move))
-        return Found(walk, turn, move, along, float(best.cost[0]), self.expanded, self.cut, stopped)
+        return Found(
+            np.array(edges), turn, move, along, float(best.cost[0]), self.expanded, self.cut, stopped
+        )
 
 
 def _square(numbers: Points) -> Array:

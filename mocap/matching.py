@@ -1,162 +1,42 @@
-"""How alike are two moments of motion? Metrics, and the alignment under which clouds of points agree best.
+"""How alike are two moments of motion? Four metrics, one interface.
 
-In every grid, entry [i, j] lays the `window` frames of b that start at j on those of a that start at i.
+Each takes two motions and a `window`, and gives a grid: entry [i, j] lays the `window` frames of b that
+start at j on those of a that start at i. Which one is right? `root_grid` sees only the root, `euler_grid`
+and `pose_grid` only the pose; 3.1 of [KGP02] says what goes wrong. `distance_grid` sees the body's points.
 """
 
-import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike, NDArray
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap import rotations
+from mocap.cloud_grid import check_window, diagonal_sum, tiles
+from mocap.cloud_grid import distance_grid as distance_grid
 from mocap.errors import MocapError
-from mocap.kinematics import joint_positions
-from mocap.motion import Motion, require_alike
-from mocap.skeleton import Skeleton
-from mocap.transforms import PlanarTransform
+from mocap.motion import Motion, concatenate, require_alike
+from mocap.point_clouds import Surface as Surface
+from mocap.point_clouds import align as align
+from mocap.point_clouds import distinct_joints as distinct_joints
+from mocap.point_clouds import point_cloud as point_cloud
 
 Array = NDArray[np.float64]
 
-
-def distinct_joints(skeleton: Skeleton) -> list[int]:
-    """List the joints that are different points: of joints that always coincide, only the first.
-
-    Examples
-    --------
-    >>> fork = Skeleton(["a", "b", "c"], [-1, 0, 0], [[0, 0, 0], [0, 1, 0], [0, 1, 0]])
-    >>> distinct_joints(fork)
-    [0, 1]
-    """
-    seen: set[tuple[int, ...]] = set()
-    kept = []
-    for joint, (parent, offset) in enumerate(zip(skeleton.parents, skeleton.offsets, strict=True)):
-        place = (int(parent), *np.round(offset * 1e9).astype(int).tolist())
-        if joint == 0 or (np.any(place[1:]) and place not in seen):
-            kept.append(joint)
-        seen.add(place)
-    return kept
+_SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
+_MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
+HOMEWORK_WEIGHTS: Mapping[str, float] = {
+    name: weight / 480
+    for name, weight in (_MIDDLE | {side + bone: w for bone, w in _SIDED.items() for side in "lr"}).items()
+}
+"""How much each bone counts in the homework's metric; the others do not."""
 
 
-def point_cloud(motion: Motion) -> Array:
-    """Give the points a motion drives: every distinct joint in every frame, shape (F, P, 3), metres.
+class Metric(Protocol):
+    """What all four have in common; the keywords of their own have defaults."""
 
-    Notebook: 00-quickstart
-    """
-    return joint_positions(motion)[:, distinct_joints(motion.skeleton)]
-
-
-def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None) -> PlanarTransform:
-    """Find the planar transform that lays `others` on `points` best, in closed form.
-
-    It minimises Σ w ‖p - T p'‖² [KGP02, Eqs. 2-4]; with bars for sums Σ w ·, and Σ w = 1,
-    θ = atan2(Σ w (x z' - x' z) - (x̄ z̄' - x̄' z̄), Σ w (x x' + z z') - (x̄ x̄' + z̄ z̄')),
-    x₀ = x̄ - x̄' cos θ - z̄' sin θ and z₀ = z̄ + x̄' sin θ - z̄' cos θ.
-
-    Parameters
-    ----------
-    points, others : shape (..., P, 3), metres; the n-th point of one belongs to the n-th of the other.
-    weights : shape (P,), not negative; equal by default. Any scale: they are divided by their sum.
-
-    Returns
-    -------
-    The transform; its fields have the leading shape (...).
-
-    Examples
-    --------
-    >>> corner = np.array([[0.0, 1, 0], [1, 1, 0], [1, 1, 2]])
-    >>> moved = PlanarTransform(0.5, 2.0, -1.0).points(corner)
-    >>> [float(np.round(number, 6)) for number in align(moved, corner)]
-    [0.5, 2.0, -1.0]
-
-    Notebook: 00-quickstart
-    """
-    a, b = np.asarray(points, float), np.asarray(others, float)
-    w = _unit_weights(weights, a.shape[-2])
-    # Centred on their means, clouds far from the origin lose no digits.
-    mean_a, mean_b = (np.einsum("p,...pc->...c", w, cloud) for cloud in (a, b))
-    (xa, _, za), (xb, _, zb) = (
-        np.moveaxis(cloud - mean[..., None, :], -1, 0) for cloud, mean in ((a, mean_a), (b, mean_b))
-    )
-    angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
-    turned = PlanarTransform(angle, 0.0, 0.0).points(mean_b)
-    return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
-
-
-def _unit_weights(weights: ArrayLike | None, count: int) -> Array:
-    w = np.ones(count) if weights is None else np.asarray(weights, float)
-    if w.shape != (count,) or not np.isfinite(w).all() or np.any(w < 0) or w.sum() == 0:
-        raise MocapError(f"Weights must be {count} numbers, not negative and not all 0, got {w.tolist()}.")
-    return np.asarray(w / w.sum())
-
-
-def distance_grid(a: Motion | Array, b: Motion | Array, *, window: int) -> Array:
-    """Measure the point cloud distance between all windows of two clips [KGP02, Eq. 1].
-
-    D = min over T of Σ w ‖p - T p'‖². At the best T this is
-    S_A + S_B - 2 Σ w y y' - 2 √((Σ w (x x' + z z'))² + (Σ w (x z' - x' z))²), with S = Σ w (x² + y² + z²)
-    and x, z measured from the window's mean. The three cross sums are inner products of frames, a matrix
-    product for all pairs at once, added along the diagonal over the window. The weights are equal and sum
-    to one, so √D is the RMS distance of the points, in metres.
-
-    Parameters
-    ----------
-    a, b : motions, or their points of shape (F, P, 3), metres.
-    window : frames k in a window.
-
-    Returns
-    -------
-    D, shape (F_a - k + 1, F_b - k + 1), m², never negative.
-
-    Raises
-    ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, and for clips shorter than the window.
-
-    Notebook: 00-quickstart
-    """
-    if isinstance(a, Motion) and isinstance(b, Motion):
-        require_alike([a, b])
-    clouds = [_ground_centred(point_cloud(m) if isinstance(m, Motion) else m) for m in (a, b)]
-    for cloud, clip in zip(clouds, (a, b), strict=True):
-        check_window(window, len(cloud), clip.name if isinstance(clip, Motion) else "the clip")
-    if clouds[0].shape[1] != clouds[1].shape[1]:
-        raise MocapError(f"Clouds of {clouds[0].shape[1]} and {clouds[1].shape[1]} points do not match.")
-    scale = 1 / np.sqrt(clouds[0].shape[1])  # the square root of each point's weight
-    (xa, ya, za), (xb, yb, zb) = (np.moveaxis(cloud * scale, -1, 0) for cloud in clouds)  # (F, P) each
-    heights = _diagonal_mean(ya @ yb.T, window)
-    along = _diagonal_mean(xa @ xb.T + za @ zb.T, window)
-    across = _diagonal_mean(xa @ zb.T - za @ xb.T, window)
-    (mxa, mza, size_a), (mxb, mzb, size_b) = (_window_means(cloud, window) for cloud in clouds)
-    along -= np.outer(mxa, mxb) + np.outer(mza, mzb)
-    across -= np.outer(mxa, mzb) - np.outer(mza, mxb)
-    grid = size_a[:, None] + size_b - 2 * heights - 2 * np.hypot(along, across)
-    return np.asarray(np.maximum(grid, 0.0))
-
-
-def _ground_centred(cloud: Array) -> Array:
-    """Move a clip over the origin, so that one captured far away loses no digits."""
-    return np.asarray(cloud - cloud.mean(axis=(0, 1)) * [1.0, 0.0, 1.0])
-
-
-def check_window(window: int, frames: int, name: str) -> None:
-    """Raise unless a clip of so many frames holds at least one window."""
-    if window < 1:
-        raise MocapError(f"A window needs at least one frame, got {window}.")
-    if frames < window:
-        raise MocapError(f"'{name}' has {frames} frames, too few for a window of {window}.")
-
-
-def _diagonal_mean(products: Array, window: int) -> Array:
-    """Average over [i + f, j + f] for the frames f of a window."""
-    rows, columns = products.shape[0] - window + 1, products.shape[1] - window + 1
-    total = products[:rows, :columns].copy()
-    for f in range(1, window):
-        total += products[f : f + rows, f : f + columns]
-    return total / window
-
-
-def _window_means(cloud: Array, window: int) -> tuple[Array, Array, Array]:
-    """For every window the mean x, the mean z, and the mean square S measured from these."""
-    per_frame = np.stack([cloud[..., 0].mean(1), cloud[..., 2].mean(1), (cloud**2).sum(-1).mean(1)])
-    x, z, square = sliding_window_view(per_frame, window, axis=1).mean(-1)
-    return x, z, square - x**2 - z**2
+    def __call__(self, a: Motion, b: Motion, *, window: int) -> NDArray[np.floating]:
+        """Compare all windows of a with all of b."""
 
 
 def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
@@ -176,9 +56,208 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
 
     Notebook: 00-quickstart
     """
+    _require_windows(a, b, window)
+
+    def apart(p: Array, q: Array) -> Array:
+        cosines = np.abs(p[:, 3:] @ q[:, 3:].T)  # of half the angle, the short way round
+        moved = np.linalg.norm(p[:, None, :3] - q[:, :3], axis=-1)
+        return np.asarray(moved + 2 * np.arccos(np.minimum(cosines, 1.0)))
+
+    roots = [np.hstack([clip.root_positions, clip.rotations[:, 0]]) for clip in (a, b)]
+    return diagonal_sum(_all_pairs(apart, *roots), window) / window
+
+
+def euler_grid(
+    a: Motion, b: Motion, *, window: int, weights: Mapping[str, float] = HOMEWORK_WEIGHTS
+) -> Array:
+    """Measure the homework code's distance: how far the bones' Euler angles are apart.
+
+    The sum over the window, and over the bones, of w ‖Δ‖, where Δ are the differences in degrees of the
+    angles that the file tells for the bone, each wrapped to [-180, 180). The root is left out.
+
+    Parameters
+    ----------
+    a, b : motions.
+    window : frames in a window.
+    weights : of the bones, by name; those of the homework by default.
+
+    Returns
+    -------
+    Shape (F_a - window + 1, F_b - window + 1), degrees · frames.
+
+    Raises
+    ------
+    MocapError : where the skeleton has none of the weighted bones.
+
+    Notes
+    -----
+    A motion holds quaternions. The skeleton remembers in which axes C and about which `dofs` its file
+    tells a bone's angles, so they can be read off M = C⁻¹ L C: one truth, not two kept side by side.
+    """
+    _require_windows(a, b, window)
+    if unusable := {n: w for n, w in weights.items() if not (np.isfinite(w) and w >= 0)}:
+        raise MocapError(f"Weights must be numbers, not negative, got {unusable}.")
+    skeleton = a.skeleton
+    bones = [j for j, name in enumerate(skeleton.names) if j and weights.get(name) and skeleton.dofs[j]]
+    if not bones:
+        raise MocapError(f"This skeleton has none of the bones with a weight: {', '.join(weights)}.")
+    columns = np.cumsum([len(skeleton.dofs[bone]) for bone in bones])[:-1]
+
+    def apart(p: Array, q: Array) -> Array:
+        total = np.zeros((len(p), len(q)))
+        each = zip(bones, np.split(p, columns, axis=1), np.split(q, columns, axis=1), strict=True)
+        for bone, angles, others in each:
+            total += weights[skeleton.names[bone]] * _angle_gaps(angles, others)
+        return total
+
+    angles = [np.hstack([file_angles(clip, bone) for bone in bones]) for clip in (a, b)]
+    return diagonal_sum(_all_pairs(apart, *angles), window)
+
+
+def file_angles(motion: Motion, joint: int) -> Array:
+    """Read the angles that a motion's file tells for a joint, in degrees: shape (F, D) for D dofs.
+
+    The joint's rotation is L = C M C⁻¹ with C the skeleton's `axes`; these are the angles of M about the
+    joint's `dofs`, in their order. Of the triples that mean the same M the one with the middle angle
+    within ±90°.
+
+    Examples
+    --------
+    >>> from mocap.skeleton import Skeleton
+    >>> knee = Skeleton(["knee", "foot"], [-1, 0], [[0, 0, 0], [0, -1, 0]], dofs=["x", ""])
+    >>> bent = rotations.from_euler("x", [np.radians(30)])
+    >>> file_angles(Motion(knee, [[0, 1, 0]], [[bent, [1, 0, 0, 0]]], 30.0), 0).round(6)
+    array([[30.]])
+    """
+    axis, dofs = motion.skeleton.axes[joint], motion.skeleton.dofs[joint]
+    own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
+    every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # about those it lacks it does not turn
+    return np.degrees(rotations.to_euler(every, own)[:, : len(dofs)])
+
+
+def _angle_gaps(a: Array, b: Array) -> Array:
+    """Measure ‖Δ‖ for all pairs of frames of angles (F, D) in degrees; Δ wrapped to half a turn."""
+    square = np.zeros((len(a), len(b)))
+    for column_a, column_b in zip(a.T / 360, b.T / 360, strict=True):
+        turns = column_a[:, None] - column_b
+        if max(np.ptp(column_a), np.ptp(column_b), np.abs(turns).max()) > 0.5:
+            turns -= np.rint(turns)
+        square += np.multiply(turns, turns, out=turns)
+    return 360 * np.sqrt(square)
+
+
+def pose_grid(
+    a: Motion, b: Motion, *, window: int, form: str = "quaternion", velocities: float = 0.0
+) -> Array:
+    """Measure the norm of the difference of pose vectors: what 3.1 of [KGP02] starts from, and drops.
+
+    The mean over the window of √(Σ over joints of ‖Δq‖² + (velocities · ‖Δω‖)²). The root is left out.
+
+    Parameters
+    ----------
+    a, b : motions.
+    window : frames in a window.
+    form : "quaternion", where q and -q are the same; or "log", the rotation vectors in radians.
+    velocities : how many seconds of a difference in angular velocity ω count as the same difference in
+        pose; 0 leaves velocities out.
+
+    Returns
+    -------
+    Shape (F_a - window + 1, F_b - window + 1).
+
+    Raises
+    ------
+    MocapError : for another form, and for velocities that are negative or asked of a single frame.
+    """
+    _require_windows(a, b, window)
+    if form not in ("quaternion", "log"):
+        raise MocapError(f'A pose is told by form="quaternion" or "log", got {form!r}.')
+    if not (np.isfinite(velocities) and velocities >= 0):
+        raise MocapError(f"velocities must be seconds, 0 or more, got {velocities}.")
+    if form == "log":
+        square = _square_gaps(*(rotations.to_rotvec(m.rotations[:, 1:]) for m in (a, b)))
+    else:
+        square = _all_pairs(_quaternion_gaps, a.rotations[:, 1:], b.rotations[:, 1:])
+    if velocities:
+        square += velocities**2 * _square_gaps(*(_angular_velocities(m)[:, 1:] for m in (a, b)))
+    return diagonal_sum(np.sqrt(square), window) / window
+
+
+def _quaternion_gaps(a: Array, b: Array) -> Array:
+    """Measure Σ over joints of ‖q ∓ q'‖² = 2 ∓ 2 q·q', whichever sign is nearer."""
+    square = np.zeros((len(a), len(b)))
+    for q, other in zip(np.swapaxes(a, 0, 1), np.swapaxes(b, 0, 1), strict=True):
+        square += 2 - 2 * np.minimum(np.abs(q @ other.T), 1.0)
+    return square
+
+
+def _square_gaps(a: Array, b: Array) -> Array:
+    """Measure ‖v - v'‖² between all rows of two stacks of vectors."""
+    a, b = a.reshape(len(a), -1), b.reshape(len(b), -1)
+    square = (a**2).sum(1)[:, None] + (b**2).sum(1) - 2 * a @ b.T
+    return np.asarray(np.maximum(square, 0.0))
+
+
+def _angular_velocities(motion: Motion) -> Array:
+    """Turn from each frame to the next, radians a second; the last frame goes on as the one before it."""
+    if len(motion) < 2:
+        raise MocapError(f"'{motion.name}' has one frame, and so no velocities.")
+    steps = rotations.multiply(rotations.inverse(motion.rotations[:-1]), motion.rotations[1:])
+    speeds = rotations.to_rotvec(steps) * motion.fps
+    return np.concatenate([speeds, speeds[-1:]])
+
+
+def _require_windows(a: Motion, b: Motion, window: int) -> None:
     require_alike([a, b])
     for clip in (a, b):
-        check_window(window, len(clip), clip.name)
-    apart = np.linalg.norm(a.root_positions[:, None] - b.root_positions, axis=-1)
-    cosines = np.abs(a.rotations[:, 0] @ b.rotations[:, 0].T)  # of half the angle, the short way round
-    return _diagonal_mean(apart + 2 * np.arccos(np.minimum(cosines, 1.0)), window)
+        check_window(window, len(clip), f"'{clip.name}'")
+
+
+def _all_pairs(apart: Callable[[Array, Array], Array], a: Array, b: Array) -> Array:
+    """Measure all pairs of rows of two arrays, tile by tile so that the work stays in the cache."""
+    grid = np.empty((len(a), len(b)))
+    for rows, columns in tiles(*grid.shape):
+        grid[rows, columns] = apart(a[rows], b[columns])
+    return grid
+
+
+def segments(frames: int, length: int) -> list[slice]:
+    """Cut a clip into slices of one length; what would be too short a last one goes to the one before.
+
+    Examples
+    --------
+    >>> [(s.start, s.stop) for s in segments(700, 200)]
+    [(0, 200), (200, 400), (400, 700)]
+    """
+    starts = list(range(0, max(frames - length, 0) + 1, length))
+    return [slice(*ends) for ends in zip(starts, [*starts[1:], frames], strict=True)]
+
+
+def segment_distances(
+    clips: Sequence[Motion], *, segment: int = 200, window: int = 50, metric: Metric = euler_grid
+) -> NDArray[np.floating]:
+    """Compare how each segment of some clips ends with how each starts: the homework's matrix.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate, cut by `segments`; these count through all clips.
+    segment : frames in a segment, the last of a clip excepted.
+    window : frames at the end of one segment and at the start of the other that are compared.
+    metric : one of the grids of this module.
+
+    Returns
+    -------
+    Shape (S, S), in the metric's unit: [i, j] lays the head of segment j on the tail of segment i.
+
+    Raises
+    ------
+    MocapError : for no clips, different skeletons, and segments that are shorter than the window.
+    """
+    require_alike(clips)
+    check_window(window, segment, "A segment")
+    pieces = [clip[cut] for clip in clips for cut in segments(len(clip), segment)]
+    for piece in pieces:
+        check_window(window, len(piece), f"'{piece.name}'")
+    tails = concatenate([piece[-window:] for piece in pieces])
+    heads = concatenate([piece[:window] for piece in pieces])
+    return metric(tails, heads, window=window)[::window, ::window]

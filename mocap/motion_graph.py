@@ -5,20 +5,20 @@ that clip up to its next choice point, or a transition: `window` blended frames 
 edge gives the frames [start, end) of a motion, and the frames of a walk are those of its edges in order.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise, product
+from itertools import pairwise
 
 import networkx as nx
+import numpy as np
 
 from mocap.errors import MocapError, NoWalk
 from mocap.motion import Motion, require_alike, resample
 from mocap.progress import Progress
 from mocap.pruning import Labels, prune_graph
-from mocap.transitions import Transition, find_transitions
+from mocap.transitions import Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
-Thresholds = Mapping[tuple[str, str], float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +47,11 @@ class MotionGraph:
             f"{self.graph.number_of_edges()} edges, {self.count('transition')} of them transitions)"
         )
 
+    @property
+    def fps(self) -> float:
+        """Frames a second, of all clips."""
+        return self.clips[0].fps
+
     def count(self, kind: str) -> int:
         """Count the edges of a kind, "clip" or "transition"."""
         return sum(edge_kind == kind for _, _, edge_kind in self.graph.edges(data="kind"))
@@ -61,7 +66,7 @@ def build(
     clips: Sequence[Motion],
     *,
     window: int,
-    threshold: float | Thresholds,
+    threshold: Thresholds,
     fps: float | None = None,
     progress: Progress = iter,
 ) -> MotionGraph:
@@ -72,9 +77,7 @@ def build(
     clips : motions of one skeleton, with different names.
     window : frames in a transition, about a third of a second.
     threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
-        pair of labels, as in {("walk", "walk"): 0.03, ("walk", "run"): 0.06}. The order in a pair does not
-        matter, "" stands for frames without a label, pairs that are not named get no transitions, and where
-        frames bear several labels the strictest pair counts.
+        pair of labels, as in {("walk", "walk"): 0.03, ("walk", "run"): 0.06}: see `find_transitions`.
     fps : the rate to resample the clips to; by default they must have one rate already, and keep it.
     progress : wraps the pairs of clips as they are compared, to show a bar.
 
@@ -87,44 +90,13 @@ def build(
     _require_names(clips)
     if fps is not None:
         clips = [resample(clip, fps) for clip in clips]
-    if not isinstance(threshold, Mapping):
-        found = find_transitions(clips, window=window, below=threshold, progress=progress)
-        return from_transitions(clips, found, window=window)
-    _check_thresholds(clips, threshold)
-    found = find_transitions(clips, window=window, below=max(threshold.values()), progress=progress)
-    either = {frozenset(pair): below for pair, below in threshold.items()}
-    close = [t for t in found if t.cost < _threshold(either, *_ends_labels(clips, t, window))]
-    return from_transitions(clips, close, window=window)
-
-
-def _check_thresholds(clips: Sequence[Motion], thresholds: Thresholds) -> None:
-    known = {"", *(label for clip in clips for label in clip.labels)}
-    if not thresholds:
-        raise MocapError("There is no threshold for any pair of labels.")
-    for pair, below in thresholds.items():
-        if not set(pair) <= known:
-            raise MocapError(
-                f"The threshold for {pair} is for a label that no clip has; there are: "
-                f"{', '.join(sorted(known - {''})) or 'none'}."
-            )
-        if not below > 0:
-            raise MocapError(f"The threshold for {pair} must be above 0 m, got {below} m.")
-
-
-def _threshold(either: Mapping[frozenset[str], float], here: Labels, there: Labels) -> float:
-    """Find the strictest threshold that two sets of labels are under."""
-    return min(either.get(frozenset(pair), 0.0) for pair in product(here or {""}, there or {""}))
+    found = find_transitions(clips, window=window, below=threshold, progress=progress)
+    return from_transitions(clips, found, window=window)
 
 
 def _labels(motion: Motion, start: int, end: int) -> Labels:
     """Collect the labels that the frames [start, end) bear."""
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
-
-
-def _ends_labels(clips: Sequence[Motion], t: Transition, window: int) -> tuple[Labels, Labels]:
-    """Collect the labels of the two windows that a transition blends."""
-    here, there = clips[t.source], clips[t.target]
-    return _labels(here, t.leave, t.leave + window), _labels(there, t.enter, t.enter + window)
 
 
 def from_transitions(
@@ -141,7 +113,8 @@ def from_transitions(
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
-        here, there = _ends_labels(clips, t, window)
+        here = _labels(clips[t.source], t.leave, t.leave + window)
+        there = _labels(clips[t.target], t.enter, t.enter + window)
         edge = {"kind": "transition", "frames": window, "labels": here | there}
         graph.add_edge(
             (t.source, t.leave), (t.target, t.enter + window), **edge, cost=t.cost, transform=t.transform
@@ -195,7 +168,8 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     ------
     NoWalk : where there is none at any threshold.
     """
-    found = sorted(find_transitions(clips, window=window, below=float("inf")), key=lambda t: t.cost)
+    found = find_transitions(clips, window=window, below=float("inf"))
+    found = found[np.argsort(found.cost, kind="stable")]
     low, high = 0, len(found)
     while (
         low < high

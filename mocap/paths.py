@@ -143,13 +143,23 @@ def s_curve(length: float = 20.0) -> GroundPath:
 def rounded_square(side: float = 6.0, radius: float = 1.5) -> GroundPath:
     """Draw a square with rounded corners, to the left."""
     corner = (radius * np.pi / 2, np.pi / 2)
-    return arcs((0, 0), 0.0, [(side / 2 - radius, 0.0), corner, *[(side - 2 * radius, 0.0), corner] * 3, (side / 2 - radius, 0.0)])
+    return arcs(
+        (0, 0),
+        0.0,
+        [(side / 2 - radius, 0.0), corner, *[(side - 2 * radius, 0.0), corner] * 3, (side / 2 - radius, 0.0)],
+    )
 
 
 def figure_eight(radius: float = 2.5) -> GroundPath:
     """Draw a loop to the left and one to the right, joined by straight lines that cross."""
     straight, loop = 2 * radius, 1.5 * np.pi
-    pieces = [(straight / 2, 0.0), (radius * loop, loop), (straight, 0.0), (radius * loop, -loop), (straight / 2, 0.0)]
+    pieces = [
+        (straight / 2, 0.0),
+        (radius * loop, loop),
+        (straight, 0.0),
+        (radius * loop, -loop),
+        (straight / 2, 0.0),
+    ]
     return arcs((0, 0), -np.pi / 4, pieces)
 
 

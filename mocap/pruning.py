@@ -83,7 +83,7 @@ def notes_example() -> nx.MultiDiGraph:
     ([1, 2, 3, 6, 7, 8], [4, 5])
     """
     graph = nx.MultiDiGraph()
-    ends = [(1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4), (6, 5), (6, 7), (7, 8), (8, 3), (8, 5)]
+    ends = [(1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4), (6, 5), (6, 7), (7, 5), (7, 8), (8, 3)]
     graph.add_edges_from(ends, kind="clip", frames=30, labels=NO_LABELS)
     return graph
 

@@ -16,21 +16,13 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap import rotations
 from mocap.blending import blend
 from mocap.errors import MocapError, NoWalk
-from mocap.matching import root_grid
-from mocap.motion import Motion, concatenate, require_alike
-from mocap.skeleton import Skeleton
+from mocap.matching import Metric, euler_grid, segment_distances, segments
+from mocap.motion import Motion, concatenate
 from mocap.transforms import IDENTITY, PlanarTransform, heading
 
 Array = NDArray[np.float64]
-
-BONE_WEIGHTS = {
-    "femur": 50, "tibia": 30, "foot": 15, "toes": 5, "lowerback": 50, "upperback": 40, "thorax": 30,
-    "lowerneck": 20, "upperneck": 15, "head": 5, "clavicle": 30, "humerus": 15, "radius": 5,
-}  # fmt: skip
-"""How much a bone counts, out of 480; left and right alike, bones not named here not at all."""
 
 
 class Segment(NamedTuple):
@@ -41,83 +33,6 @@ class Segment(NamedTuple):
     end: int
 
 
-def cut(clips: Sequence[Motion], segment: int = 200) -> list[Segment]:
-    """Cut clips into segments of equal length; the last of a clip takes what would be too short for another.
-
-    Examples
-    --------
-    >>> still = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), np.zeros((500, 3)), [[[1, 0, 0, 0]]] * 500, 120)
-    >>> [(start, end) for _, start, end in cut([still])]
-    [(0, 200), (200, 500)]
-    """
-    if segment < 1:
-        raise MocapError(f"A segment needs at least one frame, got {segment}.")
-    found = []
-    for clip, motion in enumerate(clips):
-        starts = range(0, max(len(motion) - segment, 0) + 1, segment)
-        found += [Segment(clip, *ends) for ends in pairwise([*starts, len(motion)])]
-    return found
-
-
-def segment_distances(
-    clips: Sequence[Motion], segments: Sequence[Segment], *, window: int, metric: str = "euler"
-) -> Array:
-    """Measure how far the end of each segment is from the beginning of each.
-
-    Parameters
-    ----------
-    clips, segments : as for `cut`.
-    window : frames compared: the last of one segment, the first of the other.
-    metric : "euler", as the homework's program does: Σ over the frames of Σ w_b ‖Δ‖, with Δ the differences
-        of a bone's file angles in degrees, each the short way round, and w_b its share of `BONE_WEIGHTS`; or
-        "root", as its report says: the mean of root distance and root angle, metres plus radians.
-
-    Returns
-    -------
-    D, shape (n, n): entry [i, j] for j after i.
-    """
-    frames = np.arange(window)
-    firsts = np.cumsum([0, *(len(clip) for clip in clips)])  # of each clip, in all of them together
-    clip, start, end = np.array(segments).T
-    tails, heads = firsts[clip] + end - window, firsts[clip] + start
-    together = concatenate(clips)
-    if metric == "root":
-        ends, beginnings = ([together[f : f + window] for f in starts] for starts in (tails, heads))
-        return np.array([[root_grid(a, b, window=window)[0, 0] for b in beginnings] for a in ends])
-    if metric != "euler":
-        raise MocapError(f"There are the metrics 'euler' and 'root', not '{metric}'.")
-    weights = _bone_weights(clips[0].skeleton)
-    angles = _file_angles(together)[:, weights > 0]  # (F, bones, 3), degrees
-    beginnings = angles[heads[:, None] + frames]  # (n, window, bones, 3)
-    apart = ((angles[tail : tail + window] - beginnings + 180) % 360 - 180 for tail in tails)
-    return np.array([(np.linalg.norm(gaps, axis=-1) @ weights[weights > 0]).sum(-1) for gaps in apart])
-
-
-def _bone_weights(skeleton: Skeleton) -> Array:
-    found = [BONE_WEIGHTS.get(name, BONE_WEIGHTS.get(name[1:], 0)) for name in skeleton.names]
-    if not any(found):
-        raise MocapError(
-            f"The homework's metric knows bones such as 'lfemur' and 'thorax', and the skeleton has none of "
-            f"them but {', '.join(skeleton.names[:5])} …: use metric='root'."
-        )
-    return np.array(found) / 480
-
-
-def _file_angles(motion: Motion) -> Array:
-    """Read off the joints the angles about x, y, z that an Acclaim file holds, degrees; 0 without a dof."""
-    skeleton = motion.skeleton
-    angles = np.zeros((len(motion), len(skeleton), 3))
-    turns = rotations.multiply(
-        rotations.multiply(rotations.inverse(skeleton.axes), motion.rotations), skeleton.axes
-    )
-    for joint, dofs in enumerate(skeleton.dofs):
-        order = dofs + "".join(sorted(set("xyz") - set(dofs)))
-        found = rotations.to_euler(order, turns[:, joint])
-        for place, axis in enumerate(dofs):
-            angles[:, joint, "xyz".index(axis)] = np.degrees(found[:, place])
-    return angles
-
-
 def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the metric
     clips: Sequence[Motion],
     segment: int = 200,
@@ -125,7 +40,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     threshold: float = 185,
     weighting: str = "inverse",
     *,
-    metric: str = "euler",
+    metric: Metric = euler_grid,
 ) -> nx.DiGraph:
     """Build the homework's graph: each segment is followed by its successor, or by one of another clip.
 
@@ -137,7 +52,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
     weighting : how those share what probability the successor leaves, which is a half where there is one:
         "inverse", in proportion to 1 / D, or "distance", in proportion to D as the homework has it.
-    metric : "euler" or "root", as for `segment_distances`.
+    metric : the homework's program has `euler_grid`, its report `root_grid`; both are in `matching`.
 
     Returns
     -------
@@ -146,40 +61,42 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
 
     Raises
     ------
-    MocapError, SkeletonMismatch : for clips that do not go together, or too short; for unknown words.
+    MocapError, SkeletonMismatch : for clips that do not go together or are too short, and senseless settings.
     """
-    if not clips:
-        raise MocapError("A segment graph needs at least one clip.")
     if weighting not in ("inverse", "distance"):
         raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
-    require_alike(clips)
-    segments = cut(clips, segment)
-    _check_lengths(clips, segments, window)
-    distances = segment_distances(clips, segments, window=window, metric=metric)
+    if not threshold > 0:
+        raise MocapError(f"The threshold must be above 0, got {threshold}.")
+    _check_lengths(clips, segment, window)
+    distances = segment_distances(clips, segment=segment, window=window, metric=metric)
+    cuts = enumerate(segments(len(clip), segment) for clip in clips)
+    parts = [Segment(clip, part.start, part.stop) for clip, slices in cuts for part in slices]
     graph = nx.DiGraph(window=window)
-    graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(segments))
-    for node, part in enumerate(segments):
-        others = [j for j, s in enumerate(segments) if s.clip != part.clip and distances[node, j] < threshold]
-        goes_on = node + 1 < len(segments) and segments[node + 1].clip == part.clip
+    graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
+    for node, part in enumerate(parts):
+        others = [j for j, s in enumerate(parts) if s.clip != part.clip and distances[node, j] < threshold]
+        goes_on = part.end < len(clips[part.clip])
         if goes_on:
             graph.add_edge(node, node + 1, kind="clip", probability=0.5 if others else 1.0)
         costs = distances[node, others]
-        odds = costs if weighting == "distance" else 1 / np.maximum(costs, 1e-9)
-        shares = odds / max(odds.sum(), 1e-300) * (0.5 if goes_on else 1.0)
+        odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
+        shares = odds / odds.sum() * (0.5 if goes_on else 1.0)
         for other, cost, share in zip(others, costs.tolist(), shares.tolist(), strict=True):
             graph.add_edge(node, other, kind="transition", probability=share, cost=cost)
     return graph
 
 
-def _check_lengths(clips: Sequence[Motion], segments: Sequence[Segment], window: int) -> None:
+def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
     """Raise unless each segment holds a window to enter by, one to leave by, and something between."""
+    if not clips:
+        raise MocapError("A segment graph needs at least one clip.")
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
-    for part in segments:
-        if part.end - part.start <= 2 * window:
+    for clip in clips:
+        if (length := min(segment, len(clip))) <= 2 * window:
             raise MocapError(
-                f"'{clips[part.clip].name}': a segment of {part.end - part.start} frames is too short for "
-                f"windows of {window} at both its ends."
+                f"'{clip.name}': a segment of {length} frames is too short for windows of {window} at both "
+                "its ends."
             )
 
 

@@ -21,6 +21,17 @@ def real_data() -> Path:
     return folder
 
 
+ASKED_FOR = ("benchmark", "exhaustive")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what takes long, unless `-m` asks for it by name."""
+    names = [name for name in ASKED_FOR if name not in config.option.markexpr]
+    out = [item for item in items if any(item.get_closest_marker(name) for name in names)]
+    items[:] = [item for item in items if item not in out]
+    config.hook.pytest_deselected(items=out)
+
+
 def pytest_collection_finish(session: pytest.Session) -> None:
     """Measure no coverage inside the notebooks' kernels: nbval waits in vain for those that it starts."""
     session.config.option.cov_source = None

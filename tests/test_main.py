@@ -2,11 +2,13 @@
 
 import subprocess
 import sys
+import warnings
 
 import pytest
 
-from mocap import files, lab
+from mocap import files, graph_files, lab
 from mocap.__main__ import main
+from mocap.errors import MocapWarning
 from tests.strategies import wave
 
 
@@ -112,3 +114,62 @@ def test_an_installed_package_copies_its_notebooks_and_keeps_edited_ones(monkeyp
     assert lab.course_folder(mine) == mine
     assert (mine / "00-quickstart.ipynb").read_text() == "{}"
     assert (mine / "01-next.ipynb").read_text() == "edited"
+
+
+def test_a_graph_is_built_saved_and_told_about(clips, capsys):
+    out, xml = clips / "g.npz", clips / "g.graphml"
+    assert main(["graph", str(clips), "-o", str(out), "--threshold", "5", "--graphml", str(xml)]) == 0
+    built = capsys.readouterr()
+    assert built.out.splitlines()[-2:] == [f"wrote        {out}", f"wrote        {xml}"]
+    assert built.err == ""
+    assert main(["graph", "info", str(out)]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert told[:3] == [
+        "clip         a: 120 frames at 30 Hz, 4.0 s",
+        "clip         b: 90 frames at 30 Hz, 3.0 s",
+        "window       10 frames, 0.33 s",
+    ]
+    assert told[3:] == built.out.splitlines()[:-2]
+    loaded = graph_files.load(out, [files.load(clips / f"{name}.bvh") for name in "ab"])
+    assert loaded.graph.number_of_nodes() == int(told[4].split()[1].rstrip(","))
+
+
+def test_a_whole_graph_ends_somewhere(clips, capsys):
+    assert main(["graph", str(clips), "-o", str(clips / "g.npz"), "--whole"]) == 0
+    assert "none before the end of some clip" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["info"], "one saved graph, got 0 files"),
+        (["info", "{clips}/a.bvh"], "a.bvh: expected a motion graph"),
+        (["info", "{clips}/none.npz"], "No such file"),
+        (["{clips}", "-o", "{clips}/g.json"], "written as .npz, got"),
+        (["{clips}", "--graphml", "g.xml"], "written as .graphml, got"),
+        (["{clips}", "--threshold", "0.001"], "no cycle"),
+        (["{clips}", "--threshold", "nan"], "above 0"),
+        (["{clips}", "--fps", "inf"], "no window of"),
+        (["{clips}", "--window", "nan"], "no window of nan s"),
+        (["{clips}", "--fps", "0"], "above 0"),
+    ],
+)
+def test_a_graph_that_cannot_be_is_one_sentence(clips, capsys, options, message):
+    before = sorted(clips.iterdir())
+    options = [option.format(clips=clips) for option in options]
+    assert main(["graph", "-o", str(clips / "g.npz"), *options]) == 2
+    told = capsys.readouterr().err
+    assert message in told
+    assert (told.startswith("mocap: "), told.count("\n")) == (True, 1)
+    assert sorted(clips.iterdir()) == before
+
+
+def test_a_warning_is_a_line_too(clips, capsys, monkeypatch):
+    def warn(*_arguments, **_settings):
+        warnings.warn("7 frames stay.", MocapWarning, stacklevel=1)
+        return "x"
+
+    monkeypatch.setattr("mocap.graph_files.read", warn)
+    with pytest.raises(AttributeError):
+        main(["graph", "info", "x.npz"])
+    assert capsys.readouterr().err == "mocap: 7 frames stay.\n"

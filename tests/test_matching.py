@@ -1,131 +1,76 @@
-"""The closed form against a numerical optimiser, and the grids against a loop over windows."""
+"""The four metrics side by side; the homework's numbers."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
-from scipy.optimize import minimize
 
-from mocap import rotations
+from mocap import cloud_grid, load, matching, rotations
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.matching import align, distance_grid, distinct_joints, point_cloud, root_grid
+from mocap.matching import (
+    HOMEWORK_WEIGHTS,
+    distance_grid,
+    euler_grid,
+    file_angles,
+    pose_grid,
+    root_grid,
+    segment_distances,
+    segments,
+)
+from mocap.motion import Motion
 from mocap.skeleton import Skeleton
 from mocap.transforms import PlanarTransform
-from tests.strategies import planar, random_motion, seeds, wave
+from tests.strategies import random_motion, random_quaternions, seeds, wave
+
+DOFS = ["xyz", "xyz", "zx", "y", "zyx", ""]
 
 
-def squared_distance(transform, points, others, weights):
-    return float(weights @ ((points - PlanarTransform(*transform).points(others)) ** 2).sum(-1))
-
-
-@settings(max_examples=25)
-@given(seeds)
-def test_no_optimiser_finds_a_better_alignment(seed):
+def body_motion(seed, frames=6):
+    """Random angles of joints with axes and dofs of their own; and these angles in degrees."""
     random = np.random.default_rng(seed)
-    points, others = random.normal(size=(2, 12, 3))
-    weights = random.random(12)
-    best = squared_distance(align(points, others, weights), points, others, weights)
-    for start in np.linspace(-np.pi, np.pi, 4, endpoint=False):
-        found = minimize(squared_distance, [start, 0, 0], args=(points, others, weights))
-        assert best <= found.fun + 1e-6
+    names = ["root", "lowerback", "lfemur", "ltibia", "rhumerus", "rhumerus_end"]
+    axes = random_quaternions(random, 6)
+    axes[0] = rotations.IDENTITY
+    skeleton = Skeleton(names, np.arange(-1, 5), random.normal(size=(6, 3)), axes, DOFS)
+    turns = np.tile(rotations.IDENTITY, (frames, 6, 1))
+    angles = {}
+    for joint, dofs in enumerate(DOFS):
+        if dofs:
+            limit = [180, 90, 180] if len(dofs) == 3 else [90, 90] if len(dofs) == 2 else [180]
+            angles[joint] = random.uniform(-1, 1, (frames, len(dofs))) * limit
+            own = rotations.from_euler(dofs, np.radians(angles[joint]))
+            turns[:, joint] = rotations.multiply(
+                rotations.multiply(axes[joint], own), rotations.inverse(axes[joint])
+            )
+    return Motion(skeleton, random.normal(size=(frames, 3)), turns, 30.0, f"body{seed}"), angles
 
 
-@given(seeds, planar)
-def test_alignment_finds_the_transform_that_was_applied(seed, transform):
-    points = np.random.default_rng(seed).normal(size=(8, 3))
-    found = align(transform.points(points), points)
-    assert found.points(points) == pytest.approx(transform.points(points), abs=1e-9)
+ALL = [root_grid, euler_grid, pose_grid, distance_grid]
 
 
-@given(seeds, planar, planar)
-def test_the_distance_does_not_change_when_either_cloud_is_moved(seed, move_a, move_b):
-    a, b = np.random.default_rng(seed).normal(size=(2, 8, 3))
-    weights = np.full(8, 1 / 8)
-    before = squared_distance(align(a, b), a, b, weights)
-    a, b = move_a.points(a), move_b.points(b)
-    assert squared_distance(align(a, b), a, b, weights) == pytest.approx(before, abs=1e-8)
+@pytest.mark.parametrize("metric", ALL)
+def test_all_metrics_have_one_interface(metric):
+    (a, _), (b, _) = body_motion(0, 9), body_motion(0, 7)
+    grid = metric(a, b, window=3)
+    assert grid.shape == (7, 5)
+    assert grid.min() >= 0
+    assert metric(b, a, window=3) == pytest.approx(grid.T)
+    assert metric(a, a, window=3).diagonal() == pytest.approx(0, abs=1e-5)
+    for window, message in ((8, "'body0' has 7 frames, too few for a window of 8"), (0, "got 0")):
+        with pytest.raises(MocapError, match=message):
+            metric(a, b, window=window)
+    with pytest.raises(SkeletonMismatch, match="elbow"):
+        metric(a, wave(9), window=2)
 
 
-def test_alignment_works_on_many_clouds_at_once():
-    a, b = np.random.default_rng(0).normal(size=(2, 3, 4, 9, 3))
-    together = align(a, b)
-    assert np.shape(together.angle) == (3, 4)
-    one = align(a[2, 1], b[2, 1])
-    assert [field[2, 1] for field in together] == pytest.approx(list(one))
-
-
-@pytest.mark.parametrize("weights", [[1, 1], [1, -1, 1], [0, 0, 0], [1, np.nan, 1]])
-def test_weights_must_make_sense(weights):
-    with pytest.raises(MocapError, match="Weights must be 3 numbers, not negative and not all 0"):
-        align(np.eye(3), np.eye(3), weights)
-
-
-def grid_by_loops(a, b, window):
-    """Align and measure window by window."""
-    rows, columns = len(a) - window + 1, len(b) - window + 1
-    grid = np.empty((rows, columns))
-    for i, j in np.ndindex(rows, columns):
-        p, q = a[i : i + window].reshape(-1, 3), b[j : j + window].reshape(-1, 3)
-        grid[i, j] = squared_distance(align(p, q), p, q, np.full(len(p), 1 / len(p)))
-    return grid
-
-
-@settings(max_examples=20)
-@given(seeds, st.integers(1, 4))
-def test_the_grid_is_the_loop_over_windows(seed, window):
-    a, b = (np.random.default_rng(seed + s).normal(size=(n, 6, 3)) for s, n in ((0, 7), (1, 5)))
-    assert distance_grid(a, b, window=window) == pytest.approx(grid_by_loops(a, b, window), abs=1e-10)
-
-
-def test_the_grid_of_motions_is_that_of_their_points():
-    a, b = wave(20), wave(25, phase=1.0)
-    assert np.array_equal(
-        distance_grid(a, b, window=5), distance_grid(point_cloud(a), point_cloud(b), window=5)
-    )
-
-
-@given(seeds, planar)
-def test_a_clip_is_at_no_distance_from_itself_moved_anywhere(seed, transform):
-    motion = random_motion(seed)
-    grid = distance_grid(motion, transform.motion(motion), window=3)
-    assert np.sqrt(grid.diagonal()) == pytest.approx(0, abs=1e-6)
-    assert grid == pytest.approx(grid.T, abs=1e-9)
-
-
-def test_far_from_the_origin_no_digits_are_lost():
-    near, other = wave(30), wave(30, phase=2.0)
-    far = PlanarTransform(1.0, 1e4, -1e4).motion(near)
-    assert distance_grid(far, other, window=4) == pytest.approx(
-        distance_grid(near, other, window=4), abs=1e-8
-    )
-
-
-def test_clips_that_do_not_go_together_are_refused():
-    with pytest.raises(SkeletonMismatch):
-        distance_grid(wave(9), random_motion(0), window=2)
-    with pytest.raises(MocapError, match="resample one first"):
-        distance_grid(wave(9), replace(wave(9), fps=60), window=2)
-    with pytest.raises(MocapError, match="'wave' has 9 frames, too few for a window of 10"):
-        distance_grid(wave(20), wave(9), window=10)
-    with pytest.raises(MocapError, match="at least one frame, got 0"):
-        distance_grid(wave(9), wave(9), window=0)
-    with pytest.raises(MocapError, match="2 and 3 points do not match"):
-        distance_grid(np.zeros((5, 2, 3)), np.zeros((5, 3, 3)), window=2)
-
-
-def test_coincident_joints_are_one_point():
-    hips = Skeleton(
-        ["root", "l", "r", "lknee", "rknee"], [-1, 0, 0, 1, 2], np.array([[0, 0, 0]] * 3 + [[0, -1, 0]] * 2)
-    )
-    assert distinct_joints(hips) == [0, 3, 4]
-
-
-def test_a_cmu_skeleton_has_31_points(real_data):
-    from mocap import load_skeleton
-
-    assert len(distinct_joints(load_skeleton(real_data / "cmu" / "16" / "16.asf"))) == 31
+@pytest.mark.parametrize("metric", [root_grid, euler_grid, pose_grid])
+def test_tiles_do_not_show(metric, monkeypatch):
+    a, _ = body_motion(0, 20)
+    whole = metric(a, a, window=3)
+    monkeypatch.setattr(cloud_grid, "TILE", (4, 6))
+    assert metric(a, a, window=3) == pytest.approx(whole)
 
 
 def test_root_grid_adds_metres_and_radians():
@@ -147,3 +92,122 @@ def test_root_grid_is_misled_by_where_a_clip_was_captured():
     b = PlanarTransform(2.0, 3.0, 0.0).motion(a)
     assert root_grid(a, b, window=3).diagonal().min() > 2
     assert distance_grid(a, b, window=3).diagonal().max() < 1e-12
+
+
+@given(seeds)
+def test_the_files_own_angles_come_back(seed):
+    motion, angles = body_motion(seed)
+    for joint, told in angles.items():
+        gap = file_angles(motion, joint) - told
+        assert (gap + 180) % 360 - 180 == pytest.approx(0, abs=1e-4)
+
+
+def test_the_euler_grid_adds_wrapped_differences_bone_by_bone():
+    (a, angles), (b, others) = body_motion(0, 6), body_motion(0, 6)
+    b, others = replace(a, rotations=a.rotations[::-1]), {j: v[::-1] for j, v in angles.items()}
+    grid = euler_grid(a, b, window=2)
+    for i, j in np.ndindex(*grid.shape):
+        total = 0.0
+        for f in range(2):
+            for joint in (1, 2, 3, 4):
+                gap = (angles[joint][i + f] - others[joint][j + f] + 180) % 360 - 180
+                total += HOMEWORK_WEIGHTS[a.skeleton.names[joint]] * np.linalg.norm(gap)
+        assert grid[i, j] == pytest.approx(total)
+
+
+def test_the_euler_grid_takes_weights_by_name():
+    a, _ = body_motion(0, 9)
+    one = euler_grid(a, a, window=2, weights={"ltibia": 1.0})
+    assert euler_grid(a, a, window=2, weights={"ltibia": 2.0, "unknown": 5.0}) == pytest.approx(2 * one)
+    with pytest.raises(MocapError, match="none of the bones with a weight: lowerback"):
+        euler_grid(wave(9), wave(9), window=2)
+    for bad in (-1.0, np.nan):
+        with pytest.raises(MocapError, match=f"got {{'ltibia': {bad}}}"):
+            euler_grid(a, a, window=2, weights={"ltibia": bad})
+
+
+def test_the_pose_grid_adds_up_joints():
+    a, b = random_motion(0, frames=5), random_motion(1, frames=4)
+    b = replace(b, skeleton=a.skeleton)
+    q, p = a.rotations[:, 1:], b.rotations[:, 1:]
+    for form, vectors in (("log", rotations.to_rotvec), ("quaternion", lambda x: x)):
+        grid = pose_grid(a, b, window=2, form=form)
+        for i, j in np.ndindex(*grid.shape):
+            steps = []
+            for f in range(2):
+                gaps = [
+                    np.linalg.norm(vectors(q[i + f]) - sign * vectors(p[j + f]), axis=-1)
+                    for sign in ((1, -1) if form == "quaternion" else (1,))
+                ]
+                steps.append(np.linalg.norm(np.min(gaps, axis=0)))
+            assert grid[i, j] == pytest.approx(np.mean(steps))
+
+
+def test_a_quaternion_and_its_negative_are_one_pose():
+    a = random_motion(0)
+    assert pose_grid(a, replace(a, rotations=-a.rotations), window=2).diagonal() == pytest.approx(0, abs=1e-6)
+
+
+def test_one_frame_does_not_tell_forwards_from_backwards():
+    """Reason three of 3.1: with velocities the two are told apart."""
+    forwards = wave(21)
+    backwards = replace(forwards, rotations=forwards.rotations[::-1])
+    middle = (10, 10)
+    assert pose_grid(forwards, backwards, window=1)[middle] == pytest.approx(0, abs=1e-6)
+    assert pose_grid(forwards, backwards, window=1, velocities=0.2)[middle] > 0.1
+
+
+def test_pose_grid_refuses_what_it_does_not_know():
+    a = wave(5)
+    with pytest.raises(MocapError, match="got 'matrix'"):
+        pose_grid(a, a, window=2, form="matrix")
+    for bad in (-1, np.nan, np.inf):
+        with pytest.raises(MocapError, match="velocities must be seconds"):
+            pose_grid(a, a, window=2, velocities=bad)
+    with pytest.raises(MocapError, match="one frame, and so no velocities"):
+        pose_grid(a[:1], a[:1], window=1, velocities=1.0)
+
+
+@given(st.integers(1, 3000), st.integers(1, 500))
+def test_segments_take_every_frame_once(frames, length):
+    cuts = segments(frames, length)
+    assert [n for cut in cuts for n in range(cut.start, cut.stop)] == list(range(frames))
+    assert len(cuts) == max(frames // length, 1)
+    assert all(cut.stop - cut.start == length for cut in cuts[:-1])
+
+
+@pytest.mark.parametrize("metric", ALL)
+def test_segment_distances_lay_heads_on_tails(metric):
+    a, _ = body_motion(0, 25)
+    b = replace(body_motion(0, 20)[0], name="b")
+    grid = segment_distances([a, b], segment=10, window=4, metric=metric)
+    pieces = [a[:10], a[10:], b[:10], b[10:]]
+    assert grid.shape == (4, 4)
+    for i, j in np.ndindex(4, 4):
+        assert grid[i, j] == pytest.approx(metric(pieces[i][-4:], pieces[j][:4], window=4)[0, 0], abs=1e-6)
+
+
+def test_segments_hold_a_window():
+    with pytest.raises(MocapError, match="A segment has 5 frames, too few for a window of 6"):
+        segment_distances([wave(20)], segment=5, window=6)
+    with pytest.raises(MocapError, match="'wave' has 4 frames, too few for a window of 5"):
+        segment_distances([wave(4)], segment=10, window=5)
+    with pytest.raises(MocapError, match="nothing to concatenate"):
+        segment_distances([])
+
+
+def test_the_homeworks_numbers(real_data):
+    clips = [load(real_data / "hw3" / f"walk_fwd_{name}.AMC") for name in ("circle", "curve1", "curve2")]
+    grid = segment_distances(clips)
+    assert grid.shape == (74, 74)
+    assert grid[0, 1:6] == pytest.approx([609.7033, 532.5454, 168.3574, 599.2567, 624.7405], abs=1e-3)
+    off = grid[~np.eye(74, dtype=bool)]
+    assert np.median(off) == pytest.approx(473.735, abs=1e-3)
+    assert grid.max() == pytest.approx(786.775, abs=1e-3)
+    assert off.min() == pytest.approx(87.407, abs=1e-3)
+    assert grid[36, 27] == off.min()
+
+
+def test_the_interface_stays_in_one_place():
+    for name in ("align", "distinct_joints", "distance_grid", "point_cloud", "Surface"):
+        assert hasattr(matching, name)

@@ -156,25 +156,6 @@ def test_each_pair_of_labels_has_a_threshold_of_its_own():
     assert 0 < len(found) < loose.count("transition")
 
 
-def test_pairs_that_are_not_named_get_no_transition():
-    clips = [labelled(90, 90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
-    graph = build(clips, window=WINDOW, threshold={("walk", ""): 0.08}).graph
-    ends = {(start[0], end[0]) for start, end, kind in graph.edges(data="kind") if kind == "transition"}
-    assert ends == {(0, 1), (1, 0)}
-
-
-def test_thresholds_are_for_labels_that_there_are():
-    clips = [labelled(90, 45, name="a")]
-    for thresholds, words in (
-        ({("walk", "fly"): 0.1}, "a label that no clip has; there are: run, walk"),
-        ({("walk", "walk"): 0.0}, "must be above 0 m, got 0.0"),
-        ({("walk", "walk"): float("nan")}, "must be above 0 m, got nan"),
-        ({}, "no threshold for any pair"),
-    ):
-        with pytest.raises(MocapError, match=words):
-            build(clips, window=WINDOW, threshold=thresholds)
-
-
 def test_pruning_by_labels_keeps_every_kind():
     clips = [labelled(200, 100, name="a")]
     whole = build(clips, window=WINDOW, threshold={("walk", "walk"): 0.05, ("run", "run"): 0.05})

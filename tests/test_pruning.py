@@ -131,7 +131,7 @@ def test_the_graph_of_the_notes():
         (3, 4, 0): Reason.SINK,
         (4, 4, 0): Reason.SINK,
         (6, 5, 0): Reason.DEAD_END,
-        (8, 5, 0): Reason.DEAD_END,
+        (7, 5, 0): Reason.DEAD_END,
     }
     assert found.report().splitlines() == [
         "kept 6 nodes and 7 edges",
