@@ -1,6 +1,7 @@
 """What is wished for along a path, and what it costs to go without."""
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,7 @@ class Prices:
     crowding : times the square of the metres too near to another, in each frame.
     """
 
-    seam: float = 0.05
+    seam: float = 0.1
     match: float = 30.0
     label: float = 0.1
     late: float = 0.02
@@ -63,3 +64,23 @@ class Course:
         before = np.minimum(place.astype(np.intp), len(self.points) - 2)
         start = self.points[before]
         return np.asarray(start + (place - before) * (self.points[before + 1] - start))
+
+    def near(self, along: Array) -> Points:
+        """Give the sample before, which is quicker."""
+        return np.asarray(self.points[self.point(along)])
+
+    def point(self, along: Array) -> Indices:
+        """Number the samples before; past the end the last."""
+        place = np.maximum(along / self.spacing, 0)
+        return np.minimum(place.astype(np.intp), len(self.points) - 1)
+
+    @cached_property
+    def ways(self) -> Points:
+        """The directions in which the path goes on from its points, of length 1."""
+        steps = np.diff(self.points)
+        return np.asarray(steps[[*range(len(steps)), -1]] / np.abs(steps[[*range(len(steps)), -1]]))
+
+    @cached_property
+    def bare(self) -> bool:
+        """Whether nothing but the path itself is wished for."""
+        return not len(self.others) and bool((self.label < 0).all() and np.isnan(self.clock).all())

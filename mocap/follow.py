@@ -156,7 +156,7 @@ def follow_path(
     wishes, compiled = wishes or Wishes(), compile_graph(graph)
     course = make_course(compiled, path, wishes)
     starts = _starts(compiled, course, wishes)
-    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
+    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
     found = search_layers(compiled, course, starts, beam or Beam(), prices or Prices())
     followed = _followed(compiled, path, course, found)
     if departures := followed.departures:

@@ -28,6 +28,7 @@ from mocap.walks import ranges
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
+States = NDArray[np.void]  # of the dtype STATE
 
 
 @dataclass(frozen=True)
@@ -51,21 +52,19 @@ class Beam:
     seconds: float = np.inf
 
 
-class States(NamedTuple):
-    """Walks so far: where each stands, and what it cost; `trail` and `edge` lead back to its start."""
-
-    node: Indices
-    turn: Points  # places the node's clip: p -> turn · p + move
-    move: Points
-    along: Array  # metres of path
-    frames: Indices
-    cost: Array
-    trail: Indices  # the number of the state before
-    edge: Indices  # that led here, -1 at a start
-
-    def take(self, chosen: NDArray[np.generic]) -> States:
-        """Choose some of the states, by numbers or by a mask."""
-        return States(*(values[chosen] for values in self))
+STATE = np.dtype(
+    [
+        ("node", np.intp),
+        ("turn", complex),  # with move, places the node's clip: p -> turn · p + move
+        ("move", complex),
+        ("along", float),  # metres of path
+        ("frames", np.intp),
+        ("cost", float),
+        ("trail", np.intp),  # the number of the state before
+        ("edge", np.intp),  # that led here, -1 at a start
+    ]
+)
+"""A walk so far: where it stands, and what it cost."""
 
 
 class Found(NamedTuple):
@@ -88,9 +87,11 @@ class Found(NamedTuple):
 
 def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: float) -> States:
     """Stand at each of some nodes, over a place and about to move in a direction (radians)."""
-    turn = np.exp(1j * (heading - graph.going[nodes]))
-    still, none = np.zeros(len(nodes)), np.zeros(len(nodes), np.intp)
-    return States(nodes, turn, place - turn * graph.at[nodes], still, none, still, none - 1, none - 1)
+    states = np.zeros(len(nodes), STATE)
+    states["node"], states["edge"] = nodes, -1
+    states["turn"] = np.exp(1j * (heading - graph.going[nodes]))
+    states["move"] = place - states["turn"] * graph.at[nodes]
+    return states
 
 
 def search_layers(graph: CompiledGraph, course: Course, starts: States, beam: Beam, prices: Prices) -> Found:
@@ -144,50 +145,54 @@ class _Run:
             layer = min(self.waiting)
             if time.monotonic() > deadline:
                 return "out of time"
-            states = _joined(self.waiting[layer])
-            new = self.follow(self.select(states) if self.history else states)
+            states = np.concatenate(self.waiting[layer])
+            new = self.follow(self.select(states))
             del self.waiting[layer]
             self.sort(new)
         return ""
 
     def select(self, states: States) -> States:
         """Keep the best of those that stand alike, and of these the `width` most promising."""
-        beam, key = self.beam, states.node.astype(np.int64)
-        body = (states.move + states.turn * self.graph.at[states.node]) / beam.place
-        for value in (body.real, body.imag, np.angle(states.turn) / beam.turn):
+        beam, graph, node, turn = self.beam, self.graph, states["node"], states["turn"]
+        body = (states["move"] + turn * graph.at[node]) / beam.place
+        key = node
+        for value in (body.real, body.imag, np.angle(turn) / beam.turn):
             key = (key << 14) + (np.floor(value).astype(np.int64) & 0x3FFF)
-        ahead = states.move[:, None] + states.turn[:, None] * self.graph.ahead[states.node]
-        off = _square(ahead - self.course.at(states.along[:, None] + self.ahead_along[states.node]))
+        ahead = states["move"][:, None] + turn[:, None] * graph.ahead[node]
+        off = _square(ahead - self.course.near(states["along"][:, None] + self.ahead_along[node]))
         # Each of the points ahead stands for a share of half a second's frames.
-        loss = off.sum(axis=1) * self.graph.fps / 6
-        order = np.argsort(states.cost + np.minimum(loss, beam.rescue), kind="stable")
+        loss = off.sum(axis=1) * graph.fps / 6
+        order = np.argsort(states["cost"] + np.minimum(loss, beam.rescue), kind="stable")
         _, first = np.unique(key[order], return_index=True)
-        chosen = order[np.sort(first)[: beam.width]]
+        first.sort()
+        chosen = order[first[: beam.width]]
         self.cut += len(order) - len(chosen)
-        return states.take(chosen)
+        return states[chosen]
 
     def follow(self, states: States) -> States:
         """Take every edge from some states."""
         graph, before = self.graph, self.expanded
         self.history.append(states)
-        self.expanded += len(states.node)
-        first = graph.first[states.node]
-        count = graph.first[states.node + 1] - first
+        self.expanded += len(states)
+        first = graph.first[states["node"]]
+        count = graph.first[states["node"] + 1] - first
         of, edge = np.repeat(np.arange(len(first)), count), ranges(first, count)
-        old = states.take(of)
-        node, turn = graph.target[edge], old.turn * graph.turn[edge]
-        move = old.move + old.turn * graph.move[edge]
-        along = old.along + self.length[edge]
-        along += self.slide(move + turn * graph.at[node], along, self.length[edge] / 2)
-        cost = old.cost + self.price[edge] + self.wanting(old, edge)
-        return States(node, turn, move, along, old.frames + graph.frames[edge], cost, before + of, edge)
+        new = states[of]
+        new["cost"] += self.price[edge] + self.wanting(new, edge)
+        new["node"], new["edge"], new["trail"] = graph.target[edge], edge, before + of
+        new["move"] += new["turn"] * graph.move[edge]
+        new["turn"] *= graph.turn[edge]
+        new["frames"] += graph.frames[edge]
+        new["along"] += self.length[edge]
+        new["along"] += self.slide(new, self.length[edge] / 2)
+        return new
 
-    def slide(self, body: Points, along: Array, most: Array) -> Array:
+    def slide(self, states: States, most: Array) -> Array:
         """Measure half the way along the path to where it passes the body."""
-        here = self.course.at(along)
-        way = self.course.at(along + self.course.spacing) - here
-        abreast = ((body - here) * way.conj()).real / np.maximum(np.abs(way), 1e-9)
-        return np.clip(abreast / 2, -most, most)
+        body = states["move"] + states["turn"] * self.graph.at[states["node"]]
+        way = self.course.ways[self.course.point(states["along"])]
+        abreast = ((body - self.course.near(states["along"])) * way.conj()).real
+        return np.minimum(np.maximum(abreast / 2, -most), most)
 
     def wanting(self, states: States, edge: Indices) -> Array:
         """Sum up over each edge's frames how far they are from what is wished."""
@@ -197,17 +202,16 @@ class _Run:
         frames = graph.frames[edge]
         first = np.cumsum(frames) - frames
         row, of = ranges(graph.track_first[edge], frames), np.repeat(np.arange(len(edge)), frames)
-        along = states.along[of] + self.along[row]
-        body = states.move[of] + states.turn[of] * graph.track[row]
+        along = states["along"][of] + self.along[row]
+        body = states["move"][of] + states["turn"][of] * graph.track[row]
         off = _square(body - course.at(along))
-        point = np.minimum((along / course.spacing).astype(np.intp), len(course.points) - 1)
-        frame = states.frames[of] + row - graph.track_first[edge][of]
-        if len(graph.labels) and (course.label >= 0).any():
-            label = course.label[point]
+        if course.bare:
+            return np.asarray(np.add.reduceat(off, first))
+        point, frame = course.point(along), states["frames"][of] + row - graph.track_first[edge][of]
+        label, late = course.label[point], frame / graph.fps - course.clock[point]
+        if graph.labels:
             off += prices.label * ((label >= 0) & ~graph.bears[label, row])
-        if not np.isnan(course.clock).all():
-            late = frame / graph.fps - course.clock[point]
-            off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
+        off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
         for other in course.others:
             near = course.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
             off += prices.crowding * np.maximum(near, 0.0) ** 2
@@ -215,47 +219,46 @@ class _Run:
 
     def sort(self, new: States) -> None:
         """Sort states into the layers they have reached; those at the end compete for the best."""
-        done = new.along >= self.course.length
-        for state in np.flatnonzero(done):
-            if self.best is None or new.cost[state] < self.best.cost[0]:
-                self.best = new.take(np.array([state]))
-        # No cost is below 0, so what costs as much as the best walk cannot become better.
-        new = new.take(~done & (new.cost < (np.inf if self.best is None else self.best.cost[0])))
-        layer = (new.along / self.beam.layer).astype(np.intp)
-        for reached in np.unique(layer):
-            self.waiting.setdefault(int(reached), []).append(new.take(layer == reached))
+        done = new["along"] >= self.course.length
+        if done.any():
+            arrived = new[done]
+            first = arrived["cost"].argmin()
+            if self.best is None or arrived["cost"][first] < self.best["cost"][0]:
+                self.best = arrived[first : first + 1]
+            # No cost is below 0, so what costs as much as the best walk cannot become better.
+            new = new[~done & (new["cost"] < self.best["cost"][0])]
+        layer = (new["along"] / self.beam.layer).astype(np.intp)
+        for reached in set(layer.tolist()):
+            self.waiting.setdefault(reached, []).append(new[layer == reached])
 
     def found(self, stopped: str) -> Found:
         """Trace the best walk back to its start; where none has arrived, the best of those under way."""
         if self.best is None and not stopped:
-            reached = max(float(states.along.max()) for states in self.history)
+            reached = max(float(states["along"].max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
         if not self.history:
             raise NoWalk(f"The search was {stopped} before its first step.")
-        best = self.best or self.history[-1].take(np.array([self.history[-1].cost.argmin()]))
-        history = _joined(self.history)
-        state, edge = int(best.trail[0]), int(best.edge[0])
+        best = self.history[-1][[self.history[-1]['cost'].argmin()]] if self.best is None else self.best
+        history = np.concatenate(self.history)
+        state, edge = int(best["trail"][0]), int(best["edge"][0])
         edges: list[int] = []
         states: list[int] = []
         while edge >= 0:
             edges.append(edge)
             states.append(state)
-            state, edge = int(history.trail[state]), int(history.edge[state])
+            state, edge = int(history["trail"][state]), int(history["edge"][state])
         edges, states = edges[::-1], states[::-1]
         frames = self.graph.frames[edges]
         along = (
-            np.repeat(history.along[states], frames)
+            np.repeat(history["along"][states], frames)
             + self.along[ranges(self.graph.track_first[edges], frames)]
         )
-        turn, move = (complex(values[states[0]]) for values in (history.turn, history.move))
+        turn, move = (complex(history[name][states[0]]) for name in ("turn", "move"))
         return Found(
-            np.array(edges), turn, move, along, float(best.cost[0]), self.expanded, self.cut, stopped
+            np.array(edges), turn, move, along, float(best["cost"][0]), self.expanded, self.cut, stopped
         )
 
 
 def _square(numbers: Points) -> Array:
     return np.asarray(numbers.real**2 + numbers.imag**2)
 
-
-def _joined(parts: list[States]) -> States:
-    return States(*(np.concatenate(values) for values in zip(*parts, strict=True)))
