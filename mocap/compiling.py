@@ -14,33 +14,39 @@ from numpy.typing import ArrayLike, NDArray
 from mocap.errors import NoWalk
 from mocap.motion_graph import MotionGraph, Node
 from mocap.transforms import heading
-from mocap.walks import Edge, FrameTable, edge_table, frame_table, ranges, require_node
+from mocap.walks import Edge, EdgeTable, FrameTable, edge_table, frame_table, ranges, require_node
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
 AHEAD = (1 / 6, 1 / 3, 1 / 2)  # seconds
+HOP = 1 / 6  # seconds
 
 
 @dataclass(frozen=True, eq=False)
 class CompiledGraph:
-    """N nodes and E edges, sorted by the node they leave, and the root's track on each.
+    """N nodes, E edges with T frames, and H hops.
+
+    A hop is what a search steps by: a ride along the clip that ends in a transition, or has lasted `HOP`
+    seconds. Stepping by edges, of a frame or two each, would come to the same walks.
 
     Parameters
     ----------
     source : the graph.
-    nodes, edges : what the indices stand for.
-    first : shape (N + 1,), edges `first[n]` to `first[n + 1]` leave node n.
-    target : shape (E,), the node an edge leads to.
-    frames, cost, blended : shape (E,), as in the graph; `blended` are the transitions, other edges cost 0.
+    nodes : sorted by clip and frame.
+    edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
+    target, frames, cost, blended : shape (E,), as in the graph; `blended` are the transitions.
     turn, move : shape (E,), the transform of a transition, else 1 and 0.
-    track_first : shape (E,), where an edge's frames start among all T frames of all edges.
+    track_first : shape (E,), where an edge's frames start among those of all edges.
     track : shape (T,), where the root is, in the coordinates of the clip that the edge leaves.
     step : shape (T,), metres from the frame before.
     at : shape (N,), where the root is at a node, in the coordinates of its clip.
-    ahead : shape (N, 3), where it is `AHEAD` seconds later if the clip just goes on, as fast past its end as before.
+    ahead : shape (N, 3), where it is after `AHEAD` seconds if the clip goes on (past its end, as before).
     going : shape (N,), the direction it moves in, or where it stands, faces (radians).
+    hop_first : shape (N + 1,), hops `hop_first[n]` to `hop_first[n + 1]` leave node n.
+    ride, rides : shape (H,), the first stretch of clip that a hop rides along, and how many.
+    last : shape (H,), the edge that ends it: a transition, or the last stretch of the ride.
     labels : the names of the labels.
     bears : shape (L, T), which frames bear them.
     """
@@ -48,7 +54,6 @@ class CompiledGraph:
     source: MotionGraph
     nodes: list[Node]
     edges: list[Edge]
-    first: Indices
     target: Indices
     frames: Indices
     cost: Array
@@ -61,6 +66,10 @@ class CompiledGraph:
     at: Points
     ahead: Points
     going: Array
+    hop_first: Indices
+    ride: Indices
+    rides: Indices
+    last: Indices
     labels: list[str]
     bears: NDArray[np.bool_]
 
@@ -96,26 +105,30 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     """
     if isinstance(graph, CompiledGraph):
         return graph
-    nodes, edges = sorted(graph.graph), sorted(graph.graph.edges(keys=True))
+    nodes = sorted(graph.graph)
+    kinds = graph.graph.edges(keys=True, data="kind")
+    edges = [
+        (start, end, key) for start, end, key, _ in sorted(kinds, key=lambda e: (e[3] == "transition", e))
+    ]
     if not edges:
         raise NoWalk("The graph has no edges.")
     index = {node: n for n, node in enumerate(nodes)}
     table = edge_table(graph, edges)
     frames = frame_table(table, graph.window)
-    turn, move = np.exp(1j * np.asarray(table.transform.angle)), table.transform.z + 1j * table.transform.x
+    angle, x, z = map(np.asarray, table.transform)
+    turn, move = np.exp(1j * angle), z + 1j * x
     roots = _Roots(graph)
     track = frames.alpha * roots[frames.here]
     track += (1 - frames.alpha) * (turn[frames.edge] * roots[frames.there] + move[frames.edge])
     track_first = np.cumsum(table.frames) - table.frames
     step = np.abs(np.diff(track, prepend=0))
-    step[track_first] = np.abs(track[track_first] - roots[table.leaves - [0, 1]])
+    step[track_first] = np.abs(track[track_first] - roots[table.leaves - np.array([0, 1])])
     standing = np.array(nodes)
     labels = sorted({label for clip in graph.clips for label in clip.labels})
     return CompiledGraph(
         source=graph,
         nodes=nodes,
         edges=edges,
-        first=np.searchsorted([index[start] for start, _, _ in edges], np.arange(len(nodes) + 1)),
         target=np.array([index[end] for _, end, _ in edges]),
         frames=table.frames,
         cost=table.cost,
@@ -128,9 +141,43 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
         at=roots[standing],
         ahead=(ahead := roots.ahead(standing, graph.clips[0].fps)),
         going=roots.going(standing, ahead),
+        **_hops(table, np.array([index[start] for start, _, _ in edges]), len(nodes), graph.clips[0].fps),
         labels=labels,
         bears=_bearing(graph, frames, labels),
     )
+
+
+def _hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> dict[str, Indices]:
+    """List the hops: from every node ride on, stretch by stretch, and leave by each transition on the way.
+
+    A stretch of clip leads from node n to node n + 1, for the nodes are sorted.
+    """
+    rides = np.flatnonzero(~edges.blended)
+    onward = np.full(nodes + 1, -1)  # the stretch that leaves each node
+    onward[leaves[rides]] = rides
+    first = np.searchsorted(leaves[len(rides) :], np.arange(nodes + 1)) + len(rides)
+    # Of those still riding: where they are, and for how many frames they have been.
+    here, ridden = np.arange(nodes), np.zeros(nodes, np.intp)
+    origin, count, found = np.arange(nodes), 0, []
+    while len(here):
+        ways = first[here + 1] - first[here]
+        leaving = np.repeat(origin, ways)
+        found.append((leaving, np.full(len(leaving), count), ranges(first[here], ways)))
+        riding = onward[here] >= 0
+        origin, here, stretch = origin[riding], here[riding] + 1, onward[here[riding]]
+        ridden, count = ridden[riding] + edges.frames[stretch], count + 1
+        # A ride ends when it has lasted long enough, or its clip goes no further.
+        over = (ridden >= HOP * fps) | ((onward[here] < 0) & (first[here] == first[here + 1]))
+        found.append((origin[over], np.full(over.sum(), count - 1), stretch[over]))
+        here, origin, ridden = here[~over], origin[~over], ridden[~over]
+    start, rides, last = (np.concatenate(column) for column in zip(*found, strict=True))
+    order = np.argsort(start, kind="stable")
+    return {
+        "hop_first": np.searchsorted(start[order], np.arange(nodes + 1)),
+        "ride": onward[start[order]],
+        "rides": rides[order],
+        "last": last[order],
+    }
 
 
 def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
@@ -150,7 +197,7 @@ def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: comple
 
 
 class _Roots:
-    """Where the root of each clip's frames is on the ground; before the first frame and after the last it stands."""
+    """Where the root of each clip's frames is on the ground; outside the clip it stands."""
 
     def __init__(self, graph: MotionGraph) -> None:
         self.last = np.array([len(clip) - 1 for clip in graph.clips])
@@ -165,10 +212,10 @@ class _Roots:
         """Look ahead by `AHEAD` seconds, shape (N, 3)."""
         end = np.stack([frames[:, 0], self.last[frames[:, 0]]], axis=1)
         back = max(1, round(fps / 6))
-        speed = (self[end] - self[end - [0, back]]) / back
+        speed = (self[end] - self[end - np.array([0, back])]) / back
         found = []
         for seconds in AHEAD:
-            then = frames + [0, max(1, round(fps * seconds))]
+            then = frames + np.array([0, max(1, round(fps * seconds))])
             found.append(self[then] + speed * np.maximum(then[:, 1] - end[:, 1], 0))
         return np.stack(found, axis=1)
 

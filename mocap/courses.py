@@ -19,13 +19,15 @@ class Prices:
     ----------
     seam : a transition.
     match : times the transition's squared distance D: as if the body were off by it for so many frames.
+    stray : times the fourth power of the distance in each frame, 1/m²: 100 doubles what 10 cm cost.
     label : a frame without the label asked for.
     late : times the square of the seconds late or early, in each frame.
     crowding : times the square of the metres too near to another, in each frame.
     """
 
-    seam: float = 0.1
+    seam: float = 0.3
     match: float = 30.0
+    stray: float = 100.0
     label: float = 0.1
     late: float = 0.02
     crowding: float = 1.0
@@ -70,7 +72,7 @@ class Course:
         return np.asarray(self.points[self.point(along)])
 
     def point(self, along: Array) -> Indices:
-        """Number the samples before; past the end the last."""
+        """Find the number of the sample before; past the end the last."""
         place = np.maximum(along / self.spacing, 0)
         return np.minimum(place.astype(np.intp), len(self.points) - 1)
 

@@ -46,7 +46,7 @@ class Wishes:
     times: Sequence[tuple[float, float]] = ()
     heading: float | None = None
     start: Node | None = None
-    least: float = 0.1
+    least: float = 0.3
 
 
 class Departure(NamedTuple):
@@ -133,8 +133,8 @@ def follow_path(
 ) -> Followed:
     """Find a walk whose root, seen from above, follows a path.
 
-    The search is that of `layered_search`; its time is linear in the path's length. Where no clip turns as the
-    path does, the walk cuts the corner and comes back; a warning tells where, and how far off it is.
+    The search is that of `layered_search`; its time is linear in the path's length. Where no clip turns as
+    the path does, the walk cuts the corner and comes back; a warning tells where, and how far off it is.
 
     Parameters
     ----------
@@ -181,19 +181,16 @@ def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Cours
     _check_length(graph, path)
     if not (np.isfinite(wishes.least) and wishes.least > 0):
         raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
-    for number in (
-        number for wish in (*wishes.labels, *wishes.times) for number in wish if number != wish[1]
-    ):
-        if not 0 <= number <= path.length:
-            raise MocapError(f"A wish for {number} m lies outside the path of {path.length:.1f} m.")
+    for where, what in (*wishes.labels, *wishes.times):
+        if not 0 <= where <= path.length:
+            raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")
     points = path.resampled(SPACING).points
     along = np.linspace(0, path.length, len(points))
     label = np.full(len(points), -1)
     for start, name in sorted(wishes.labels):
         label[along >= start - 1e-9] = _label(graph, name)
-    return Course(
-        points[:, 1] + 1j * points[:, 0], float(along[1]), label, _clock(along, wishes), wishes.least
-    )
+    ground = np.asarray(points[:, 1] + 1j * points[:, 0])
+    return Course(ground, float(along[1]), label, _clock(along, wishes), wishes.least)
 
 
 def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
@@ -214,45 +211,36 @@ def _clock(along: Array, wishes: Wishes) -> Array:
         raise MocapError(f"Times must grow along the path from 0 s on, got {times.tolist()}.")
     if (np.diff(places) <= 0).any():
         raise MocapError(f"Two times are asked for in one place: {places.tolist()} m.")
-    return np.interp(along, places, times, left=np.nan, right=np.nan)
+    return np.asarray(np.interp(along, places, times, left=np.nan, right=np.nan))
 
 
 def _label(graph: CompiledGraph, name: str) -> int:
-    """Number a label, -1 for any."""
+    """Find a label's number, -1 for any."""
     if name and name not in graph.labels:
-        raise NoWalk(
-            f"No clip of the graph bears the label '{name}'; there are: {', '.join(graph.labels) or 'none'}."
-        )
+        have = ", ".join(graph.labels) or "none"
+        raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {have}.")
     return graph.labels.index(name) if name else -1
 
 
 def _starts(graph: CompiledGraph, course: Course, wishes: Wishes) -> States:
-    """Stand at the start of the course, at every node or at the one asked for, about to go the way it leads."""
+    """Stand at the start of the course, at every node or the one asked for, about to go the way it leads."""
     nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
-    way = course.points[np.abs(course.points - course.points[0]).argmax() if len(course.points) < 15 else 15]
-    heading = float(np.angle(way - course.points[0])) if wishes.heading is None else wishes.heading
+    first = course.points[: int(0.3 / course.spacing) + 2]
+    heading = float(np.angle(first[-1] - first[0])) if wishes.heading is None else wishes.heading
     if not np.isfinite(heading):
         raise MocapError(f"The heading to start in must be a finite number of radians, got {heading}.")
-    return start_states(graph, nodes, complex(course.points[0]), heading)
+    return start_states(graph, nodes, complex(first[0]), heading)
 
 
-def _require_labels(graph: CompiledGraph, labels: list[str], starts: Indices) -> None:
+def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices) -> None:
     """Raise `NoWalk` unless the labels can be had one after the other."""
     source = graph.source.graph
     nodes = {graph.nodes[start] for start in starts}
     for label in filter(None, labels):
-        nodes = reached(source, nodes)
-        there = {
-            end for start, end, edge in source.edges(data=True) if start in nodes and label in edge["labels"]
-        }
-        if not there:
-            can = sorted(
-                {name for _, _, edge in source.out_edges(nodes, data=True) for name in edge["labels"]}
-            )
-            raise NoWalk(
-                f"No walk reaches the label '{label}' here; it can reach: {', '.join(can) or 'none'}."
-            )
-        nodes = there
+        edges = list(source.out_edges(reached(source, nodes), data=True))
+        if not (nodes := {end for _, end, edge in edges if label in edge["labels"]}):
+            can = ", ".join(sorted({name for _, _, edge in edges for name in edge["labels"]})) or "none"
+            raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
 def _followed(graph: CompiledGraph, path: GroundPath, course: Course, found: Found) -> Followed:

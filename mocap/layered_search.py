@@ -45,10 +45,10 @@ class Beam:
     """
 
     width: int = 100
-    layer: float = 0.05
-    place: float = 0.15
-    turn: float = 0.2
-    rescue: float = 0.3
+    layer: float = 0.15
+    place: float = 0.1
+    turn: float = 0.1
+    rescue: float = 0.6
     seconds: float = np.inf
 
 
@@ -61,7 +61,7 @@ STATE = np.dtype(
         ("frames", np.intp),
         ("cost", float),
         ("trail", np.intp),  # the number of the state before
-        ("edge", np.intp),  # that led here, -1 at a start
+        ("hop", np.intp),  # that led here, -1 at a start
     ]
 )
 """A walk so far: where it stands, and what it cost."""
@@ -70,9 +70,9 @@ STATE = np.dtype(
 class Found(NamedTuple):
     """The best walk found.
 
-    `edges` are numbers in the compiled graph; the first one's clip is placed by p -> turn · p + move; `along` says how far along the path each frame counts;
-    `expanded` states were followed, `cut` ones dropped as no better or less promising; `stopped` is "" or
-    says what ended the search too early.
+    `edges` are numbers in the compiled graph, and the first one's clip is placed by p -> turn · p + move.
+    `along` says how far along the path each frame counts; `expanded` states were followed, `cut` were dropped
+    as no better or less promising; `stopped` is "" or says what ended the search before its end.
     """
 
     edges: Indices
@@ -88,7 +88,7 @@ class Found(NamedTuple):
 def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: float) -> States:
     """Stand at each of some nodes, over a place and about to move in a direction (radians)."""
     states = np.zeros(len(nodes), STATE)
-    states["node"], states["edge"] = nodes, -1
+    states["node"], states["hop"] = nodes, -1
     states["turn"] = np.exp(1j * (heading - graph.going[nodes]))
     states["move"] = place - states["turn"] * graph.at[nodes]
     return states
@@ -97,9 +97,9 @@ def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: 
 def search_layers(graph: CompiledGraph, course: Course, starts: States, beam: Beam, prices: Prices) -> Found:
     """Find a walk from one of some starts to the end of a course.
 
-    The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², and `prices`. One
-    thing is better than there: after each edge s slides half-way to the point abreast, so that a walk which
-    cuts a corner does not have to lose the metres that it saved.
+    The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², and `prices`.
+    One departure: after each hop s slides half-way to the point abreast, so that a walk which cuts a corner
+    does not have to lose the metres that it saved.
 
     Returns
     -------
@@ -124,14 +124,10 @@ class _Run:
 
     def __init__(self, graph: CompiledGraph, course: Course, beam: Beam, prices: Prices) -> None:
         self.graph, self.course, self.beam, self.prices = graph, course, beam, prices
-        step = np.maximum(graph.step, course.least / graph.fps)
-        start = np.cumsum(step) - step
-        self.along = (
-            start + step - np.repeat(start[graph.track_first], graph.frames)
-        )  # since the edge's start
-        self.length = self.along[graph.track_first + graph.frames - 1]
-        seam = prices.seam + prices.match * graph.cost**2
-        self.price = np.where(graph.blended, seam, 0.0)
+        self.along = np.cumsum(np.maximum(graph.step, course.least / graph.fps))  # over all edges in a row
+        self.hops = _Hops(graph, self.along)
+        price = np.where(graph.blended, prices.seam + prices.match * graph.cost**2, 0.0)
+        self.price = price[graph.last]
         self.ahead_along = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
         self.waiting: dict[int, list[States]] = {}
         self.history: list[States] = []
@@ -170,21 +166,21 @@ class _Run:
         return states[chosen]
 
     def follow(self, states: States) -> States:
-        """Take every edge from some states."""
-        graph, before = self.graph, self.expanded
+        """Take every hop from some states."""
+        graph, hops, before = self.graph, self.hops, self.expanded
         self.history.append(states)
         self.expanded += len(states)
-        first = graph.first[states["node"]]
-        count = graph.first[states["node"] + 1] - first
-        of, edge = np.repeat(np.arange(len(first)), count), ranges(first, count)
-        new = states[of]
-        new["cost"] += self.price[edge] + self.wanting(new, edge)
-        new["node"], new["edge"], new["trail"] = graph.target[edge], edge, before + of
-        new["move"] += new["turn"] * graph.move[edge]
-        new["turn"] *= graph.turn[edge]
-        new["frames"] += graph.frames[edge]
-        new["along"] += self.length[edge]
-        new["along"] += self.slide(new, self.length[edge] / 2)
+        first = graph.hop_first[states["node"]]
+        count = graph.hop_first[states["node"] + 1] - first
+        of, hop = np.repeat(np.arange(len(first)), count), ranges(first, count)
+        new, last = states[of], graph.last[hop]
+        new["cost"] += self.price[hop] + self.wanting(new, hop)
+        new["node"], new["hop"], new["trail"] = graph.target[last], hop, before + of
+        new["move"] += new["turn"] * graph.move[last]
+        new["turn"] *= graph.turn[last]
+        new["frames"] += hops.frames[hop]
+        new["along"] += hops.length[hop]
+        new["along"] += self.slide(new, hops.length[hop] / 2)
         return new
 
     def slide(self, states: States, most: Array) -> Array:
@@ -192,22 +188,22 @@ class _Run:
         body = states["move"] + states["turn"] * self.graph.at[states["node"]]
         way = self.course.ways[self.course.point(states["along"])]
         abreast = ((body - self.course.near(states["along"])) * way.conj()).real
-        return np.minimum(np.maximum(abreast / 2, -most), most)
+        return np.asarray(np.minimum(np.maximum(abreast / 2, -most), most))
 
-    def wanting(self, states: States, edge: Indices) -> Array:
-        """Sum up over each edge's frames how far they are from what is wished."""
+    def wanting(self, states: States, hop: Indices) -> Array:
+        """Sum up over each hop's frames how far they are from what is wished."""
         graph, course, prices = self.graph, self.course, self.prices
-        if not len(edge):
+        if not len(hop):
             return np.empty(0)
-        frames = graph.frames[edge]
-        first = np.cumsum(frames) - frames
-        row, of = ranges(graph.track_first[edge], frames), np.repeat(np.arange(len(edge)), frames)
-        along = states["along"][of] + self.along[row]
+        row, along, of = self.hops.play(hop)
+        along += states["along"][of]
         body = states["move"][of] + states["turn"][of] * graph.track[row]
+        first = np.cumsum(self.hops.frames[hop]) - self.hops.frames[hop]
         off = _square(body - course.at(along))
+        off += prices.stray * off**2
         if course.bare:
             return np.asarray(np.add.reduceat(off, first))
-        point, frame = course.point(along), states["frames"][of] + row - graph.track_first[edge][of]
+        point, frame = course.point(along), states["frames"][of] + np.arange(len(of)) - first[of]
         label, late = course.label[point], frame / graph.fps - course.clock[point]
         if graph.labels:
             off += prices.label * ((label >= 0) & ~graph.bears[label, row])
@@ -238,27 +234,55 @@ class _Run:
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
         if not self.history:
             raise NoWalk(f"The search was {stopped} before its first step.")
-        best = self.history[-1][[self.history[-1]['cost'].argmin()]] if self.best is None else self.best
+        best = self.history[-1][[self.history[-1]["cost"].argmin()]] if self.best is None else self.best
         history = np.concatenate(self.history)
-        state, edge = int(best["trail"][0]), int(best["edge"][0])
-        edges: list[int] = []
+        hops: list[int] = []
         states: list[int] = []
-        while edge >= 0:
-            edges.append(edge)
+        state, hop = int(best["trail"][0]), int(best["hop"][0])
+        while hop >= 0:
+            hops.append(hop)
             states.append(state)
-            state, edge = int(history["trail"][state]), int(history["edge"][state])
-        edges, states = edges[::-1], states[::-1]
-        frames = self.graph.frames[edges]
-        along = (
-            np.repeat(history["along"][states], frames)
-            + self.along[ranges(self.graph.track_first[edges], frames)]
-        )
-        turn, move = (complex(history[name][states[0]]) for name in ("turn", "move"))
-        return Found(
-            np.array(edges), turn, move, along, float(best["cost"][0]), self.expanded, self.cut, stopped
-        )
+            state, hop = int(history["trail"][state]), int(history["hop"][state])
+        if not hops:
+            raise NoWalk(f"The search was {stopped} before its first step.")
+        start = history[states[-1]]
+        _, along, of = self.hops.play(np.array(hops[::-1]))
+        along += history["along"][states[::-1]][of]
+        edges = self.hops.edges(np.array(hops[::-1]))
+        turn, move = complex(start["turn"]), complex(start["move"])
+        return Found(edges, turn, move, along, float(best["cost"][0]), self.expanded, self.cut, stopped)
+
+
+class _Hops:
+    """The frames of hops: first those of the ride, then those of the edge that ends it."""
+
+    def __init__(self, graph: CompiledGraph, along: Array) -> None:
+        self.graph, self.along = graph, along
+        ends = graph.track_first + graph.frames
+        before = np.concatenate([[0.0], along])
+        ride, last = graph.ride, graph.last
+        # The stretches of a ride follow one another among the frames of all edges.
+        self.first = np.stack([graph.track_first[ride], graph.track_first[last]], axis=1)
+        ridden = np.where(graph.rides > 0, ends[ride + graph.rides - 1] - self.first[:, 0], 0)
+        self.counts = np.stack([ridden, graph.frames[last]], axis=1)
+        self.frames = self.counts.sum(axis=1)
+        parts = before[self.first + self.counts] - before[self.first]
+        self.length = parts.sum(axis=1)
+        self.since = before[self.first] - np.stack([np.zeros(len(ride)), parts[:, 0]], axis=1)
+
+    def play(self, hop: Indices) -> tuple[Indices, Array, Indices]:
+        """Give for each frame of some hops its row among all, the metres since its hop began, and its hop."""
+        counts = self.counts[hop].ravel()
+        row = ranges(self.first[hop].ravel(), counts)
+        along = self.along[row] - np.repeat(self.since[hop].ravel(), counts)
+        return row, along, np.repeat(np.arange(len(hop)), self.frames[hop])
+
+    def edges(self, hop: Indices) -> Indices:
+        """List the edges of some hops."""
+        rides = self.graph.rides[hop]
+        first = np.stack([self.graph.ride[hop], self.graph.last[hop]], axis=1)
+        return ranges(first.ravel(), np.stack([rides, np.ones_like(rides)], axis=1).ravel())
 
 
 def _square(numbers: Points) -> Array:
     return np.asarray(numbers.real**2 + numbers.imag**2)
-

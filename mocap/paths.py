@@ -65,7 +65,8 @@ class GroundPath:
         return float(self.along[-1])
 
     def at(self, along: ArrayLike) -> Array:
-        """Give the points, shape (..., 2), so many metres along; before the start the first, past the end the last."""
+        """Give the points (..., 2) so many metres along; past either end that end."""
+        along = np.asarray(along, float)
         return np.stack([np.interp(along, self.along, axis) for axis in self.points.T], axis=-1)
 
     def resampled(self, spacing: float) -> GroundPath:
@@ -123,8 +124,8 @@ def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, f
         count = max(2, int(np.ceil(length / FINE)))
         steps.append(np.full(count, length / count))
         turns.append(np.full(count, turn / count))
-    turn = np.concatenate(turns)
-    facing = heading + np.cumsum(turn) - turn / 2  # half-way through each step
+    each = np.concatenate(turns)
+    facing = heading + np.cumsum(each) - each / 2  # half-way through each step
     move = np.concatenate(steps)[:, None] * np.stack([np.sin(facing), np.cos(facing)], axis=1)
     return GroundPath(np.vstack([start, np.asarray(start) + np.cumsum(move, axis=0)]))
 
@@ -143,23 +144,14 @@ def s_curve(length: float = 20.0) -> GroundPath:
 def rounded_square(side: float = 6.0, radius: float = 1.5) -> GroundPath:
     """Draw a square with rounded corners, to the left."""
     corner = (radius * np.pi / 2, np.pi / 2)
-    return arcs(
-        (0, 0),
-        0.0,
-        [(side / 2 - radius, 0.0), corner, *[(side - 2 * radius, 0.0), corner] * 3, (side / 2 - radius, 0.0)],
-    )
+    half = (side / 2 - radius, 0.0)
+    return arcs((0, 0), 0.0, [half, corner, *[(side - 2 * radius, 0.0), corner] * 3, half])
 
 
 def figure_eight(radius: float = 2.5) -> GroundPath:
     """Draw a loop to the left and one to the right, joined by straight lines that cross."""
-    straight, loop = 2 * radius, 1.5 * np.pi
-    pieces = [
-        (straight / 2, 0.0),
-        (radius * loop, loop),
-        (straight, 0.0),
-        (radius * loop, -loop),
-        (straight / 2, 0.0),
-    ]
+    loop = (1.5 * np.pi * radius, 1.5 * np.pi)
+    pieces = [(radius, 0.0), loop, (2 * radius, 0.0), (loop[0], -loop[1]), (radius, 0.0)]
     return arcs((0, 0), -np.pi / 4, pieces)
 
 

@@ -143,7 +143,7 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     Angles add up, and so do the steps t_i, each turned by the angles before it: with a ground point as the
     complex number z + ix, a turn by θ is a product with exp(iθ), and both are running sums.
     """
-    angle = np.cumsum([place.angle, *edges.transform.angle])
+    angle = np.cumsum(np.concatenate([[place.angle], np.asarray(edges.transform.angle)]))
     steps = (edges.transform.z + 1j * np.asarray(edges.transform.x)) * np.exp(1j * angle[:-1])
     moved = np.cumsum([place.z + 1j * place.x, *steps])
     return PlanarTransform(angle, moved.imag, moved.real)

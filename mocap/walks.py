@@ -104,4 +104,4 @@ def ranges(first: Indices, counts: Indices) -> Indices:
     [5, 6, 0, 1, 2]
     """
     before = np.cumsum(counts) - counts
-    return np.arange(counts.sum()) + np.repeat(first - before, counts)
+    return np.asarray(np.arange(counts.sum()) + np.repeat(first - before, counts))
