@@ -155,10 +155,10 @@ def follow_path(
     """
     wishes, compiled = wishes or Wishes(), compile_graph(graph)
     course = make_course(compiled, path, wishes)
-    starts = _starts(compiled, course, wishes)
+    starts = start_of(compiled, course, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
     found = search_layers(compiled, course, starts, beam or Beam(), prices or Prices())
-    followed = _followed(compiled, path, course, found)
+    followed = account(compiled, path, course, found)
     if departures := followed.departures:
         worst = max(departures, key=lambda d: d.worst)
         warnings.warn(
@@ -222,7 +222,7 @@ def _label(graph: CompiledGraph, name: str) -> int:
     return graph.labels.index(name) if name else -1
 
 
-def _starts(graph: CompiledGraph, course: Course, wishes: Wishes) -> States:
+def start_of(graph: CompiledGraph, course: Course, wishes: Wishes) -> States:
     """Stand at the start of the course, at every node or the one asked for, about to go the way it leads."""
     nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
     first = course.points[: int(0.3 / course.spacing) + 2]
@@ -243,7 +243,7 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
-def _followed(graph: CompiledGraph, path: GroundPath, course: Course, found: Found) -> Followed:
+def account(graph: CompiledGraph, path: GroundPath, course: Course, found: Found) -> Followed:
     """Measure how far a walk is from its path, and where it lacks its label."""
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
     label = course.label[np.minimum(found.along / course.spacing, len(course.points) - 1).astype(np.intp)]
