@@ -7,8 +7,10 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `synthetic`, `datasets`. What the course is about: `matching`, `transitions`,
-`blending`, `segment_graph`, `motion_graph`, `pruning`, `synthesis`. What one sees: `plotting`, `demo`.
+`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about: `matching`,
+`transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`. Out of the graph: `walks`, `synthesis`,
+`dumping`, `search`, `paper_search`, `paths`, `courses`, `compiling`, `layered_search`, `follow`, `keyframes`,
+`crowd`, `control`. What one sees: `plotting`, `demo`.
 
 References
 ----------

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
+from mocap.commands import add_convert, add_data, add_info
 from mocap.errors import MocapError, MocapWarning
 from mocap.progress import bar
 
@@ -17,6 +18,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add_demo(commands)
     _add_graph(commands)
+    add_info(commands)
+    add_convert(commands)
+    add_data(commands)
     lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
     lab.add_argument(
         "folder",

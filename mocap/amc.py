@@ -20,10 +20,14 @@ Dofs = Mapping[str, Collection[str]]
 
 
 class Frames(NamedTuple):
-    """An AMC file: the `keywords` before its frames, in capitals, and `numbers` (F, dofs) for each bone."""
+    """An AMC file: the `keywords` before its frames, in capitals, and `numbers` (F, dofs) for each bone.
+
+    The format tells no frame rate; `fps` is what a comment says, or None.
+    """
 
     keywords: set[str]
     numbers: dict[str, Array]
+    fps: float | None
 
 
 def read_frames(path: str | Path, dofs: Dofs, needed: Collection[str]) -> Frames:
@@ -47,12 +51,25 @@ def read_frames(path: str | Path, dofs: Dofs, needed: Collection[str]) -> Frames
     keywords, start, counts = _opening(text)
     usual = fits(counts, dofs, needed) and all(word.startswith(":") for word in keywords)
     numbers = _read_columns(text.split("\n", start)[-1], counts) if usual else None
-    return Frames(keywords, _read_lines(path, text, dofs, needed) if numbers is None else numbers)
+    if numbers is None:
+        numbers = _read_lines(path, text, dofs, needed)
+    return Frames(keywords, numbers, _rate(path, text))
+
+
+def _rate(path: str | Path, text: str) -> float | None:
+    """Read the frame rate off the first line, if that is "# fps <number>"."""
+    words = text.partition("\n")[0].split()
+    if words[:2] != ["#", "fps"] or len(words) != 3:
+        return None
+    fps = float(to_numbers(path, 1, words[2:], "frames a second, above 0", 1)[0])
+    if fps <= 0:
+        raise FormatError(path, 1, "frames a second, above 0", words[2])
+    return fps
 
 
 def first_frame(path: str | Path) -> dict[str, int]:
     """Count the numbers that the first frame of an AMC file has for each bone."""
-    return _opening(read_text(path))[2]
+    return _opening(read_text(path, most=100_000))[2]
 
 
 def fits(counts: Mapping[str, int], dofs: Dofs, needed: Collection[str]) -> bool:
@@ -98,7 +115,7 @@ def _read_columns(text: str, counts: Mapping[str, int]) -> dict[str, Array] | No
             return None
     places = [place for place, word in enumerate(pattern) if word is None]
     try:
-        numbers = np.array([list(map(float, words[place::width])) for place in places])
+        numbers = np.array([np.array(words[place::width], float) for place in places])
     except ValueError:
         return None
     if not (all(map(str.isdecimal, words[::width])) and np.all(np.diff(numbers[0]) == 1)):

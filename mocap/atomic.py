@@ -1,5 +1,6 @@
 """A text file is read whole or refused, and written whole or not at all."""
 
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,7 +16,7 @@ Array = NDArray[np.float64]
 LARGEST = 1e9  # no length, angle or time in a motion file comes near
 
 
-def read_text(path: str | Path) -> str:
+def read_text(path: str | Path, *, most: int = -1) -> str:
     r"""Read a text file, its lines ended by "\n" whatever they ended with on disk.
 
     Text that is not UTF-8 is read as Latin-1, which older exporters wrote.
@@ -23,6 +24,7 @@ def read_text(path: str | Path) -> str:
     Parameters
     ----------
     path : the file.
+    most : bytes to read, -1 for all.
 
     Returns
     -------
@@ -40,7 +42,8 @@ def read_text(path: str | Path) -> str:
     mocap.errors.MocapError: Cannot read nowhere/walk.bvh: No such file or directory.
     """
     try:
-        data = Path(path).read_bytes()
+        with Path(path).open("rb") as file:
+            data = file.read(most)
     except OSError as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
     if (zero := data.find(b"\0")) >= 0:
@@ -94,6 +97,42 @@ def replacing(path: str | Path) -> Iterator[Path]:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
 
 
+def write_text(path: str | Path, text: str) -> None:
+    """Write a text file as UTF-8, whole or not at all."""
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8", newline="\n")
+
+
+def check_room(path: str | Path, poses: int, numbers: int) -> None:
+    """Refuse a file whose few numbers would fill the memory with poses of joints that have none.
+
+    Raises
+    ------
+    FormatError : for over 10 million poses of one joint, and fewer than a number to ten of them.
+    """
+    if poses > 10_000_000 and poses > 10 * numbers:
+        raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
+
+
+def rounded(numbers: Array, precision: int, name: str) -> Array:
+    """Round the numbers of a motion for printing, without -0.0.
+
+    Raises
+    ------
+    MocapError : for a number that reading would refuse.
+
+    Examples
+    --------
+    >>> rounded(np.array([-0.04, 1.26]), 1, "walk")
+    array([0. , 1.3])
+    """
+    if np.any(np.abs(numbers) >= LARGEST):
+        raise MocapError(
+            f"'{name}' goes {LARGEST:g} units far, or turns by as many degrees: no file holds it."
+        )
+    return np.round(numbers, precision) + 0.0
+
+
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
     r"""Go through the lines that say something: their numbers, from 1, and their words; `#` starts a comment.
 
@@ -102,8 +141,8 @@ def lines(text: str) -> Iterator[tuple[int, list[str]]]:
     >>> list(lines("1  # first frame\n\nroot 0 1.5"))
     [(1, ['1']), (3, ['root', '0', '1.5'])]
     """
-    for number, line in enumerate(text.split("\n"), 1):
-        if words := line.partition("#")[0].split():
+    for number, line in enumerate(re.finditer(r"[^\n]*\n?", text), 1):  # no list of a million lines
+        if words := line[0].partition("#")[0].split():
             yield number, words
 
 

@@ -8,18 +8,20 @@ a centimetre unless told otherwise. `bvh_hierarchy` tells how joints are named.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocap import rotations
-from mocap.atomic import LARGEST, read_text, replacing, to_numbers
+from mocap.atomic import LARGEST, check_room, read_text, replacing, rounded, to_numbers
 from mocap.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.errors import FormatError, MocapError
-from mocap.motion import Motion
+from mocap.motion import Motion, turning
 from mocap.skeleton import Skeleton
 
 Array = NDArray[np.float64]
@@ -29,6 +31,14 @@ SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
+
+
+class Channels(NamedTuple):
+    """A BVH file as it stands: its joints, the numbers of all channels (F, channels), the frame rate."""
+
+    joints: list[Joint]
+    values: Array
+    fps: float
 
 
 def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> Motion:
@@ -51,6 +61,22 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
     ------
     FormatError : naming the line that breaks the format.
     """
+    joints, values, rate = read_channels(path, fps=fps)
+    places, local = _poses(joints, values)
+    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
+        joints, places, local = _without_reference(joints, places, local)
+    for joint, place in zip(joints[1:], np.swapaxes(places, 0, 1)[1:], strict=True):
+        if _moves(place, scale):
+            got = f"one that moves by {scale * np.ptp(place, axis=0).max():.2g} m"
+            raise FormatError(path, joint.line, f"'{joint.name}' in one place below its parent", got)
+    offsets = np.vstack([np.zeros((1, 3)), scale * places[0, 1:]])
+    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
+    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
+    return Motion(skeleton, scale * places[:, 0], local, rate, Path(path).stem)
+
+
+def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
+    """Read a BVH file as it stands; `fps` goes before its frame time."""
     text = read_text(path)
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
@@ -62,18 +88,19 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
         got = f"'{' '.join(text[start.end() :][:80].split())}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
     values = _values(path, text, times, sum(len(joint.channels) for joint in joints))
-    places, local = _poses(joints, values)
-    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
-        joints, places, local = _without_reference(joints, places, local)
-    for joint, place in zip(joints[1:], np.swapaxes(places, 0, 1)[1:], strict=True):
-        if _moves(place, scale):
-            got = f"one that moves by {scale * np.ptp(place, axis=0).max():.2g} m"
-            raise FormatError(path, joint.line, f"'{joint.name}' in one place below its parent", got)
-    offsets = np.vstack([np.zeros((1, 3)), scale * places[0, 1:]])
-    skeleton = Skeleton(
-        [joint.name for joint in joints], np.array([joint.parent for joint in joints]), offsets
-    )
-    return Motion(skeleton, scale * places[:, 0], local, fps or _rate(path, text, times), Path(path).stem)
+    check_room(path, len(values) * len(joints), values.size)
+    return Channels(joints, values, fps or _rate(path, text, times))
+
+
+def read_angles(path: str | Path) -> dict[str, Array]:
+    """Give each joint's angles, shape (F, rotation channels), degrees, as they stand in the file."""
+    joints, values, _ = read_channels(path, fps=1.0)
+    found, column = {}, 0
+    for joint in joints:
+        turns = [column + place for place, name in enumerate(joint.channels) if name in ROTATIONS]
+        found[joint.name] = values[:, turns]
+        column += len(joint.channels)
+    return found
 
 
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
@@ -85,7 +112,7 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
     words = text[times.end() :].split()
     if len(words) == count * width:
         try:
-            values = np.array(list(map(float, words)))
+            values = np.array(words, float)
         except ValueError:
             values = np.array([np.nan])
         if np.all(np.abs(values) < LARGEST):
@@ -120,11 +147,16 @@ def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
         for channel, numbers in zip(joint.channels, block.T, strict=True):
             if channel in POSITIONS:
                 places[:, index, POSITIONS.index(channel)] = numbers
-        turns = [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
-        if turns:
-            order = "".join(joint.channels[place][0] for place in turns).upper()
-            local[:, index] = rotations.from_euler(order, np.radians(block[:, turns]))
+        turning = [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
+        if turning:
+            order = _turns(joint).upper()
+            local[:, index] = rotations.from_euler(order, np.radians(block[:, turning]))
     return places, local
+
+
+def _turns(joint: Joint) -> str:
+    """Name the axes of a joint's rotation channels, in their order."""
+    return "".join(channel[0] for channel in joint.channels if channel in ROTATIONS)
 
 
 def _moves(place: Array, scale: float) -> bool:
@@ -143,8 +175,8 @@ def _without_reference(joints: list[Joint], places: Array, local: Array) -> tupl
 def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: int = 6) -> None:
     """Write a BVH file.
 
-    Joints come depth first. A leaf named as reading would name it becomes an End Site, without a rotation;
-    any other leaf is a joint with an End Site of zero length. Of all equal angles those nearest to the frame
+    Joints come depth first. A leaf that never turns, named as reading would name it, becomes an End Site; any
+    other leaf is a joint with an End Site of zero length. Of all equal angles those nearest to the frame
     before are written, so that every curve is continuous.
 
     Parameters
@@ -158,26 +190,53 @@ def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: i
     ------
     MocapError : for a name or frame rate that a BVH file cannot hold, or a folder one cannot write to.
     """
+    write_pieces([motion], path, frames=len(motion), turns=turning(motion), printing=(scale, precision))
+
+
+def write_pieces(
+    pieces: Iterable[Motion],
+    path: str | Path,
+    *,
+    frames: int,
+    turns: NDArray[np.bool_],
+    printing: tuple[float, int] = (0.01, 6),
+) -> None:
+    """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
+
+    Parameters
+    ----------
+    pieces : motions of one skeleton and rate, with `frames` frames together.
+    path : the file; it appears once it is whole.
+    frames : what the file's header promises.
+    turns : shape (J,), which joints ever turn, as by `motion.turning`.
+    printing : the scale, and the digits after the point, as for `write`.
+    """
+    scale, precision = printing
+    before: Array | None = None
+    with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="\n") as file:
+        for motion in pieces:
+            if before is None:
+                header, order = _header(motion, frames, turns, printing)
+                file.write(header)
+            angles = rotations.to_euler("ZXY", motion.rotations[:, order])
+            if before is not None:  # go on from the angles of the frame before
+                angles = np.concatenate([before, angles])
+            angles = rotations.continuous("ZXY", angles)[-len(motion) :]
+            before = angles[-1:]
+            values = np.hstack([motion.root_positions / scale, np.degrees(angles).reshape(len(motion), -1)])
+            values = rounded(values, precision, motion.name)
+            row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
+            file.write((row * len(values)) % tuple(values.ravel().tolist()))
+
+
+def _header(
+    motion: Motion, frames: int, turns: NDArray[np.bool_], printing: tuple[float, int]
+) -> tuple[str, list[int]]:
+    """Write all that comes before the frames, and tell in which order their joints stand."""
     seconds = 1 / motion.fps
     if not SHORTEST <= seconds <= LONGEST:
         raise MocapError(f"'{motion.name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
+    scale, precision = printing
     offsets = np.round(motion.skeleton.offsets / scale, precision) + 0.0  # no -0.000000
-    header, order = write_hierarchy(motion.skeleton, offsets, precision)
-    angles = _continuous(np.degrees(rotations.to_euler("ZXY", motion.rotations[:, order])))
-    values = np.hstack([motion.root_positions / scale, angles.reshape(len(motion), -1)])
-    values = np.round(values, precision) + 0.0
-    row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
-    frames = (row * len(values)) % tuple(values.ravel().tolist())
-    with replacing(path) as beside:
-        text = f"{header}MOTION\nFrames: {len(values)}\nFrame Time: {seconds!r}\n{frames}"
-        beside.write_text(text, encoding="utf-8", newline="\n")
-
-
-def _continuous(angles: Array) -> Array:
-    """Choose among triples that are equal: (z, x, y), (z + 180°, 180° - x, y + 180°), and whole turns."""
-    twins = angles * [1, -1, 1] + 180
-    steps, twin_steps = (np.abs((other[1:] - angles[:-1] + 180) % 360 - 180) for other in (angles, twins))
-    # From one frame to the next, whichever of the two the first has.
-    flips = steps.sum(-1) > twin_steps.sum(-1)
-    flipped = np.vstack([np.zeros((1, angles.shape[1]), bool), np.cumsum(flips, axis=0) % 2 == 1])
-    return np.unwrap(np.where(flipped[..., None], twins, angles), period=360, axis=0)
+    hierarchy, order = write_hierarchy(motion.skeleton, offsets, turns, precision)
+    return f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n", order

@@ -119,12 +119,12 @@ def _end_name(parent: str, before: int) -> str:
     return f"{parent}_end{before + 1 if before else ''}"
 
 
-def _end_sites(skeleton: Skeleton, offsets: Array) -> set[int]:
-    """Find the leaves that reading would name just as they are called."""
+def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -> set[int]:
+    """Find the leaves that never turn and that reading would name just as they are called."""
     found: set[int] = set()
     ends: Counter[int] = Counter()
     leaves = set(range(1, len(skeleton))) - set(skeleton.parents.tolist())
-    for joint in sorted(leaves):
+    for joint in sorted(leaves - set(np.flatnonzero(turning).tolist())):
         parent = int(skeleton.parents[joint])
         if skeleton.names[joint] == _end_name(skeleton.names[parent], ends[parent]) and offsets[joint].any():
             found.add(joint)
@@ -132,9 +132,11 @@ def _end_sites(skeleton: Skeleton, offsets: Array) -> set[int]:
     return found
 
 
-def write_hierarchy(skeleton: Skeleton, offsets: Array, precision: int) -> tuple[str, list[int]]:
+def write_hierarchy(
+    skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_], precision: int
+) -> tuple[str, list[int]]:
     """Write the hierarchy with `offsets` in the file's unit; list the joints with channels, in its order."""
-    ends = _end_sites(skeleton, offsets)
+    ends = _end_sites(skeleton, offsets, turning)
     rows, order, waiting, depth = ["HIERARCHY"], [], [0], 0
     while waiting:
         joint = waiting.pop()

@@ -1,8 +1,9 @@
-"""Clips to work with: the bundled ones, which need no network."""
+"""Clips to work with: the bundled ones, which need no network, and those of the CMU database."""
 
 from functools import cache
 
 from mocap import synthetic
+from mocap.cmu import cmu as cmu
 from mocap.motion import Motion
 
 SAMPLES: tuple[str, ...] = synthetic.NAMES

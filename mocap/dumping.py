@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap import bvh
 from mocap.errors import MocapError
-from mocap.motion import Motion
+from mocap.motion import Motion, turning
 from mocap.motion_graph import MotionGraph
 from mocap.progress import Progress
 from mocap.synthesis import places, to_motion, wander
@@ -71,7 +71,8 @@ def dump(
     edges = motion_graph.graph.edges
     counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
     pieces = stream(motion_graph, seconds=seconds, seed=seed)
-    bvh.write_pieces((next(pieces) for _ in progress(counts)), path, frames=sum(counts))
+    turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
+    bvh.write_pieces((next(pieces) for _ in progress(counts)), path, frames=sum(counts), turns=turns)
     return sum(counts)
 
 

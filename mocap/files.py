@@ -2,11 +2,19 @@
 
 import math
 from pathlib import Path
+from typing import TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mocap import acclaim, amc, bvh
-from mocap.errors import MocapError
+from mocap.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
+from mocap.atomic import read_text, write_text
+from mocap.errors import FormatError, MocapError
 from mocap.motion import Motion
 from mocap.skeleton import Skeleton
+
+Array = NDArray[np.float64]
 
 
 def load(
@@ -23,8 +31,8 @@ def load(
     path : the file; capital letters in its suffix are fine.
     skeleton : for `.amc`, the `.asf` file of its skeleton. By default the one beside it that fits: of the
         same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
-    fps : frames a second. An `.amc` tells none, and by default has 120 as most of the CMU database; for
-        `.bvh` this goes before what the file says.
+    fps : frames a second, which goes before what the file says. An `.amc` says none unless `save` wrote it,
+        and by default has 120 as most of the CMU database.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`, and what the skeleton says for `.amc`.
 
     Returns
@@ -48,7 +56,7 @@ def load(
     match path.suffix.lower():
         case ".amc":
             asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
-            return acclaim.read_amc(path, acclaim.read_skeleton(asf, scale=scale), fps=fps or 120.0)
+            return acclaim.read_amc(path, acclaim.read_skeleton(asf, scale=scale), fps=fps)
         case ".bvh":
             return bvh.read(path, scale=scale or 0.01, fps=fps)
         case ".asf":
@@ -82,20 +90,66 @@ def load_skeleton(path: str | Path) -> Skeleton:
     return acclaim.read_skeleton(path).skeleton
 
 
-def save(motion: Motion, path: str | Path, *, scale: float | None = None) -> None:
-    """Write a motion to a `.bvh` file; a file that exists is replaced once the new one is whole.
+def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
+    """Give each joint's angles as they stand in the file, shape (F, its axes), degrees.
 
-    Marks (labels and contacts) have no place in the format and are left out.
+    `load` makes rotations of them, which hold no jump where an angle jumps from 180° to -180°.
+
+    Parameters
+    ----------
+    path, skeleton : as for `load`.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> turned = Motion(bone, [[0, 0, 0]], [[[0, 0, 1, 0], [1, 0, 0, 0]]], 30.0)
+    >>> with TemporaryDirectory() as folder:
+    ...     save(turned, f"{folder}/turned.bvh")
+    ...     read_angles(f"{folder}/turned.bvh")["root"]  # z, x, y
+    array([[  0.,   0., 180.]])
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".bvh":
+        return bvh.read_angles(path)
+    asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
+    return acclaim.read_angles(path, acclaim.read_skeleton(asf))
+
+
+class Form(TypedDict, total=False):
+    """How numbers stand in a file: `scale` is metres in a unit, `precision` digits after the point."""
+
+    scale: float | None
+    precision: int
+
+
+def save(
+    motion: Motion,
+    path: str | Path,
+    *,
+    skeleton: str | Path | None = None,
+    widen: bool = False,
+    **form: Unpack[Form],
+) -> None:
+    """Write a motion to an `.amc` or `.bvh` file; a file that exists is replaced once the new one is whole.
+
+    Marks (labels and contacts) have no place in these formats and are left out.
 
     Parameters
     ----------
     motion : F frames.
     path : the file.
-    scale : metres in one unit of the file, by default 0.01.
+    skeleton : for `.amc`, the `.asf` file that it is to fit; by default one of the same name is written
+        beside it.
+    widen : for `.amc`, let the bones of that new skeleton turn about all three axes, as blended motions need.
+    scale : metres in one unit of the file; by default 0.01 for `.bvh`, 0.0564 (as in the CMU database) or
+        what the skeleton says for `.amc`.
+    precision : digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to 1e-10 m.
 
     Raises
     ------
-    MocapError : for another format, a missing folder, or what the format cannot hold.
+    MocapError : for another format, a missing folder, or what the format cannot hold: the bone that would
+        lose most, how much, and in which frame.
 
     Examples
     --------
@@ -103,14 +157,40 @@ def save(motion: Motion, path: str | Path, *, scale: float | None = None) -> Non
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> still = Motion(bone, [[0, 0, 0]], [[[1, 0, 0, 0], [1, 0, 0, 0]]], 30.0)
     >>> with TemporaryDirectory() as folder:
-    ...     save(still, f"{folder}/still.bvh")
+    ...     save(still, f"{folder}/still.bvh", precision=9)
     ...     load(f"{folder}/still.bvh")
     Motion('still', 1 frames at 30 Hz, 2 joints)
     """
+    path, scale, precision = Path(path), form.get("scale"), form.get("precision", 6)
     _check("scale", scale)
-    if Path(path).suffix.lower() != ".bvh":
-        raise MocapError(f"Cannot write {path}: mocap writes only .bvh yet.")
-    bvh.write(motion, path, scale=scale or 0.01)
+    if not 0 <= precision <= 15:
+        raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
+    match path.suffix.lower():
+        case ".amc" if skeleton is None:
+            _save_with_skeleton(motion, path, widen, form)
+        case ".amc" if widen:
+            raise MocapError("widen=True writes a new skeleton: leave skeleton= out, or widen.")
+        case ".amc":
+            asf = acclaim.read_skeleton(Path(skeleton or ""), scale=scale)
+            asf.skeleton.require_same(motion.skeleton)
+            write_text(path, to_amc(motion, asf, precision=precision))
+        case ".bvh":
+            bvh.write(motion, path, scale=scale or 0.01, precision=precision)
+        case _:
+            raise MocapError(f"Cannot write {path}: mocap writes .amc (with .asf) and .bvh.")
+
+
+def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> None:
+    asf = to_acclaim(widened(motion) if widen else motion.skeleton, scale=form.get("scale") or UNIT)
+    amc, beside = to_amc(motion, asf, precision=form.get("precision", 6)), path.with_suffix(".asf")
+    text = to_asf(asf, " ".join(path.stem.split()))
+    if beside.exists() and read_text(beside) != text:  # other clips may need it
+        raise MocapError(
+            f"{beside} holds another skeleton: choose another name for {path.name}, or delete that file, "
+            f"or set skeleton= to it if the motion fits."
+        )
+    write_text(beside, text)
+    write_text(path, amc)
 
 
 def _check(name: str, value: float | None) -> None:
@@ -131,9 +211,7 @@ def _skeleton_for(path: Path) -> Path:
         return fitting[0]
     found = ", ".join(file.name for file in fitting or beside) or "no .asf file"
     problem = "several fit" if fitting else "none fits"
-    raise MocapError(
-        f"Which skeleton {path} has is not clear; beside it, {problem} ({found}): name it by skeleton=."
-    )
+    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", f"{problem} ({found})")
 
 
 def _fits(file: Path, counts: dict[str, int]) -> bool:

@@ -40,6 +40,8 @@ class Wishes:
     heading : the direction to start in, radians; by default the path's own.
     start : the node to start at; by default whichever is best.
     least : progress in metres a second that even standing counts as, so that no walk stands for ever.
+    others : where others are on the ground in each frame, shape (T, 2) each; at the end they stay.
+    apart : metres to keep away from them.
     """
 
     labels: Sequence[tuple[float, str]] = ()
@@ -47,6 +49,8 @@ class Wishes:
     heading: float | None = None
     start: Node | None = None
     least: float = 0.3
+    others: Sequence[Array] = ()
+    apart: float = 0.8
 
 
 class Departure(NamedTuple):
@@ -66,6 +70,7 @@ class Followed:
     graph, path : what was walked through, and along.
     walk : its edges.
     place : lays the walk's first clip at the start of the path.
+    track : shape (F, 2), where the root is on the ground, (x, z) in metres.
     along : shape (F,), metres of path by frame.
     off : shape (F,), metres from the path by frame: the nearest point of it within half a metre of `along`.
     unlabelled : shape (F,), the frames without the label asked for.
@@ -76,6 +81,7 @@ class Followed:
     path: GroundPath
     walk: list[Edge]
     place: PlanarTransform
+    track: Array
     along: Array
     off: Array
     unlabelled: NDArray[np.bool_]
@@ -190,7 +196,15 @@ def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Cours
     for start, name in sorted(wishes.labels):
         label[along >= start - 1e-9] = _label(graph, name)
     ground = np.asarray(points[:, 1] + 1j * points[:, 0])
-    return Course(ground, float(along[1]), label, _clock(along, wishes), wishes.least)
+    clock, others = _clock(along, wishes), _together(wishes.others)
+    return Course(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
+
+
+def _together(tracks: Sequence[Array]) -> Points:
+    """Put the tracks of others into one array (K, T), as long as the longest: who has arrived, stays."""
+    frames = np.arange(max(map(len, tracks), default=1))
+    stay = [track[np.minimum(frames, len(track) - 1)] for track in tracks]
+    return np.array([track[:, 1] + 1j * track[:, 0] for track in stay], complex).reshape(-1, len(frames))
 
 
 def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
@@ -253,6 +267,7 @@ def account(graph: CompiledGraph, path: GroundPath, course: Course, found: Found
         path,
         [graph.edges[edge] for edge in found.edges],
         PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real),
+        np.stack([body.imag, body.real], axis=1),
         found.along,
         _distance(course, body, found.along),
         (label >= 0) & ~bears,

@@ -41,16 +41,14 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     array([1., 2., 0.])
     """
     skeleton = motion.skeleton
-    local = rotations.to_matrix(
-        np.swapaxes(motion.rotations, 0, 1)
-    )  # (J, F, 3, 3): a joint's frames together
-    positions = np.empty((len(skeleton), len(motion), 3))
-    matrices = np.empty_like(local)
-    positions[0], matrices[0] = motion.root_positions, local[0]
+    positions = np.empty((len(skeleton), len(motion), 3))  # a joint's frames together
+    matrices = np.empty((len(skeleton), len(motion), 3, 3))
+    positions[0], matrices[0] = motion.root_positions, rotations.to_matrix(motion.rotations[:, 0])
     for joint in range(1, len(skeleton)):
-        parent = skeleton.parents[joint]
-        matrices[joint] = matrices[parent] @ local[joint]
-        positions[joint] = positions[parent] + matrices[parent] @ skeleton.offsets[joint]
+        above = matrices[skeleton.parents[joint]]
+        matrices[joint] = above @ rotations.to_matrix(motion.rotations[:, joint])
+        moved = np.einsum("fij,j->fi", above, skeleton.offsets[joint])
+        positions[joint] = positions[skeleton.parents[joint]] + moved
     return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
 
 

@@ -80,7 +80,7 @@ class Motion:
             raise MocapError(
                 f"Motion '{self.name}' holds a number that is not finite in frame {int(finite.argmin())}."
             )
-        error = np.abs(np.linalg.norm(self.rotations, axis=-1) - 1)
+        error = np.abs(np.sqrt(np.einsum("fjk,fjk->fj", self.rotations, self.rotations)) - 1)
         if error.max() > 1e-6:
             frame, joint = np.unravel_index(error.argmax(), error.shape)
             raise MocapError(
@@ -119,6 +119,11 @@ class Motion:
     def duration(self) -> float:
         """Seconds from the first frame to the last."""
         return (len(self) - 1) / self.fps
+
+
+def turning(motion: Motion) -> NDArray[np.bool_]:
+    """Tell which joints, shape (J,), ever turn against their parents by more than the noise of computing."""
+    return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
 
 
 def resample(motion: Motion, fps: float) -> Motion:

@@ -24,8 +24,8 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     """Read a path to walk along.
 
     A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks; a first line
-    that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line` is
-    taken; the picture is the ground seen from above, so its right is -x and its top +z.
+    that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line`
+    is taken; the picture is the ground seen from above, so its right is -x and its top +z.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def _on_ground(path: Path, points: Array) -> GroundPath:
 
 
 def _read_csv(path: Path) -> Array:
-    rows = []
+    rows: list[Array] = []
     for number, line in enumerate(read_text(path).split("\n"), 1):
         words = re.split(r"\s*[,;]\s*|\s+", line.partition("#")[0].strip())
         if words == [""] or (not rows and not re.search(r"\d", line)):

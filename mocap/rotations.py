@@ -2,6 +2,7 @@
 
 This module alone knows in which order a quaternion's numbers stand. All functions broadcast over
 leading axes, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b first.
+Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own.
 """
 
 import warnings
@@ -42,8 +43,17 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
     >>> from_euler("y", [np.pi]).round(6) + 0.0
     array([0., 0., 1., 0.])
     """
-    angles = np.asarray(angles, float)
-    return _quaternions(Rotation.from_euler(order, angles.reshape(-1, len(order))), angles.shape[:-1])
+    halves = np.moveaxis(np.asarray(angles, float), -1, 0) / 2
+    turns = list(zip(order.lower(), np.cos(halves), np.sin(halves), strict=True))
+    q = np.zeros((4, *halves.shape[1:]))
+    q[0] = 1.0
+    for axis, cos, sin in turns if order.isupper() else reversed(turns):
+        i = "xyz".index(axis)
+        same, left, right = 1 + i, 1 + (i + 1) % 3, 1 + (i + 2) % 3
+        # q (cos + sin e): the product with e swaps the numbers in two pairs
+        q[[0, same]] = cos * q[[0, same]] + sin * np.stack([-q[same], q[0]])
+        q[[left, right]] = cos * q[[left, right]] + sin * np.stack([q[right], -q[left]])
+    return np.moveaxis(q, 0, -1)
 
 
 def to_euler(order: str, quaternions: ArrayLike) -> Array:
@@ -69,6 +79,51 @@ def to_euler(order: str, quaternions: ArrayLike) -> Array:
         return np.asarray(_rotation(quaternions).as_euler(order), float).reshape(*shape, 3)
 
 
+def continuous(order: str, angles: ArrayLike) -> Array:
+    """Choose, among all angles that mean the same turns, those nearest to the frame before.
+
+    (a, b, c) means the same as (a + π, π - b, c + π), and so do whole turns more or less. In gimbal lock,
+    where b = ±π/2, only a + c or a - c matters: there c stays as it was before.
+
+    Parameters
+    ----------
+    order : three different axes in SciPy's notation.
+    angles : shape (F, ..., 3), radians, as `to_euler` reads them off.
+
+    Returns
+    -------
+    Angles of the same rotations, shape (F, ..., 3).
+
+    Examples
+    --------
+    >>> continuous("ZXY", [[0, 1.5, 0], [np.pi, 1.5, np.pi], [np.pi, 1.4, np.pi]]).round(3) + 0.0
+    array([[0.   , 1.5  , 0.   ],
+           [0.   , 1.642, 0.   ],
+           [0.   , 1.742, 0.   ]])
+    """
+    angles = _without_lock(order, np.asarray(angles, float))
+    twins = angles * [1, -1, 1] + np.pi
+    turn = 2 * np.pi
+    steps, twin_steps = (np.abs((a[1:] - angles[:-1] + np.pi) % turn - np.pi) for a in (angles, twins))
+    # From one frame to the next, whichever of the two the first has.
+    flips = steps.sum(-1) > twin_steps.sum(-1)
+    flipped = np.zeros(angles.shape[:-1], bool)
+    flipped[1:] = np.cumsum(flips, axis=0) % 2 == 1
+    return np.unwrap(np.where(flipped[..., None], twins, angles), axis=0)
+
+
+def _without_lock(order: str, angles: Array) -> Array:
+    """Where two axes fall together and `to_euler` made the third angle 0, hold on to its last value."""
+    first, second, third = np.moveaxis(angles, -1, 0)
+    locked = (third == 0) & (np.abs(np.cos(second)) < 1e-6)
+    last = np.where(locked, 0, np.arange(len(angles)).reshape(-1, *[1] * (angles.ndim - 2)))
+    # At the start, where there is no frame before, the first one that is free.
+    free = np.maximum(np.maximum.accumulate(last, axis=0), locked.argmin(axis=0))
+    held = np.where(locked, np.take_along_axis(third, free, axis=0), third)
+    sign = (1 if order.lower() in "xyzxy" else -1) * (1 if order.isupper() else -1) * np.sign(second)
+    return np.stack([np.where(locked, first - sign * held, first), second, held], axis=-1)
+
+
 def from_matrix(matrices: ArrayLike) -> Array:
     """Convert rotation matrices, shape (..., 3, 3), to quaternions, shape (..., 4).
 
@@ -89,8 +144,18 @@ def to_matrix(quaternions: ArrayLike) -> Array:
     >>> to_matrix([1, 0, 0, 0])[0]
     array([1., 0., 0.])
     """
-    shape = np.shape(quaternions)[:-1]
-    return np.asarray(_rotation(quaternions).as_matrix(), float).reshape(*shape, 3, 3)
+    quaternions = np.asarray(quaternions, float)
+    squares = np.einsum("...i,...i", quaternions, quaternions)
+    w, x, y, z = np.moveaxis(quaternions, -1, 0) * np.sqrt(2 / squares)
+    rows = [
+        [1 - y * y - z * z, x * y - w * z, x * z + w * y],
+        [x * y + w * z, 1 - x * x - z * z, y * z - w * x],
+        [x * z - w * y, y * z + w * x, 1 - x * x - y * y],
+    ]
+    matrices = np.empty((*quaternions.shape[:-1], 3, 3))
+    for i, j in np.ndindex(3, 3):
+        matrices[..., i, j] = rows[i][j]
+    return matrices
 
 
 def from_rotvec(vectors: ArrayLike) -> Array:
@@ -187,9 +252,14 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
     """Measure the angle, in [0, π] radians and shape (...), of the turn from one rotation to another.
 
+    θ = 4 atan2(|a - b|, |a + b|) for a and ±b, whichever is nearer: exact for small angles, too.
+
     Examples
     --------
     >>> float(angle_between(about_y(0.1), about_y(-0.3)).round(6))
     0.4
     """
-    return np.asarray(np.linalg.norm(to_rotvec(multiply(inverse(first), second)), axis=-1))
+    a, b = (np.asarray(q, float) for q in (first, second))
+    a, b = (q / np.sqrt(np.einsum("...i,...i", q, q))[..., None] for q in (a, b))
+    gap, sum_ = (np.sqrt(np.einsum("...i,...i", q, q)) for q in (a - b, a + b))
+    return np.asarray(4 * np.arctan2(np.minimum(gap, sum_), np.maximum(gap, sum_)))

@@ -169,6 +169,8 @@ def test_degrees_and_radians(write):
         (ASF, radians.replace(":DEGREES", ":RADIANS")),
         (in_radians, AMC),
         (in_radians, radians.replace(":DEGREES\n", "")),
+        (in_radians.replace("rad\n", "Radians\n"), AMC),
+        (ASF.replace("angle deg", "angle degrees"), AMC),
         (ASF, AMC.replace(":DEGREES\n", "")),
     ]:
         assert np.allclose(read(write, asf, text).rotations, expected)
@@ -420,3 +422,12 @@ def test_whatever_is_in_the_files_the_answer_is_a_motion_or_a_sentence(tmp_path_
     slow = amc._read_lines("m.amc", text, skeleton.dofs(), skeleton.needed())
     fast = amc.read_frames(folder / "m.amc", skeleton.dofs(), skeleton.needed()).numbers
     assert all(np.array_equal(fast[name], slow[name]) for name in slow)
+
+
+def test_a_comment_may_tell_the_rate(write):
+    assert read(write, amc_text=f"# fps 29.97\n{AMC}").fps == 29.97
+    assert read(write, amc_text=f"# fps 29.97\n{AMC}", fps=60.0).fps == 60.0
+    assert read(write, amc_text=f"# fps are many\n{AMC}", fps=60.0).fps == 60.0
+    for wrong in ("0", "-1", "nan"):
+        with pytest.raises(FormatError, match="line 1: expected frames a second, above 0"):
+            read(write, amc_text=f"# fps {wrong}\n{AMC}")

@@ -1,5 +1,10 @@
 """`mocap.files`: the right reader and skeleton for every file, and every real file at hand."""
 
+import contextlib
+import csv
+import random
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -8,7 +13,7 @@ from hypothesis import strategies as st
 from mocap import files
 from mocap.errors import FormatError, MocapError
 from mocap.kinematics import joint_positions
-from mocap.motion import Motion
+from tests.strategies import wave
 
 ASF = """:units
   length 0.45
@@ -60,7 +65,7 @@ def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
 @pytest.mark.parametrize(
     ("skeletons", "message"),
     [
-        ({}, r"none fits \(no .asf file\): name it by skeleton="),
+        ({}, r"named by skeleton=, got none fits \(no .asf file\)"),
         ({"a": ("tail", 1), "b": ("tail", 1)}, r"none fits \(a.ASF, b.ASF\)"),
         ({"a": ("spine", 1), "b": ("spine", 2)}, r"several fit \(a.ASF, b.ASF\)"),
     ],
@@ -105,8 +110,8 @@ def test_other_formats_are_refused(folder, tmp_path):
         files.load("walk.c3d")
     with pytest.raises(MocapError, match="load_skeleton reads it"):
         files.load("walk.asf")
-    with pytest.raises(MocapError, match=r"writes only .bvh yet"):
-        files.save(motion, tmp_path / "b.amc")
+    with pytest.raises(MocapError, match=r"mocap writes .amc .with .asf. and .bvh"):
+        files.save(motion, tmp_path / "b.fbx")
     with pytest.raises(MocapError, match=r"give an .asf file"):
         files.load_skeleton("walk.bvh")
 
@@ -185,12 +190,69 @@ def test_the_same_take_as_another_program_converted_it(real_data):
     assert np.quantile(gaps, 0.95) < 0.01
 
 
-def test_every_other_real_file_loads(real_data):
-    paths = sorted([*(real_data / "bvh").rglob("*.bvh"), *(real_data / "cmu").rglob("*.amc")])
-    small = [path for path in paths if path.stat().st_size < 400_000]
-    for path in small:
-        assert isinstance(files.load(path), Motion), path
-    assert len(small) > 100  # the larger ones take too long here, and differ only in length
+def listed(real_data):
+    """Return all clips that are not odd, and how many frames their list says they have."""
+    with (real_data / "MANIFEST.tsv").open(encoding="utf-8", newline="") as file:
+        rows = csv.DictReader(file, delimiter="\t")
+        clips = {row["path"]: int(row["frames"]) for row in rows if row["frames"]}
+    return {path: frames for path, frames in clips.items() if not path.startswith("odd/")}
+
+
+def test_some_other_real_files_load(real_data):
+    clips = listed(real_data)
+    small = sorted(path for path in clips if (real_data / path).stat().st_size < 600_000)
+    for path in random.Random(3).sample(small, 40):
+        assert len(files.load(real_data / path)) == clips[path], path
+
+
+@pytest.mark.exhaustive
+def test_all_other_real_files_load(real_data):
+    clips = listed(real_data)
+    paths = [path for path in real_data.rglob("*.*") if path.suffix.lower() in (".amc", ".bvh")]
+    assert len(clips) + len({name for name, _, _ in ODD}) == len(paths)
+    for path, frames in clips.items():
+        assert len(files.load(real_data / path)) == frames, path
+    for path in (real_data / "cmu").rglob("*.asf"):
+        assert len(files.load_skeleton(path)) == 38
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["cmu/16/16_17.amc", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", "odd/fairmotion/01_01_truncated.amc"],
+)
+def test_memory_stays_within_twenty_times_the_file(real_data, name):
+    tracemalloc.start()
+    with contextlib.suppress(FormatError):
+        files.load(real_data / name)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 20 * (real_data / name).stat().st_size
+
+
+def test_few_numbers_do_not_fill_the_memory(tmp_path):
+    joints = "".join(f"JOINT j{i}\n{{\nOFFSET 0 1 0\nCHANNELS 0\n}}\n" for i in range(1000))
+    head = f"HIERARCHY\nROOT a\n{{\nOFFSET 0 0 0\nCHANNELS 1 Yrotation\n{joints}}}\nMOTION\n"
+    (tmp_path / "a.bvh").write_text(f"{head}Frames: 20000\nFrame Time: 0.1\n" + "1\n" * 20000)
+    with pytest.raises(
+        FormatError, match="numbers for at least a tenth of the joints, got 20000 for 20020000"
+    ):
+        files.load(tmp_path / "a.bvh")
+
+
+@pytest.mark.parametrize("count", ["999999999", "1e8"])
+def test_a_huge_count_of_frames_does_not_allocate(tmp_path, count):
+    files.save(wave(3), tmp_path / "a.bvh")
+    text = (tmp_path / "a.bvh").read_text().replace("Frames: 3", f"Frames: {count}")
+    (tmp_path / "a.bvh").write_text(text)
+    tracemalloc.start()
+    with pytest.raises(
+        FormatError, match=f"expected 'Frames: 3', as many as follow, got 'Frames: {count}'"
+    ) as e:
+        files.load(tmp_path / "a.bvh")
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 1_000_000
+    assert (e.value.path, e.value.line) == (tmp_path / "a.bvh", text[: text.index("Frames")].count("\n") + 1)
 
 
 @given(st.binary(max_size=300), st.sampled_from([".amc", ".bvh"]))

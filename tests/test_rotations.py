@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
 from mocap import rotations
@@ -47,10 +48,40 @@ def test_euler_orders_are_products_of_single_turns():
     assert rotations.to_matrix(rotations.from_euler("ZXY", [c, a, b])) == pytest.approx(z @ x @ y)
 
 
+ORDERS = ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XY", "ZX", "Y"]
+
+
+@given(seeds, st.sampled_from([*ORDERS, *map(str.lower, ORDERS)]))
+def test_from_euler_and_to_matrix_agree_with_scipy(seed, order):
+    angles = np.random.default_rng(seed).uniform(-7, 7, (2, 3, len(order)))
+    expected = Rotation.from_euler(order, angles.reshape(6, -1))
+    found = rotations.from_euler(order, angles)
+    assert rotations.angle_between(found.reshape(6, 4), expected.as_quat(scalar_first=True)).max() < 1e-12
+    assert rotations.to_matrix(1.001 * found).reshape(6, 3, 3) == pytest.approx(expected.as_matrix())
+
+
 def test_gimbal_lock_keeps_the_rotation():
     locked = rotations.from_euler("ZXY", [0.4, np.pi / 2, 0.3])
     back = rotations.from_euler("ZXY", rotations.to_euler("ZXY", locked))
     assert rotations.angle_between(locked, back) == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.parametrize("order", [*ORDERS[:6], *map(str.lower, ORDERS[:6])])
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("start", [0, 150])
+def test_angles_stay_continuous_through_gimbal_lock(order, sign, start):
+    """The second angle stays at ±90° for a long while, and may begin there, as the others turn on."""
+    time = np.linspace(0, 1, 401)[start:]
+    second = sign * np.minimum(1.3 + 0.9 * time - 4 * np.maximum(time - 0.7, 0), np.pi / 2)
+    angles = np.stack([2 * time + 1, second, 0.9 * np.sin(3 * time) + 0.5], axis=-1)
+    assert (np.abs(second) == np.pi / 2).sum() > 100
+    turns = rotations.from_euler(order, angles)
+    found = rotations.continuous(order, rotations.to_euler(order, turns))
+    assert rotations.angle_between(rotations.from_euler(order, found), turns).max() < 1e-12
+    leave = (np.abs(second) == np.pi / 2).nonzero()[0].max()  # where the third angle is free no more
+    steps = np.abs(np.diff(found, axis=0))
+    assert np.delete(steps, leave, axis=0).max() < 0.05
+    assert steps[leave].max() < 0.5
 
 
 def test_scalar_first():
