@@ -26,19 +26,29 @@ class Pose(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What the character is told: a direction (radians), a speed (m/s), and a label's number, -1 for any."""
+    """What the character is told: a velocity on the ground, as complex z + ix, and a label's number or -1."""
 
-    heading: float
-    speed: float
+    velocity: complex
     label: int
+
+
+class Walks(NamedTuple):
+    """Walks looked ahead: by which hop each began, where it has come, how long it is, and what it costs."""
+
+    first: Indices  # -1 for one that has not begun
+    node: Indices
+    turn: NDArray[np.complex128]
+    frames: Indices
+    cost: Array
 
 
 class Controller:
     """A character on a graph; each `step` gives its next pose.
 
-    At every choice point it looks `ahead` seconds ahead, through the `width` best walks, and takes the one whose
-    velocity comes nearest to the one asked for: Σ ‖v - v'‖² Δt, plus `SEAM` for a transition and `LABEL` for each
-    second without the label. All that does not depend on the command is worked out beforehand.
+    While it plays one hop it looks `ahead` seconds past that hop's end, a round of the search in each frame,
+    so that no step takes long. It keeps the `width` best walks, and in the end takes the first hop of the one
+    whose velocity is nearest to what is asked for: Σ ‖v - v'‖² Δt, plus `SEAM` for a transition and `LABEL`
+    for each second without the label.
 
     Parameters
     ----------
@@ -68,18 +78,20 @@ class Controller:
         graph: MotionGraph | CompiledGraph,
         *,
         start: Node | None = None,
-        ahead: float = 1.0,
-        width: int = 24,
+        ahead: float = 1.5,
+        width: int = 32,
     ) -> None:
         self.graph = compile_graph(graph)
         self.width, self.horizon = width, ahead * self.graph.fps
-        self.node = 0 if start is None else self.graph.index(start)
-        self.turn, self.move = 1 + 0j, 0j
-        self.plan: list[int] = []  # edges to take, the next one first
-        self.edge, self.frame = -1, 0
-        self.told: Command | None = None
         self.weights = cubic_weights(self.graph.source.window)
         self._prepare()
+        self.edges: list[int] = []  # still to be played, the one under way first
+        self.frame = 0  # of that one
+        self.turn, self.move = 1 + 0j, 0j  # place its clip: p -> turn · p + move
+        # Where the hop under way ends: there the next one is chosen.
+        self.node, self.end_turn = 0 if start is None else self.graph.index(start), self.turn
+        self.told = Command(0j, -1)
+        self._begin()
 
     def _prepare(self) -> None:
         """Work out for every hop how far it leads, how long it lasts, and what it costs."""
@@ -111,9 +123,16 @@ class Controller:
         NoWalk : for a label that the graph lacks.
         """
         command = self._command(heading, speed, label)
-        if self.edge < 0 or self.frame == self.graph.frames[self.edge]:
-            self._choose(command)
-        pose = self._pose()
+        if command != self.told:
+            self.told = command
+            self._begin()
+        if self.edges and self.frame == self.graph.frames[self.edges[0]]:
+            self._leave(self.edges.pop(0))
+        if not self.edges:
+            self._choose()
+        elif not self.decided:
+            self._look()
+        pose = self._pose(self.edges[0], self.frame)
         self.frame += 1
         return pose
 
@@ -123,61 +142,68 @@ class Controller:
         if label and label not in self.graph.labels:
             have = ", ".join(self.graph.labels) or "none"
             raise NoWalk(f"No clip of the graph bears the label '{label}'; there are: {have}.")
-        return Command(heading, speed, self.graph.labels.index(label) if label else -1)
+        velocity = speed * complex(np.exp(1j * heading))
+        return Command(velocity, self.graph.labels.index(label) if label else -1)
 
-    def _choose(self, command: Command) -> None:
-        """Leave the edge that has ended, and enter the next one of the plan, or of a new plan."""
-        if self.edge >= 0:
-            self.move += self.turn * complex(self.graph.move[self.edge])
-            self.turn *= complex(self.graph.turn[self.edge])
-            self.turn /= abs(self.turn)
-            self.node = int(self.graph.target[self.edge])
-        if not self.plan or command != self.told:
-            self.plan, self.told = self._look_ahead(command), command
-        self.edge, self.frame = self.plan.pop(0), 0
+    def _begin(self) -> None:
+        """Start to look ahead, from where the hop under way ends."""
+        none = np.zeros(1, np.intp)
+        self.walks = Walks(none - 1, none + self.node, np.array([self.end_turn]), none, np.zeros(1))
+        self.decided = False
 
-    def _look_ahead(self, command: Command) -> list[int]:
-        """Find the first hop of the best walk of the next moments."""
-        graph, wish = self.graph, command.speed * np.exp(1j * command.heading)
-        node, turn = np.array([self.node]), np.array([self.turn])
-        first, frames, cost = np.array([-1]), np.zeros(1, np.intp), np.zeros(1)
-        while True:
-            going = frames < self.horizon
-            begin = graph.hop_first[node]
-            count = np.where(going, graph.hop_first[node + 1] - begin, 0)
-            of, hop = np.repeat(np.arange(len(node)), count), ranges(begin, count)
-            if not len(hop):
-                break
-            seconds = self.frames[hop] / graph.fps
-            off = turn[of] * self.leads[hop] - wish * seconds
-            more = (off.real**2 + off.imag**2) / seconds + self.price[hop]
-            if command.label >= 0:
-                more += self.LABEL * self.lacks[command.label, hop]
-            last, old = graph.last[hop], np.flatnonzero(~going)
-            node, turn = (
-                np.append(node[old], graph.target[last]),
-                np.append(turn[old], turn[of] * graph.turn[last]),
-            )
-            first = np.append(first[old], np.where(first[of] < 0, hop, first[of]))
-            frames = np.append(frames[old], frames[of] + self.frames[hop])
-            cost = np.append(cost[old], cost[of] + more)
-            best = np.argsort(cost / frames)[: self.width]
-            node, turn, first, frames, cost = node[best], turn[best], first[best], frames[best], cost[best]
-        if first[0] < 0:
-            raise NoWalk(f"The walk ends at node {graph.nodes[self.node]}: prune the graph first.")
-        hop = int(first[0])
-        return [*range(graph.ride[hop], graph.ride[hop] + graph.rides[hop]), int(graph.last[hop])]
+    def _look(self) -> None:
+        """Go on by one round: every walk that is too short, by every hop."""
+        graph, walks, command = self.graph, self.walks, self.told
+        begin = graph.hop_first[walks.node]
+        short = walks.frames < self.horizon
+        count = np.where(short, graph.hop_first[walks.node + 1] - begin, 0)
+        of, hop = np.repeat(np.arange(len(begin)), count), ranges(begin, count)
+        self.decided = not len(hop)
+        if self.decided:
+            return
+        seconds, last = self.frames[hop] / graph.fps, graph.last[hop]
+        off = walks.turn[of] * self.leads[hop] - command.velocity * seconds
+        cost = (off.real**2 + off.imag**2) / seconds + self.price[hop]
+        if command.label >= 0:
+            cost += self.LABEL * self.lacks[command.label, hop]
+        first = np.where(walks.first[of] < 0, hop, walks.first[of])
+        frames = walks.frames[of] + self.frames[hop]
+        longer = Walks(
+            first, graph.target[last], walks.turn[of] * graph.turn[last], frames, walks.cost[of] + cost
+        )
+        both = (np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True))
+        self.walks = _best(Walks._make(both), self.width)
 
-    def _pose(self) -> Pose:
-        """Take the frame from its clip, or blend it of two."""
-        graph, (start, end, _) = self.graph, self.graph.edges[self.edge]
-        here = self._placed(start[0], start[1] + self.frame, self.turn, self.move)
-        if not graph.blended[self.edge]:
+    def _choose(self) -> None:
+        """Enter the first hop of the best walk, and begin to look past it."""
+        while not self.decided:
+            self._look()
+        hop = int(self.walks.first[0])
+        if hop < 0:
+            raise NoWalk(f"The walk ends at node {self.graph.nodes[self.node]}: prune the graph first.")
+        ride, last = int(self.graph.ride[hop]), int(self.graph.last[hop])
+        self.edges = [*range(ride, ride + int(self.graph.rides[hop])), last]
+        self.frame, self.node = 0, int(self.graph.target[last])
+        self.end_turn = self.turn * complex(self.graph.turn[last])
+        self._begin()
+
+    def _leave(self, edge: int) -> None:
+        """Place the clip that an edge leads to."""
+        self.move += self.turn * complex(self.graph.move[edge])
+        self.turn *= complex(self.graph.turn[edge])
+        self.turn /= abs(self.turn)  # no drift, however long it walks
+        self.frame = 0
+
+    def _pose(self, edge: int, frame: int) -> Pose:
+        """Take a frame of an edge from its clip, or blend it of two."""
+        graph, (start, end, _) = self.graph, self.graph.edges[edge]
+        here = self._placed(start[0], start[1] + frame, self.turn, self.move)
+        if not graph.blended[edge]:
             return Pose(*here, blending=False)
-        turn = self.turn * complex(graph.turn[self.edge])
-        move = self.move + self.turn * complex(graph.move[self.edge])
-        there = self._placed(end[0], end[1] - len(self.weights) + self.frame, turn, move)
-        alpha = self.weights[self.frame]
+        turn = self.turn * complex(graph.turn[edge])
+        move = self.move + self.turn * complex(graph.move[edge])
+        there = self._placed(end[0], end[1] - len(self.weights) + frame, turn, move)
+        alpha = self.weights[frame]
         root = alpha * here[0] + (1 - alpha) * there[0]
         return Pose(root, rotations.slerp(there[1], here[1], np.array(alpha)), blending=True)
 
@@ -187,3 +213,9 @@ class Controller:
         turns = motion.rotations[frame].copy()
         turns[0] = place.orientations(turns[0])
         return place.points(motion.root_positions[frame]), turns
+
+
+def _best(walks: Walks, width: int) -> Walks:
+    """Keep the walks that cost least a frame."""
+    best = np.argsort(walks.cost / walks.frames)[:width]
+    return Walks._make(values[best] for values in walks)

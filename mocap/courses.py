@@ -29,7 +29,7 @@ class Prices:
     match: float = 30.0
     stray: float = 100.0
     label: float = 0.1
-    late: float = 0.02
+    late: float = 0.2
     crowding: float = 1.0
 
 

@@ -30,9 +30,9 @@ def walk_crowd(
 ) -> list[Followed]:
     """Send a character along each path, all starting at once, none coming near another.
 
-    First each walks as if alone; these searches run side by side in a `pool`. Then, one after the other, whoever
-    comes too near to one before searches again, with a price on the metres too near in each frame: the first
-    keeps to its path best, the last gives way to all.
+    First each walks as if alone; these searches run side by side in a `pool`. Then, one after the other,
+    whoever comes too near to one before searches again, with a price on the metres too near in each frame:
+    the first keeps to its path best, the last gives way to all.
 
     Parameters
     ----------
@@ -52,13 +52,14 @@ def walk_crowd(
     """
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
-    compiled, wishes, prices = compile_graph(graph), Wishes(apart=apart), Prices(crowding=4.0)
+    compiled, wishes, prices = compile_graph(graph), Wishes(apart=apart), Prices(crowding=20.0, stray=0.0)
+    wide = replace(beam or Beam(), width=3 * (beam or Beam()).width, rescue=3.0)
     walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam), paths))
     for character, path in enumerate(paths):
         before = [walk.track for walk in walks[:character]]
         if min((_nearest(walks[character].track, track) for track in before), default=np.inf) < apart:
             yielding = replace(wishes, others=before)
-            walks[character] = follow_path(compiled, path, yielding, beam=beam, prices=prices)
+            walks[character] = follow_path(compiled, path, yielding, beam=wide, prices=prices)
     return walks
 
 

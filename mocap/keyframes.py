@@ -27,7 +27,7 @@ class Waypoint(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """How a waypoint was met: how many metres off, when, and how many seconds late, nan where none was asked."""
+    """How a waypoint was met: how many metres off, when, and how late (nan where no time was asked for)."""
 
     off: float
     seconds: float
@@ -50,8 +50,8 @@ def through_waypoints(
 ) -> Keyframed:
     """Walk through some places, in the manner and at the times asked for.
 
-    The path between is a spline. Where a time cannot be kept at the speeds that the clips have, the walk comes
-    as near to it as it can, and `arrivals` tells how late it is.
+    The path between is a spline. Where a time cannot be kept at the speeds that the clips have, the walk
+    comes as near to it as it can, and `arrivals` tells how late it is.
 
     Parameters
     ----------

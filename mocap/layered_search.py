@@ -156,6 +156,9 @@ class _Run:
             key = (key << 14) + (np.floor(value).astype(np.int64) & 0x3FFF)
         ahead = states["move"][:, None] + turn[:, None] * graph.ahead[node]
         off = _square(ahead - self.course.near(states["along"][:, None] + self.ahead_along[node]))
+        if len(self.course.others):  # to give way takes longer: look twice and thrice as far
+            further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None] * beam.place) * [0, 1, 2]
+            off += self.crowding(further, states["frames"][:, None] + int(graph.fps / 2) * np.arange(1, 4))
         # Each of the points ahead stands for a share of half a second's frames.
         loss = off.sum(axis=1) * graph.fps / 6
         order = np.argsort(states["cost"] + np.minimum(loss, beam.rescue), kind="stable")
@@ -208,10 +211,16 @@ class _Run:
         if graph.labels:
             off += prices.label * ((label >= 0) & ~graph.bears[label, row])
         off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
-        for other in course.others:
-            near = course.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
-            off += prices.crowding * np.maximum(near, 0.0) ** 2
+        off += self.crowding(body, frame)
         return np.asarray(np.add.reduceat(off, first))
+
+    def crowding(self, body: Points, frame: Indices) -> Array:
+        """Price how much too near a body is to others."""
+        price = np.zeros(body.shape)
+        for other in self.course.others:
+            near = self.course.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
+            price += self.prices.crowding * np.maximum(near, 0.0) ** 2
+        return price
 
     def sort(self, new: States) -> None:
         """Sort states into the layers they have reached; those at the end compete for the best."""
