@@ -9,7 +9,7 @@ Reading order
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
 `acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about: `matching`,
 `transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`. Out of the graph: `walks`, `synthesis`,
-`dumping`, `search`, `paper_search`, `paths`, `courses`, `compiling`, `layered_search`, `follow`, `keyframes`,
+`dumping`, `search`, `paper_search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`, `keyframes`,
 `crowd`, `control`. What one sees: `plotting`, `demo`.
 
 References

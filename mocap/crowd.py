@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph, compile_graph
-from mocap.courses import Prices
+from mocap.routes import Prices
 from mocap.errors import MocapError
 from mocap.follow import Followed, Wishes, follow_path
 from mocap.layered_search import Beam

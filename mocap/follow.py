@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import AHEAD, CompiledGraph, compile_graph, walk_track
-from mocap.courses import Course, Prices
+from mocap.routes import Route, Prices
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.layered_search import Beam, Found, States, search_layers, start_states
 from mocap.motion import Motion
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
-SPACING = 0.02  # metres between the points of a course
+SPACING = 0.02  # metres between the points of a route
 ASTRAY = 0.15  # metres from the path at which a walk has left it
 
 
@@ -160,11 +160,11 @@ def follow_path(
     MocapWarning : where the walk is more than 15 cm off the path.
     """
     wishes, compiled = wishes or Wishes(), compile_graph(graph)
-    course = make_course(compiled, path, wishes)
-    starts = start_of(compiled, course, wishes)
+    route = make_route(compiled, path, wishes)
+    starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
-    found = search_layers(compiled, course, starts, beam or Beam(), prices or Prices())
-    followed = account(compiled, path, course, found)
+    found = search_layers(compiled, route, starts, beam or Beam(), prices or Prices())
+    followed = account(compiled, path, route, found)
     if departures := followed.departures:
         worst = max(departures, key=lambda d: d.worst)
         warnings.warn(
@@ -176,7 +176,7 @@ def follow_path(
     return followed
 
 
-def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Course:
+def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     """Lay out along a path what is wished for there.
 
     Raises
@@ -197,7 +197,7 @@ def make_course(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Cours
         label[along >= start - 1e-9] = _label(graph, name)
     ground = np.asarray(points[:, 1] + 1j * points[:, 0])
     clock, others = _clock(along, wishes), _together(wishes.others)
-    return Course(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
+    return Route(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
 
 
 def _together(tracks: Sequence[Array]) -> Points:
@@ -236,10 +236,10 @@ def _label(graph: CompiledGraph, name: str) -> int:
     return graph.labels.index(name) if name else -1
 
 
-def start_of(graph: CompiledGraph, course: Course, wishes: Wishes) -> States:
-    """Stand at the start of the course, at every node or the one asked for, about to go the way it leads."""
+def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
+    """Stand at the start of the route, at every node or the one asked for, about to go the way it leads."""
     nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
-    first = course.points[: int(0.3 / course.spacing) + 2]
+    first = route.points[: int(0.3 / route.spacing) + 2]
     heading = float(np.angle(first[-1] - first[0])) if wishes.heading is None else wishes.heading
     if not np.isfinite(heading):
         raise MocapError(f"The heading to start in must be a finite number of radians, got {heading}.")
@@ -257,10 +257,10 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
 
 
-def account(graph: CompiledGraph, path: GroundPath, course: Course, found: Found) -> Followed:
+def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) -> Followed:
     """Measure how far a walk is from its path, and where it lacks its label."""
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
-    label = course.label[np.minimum(found.along / course.spacing, len(course.points) - 1).astype(np.intp)]
+    label = route.label[np.minimum(found.along / route.spacing, len(route.points) - 1).astype(np.intp)]
     bears = graph.bears[label, rows] if graph.labels else np.zeros(len(rows), bool)
     return Followed(
         graph.source,
@@ -269,17 +269,17 @@ def account(graph: CompiledGraph, path: GroundPath, course: Course, found: Found
         PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real),
         np.stack([body.imag, body.real], axis=1),
         found.along,
-        _distance(course, body, found.along),
+        _distance(route, body, found.along),
         (label >= 0) & ~bears,
         found,
     )
 
 
-def _distance(course: Course, body: Points, along: Array) -> Array:
+def _distance(route: Route, body: Points, along: Array) -> Array:
     """Measure how far the body is from the path within half a metre of where it should be."""
-    reach = int(0.5 / course.spacing) + 1
-    near = (along / course.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
-    start = course.points[np.clip(near, 0, len(course.points) - 2)]  # (F, pieces)
-    piece = course.points[np.clip(near, 0, len(course.points) - 2) + 1] - start
+    reach = int(0.5 / route.spacing) + 1
+    near = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
+    start = route.points[np.clip(near, 0, len(route.points) - 2)]  # (F, pieces)
+    piece = route.points[np.clip(near, 0, len(route.points) - 2) + 1] - start
     share = ((body[:, None] - start) * piece.conj()).real / np.abs(piece) ** 2
     return np.asarray(np.abs(body[:, None] - start - np.clip(share, 0, 1) * piece).min(axis=1))

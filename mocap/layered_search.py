@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph
-from mocap.courses import Course, Prices
+from mocap.routes import Route, Prices
 from mocap.errors import NoWalk
 from mocap.walks import ranges
 
@@ -94,8 +94,8 @@ def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: 
     return states
 
 
-def search_layers(graph: CompiledGraph, course: Course, starts: States, beam: Beam, prices: Prices) -> Found:
-    """Find a walk from one of some starts to the end of a course.
+def search_layers(graph: CompiledGraph, route: Route, starts: States, beam: Beam, prices: Prices) -> Found:
+    """Find a walk from one of some starts to the end of a route.
 
     The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², and `prices`.
     One departure: after each hop s slides half-way to the point abreast, so that a walk which cuts a corner
@@ -107,9 +107,9 @@ def search_layers(graph: CompiledGraph, course: Course, starts: States, beam: Be
 
     Raises
     ------
-    NoWalk : where every walk ends before the course does.
+    NoWalk : where every walk ends before the route does.
     """
-    run = _Run(graph, course, beam, prices)
+    run = _Run(graph, route, beam, prices)
     run.waiting[0] = [starts]
     stopped = ""
     try:
@@ -122,9 +122,9 @@ def search_layers(graph: CompiledGraph, course: Course, starts: States, beam: Be
 class _Run:
     """A search under way: the states that wait in each layer, and how every state came about."""
 
-    def __init__(self, graph: CompiledGraph, course: Course, beam: Beam, prices: Prices) -> None:
-        self.graph, self.course, self.beam, self.prices = graph, course, beam, prices
-        self.along = np.cumsum(np.maximum(graph.step, course.least / graph.fps))  # over all edges in a row
+    def __init__(self, graph: CompiledGraph, route: Route, beam: Beam, prices: Prices) -> None:
+        self.graph, self.route, self.beam, self.prices = graph, route, beam, prices
+        self.along = np.cumsum(np.maximum(graph.step, route.least / graph.fps))  # over all edges in a row
         self.hops = _Hops(graph, self.along)
         price = np.where(graph.blended, prices.seam + prices.match * graph.cost**2, 0.0)
         self.price = price[graph.last]
@@ -155,8 +155,8 @@ class _Run:
         for value in (body.real, body.imag, np.angle(turn) / beam.turn):
             key = (key << 14) + (np.floor(value).astype(np.int64) & 0x3FFF)
         ahead = states["move"][:, None] + turn[:, None] * graph.ahead[node]
-        off = _square(ahead - self.course.near(states["along"][:, None] + self.ahead_along[node]))
-        if len(self.course.others):  # to give way takes longer: look twice and thrice as far
+        off = _square(ahead - self.route.near(states["along"][:, None] + self.ahead_along[node]))
+        if len(self.route.others):  # to give way takes longer: look twice and thrice as far
             further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None] * beam.place) * [0, 1, 2]
             off += self.crowding(further, states["frames"][:, None] + int(graph.fps / 2) * np.arange(1, 4))
         # Each of the points ahead stands for a share of half a second's frames.
@@ -189,25 +189,25 @@ class _Run:
     def slide(self, states: States, most: Array) -> Array:
         """Measure half the way along the path to where it passes the body."""
         body = states["move"] + states["turn"] * self.graph.at[states["node"]]
-        way = self.course.ways[self.course.point(states["along"])]
-        abreast = ((body - self.course.near(states["along"])) * way.conj()).real
+        way = self.route.ways[self.route.point(states["along"])]
+        abreast = ((body - self.route.near(states["along"])) * way.conj()).real
         return np.asarray(np.minimum(np.maximum(abreast / 2, -most), most))
 
     def wanting(self, states: States, hop: Indices) -> Array:
         """Sum up over each hop's frames how far they are from what is wished."""
-        graph, course, prices = self.graph, self.course, self.prices
+        graph, route, prices = self.graph, self.route, self.prices
         if not len(hop):
             return np.empty(0)
         row, along, of = self.hops.play(hop)
         along += states["along"][of]
         body = states["move"][of] + states["turn"][of] * graph.track[row]
         first = np.cumsum(self.hops.frames[hop]) - self.hops.frames[hop]
-        off = _square(body - course.at(along))
+        off = _square(body - route.at(along))
         off += prices.stray * off**2
-        if course.bare:
+        if route.bare:
             return np.asarray(np.add.reduceat(off, first))
-        point, frame = course.point(along), states["frames"][of] + np.arange(len(of)) - first[of]
-        label, late = course.label[point], frame / graph.fps - course.clock[point]
+        point, frame = route.point(along), states["frames"][of] + np.arange(len(of)) - first[of]
+        label, late = route.label[point], frame / graph.fps - route.clock[point]
         if graph.labels:
             off += prices.label * ((label >= 0) & ~graph.bears[label, row])
         off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
@@ -217,14 +217,14 @@ class _Run:
     def crowding(self, body: Points, frame: Indices) -> Array:
         """Price how much too near a body is to others."""
         price = np.zeros(body.shape)
-        for other in self.course.others:
-            near = self.course.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
+        for other in self.route.others:
+            near = self.route.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
             price += self.prices.crowding * np.maximum(near, 0.0) ** 2
         return price
 
     def sort(self, new: States) -> None:
         """Sort states into the layers they have reached; those at the end compete for the best."""
-        done = new["along"] >= self.course.length
+        done = new["along"] >= self.route.length
         if done.any():
             arrived = new[done]
             first = arrived["cost"].argmin()

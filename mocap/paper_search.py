@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap.compiling import CompiledGraph, compile_graph
-from mocap.courses import Course
+from mocap.routes import Route
 from mocap.errors import NoWalk
-from mocap.follow import Followed, Wishes, account, make_course, start_of
+from mocap.follow import Followed, Wishes, account, make_route, start_of
 from mocap.layered_search import Found
 from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath
@@ -25,23 +25,23 @@ class PathState(NamedTuple):
 class PathCost:
     """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk halts when P' is as long as P."""
 
-    def __init__(self, graph: CompiledGraph, course: Course) -> None:
-        self.graph, self.course = graph, course
+    def __init__(self, graph: CompiledGraph, route: Route) -> None:
+        self.graph, self.route = graph, route
         self.number: dict[SearchEdge, int] = {edge: number for number, edge in enumerate(graph.edges)}
-        self.step = np.maximum(graph.step, course.least / graph.fps)
+        self.step = np.maximum(graph.step, route.least / graph.fps)
 
     def cost(self, state: PathState, edge: SearchEdge) -> tuple[float, PathState]:
         """Play one edge."""
         graph, e = self.graph, self.number[edge]
         rows = slice(graph.track_first[e], graph.track_first[e] + graph.frames[e])
         along = state.along + np.cumsum(self.step[rows])
-        off = np.abs(state.turn * graph.track[rows] + state.move - self.course.at(along))
+        off = np.abs(state.turn * graph.track[rows] + state.move - self.route.at(along))
         turn, move = state.turn * graph.turn[e], state.move + state.turn * graph.move[e]
         return float((off**2).sum()), PathState(turn, move, float(along[-1]))
 
     def done(self, state: PathState) -> bool:
         """Tell whether the path is walked to its end."""
-        return state.along >= self.course.length
+        return state.along >= self.route.length
 
 
 def follow_as_2002(
@@ -66,10 +66,10 @@ def follow_as_2002(
     NoWalk, MocapError : as there.
     """
     compiled = compile_graph(graph)
-    course = make_course(compiled, path, wishes)
-    start = start_of(compiled, course, wishes)[0]
+    route = make_route(compiled, path, wishes)
+    start = start_of(compiled, route, wishes)[0]
     state = PathState(complex(start["turn"]), complex(start["move"]), 0.0)
-    cost = PathCost(compiled, course)
+    cost = PathCost(compiled, route)
     problem = Problem(compiled.source.graph, cost.cost, cost.done)
     node = compiled.nodes[int(start["node"])]
     result = search_ahead(problem, node, state, look=look, budget=budget)
@@ -86,4 +86,4 @@ def follow_as_2002(
     found = Found(
         edges, state.turn, state.move, along, result.cost, result.expanded, result.cut, result.stopped
     )
-    return account(compiled, path, course, found)
+    return account(compiled, path, route, found)

@@ -26,7 +26,7 @@ LAYERS = [
     {"segment_graph", "synthetic", "transitions"},
     {"cmu", "conversion", "motion_graph"},
     {"datasets", "graph_files", "graph_summary", "merging", "walks"},
-    {"compiling", "courses", "synthesis"},
+    {"compiling", "routes", "synthesis"},
     {"dumping", "layered_search"},
     {"control", "follow"},
     {"crowd", "keyframes", "paper_search"},
