@@ -8,13 +8,17 @@ Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
 `acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about: `matching`,
-`transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`. Out of the graph: `walks`, `synthesis`,
-`dumping`, `search`, `paper_search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`, `keyframes`,
-`crowd`, `control`. What one sees: `plotting`, `demo`.
+`transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`. Seams and feet: `joining`, `quality`,
+`legs`, `plants`, `leg_posing`, `footskate`; what once went wrong: `homework_slips`. Out of the graph:
+`walks`, `synthesis`, `dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`,
+`paper_search`, `keyframes`, `crowd`, `control`. What one sees: `plotting`, `demo`.
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [KSG02] L. Kovar, J. Schreiner, M. Gleicher, *Footskate Cleanup for Motion Capture Editing*, SCA 2002,
+   doi 10.1145/545261.545277.
+.. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
 """
 
 from importlib import import_module

@@ -7,6 +7,7 @@ exp(iθ), and a planar transform is p ↦ turn · p + move.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -113,41 +114,39 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     if not edges:
         raise NoWalk("The graph has no edges.")
     index = {node: n for n, node in enumerate(nodes)}
-    table = edge_table(graph, edges)
-    frames = frame_table(table, graph.window)
-    angle, x, z = map(np.asarray, table.transform)
-    turn, move = np.exp(1j * angle), z + 1j * x
-    roots = _Roots(graph)
-    track = frames.alpha * roots[frames.here]
-    track += (1 - frames.alpha) * (turn[frames.edge] * roots[frames.there] + move[frames.edge])
-    track_first = np.cumsum(table.frames) - table.frames
-    step = np.abs(np.diff(track, prepend=0))
-    step[track_first] = np.abs(track[track_first] - roots[table.leaves - np.array([0, 1])])
-    standing = np.array(nodes)
-    labels = sorted({label for clip in graph.clips for label in clip.labels})
+    leaves, target = (np.array([index[edge[end]] for edge in edges]) for end in (0, 1))
+    table, roots = edge_table(graph, edges), _Roots(graph)
+    frames, standing = frame_table(table, graph.window), np.array(nodes)
     return CompiledGraph(
         source=graph,
         nodes=nodes,
         edges=edges,
-        target=np.array([index[end] for _, end, _ in edges]),
+        target=target,
         frames=table.frames,
         cost=table.cost,
         blended=table.blended,
-        turn=turn,
-        move=move,
-        track_first=track_first,
-        track=track,
-        step=step,
+        **_tracks(table, frames, roots),
         at=roots[standing],
-        ahead=(ahead := roots.ahead(standing, graph.clips[0].fps)),
-        going=roots.going(standing, ahead),
-        **_hops(table, np.array([index[start] for start, _, _ in edges]), len(nodes), graph.clips[0].fps),
-        labels=labels,
-        bears=_bearing(graph, frames, labels),
+        ahead=roots.ahead(standing, graph.clips[0].fps),
+        going=roots.going(standing, graph.clips[0].fps),
+        **_hops(table, leaves, len(nodes), graph.clips[0].fps),
+        **_bearing(graph, frames),
     )
 
 
-def _hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> dict[str, Indices]:
+def _tracks(edges: EdgeTable, frames: FrameTable, roots: _Roots) -> dict[str, Any]:
+    """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]."""
+    angle, x, z = map(np.asarray, edges.transform)
+    turn, move = np.exp(1j * angle), z + 1j * x
+    first = np.cumsum(edges.frames) - edges.frames
+    track = frames.alpha * roots[frames.here]
+    track += (1 - frames.alpha) * (turn[frames.edge] * roots[frames.there] + move[frames.edge])
+    step = np.abs(np.diff(track, prepend=0))
+    step[first] = np.abs(track[first] - roots[edges.leaves - np.array([0, 1])])
+    return {"turn": turn, "move": move, "track_first": first, "track": track, "step": step}
+
+
+def _hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> dict[str, Any]:
     """List the hops: from every node ride on, stretch by stretch, and leave by each transition on the way.
 
     A stretch of clip leads from node n to node n + 1, for the nodes are sorted.
@@ -219,9 +218,9 @@ class _Roots:
             found.append(self[then] + speed * np.maximum(then[:, 1] - end[:, 1], 0))
         return np.stack(found, axis=1)
 
-    def going(self, frames: Indices, ahead: Points) -> Array:
+    def going(self, frames: Indices, fps: float) -> Array:
         """Tell the direction of the next moments, or how the root is turned where they lead nowhere."""
-        way = ahead[:, -1] - self[frames]
+        way = self.ahead(frames, fps)[:, -1] - self[frames]
         return np.where(np.abs(way) > 0.1, np.angle(way), heading(self.turns[self._rows(frames)]))
 
     def _rows(self, frames: Indices) -> Indices:
@@ -229,12 +228,13 @@ class _Roots:
         return np.asarray(self.first[clip] + np.clip(frame, 0, self.last[clip]))
 
 
-def _bearing(graph: MotionGraph, frames: FrameTable, labels: list[str]) -> NDArray[np.bool_]:
+def _bearing(graph: MotionGraph, frames: FrameTable) -> dict[str, Any]:
     """Tell which frames bear which label, in a transition that of the clip with the larger weight."""
+    labels = sorted({label for clip in graph.clips for label in clip.labels})
     owner = np.where(frames.alpha[:, None] >= 0.5, frames.here, frames.there)
     bears = np.zeros((len(labels), len(owner)), bool)
     for number, clip in enumerate(graph.clips):
         of_clip = owner[:, 0] == number
         for label, mark in clip.labels.items():
             bears[labels.index(label), of_clip] = mark[owner[of_clip, 1]]
-    return bears
+    return {"labels": labels, "bears": bears}

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph, compile_graph
-from mocap.routes import Prices
 from mocap.errors import MocapError
 from mocap.follow import Followed, Wishes, follow_path
 from mocap.layered_search import Beam
 from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath
+from mocap.routes import Prices
 
 Array = NDArray[np.float64]
 

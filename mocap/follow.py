@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import AHEAD, CompiledGraph, compile_graph, walk_track
-from mocap.routes import Route, Prices
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.layered_search import Beam, Found, States, search_layers, start_states
 from mocap.motion import Motion
 from mocap.motion_graph import MotionGraph, Node
 from mocap.paths import GroundPath
 from mocap.pruning import reached
+from mocap.routes import Prices, Route
 from mocap.synthesis import to_motion
 from mocap.transforms import PlanarTransform
 from mocap.walks import Edge
@@ -87,9 +87,9 @@ class Followed:
     unlabelled: NDArray[np.bool_]
     found: Found
 
-    def motion(self, *, name: str = "walk") -> Motion:
-        """Play the walk where it follows the path."""
-        return to_motion(self.graph, self.walk, name=name, place=self.place)
+    def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
+        """Play the walk where it follows the path; `clean` as for `synthesis.to_motion`."""
+        return to_motion(self.graph, self.walk, name=name, place=self.place, clean=clean)
 
     @property
     def seconds(self) -> float:

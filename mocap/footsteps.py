@@ -135,13 +135,15 @@ class Steps(NamedTuple):
     """One foot's N plants, in order.
 
     `strikes` (N,) are phases, `places` (N, 2) the ankles' x and z in metres, `yaws` (N,) the directions the
-    foot points in, radians; `vigour` (N - 1,) scales the pitch and the lift of the swing after each plant.
+    foot points in, radians. For the swing after each plant, `vigour` (N - 1,) scales the pitch and the lift,
+    and `rolls`, N - 1 of them, tell how the foot leaves, swings and lands.
     """
 
     strikes: Array
     places: Array
     yaws: Array
     vigour: Array
+    rolls: Sequence[Roll]
 
 
 class FootPath(NamedTuple):
@@ -185,14 +187,13 @@ def foot_pitch(roll: Roll, phase: ArrayLike) -> Array:
     return np.asarray(curve(np.clip(phase, knots[0], knots[-1])))
 
 
-def foot_path(steps: Steps, phase: Array, roll: Roll, foot: Foot) -> FootPath:
+def foot_path(steps: Steps, phase: Array, foot: Foot) -> FootPath:
     """Move one foot through its plants.
 
     Parameters
     ----------
     steps : the plants; the first strikes at least one cycle before the first frame, the last after the last.
-    phase : shape (F,), cycles.
-    roll : how the foot rolls and swings.
+    phase : shape (F,), cycles, never falling.
     foot : its shape.
 
     Returns
@@ -200,6 +201,18 @@ def foot_path(steps: Steps, phase: Array, roll: Roll, foot: Foot) -> FootPath:
     The foot's path over the F frames: still to rounding wherever `flat` and `planted` say so, never
     below the floor, and without a jump in place, speed or acceleration where it leaves or strikes.
     """
+    rolls = steps.rolls
+    changes = [k for k in range(1, len(rolls)) if rolls[k] != rolls[k - 1]]
+    # One roll passes to the next in the middle of the time in which the sole lies flat by both.
+    both = [(steps.strikes[k], rolls[k - 1], rolls[k]) for k in changes]
+    middles = [s + (max(a.flat, b.flat) + min(a.heel_off, b.heel_off)) / 2 for s, a, b in both]
+    parts = np.split(phase, np.searchsorted(phase, middles))
+    pieces = [_roll_on(steps, part, rolls[k], foot) for k, part in zip([0, *changes], parts, strict=True)]
+    return FootPath(*map(np.concatenate, zip(*pieces, strict=True)))
+
+
+def _roll_on(steps: Steps, phase: Array, roll: Roll, foot: Foot) -> FootPath:
+    """Move the foot through some frames by one and the same roll."""
     last = np.searchsorted(steps.strikes + roll.flat, phase, side="right") - 1
     local = phase - steps.strikes[last + 1] + 1  # lift .. 1 in the air, 1 .. 1 + flat on the heel
     pitch = steps.vigour[last] * foot_pitch(roll, local)

@@ -13,14 +13,14 @@ this body. Sneaking has no trial there: it is the walk, crouched, by eye.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
-from mocap.footsteps import Roll
+from mocap.footsteps import Roll, foot_pitch
 
 Array = NDArray[np.float64]
 Row = tuple[float, ...]
@@ -175,6 +175,37 @@ SNEAK = replace(
         "radius": ((-55.0, 4.1, 3.9, -0.9, 0.4), (0, 0, 0, 0, 0), (31.8, -2.4, -2.2, 0.5, -0.2)),
     },
 )
+
+
+def mix(figures: Sequence[ArrayLike], weights: Array) -> Array:
+    """Mix what several gaits say: Σ w f.
+
+    Parameters
+    ----------
+    figures : one a gait: a number, or an array of shape (F,) or (F, 3).
+    weights : shape (gaits, F): how much of each gait there is; they add up to one.
+
+    Returns
+    -------
+    Shape (F,) or (F, 3).
+
+    Examples
+    --------
+    >>> mix([WALK.stride, JOG.stride], np.array([[1.0, 0.5], [0.0, 0.5]]))
+    array([1.35 , 1.785])
+    """
+    return np.asarray((np.asarray(figures, float).T * weights.T).sum(axis=-1).T)
+
+
+def mix_rolls(rolls: Sequence[Roll], weights: Array) -> Roll:
+    """Mix how a foot rolls and swings in several gaits; `weights` (gaits,) add up to one."""
+    if weights.max() > 1 - 1e-9:  # but for rounding, one gait alone
+        return rolls[int(weights.argmax())]
+    flat, heel_off, lift = (weights @ [roll[:3] for roll in rolls]).tolist()
+    knots = [np.linspace(roll.heel_off, 1 + roll.flat, 20) for roll in rolls]
+    pitches = [np.degrees(foot_pitch(roll, knot)) for roll, knot in zip(rolls, knots, strict=True)]
+    up, early_up, on, early_on = (weights @ [roll.swing for roll in rolls]).tolist()
+    return Roll(flat, heel_off, lift, tuple((weights @ pitches).tolist()), (up, early_up, on, early_on))
 
 
 def knee_flexion(gait: Gait, phase: ArrayLike) -> Array:

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph
-from mocap.routes import Route, Prices
 from mocap.errors import NoWalk
+from mocap.routes import Prices, Route
 from mocap.walks import ranges
 
 Array = NDArray[np.float64]

@@ -228,6 +228,24 @@ def rotate(quaternions: ArrayLike, vectors: ArrayLike) -> Array:
     return np.asarray((to_matrix(quaternions) @ np.asarray(vectors, float)[..., None])[..., 0])
 
 
+def between(start: ArrayLike, end: ArrayLike) -> Array:
+    """Build the shortest turn that brings one direction onto another: q ~ (|a| |b| + a·b, a × b).
+
+    Parameters
+    ----------
+    start, end : shape (..., 3), of any length but 0; where they are opposite, no turn is the shortest
+        and the result is not a rotation.
+
+    Examples
+    --------
+    >>> between([0, 0, 1], [2, 0, 0]).round(6) == about_y(np.pi / 2).round(6)
+    array([ True,  True,  True,  True])
+    """
+    a, b = (np.asarray(v, float) / np.linalg.norm(v, axis=-1, keepdims=True) for v in (start, end))
+    turn = np.concatenate([1 + (a * b).sum(-1, keepdims=True), np.cross(a, b)], axis=-1)
+    return np.asarray(turn / np.linalg.norm(turn, axis=-1, keepdims=True))
+
+
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     """Interpolate the short way round: start · exp(amount · log(start⁻¹ · end)).
 

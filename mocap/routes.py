@@ -34,7 +34,7 @@ class Prices:
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class Route:
     """What is wished for along a path, at n points evenly spaced.
 
     Parameters

@@ -1,6 +1,7 @@
 """Out of the graph: random walks, and the motions that walks stand for."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -8,8 +9,10 @@ from numpy.typing import NDArray
 
 from mocap import rotations
 from mocap.errors import MocapError, NoWalk
+from mocap.footskate import clean_up
 from mocap.motion import Motion
 from mocap.motion_graph import MotionGraph, Node
+from mocap.plants import mark_plants
 from mocap.transforms import IDENTITY, PlanarTransform
 from mocap.walks import Edge, EdgeTable, FrameTable, edge_table, frame_table, require_node, require_walk
 
@@ -96,6 +99,7 @@ def to_motion(
     *,
     name: str = "walk",
     place: PlanarTransform = IDENTITY,
+    clean: bool = False,
 ) -> Motion:
     """Play a walk: stretches of clip as they are, transitions blended, each placed where the last one led.
 
@@ -109,6 +113,8 @@ def to_motion(
     walk : edges, each starting where the one before ends.
     name : the new motion's name.
     place : moves the whole motion; by default it starts where its first clip is.
+    clean : whether to make planted feet stand still, by `footskate.clean_up`; where no clip tells when its
+        feet stand, that is found out first.
 
     Returns
     -------
@@ -122,6 +128,8 @@ def to_motion(
     Notebook: 00-quickstart
     """
     require_walk(motion_graph, walk)
+    if clean and not any(clip.contacts for clip in motion_graph.clips):
+        motion_graph = replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
     edges = edge_table(motion_graph, walk)
     table = frame_table(edges, motion_graph.window)
     before = places(edges, place)
@@ -134,7 +142,8 @@ def to_motion(
     turns[mixed] = rotations.slerp(turned, turns[mixed], alpha)
     labels, contacts = (_marks(motion_graph, table, kind) for kind in ("labels", "contacts"))
     clip = motion_graph.clips[0]
-    return Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
+    motion = Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
+    return clean_up(motion) if clean else motion
 
 
 def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransform:

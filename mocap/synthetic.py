@@ -1,16 +1,14 @@
 """Walks made from nothing but figures: the clips that come with the package.
 
-How a walk is made, in the order of this file: a `Course` tells, frame by frame, how far the walker has come
-and where in the cycle; the feet are planted along the route (`footsteps`); the gait's tables swing the
+How a walk is made: a course tells, frame by frame, how far the walker has come, where in the cycle and in
+which gait (`pacing`); the feet are planted along the route (`footsteps`); the gait's tables swing the
 trunk and the arms (`gait`); and the legs join the two (`walker`). Small random differences from step to
 step see to it that no two frames are the same.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -19,16 +17,17 @@ from scipy.ndimage import gaussian_filter1d
 
 from mocap import rotations
 from mocap.errors import MocapError
-from mocap.footsteps import FootPath, Route, Steps, foot_path, smoothstep, winding
-from mocap.gait import JOG, SNEAK, WALK, Gait, joint_angles, knee_flexion, pelvis_drift
+from mocap.footsteps import FootPath, Route, Steps, foot_path, winding
+from mocap.gait import JOG, SNEAK, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
 from mocap.motion import Motion
+from mocap.pacing import Course, changing, drift, halting, steady
 from mocap.walker import FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 GRAVITY = 9.81
 STANDING_KNEE = np.radians(18.0)
-PAD = 4.0  # seconds planned before the first frame and after the last, so that every foot has a next step
 GAITS = {gait.name: gait for gait in (WALK, SNEAK, JOG)}
 
 # Routes, as metres and the degrees turned to the left on them: loops both ways, then two ways to wander.
@@ -40,16 +39,25 @@ _CURVE_2 += [(1.1, -80), (4.3, 310), (4.8, -330), (4.5, 310)]
 _STOP_AND_GO = [(3.5, 0), (2.4, 90), (2.5, 0), (2.4, -90), (10.0, 0)]
 _STRIDES, _RESTS = (5, 4.5, 4), (2, 2.5, 2, 2.5)  # between the halts, and the seconds of each halt
 
-# Style, speed in metres a second, route.
-CLIPS = {
-    "walk_circle": ("walk", 0.80, _CIRCLE),
-    "walk_curve_1": ("walk", 0.74, _CURVE_1),
-    "walk_curve_2": ("walk", 0.71, _CURVE_2),
-    "walk_straight": ("walk", 1.1, [(11.0, 0)]),
-    "sneak": ("sneak", 0.5, [(3.0, 50), (3.0, -90), (3.0, 70)]),
-    "jog": ("jog", 2.8, [(8.0, 0), (9.0, 150), (5.0, 0), (9.0, -150), (6.0, 0)]),
+# Speed in metres a second, route.
+STEADY = {
+    "walk_circle": (0.80, _CIRCLE),
+    "walk_curve_1": (0.74, _CURVE_1),
+    "walk_curve_2": (0.71, _CURVE_2),
+    "walk_straight": (1.1, [(11.0, 0)]),
 }
-NAMES = (*CLIPS, "stop_and_go")
+# The gait to change into, route, stages: at that second, that speed, and so much of the gait.
+_SNEAK = [(0, 0.78, 0), (3.5, 0.78, 0), (6.0, 0.5, 1), (13.0, 0.5, 1), (15.5, 0.78, 0)]
+_SNEAK += [(18.0, 0.78, 0), (20.5, 0.5, 1), (27.5, 0.5, 1), (30.0, 0.78, 0), (33.5, 0.78, 0)]
+_JOG = [(0, 1.1, 0), (3.0, 1.1, 0), (4.2, 1.3, 0), (5.6, 2.5, 1), (6.6, 2.8, 1)]
+_JOG += [(11.5, 2.8, 1), (12.5, 2.5, 1), (13.9, 1.3, 0), (15.1, 1.1, 0)]
+_JOG += [(17.0, 1.1, 0), (18.2, 1.3, 0), (19.6, 2.5, 1), (20.6, 2.8, 1)]
+_JOG += [(25.5, 2.8, 1), (26.5, 2.5, 1), (27.9, 1.3, 0), (29.1, 1.1, 0), (32.1, 1.1, 0)]
+CHANGING = {
+    "sneak": (SNEAK, [(3.5, 0), (4.5, 130), (4.0, -40), (4.5, -130), (4.5, 40)], _SNEAK),
+    "jog": (JOG, [(11.0, 0), (9.0, 150), (21.0, 0), (9.0, -150), (12.0, 0)], _JOG),
+}
+NAMES = (*STEADY, *CHANGING, "stop_and_go")
 
 
 def generate(name: str) -> Motion:
@@ -75,12 +83,15 @@ def generate(name: str) -> Motion:
     if name not in NAMES:
         raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(NAMES)}.")
     seed = NAMES.index(name)
-    if name == "stop_and_go":
-        rng = np.random.default_rng(seed)
-        motion = _perform(Route(winding(_STOP_AND_GO)), _halting(WALK, _STRIDES, _RESTS), WALK, rng)
+    rng = np.random.default_rng(seed)
+    if name in STEADY:
+        speed, stretches = STEADY[name]
+        motion = walk(winding(stretches), speed=speed, seed=seed)
+    elif name in CHANGING:
+        gait, stretches, stages = CHANGING[name]
+        motion = _perform(Route(winding(stretches)), changing((WALK, gait), stages, rng), rng)
     else:
-        style, speed, stretches = CLIPS[name]
-        motion = walk(winding(stretches), style=style, speed=speed, seed=seed)
+        motion = _perform(Route(winding(_STOP_AND_GO)), halting(WALK, _STRIDES, _RESTS), rng)
     return replace(motion, name=name)
 
 
@@ -115,66 +126,7 @@ def walk(path: ArrayLike, *, style: str = "walk", speed: float | None = None, se
     if not (np.isfinite(speed) and speed > 0):
         raise MocapError(f"A walk needs a speed above 0, got {speed}.")
     route, rng = Route(path), np.random.default_rng(seed)
-    return _perform(route, _steady(gait, speed, route.length / speed, rng), gait, rng)
-
-
-class Course(NamedTuple):
-    """The walker's way, for all frames and `PAD` seconds before and after them.
-
-    `times` in seconds, `phase` in cycles, `distance` along the route in metres, `vigour` of the movements
-    (1 as in the gait's tables, 0 standing), all of one length; `skipped` are the steps left out at halts.
-    """
-
-    times: Array
-    phase: Array
-    distance: Array
-    vigour: Array
-    skipped: Array
-
-
-def _times(seconds: float) -> Array:
-    return np.arange(-round(PAD * FPS), round((seconds + PAD) * FPS) + 1) / FPS
-
-
-def _steady(gait: Gait, speed: float, seconds: float, rng: np.random.Generator) -> Course:
-    """Walk on at a speed that wanders by a few percent; who walks slower takes shorter and fewer steps."""
-    times = _times(seconds)
-    wander = _drift(rng, times, 2)
-    pace = np.maximum(speed + 0.06 * wander[:, 0], speed / 2)
-    strides = gait.cadence / 120 * (pace / gait.speed) ** 0.2 * (1 + 0.03 * wander[:, 1])  # a second
-    phase, distance = (np.cumsum(rate) / FPS for rate in (strides, pace))
-    vigour = (pace / strides / gait.stride) ** 0.25
-    start = round(PAD * FPS)
-    return Course(times, phase - phase[start], distance - distance[start], vigour, np.empty(0))
-
-
-def _halting(gait: Gait, strides: Sequence[float], rests: Sequence[float]) -> Course:
-    """Stand, walk, stand, and so on: where both feet stand the phase rests, and then a step is left out.
-
-    `strides` are their numbers between the halts, multiples of 1/2; `rests` the seconds, one more of them.
-    """
-    closing = np.concatenate([[0.0], np.cumsum(strides)])  # the strikes that bring the feet together
-    hold = closing + 0.3
-    rate = gait.cadence / 120
-    arrive = (hold - hold[0]) / rate + np.concatenate([[0.0], np.cumsum(rests[:-1])])
-    times = _times(float(arrive[-1] + rests[-1]))
-    knots = np.stack([arrive, arrive + np.asarray(rests)], axis=-1).ravel()
-    phase = gaussian_filter1d(np.interp(times, knots, np.repeat(hold, 2)), 0.15 * FPS)
-    moving = np.zeros_like(phase)
-    for start, stop in pairwise(closing):  # the pelvis arrives with the last step but one
-        moving += smoothstep((phase - start - 0.4) / 0.9) * smoothstep(
-            (stop - 0.5 + gait.under - phase) / 0.9
-        )
-    distance = 0.88 * gait.stride * np.cumsum(moving * np.gradient(phase))
-    return Course(times, phase, distance, gaussian_filter1d(np.sqrt(moving), 0.1 * FPS), closing + 0.5)
-
-
-def _drift(rng: np.random.Generator, times: Array, count: int) -> Array:
-    """Draw `count` smooth noises of unit size, shape (F, count), from sines of 2 to 11 seconds."""
-    periods = rng.uniform(2.0, 11.0, (6, count))
-    starts = rng.uniform(0.0, 2 * np.pi, (6, count))
-    waves = np.sin(2 * np.pi * times[:, None, None] / periods + starts)
-    return np.asarray(waves.sum(axis=1) / np.sqrt(3))
+    return _perform(route, steady(gait, speed, route.length / speed, rng), rng)
 
 
 class Travel(NamedTuple):
@@ -196,36 +148,42 @@ def _travel(route: Route, course: Course) -> Travel:
     return Travel(heading, bank, ahead, np.stack([np.cos(heading), level, -np.sin(heading)], axis=-1))
 
 
-def _plan(
-    route: Route, course: Course, bank: Array, gait: Gait, rng: np.random.Generator
-) -> dict[str, Steps]:
+def _plan(route: Route, course: Course, bank: Array, rng: np.random.Generator) -> dict[str, Steps]:
     """Plant each foot where the pelvis will be when it passes over it, half a step's width to its side."""
     plans = {}
     for side, first, outwards in (("l", 0.0, 1), ("r", 0.5, -1)):
         strikes = np.arange(np.floor(course.phase[0]) - 2, course.phase[-1] + 2) + first
         strikes = strikes[~np.isin(strikes, course.skipped)]
+        weights = np.stack([np.interp(strikes, course.phase, weight) for weight in course.weights])
+        under, width, toe_out = (
+            mix([getattr(gait, name) for gait in course.gaits], weights)
+            for name in ("under", "step_width", "toe_out")
+        )
         distance, lean = (
-            np.interp(strikes + gait.under, course.phase, values) for values in (course.distance, bank)
+            np.interp(strikes + under, course.phase, values) for values in (course.distance, bank)
         )
         luck = rng.standard_normal((4, len(strikes)))
         yaws = route.heading(distance)
-        left = outwards * (gait.step_width / 2 + 0.009 * luck[0]) - 0.9 * np.tan(lean)
+        left = outwards * (width / 2 + 0.009 * luck[0]) - 0.9 * np.tan(lean)
         places = route.place(distance + 0.012 * luck[1])
         places += left[:, None] * np.stack([np.cos(yaws), -np.sin(yaws)], axis=-1)
-        yaws = yaws + outwards * np.radians(gait.toe_out + 1.5 * luck[2])
+        yaws = yaws + outwards * np.radians(toe_out + 1.5 * luck[2])
         vigour = np.maximum(0.5, np.interp(strikes[1:] - 0.25, course.phase, course.vigour))
-        plans[side] = Steps(strikes, places, yaws, vigour * (1 + 0.03 * luck[3, 1:]))
+        rolls = [mix_rolls([gait.roll for gait in course.gaits], weight) for weight in weights.T[:-1]]
+        plans[side] = Steps(strikes, places, yaws, vigour * (1 + 0.03 * luck[3, 1:]), rolls)
     return plans
 
 
-def _upper_body(course: Course, gait: Gait, travel: Travel, rng: np.random.Generator) -> dict[str, Array]:
+def _upper_body(course: Course, travel: Travel, rng: np.random.Generator) -> dict[str, Array]:
     """Swing the trunk and the arms, never twice the same; chest and head look ahead into a turn."""
-    angles = joint_angles(gait, course.phase, course.vigour * (1 + 0.1 * _drift(rng, course.times, 1)[:, 0]))
+    amplitude = course.vigour * (1 + 0.1 * drift(rng, course.times, 1)[:, 0])
+    swings = [joint_angles(gait, course.phase, amplitude) for gait in course.gaits]
+    angles = {joint: mix([swing[joint] for swing in swings], course.weights) for joint in swings[0]}
     for joint in ("lowerback", "upperback", "thorax", "upperneck", "lhumerus", "rhumerus"):
-        angles[joint] += np.radians(1.3) * _drift(rng, course.times, 3)
+        angles[joint] += np.radians(1.3) * drift(rng, course.times, 3)
     for joint in ("lradius", "rradius"):  # an elbow is a hinge: it bends more or less, but about one axis
         usual = np.linalg.norm(angles[joint], axis=-1).mean()
-        angles[joint] *= 1 + np.radians(3.0) / usual * _drift(rng, course.times, 1)
+        angles[joint] *= 1 + np.radians(3.0) / usual * drift(rng, course.times, 1)
     soon, later = (np.interp(course.times + s, course.times, travel.heading) for s in (0.12, 0.35))
     for joints, lead in (
         (("upperback", "thorax"), soon - travel.heading),
@@ -237,39 +195,45 @@ def _upper_body(course: Course, gait: Gait, travel: Travel, rng: np.random.Gener
     return angles
 
 
-def _perform(route: Route, course: Course, gait: Gait, rng: np.random.Generator) -> Motion:
+def _perform(route: Route, course: Course, rng: np.random.Generator) -> Motion:
     """Plan with the seconds before and after, cut them off, and pose the whole body."""
     travel = _travel(route, course)
-    plans = _plan(route, course, travel.bank, gait, rng)
-    angles = _upper_body(course, gait, travel, rng)
-    inside = slice(round(PAD * FPS), len(course.times) - round(PAD * FPS))
-    times, phase, distance, vigour = (values[inside] for values in course[:4])
-    heading, bank, ahead, left = (values[inside] for values in travel)
-    turns = {joint: rotations.from_rotvec(turn[inside]) for joint, turn in angles.items()}
+    plans = _plan(route, course, travel.bank, rng)
+    angles = _upper_body(course, travel, rng)
+    turns = {joint: rotations.from_rotvec(turn[course.inside]) for joint, turn in angles.items()}
+    heading, bank, ahead, left = (values[course.inside] for values in travel)
+    course = course.cut()
     turns["root"] = rotations.multiply(rotations.about_y(heading), turns["root"])
-    feet = {side: foot_path(steps, phase, gait.roll, FOOT) for side, steps in plans.items()}
-    drift = pelvis_drift(gait, phase, vigour)
-    drift[:, [0, 2]] += 0.003 * _drift(rng, times, 2)
-    x, z = route.place(distance).T
-    root = np.stack([x, drift[:, 1] * np.cos(bank), z], axis=-1)
-    root += drift[:, :1] * left + drift[:, 2:] * ahead
-    root[:, 1] = _ride(root, turns["root"], feet, gait, vigour)
+    feet = {side: foot_path(steps, course.phase, FOOT) for side, steps in plans.items()}
+    swing = mix([pelvis_drift(gait, course.phase, course.vigour) for gait in course.gaits], course.weights)
+    swing[:, [0, 2]] += 0.003 * drift(rng, course.times, 2)
+    x, z = route.place(course.distance).T
+    root = np.stack([x, swing[:, 1] * np.cos(bank), z], axis=-1)
+    root += swing[:, :1] * left + swing[:, 2:] * ahead
+    root[:, 1] = _ride(root, turns["root"], feet, course)
     for side, foot in feet.items():
         turns |= leg(side, turns["root"], root, foot, ahead)
     still = np.broadcast_to(rotations.IDENTITY, (len(root), 4))
     pose = np.stack([turns.get(joint, still) for joint in SKELETON.names], axis=1)
-    standing = feet["l"].flat & feet["r"].flat
-    labels = {gait.name: ~standing} | ({"stand": standing} if standing.any() else {})
     contacts = {side + "foot": foot.flat for side, foot in feet.items()}
     contacts |= {side + "toes": foot.planted for side, foot in feet.items()}
-    return Motion(SKELETON, root, pose, FPS, gait.name, labels, contacts)
+    return Motion(SKELETON, root, pose, FPS, course.gaits[0].name, _labels(course, feet), contacts)
 
 
-def _ride(root: Array, pelvis: Array, feet: dict[str, FootPath], gait: Gait, vigour: Array) -> Array:
+def _ride(root: Array, pelvis: Array, feet: dict[str, FootPath], course: Course) -> Array:
     """Find the pelvis's height: straighter knees the less it moves."""
     hips = {side: rotations.rotate(pelvis, HIPS[side]) for side in feet}
-    bends = {
-        side: STANDING_KNEE + vigour * (knee_flexion(gait, foot.stance) - STANDING_KNEE)
-        for side, foot in feet.items()
-    }
-    return pelvis_height(root, hips, feet, bends, gait.height_weight)
+    bends = {}
+    for side, foot in feet.items():
+        knee = mix([knee_flexion(gait, foot.stance) for gait in course.gaits], course.weights)
+        bends[side] = STANDING_KNEE + course.vigour * (knee - STANDING_KNEE)
+    height_weight = mix([gait.height_weight for gait in course.gaits], course.weights)
+    return pelvis_height(root, hips, feet, bends, height_weight)
+
+
+def _labels(course: Course, feet: dict[str, FootPath]) -> dict[str, Mask]:
+    """Call each frame what there is most of in it, or standing where both soles lie flat."""
+    standing = feet["l"].flat & feet["r"].flat
+    most = course.weights.argmax(axis=0)
+    labels = {gait.name: (most == number) & ~standing for number, gait in enumerate(course.gaits)}
+    return labels | ({"stand": standing} if standing.any() else {})

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap import rotations
+from mocap.errors import MocapError
 from mocap.motion import Motion
 
 Array = NDArray[np.float64]
@@ -71,6 +72,8 @@ IDENTITY = PlanarTransform(0.0, 0.0, 0.0)
 def heading(quaternions: ArrayLike) -> Array:
     """Read the direction a body faces off its root: θ = atan2(-R₂₀, R₀₀), the homework's formula.
 
+    It looks where the body's left points, and is lost where that is straight up or down; `facing` is not.
+
     Parameters
     ----------
     quaternions : root orientations, shape (..., 4).
@@ -86,3 +89,60 @@ def heading(quaternions: ArrayLike) -> Array:
     """
     matrices = rotations.to_matrix(quaternions)
     return np.arctan2(-matrices[..., 2, 0], matrices[..., 0, 0])
+
+
+def facing(quaternions: ArrayLike) -> Array:
+    """Read the direction a body faces as its twist about the vertical: θ = 2 atan2(q_y, q_w).
+
+    Every rotation is a turn about +y after a swing about a level axis; θ is that turn. Where a body only
+    turns and leans it agrees with `heading`, but it stays defined when the body lies down or looks
+    straight up, and turning the body by α adds α exactly. Undefined is it only for a swing by half a turn
+    (upside down, q_w = q_y = 0): there it is 0.
+
+    Parameters
+    ----------
+    quaternions : root orientations, shape (..., 4).
+
+    Returns
+    -------
+    Angles about +y, shape (...), radians in [-π, π]: 0 faces +z, π/2 faces +x.
+
+    Examples
+    --------
+    >>> on_the_back = rotations.multiply(rotations.about_y(0.7), rotations.from_euler("x", [-np.pi / 2]))
+    >>> float(facing(on_the_back).round(6))
+    0.7
+    """
+    w, _, y, _ = np.moveaxis(np.asarray(quaternions, float), -1, 0)
+    # The cosine and the sine of θ, each times w² + y²: the same for q and -q.
+    return np.asarray(np.arctan2(2 * w * y, w * w - y * y))
+
+
+def place(motion: Motion, heading: float, position: ArrayLike) -> Motion:
+    """Move a whole motion so that its first frame faces `heading` and stands over `position`.
+
+    Parameters
+    ----------
+    motion : any; heights stay.
+    heading : radians about +y, as `facing` reads it.
+    position : (x, z), metres.
+
+    Raises
+    ------
+    MocapError : for a heading or a position that is no finite number, or not two of them.
+
+    Examples
+    --------
+    >>> from mocap.skeleton import Skeleton
+    >>> dot = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), [[5, 1, 5]], [[[1, 0, 0, 0]]], 30.0)
+    >>> place(dot, 0.0, [2, 3]).root_positions
+    array([[2., 1., 3.]])
+    """
+    target = np.asarray(position, float)
+    if target.shape != (2,) or not np.isfinite([heading, *target]).all():
+        raise MocapError(
+            f"A place is a finite heading and position (x, z), got {heading} and {target.tolist()}."
+        )
+    turn = PlanarTransform(heading - float(facing(motion.rotations[0, 0])), 0.0, 0.0)
+    x, _, z = turn.points(motion.root_positions[0])
+    return turn._replace(x=target[0] - x, z=target[1] - z).motion(motion)

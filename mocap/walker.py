@@ -81,7 +81,7 @@ def pelvis_height(
     hips: Mapping[str, Array],
     feet: Mapping[str, FootPath],
     bends: Mapping[str, Array],
-    weight: float,
+    weight: ArrayLike,
 ) -> Array:
     """Let the pelvis ride on the legs: as high as makes each loaded knee bend as it should.
 
@@ -94,13 +94,13 @@ def pelvis_height(
     hips : {side: (F, 3)}: the hip joints seen from the root, metres.
     feet : {side: the foot's path}.
     bends : {side: (F,)}: how far each knee should bend, radians.
-    weight : how much the usual height counts beside a leg that carries the body (1).
+    weight : number or shape (F,): how much the usual height counts beside a leg that carries the body (1).
 
     Returns
     -------
     Shape (F,), metres; smooth, and never so high that a leg could not reach its foot with a bent knee.
     """
-    wishes, weights = weight * root[:, 1], np.full(len(root), weight)
+    wishes, weights = np.multiply(weight, root[:, 1]), np.full(len(root), weight)
     limit = np.full(len(root), np.inf)
     for side, foot in feet.items():
         apart = foot.ankle - root - hips[side]

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from mocap.gait import JOG, SNEAK, WALK, Gait, joint_angles, knee_flexion, pelvis_drift
+from mocap.footsteps import foot_pitch
+from mocap.gait import JOG, SNEAK, WALK, Gait, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
 from mocap.walker import SKELETON
 
 GAITS = pytest.mark.parametrize("gait", [WALK, JOG, SNEAK], ids=lambda gait: gait.name)
@@ -57,3 +58,24 @@ def test_speeds_are_what_people_do():
     assert WALK.speed == pytest.approx(1.18, abs=0.01)
     assert JOG.speed == pytest.approx(2.85, abs=0.01)
     assert SNEAK.speed == pytest.approx(0.51, abs=0.01)
+
+
+def test_a_mix_lies_as_far_between_as_its_weights_say():
+    weights = np.stack([1 - np.linspace(0, 1, 5), np.linspace(0, 1, 5)])
+    assert mix([2.0, 6.0], weights).tolist() == [2, 3, 4, 5, 6]
+    assert mix([np.zeros((5, 3)), np.ones((5, 3))], weights) == pytest.approx(
+        np.repeat(weights[1:].T, 3, axis=1)
+    )
+    assert mix([PHASE], np.ones((1, 50))).tolist() == PHASE.tolist()
+
+
+def test_a_mixed_roll_begins_and_ends_as_the_two():
+    rolls = [WALK.roll, JOG.roll]
+    assert mix_rolls(rolls, np.array([1.0, 0.0])) is WALK.roll
+    assert mix_rolls(rolls, np.array([0.0, 1.0])) is JOG.roll
+    near = mix_rolls(rolls, np.array([1e-6, 1 - 1e-6]))
+    phase = np.linspace(JOG.roll.lift, 1, 50)
+    assert np.degrees(foot_pitch(near, phase) - foot_pitch(JOG.roll, phase)) == pytest.approx(0, abs=0.5)
+    half = mix_rolls(rolls, np.array([0.5, 0.5]))
+    assert half.lift == pytest.approx((WALK.roll.lift + JOG.roll.lift) / 2)
+    assert half.swing == pytest.approx(np.mean([roll.swing for roll in rolls], axis=0))

@@ -105,3 +105,13 @@ def test_slerp_takes_the_short_way_whatever_the_signs(seed):
     a, b = random_quaternions(np.random.default_rng(seed), 2)
     middle = rotations.slerp(a, -b, 0.5)
     assert rotations.angle_between(a, middle) == pytest.approx(rotations.angle_between(a, b) / 2, abs=1e-6)
+
+
+@given(seeds)
+def test_between_is_the_shortest_turn_onto_a_direction(seed):
+    a, b = np.random.default_rng(seed).normal(size=(2, 5, 3))
+    turn = rotations.between(a, b)
+    units = [v / np.linalg.norm(v, axis=-1, keepdims=True) for v in (a, b)]
+    assert rotations.rotate(turn, units[0]) == pytest.approx(units[1], abs=1e-9)
+    angles = np.arccos(np.clip((units[0] * units[1]).sum(-1), -1, 1))
+    assert rotations.angle_between(turn, rotations.IDENTITY) == pytest.approx(angles, abs=1e-6)

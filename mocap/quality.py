@@ -1,0 +1,179 @@
+"""How good is a seam? Measured, not guessed: jolts, sliding feet, feet in the floor, a root off its path."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap.errors import MocapError
+from mocap.kinematics import joint_positions
+from mocap.legs import Leg, legs_of
+from mocap.matching import point_cloud
+from mocap.motion import Motion, require_alike
+from mocap.plants import runs
+
+Array = NDArray[np.float64]
+
+USUAL = 99.9  # percent: all but one frame in a thousand
+
+
+class Spread(NamedTuple):
+    """What is usual in some clips: the measure of a seam between them.
+
+    `velocity` (m/s) and `acceleration` (m/s²): the jumps that 99.9 % of the frames stay below; `floor`: for
+    each leg's ankle and ball the lowest height, metres.
+    """
+
+    velocity: float
+    acceleration: float
+    floor: Array
+
+
+class SeamQuality(NamedTuple):
+    """A seam in five numbers; the smaller, the better.
+
+    `velocity_jump` and `acceleration_jump` are the largest at the seam, over what 99.9 % of the clips' own
+    frames stay below: up to 1 they are nothing special. `slide` is how far a planted joint strays over the
+    ground, on average over the plants that the seam touches, `depth` how far a foot sinks below the lowest
+    it ever is in the clips, `deviation` how far the root's path over the ground is from what it was before;
+    these three in centimetres.
+    """
+
+    velocity_jump: float
+    acceleration_jump: float
+    slide: float
+    depth: float
+    deviation: float
+
+
+def jumps(motion: Motion) -> tuple[Array, Array]:
+    """Measure how velocity and acceleration jump from frame to frame: the RMS over all joints.
+
+    With positions x, |x_{f+1} - 2 x_f + x_{f-1}| · fps is the jump of velocity at frame f, and
+    |x_{f+1} - 3 x_f + 3 x_{f-1} - x_{f-2}| · fps² that of acceleration just before it.
+
+    Parameters
+    ----------
+    motion : F frames, at least four.
+
+    Returns
+    -------
+    Velocity jumps, m/s, and acceleration jumps, m/s², shape (F,) each; 0 where the clip's ends leave none.
+
+    Examples
+    --------
+    >>> from mocap.skeleton import Skeleton
+    >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    >>> stop = Motion(dot, [[x, 1, 0] for x in (0, 1, 2, 2, 2)], np.tile([1.0, 0, 0, 0], (5, 1, 1)), 10.0)
+    >>> jumps(stop)[0]
+    array([ 0.,  0., 10.,  0.,  0.])
+    """
+    if len(motion) < 4:
+        raise MocapError(f"To see accelerations jump takes four frames; '{motion.name}' has {len(motion)}.")
+    points = point_cloud(motion)
+    velocity, acceleration = (
+        np.sqrt((np.diff(points, order, axis=0) ** 2).sum(-1).mean(-1)) * motion.fps ** (order - 1)
+        for order in (2, 3)
+    )
+    return np.pad(velocity, 1), np.pad(acceleration, (2, 1))
+
+
+def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread:
+    """Measure what is usual in some clips.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate.
+    legs : found by name by default.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for clips that do not go together, none, or legs that cannot be found.
+    """
+    if not clips:
+        raise MocapError("A seam is measured against its clips; none were given.")
+    require_alike(clips)
+    feet = _feet(legs_of(clips[0].skeleton, legs))
+    velocity, acceleration = (np.concatenate(kind) for kind in zip(*map(jumps, clips), strict=True))
+    floor = np.min([joint_positions(clip)[:, feet, 1].min(axis=0) for clip in clips], axis=0)
+    return Spread(
+        float(np.percentile(velocity, USUAL)), float(np.percentile(acceleration, USUAL)), np.asarray(floor)
+    )
+
+
+def seam_quality(
+    motion: Motion,
+    seam: tuple[int, int],
+    usual: Spread,
+    *,
+    before: Motion | None = None,
+    legs: Sequence[Leg] | None = None,
+) -> SeamQuality:
+    """Measure a seam against the clips that it joins.
+
+    Parameters
+    ----------
+    motion : with the seam, and with contacts for the feet.
+    seam : its first frame, and the first frame after it: (i, i + window) after `joining.join`.
+    usual : what is usual in the clips, `spread(clips)`.
+    before : the same frames in an earlier state, such as before a clean-up; by default the motion itself.
+    legs : found by name by default, as for `spread`.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for a seam that runs off the motion, a `before` that is another motion,
+        clips that do not move, feet without contacts, and legs that cannot be found.
+
+    Examples
+    --------
+    >>> from mocap.joining import join
+    >>> from mocap.synthetic import generate
+    >>> walk = generate("walk_straight")
+    >>> seam_quality(join(walk, 500, walk, 233, 40), (500, 540), spread([walk])).velocity_jump < 1
+    True
+    """
+    before = motion if before is None else before
+    feet = _feet(legs_of(motion.skeleton, legs))
+    _check_seam(motion, seam, usual, before)
+    around = slice(max(seam[0] - 1, 0), seam[1] + 1)
+    velocity, acceleration = (kind[around].max() for kind in jumps(motion))
+    path, old = (m.root_positions[around][:, [0, 2]] for m in (motion, before))
+    positions = joint_positions(motion)
+    depth = np.maximum(usual.floor - positions[around][:, feet, 1], 0.0).max()
+    return SeamQuality(
+        float(velocity / usual.velocity),
+        float(acceleration / usual.acceleration),
+        100 * _slide(motion, seam, positions, feet),
+        100 * float(depth),
+        100 * float(np.linalg.norm(path - old, axis=-1).max()),
+    )
+
+
+def _feet(legs: Sequence[Leg]) -> list[int]:
+    return [joint for leg in legs for joint in leg[2:]]
+
+
+def _check_seam(motion: Motion, seam: tuple[int, int], usual: Spread, before: Motion) -> None:
+    if not 0 <= seam[0] < seam[1] <= len(motion):
+        raise MocapError(
+            f"'{motion.name}' has {len(motion)} frames, and no seam from {seam[0]} to {seam[1]}."
+        )
+    require_alike([motion, before])
+    if len(before) != len(motion):
+        raise MocapError(f"Before there were {len(before)} frames, now {len(motion)}: not the same motion.")
+    if not min(usual.velocity, usual.acceleration) > 0:
+        raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
+
+
+def _slide(motion: Motion, seam: tuple[int, int], positions: Array, feet: Sequence[int]) -> float:
+    """Average over the plants that touch a seam: how far the joint strays from where it stands on average."""
+    strays = []
+    for joint in feet:
+        if (name := motion.skeleton.names[joint]) not in motion.contacts:
+            raise MocapError(f"'{motion.name}' does not say when '{name}' stands; mark_plants finds out.")
+        for start, stop in runs(motion.contacts[name]):
+            if start < seam[1] and seam[0] < stop:
+                places = positions[start:stop, joint][:, [0, 2]]
+                strays.append(np.linalg.norm(places - places.mean(axis=0), axis=-1).max())
+    return float(np.mean(strays)) if strays else 0.0

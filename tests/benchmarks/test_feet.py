@@ -1,0 +1,43 @@
+"""How long joining, blending and cleaning take, as shares of the time that the motion itself lasts.
+
+Run them alone, and see the shares: pytest -m benchmark -n 0 -s tests/benchmarks/test_feet.py
+"""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.blending import blend
+from mocap.datasets import sample
+from mocap.footskate import clean_up
+from mocap.joining import inertialize, join
+from mocap.plants import mark_plants
+from mocap.synthetic import walk
+
+pytestmark = pytest.mark.benchmark
+
+CLIP = sample("walk_circle")
+MINUTE = walk([[0, 0], [0, 55]], speed=0.85)[: 60 * 120]  # 60 s at 120 Hz
+PUSH = 0.01 * np.sin(np.arange(len(MINUTE)) / 40)[:, None]
+SKATING = replace(MINUTE, root_positions=MINUTE.root_positions + PUSH)
+
+WORK = {
+    "join": lambda: join(CLIP, 3600, CLIP, 1000, 40),
+    "inertialize": lambda: inertialize(CLIP, 3600, CLIP, 1000, 40),
+    "blend": lambda: blend(MINUTE, SKATING, np.linspace(1, 0, len(MINUTE))),
+    "mark_plants": lambda: mark_plants(SKATING),
+    "clean_up": lambda: clean_up(SKATING),
+}
+
+
+@pytest.mark.parametrize("name", WORK)
+def test_a_minute_of_motion_takes_under_a_tenth_of_its_duration(name):
+    shares = []
+    for _ in range(3):
+        start = time.perf_counter()
+        WORK[name]()
+        shares.append((time.perf_counter() - start) / 60)
+    print(f"\n{name}: {100 * min(shares):.2f} % of the motion's duration")
+    assert min(shares) < 0.1
