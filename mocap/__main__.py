@@ -11,6 +11,7 @@ from pathlib import Path
 from mocap.commands import add_convert, add_data, add_info
 from mocap.errors import MocapError, MocapWarning
 from mocap.progress import bar
+from mocap.walk_command import add_walk
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -18,6 +19,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add_demo(commands)
     _add_graph(commands)
+    add_walk(commands)
     add_info(commands)
     add_convert(commands)
     add_data(commands)

@@ -29,7 +29,7 @@ LAYERS = [
     {"compiling", "synthesis"},
     {"control", "demo", "dumping", "layered_search"},
     {"follow"},
-    {"crowd", "keyframes", "paper_search"},
+    {"crowd", "keyframes", "paper_search", "walk_command"},
     {"__init__", "__main__"},
 ]
 
