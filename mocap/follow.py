@@ -165,7 +165,7 @@ def follow_path(
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
     found = search_layers(compiled, route, starts, beam or Beam(), prices or Prices())
     followed = account(compiled, path, route, found)
-    if departures := followed.departures:
+    if (departures := followed.departures) and not wishes.others:  # else it gave way
         worst = max(departures, key=lambda d: d.worst)
         warnings.warn(
             f"The walk leaves the path {len(departures)} times, the furthest by {100 * worst.worst:.0f} cm "

@@ -188,13 +188,13 @@ def search_ahead(
     cost, expanded, cut, stopped = 0.0, 0, 0, ""
     while not problem.done(state) and stopped != "interrupted":
         found = branch_and_bound(problem, node, state, horizon=ahead, budget=budget)
-        if not found.walk:
-            break
         frames, kept = 0, 0
         while kept < len(found.walk) and frames < keep and not problem.done(state):
             edge = found.walk[kept]
             more, state = problem.step(state, edge)
             cost, frames, kept = cost + more, frames + problem.graph.edges[edge]["frames"], kept + 1
-        walk, node = walk + found.walk[:kept], found.walk[kept - 1][1]
         expanded, cut, stopped = expanded + found.expanded, cut + found.cut, found.stopped or stopped
+        if not kept:
+            break
+        walk, node = walk + found.walk[:kept], found.walk[kept - 1][1]
     return SearchResult(walk, cost, state, problem.done(state), expanded, cut, stopped)
