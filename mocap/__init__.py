@@ -7,11 +7,12 @@ where a file is read or written, and nowhere else.
 Reading order
 -------------
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about: `matching`,
-`transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`. Seams and feet: `joining`, `quality`,
-`legs`, `plants`, `leg_posing`, `footskate`; what once went wrong: `homework_slips`. Out of the graph:
+`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about:
+`point_clouds`, `cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`,
+`motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`. Out of the graph:
 `walks`, `synthesis`, `dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`,
-`paper_search`, `keyframes`, `crowd`, `control`. What one sees: `plotting`, `demo`.
+`paper_search`, `keyframes`, `crowd`, `control`. Seams and feet: `joining`, `quality`, `legs`, `plants`,
+`leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `plotting`, `demo`.
 
 References
 ----------

@@ -92,6 +92,7 @@ def _add_graph(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 
 def _graph(options: argparse.Namespace) -> int:
     from mocap import demo, graph_files, graph_summary, motion_graph
+    from mocap.motion import resample
 
     if options.clips[0] == Path("info"):
         return _graph_info(options.clips[1:])
@@ -104,10 +105,9 @@ def _graph(options: argparse.Namespace) -> int:
         options.clips, skeleton=options.skeleton, scale=options.scale, progress=partial(bar, what="reading")
     )
     graph = motion_graph.build(
-        clips,
+        [resample(clip, options.fps) for clip in clips],
         window=window,
         threshold=options.threshold / 100,
-        fps=options.fps,
         progress=partial(bar, what="comparing"),
     )
     if not options.whole:

@@ -224,11 +224,16 @@ def _all_pairs(apart: Callable[[Array, Array], Array], a: Array, b: Array) -> Ar
 def segments(frames: int, length: int) -> list[slice]:
     """Cut a clip into slices of one length; what would be too short a last one goes to the one before.
 
+    Raises
+    ------
+    MocapError : for a length below 1.
+
     Examples
     --------
     >>> [(s.start, s.stop) for s in segments(700, 200)]
     [(0, 200), (200, 400), (400, 700)]
     """
+    check_window(length, max(frames, length), "A clip")
     starts = list(range(0, max(frames - length, 0) + 1, length))
     return [slice(*ends) for ends in zip(starts, [*starts[1:], frames], strict=True)]
 

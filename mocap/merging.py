@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from mocap.errors import MocapError
 from mocap.matching import align, point_cloud
 from mocap.motion import Motion
 from mocap.motion_graph import MotionGraph, Node, from_transitions
@@ -39,6 +40,8 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     -------
     A graph over the same clips; transitions that have come to lie between the same points are one.
     """
+    if not threshold > 0:
+        raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
     clips, window = motion_graph.clips, motion_graph.window
     edges = motion_graph.graph.edges(data=True)
     ways = {

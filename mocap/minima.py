@@ -133,7 +133,7 @@ def _block_minima(a: Block, b: Block, below: float) -> Array:
     found = [np.empty((6, 0))]
     for rows, columns in tiles(a.stop - a.start, b.stop - b.start, upper=a.start == b.start):
         (top, part_a), (left, part_b) = a.part(rows), b.part(columns)
-        minima = local_minima(cloud_distances(part_a, part_b, taper), below**2)
+        minima = local_minima(cloud_distances(part_a, part_b, taper), below * below)
         i, j = minima[:, 0] + top, minima[:, 1] + left
         own = (i >= a.start + rows.start) & (i < a.start + rows.stop)
         own &= (j >= b.start + columns.start) & (j < b.start + columns.stop)
@@ -148,7 +148,7 @@ def _fit(a: Cloud, b: Cloud, i: NDArray[np.intp], j: NDArray[np.intp]) -> tuple[
     The grid has D as a difference of larger numbers; measured point by point it is right down to 0.
     """
     frames = np.arange(a.paths.shape[1])
-    scale = np.float32(len(frames) ** -0.5)  # the square root of a frame's weight
+    scale = a.heights.dtype.type(len(frames) ** -0.5)  # the square root of a frame's weight
 
     def windows(cloud: Cloud, starts: NDArray[np.intp]) -> tuple[NDArray[Any], NDArray[Any]]:
         each = starts[:, None] + frames

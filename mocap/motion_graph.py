@@ -6,6 +6,7 @@ edge gives the frames [start, end) of a motion, and the frames of a walk are tho
 """
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -13,9 +14,9 @@ import networkx as nx
 import numpy as np
 
 from mocap.errors import MocapError, NoWalk
-from mocap.motion import Motion, require_alike, resample
+from mocap.motion import Motion, require_alike
 from mocap.progress import Progress
-from mocap.pruning import Labels, prune_graph
+from mocap.pruning import Labels, prune_graph, uncollected
 from mocap.transitions import Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
@@ -67,30 +68,28 @@ def build(
     *,
     window: int,
     threshold: Thresholds,
-    fps: float | None = None,
     progress: Progress = iter,
+    executor: Executor | None = None,
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
     Parameters
     ----------
-    clips : motions of one skeleton, with different names.
+    clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
     threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
-        pair of labels, as in {("walk", "walk"): 0.03, ("walk", "run"): 0.06}: see `find_transitions`.
-    fps : the rate to resample the clips to; by default they must have one rate already, and keep it.
-    progress : wraps the pairs of clips as they are compared, to show a bar.
+        pair of labels, as for `find_transitions`.
+    progress, executor : to show a bar while the clips are compared, and where to do that.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window.
+    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window. Clips
+        at different rates are not resampled unasked: `build([resample(clip, 30) for clip in clips], ...)`.
 
     Notebook: 00-quickstart
     """
     _require_names(clips)
-    if fps is not None:
-        clips = [resample(clip, fps) for clip in clips]
-    found = find_transitions(clips, window=window, below=threshold, progress=progress)
+    found = find_transitions(clips, window=window, below=threshold, progress=progress, executor=executor)
     return from_transitions(clips, found, window=window)
 
 
@@ -99,6 +98,7 @@ def _labels(motion: Motion, start: int, end: int) -> Labels:
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 
 
+@uncollected()
 def from_transitions(
     clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int
 ) -> MotionGraph:
@@ -106,6 +106,10 @@ def from_transitions(
 
     A transition leaves its first clip at the frame where its window starts, and enters the second at
     the frame after the window ends [KGP02, 3.3].
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for clips that do not go together, and transitions outside them.
     """
     _require_names(clips)
     require_alike(clips)
@@ -113,6 +117,7 @@ def from_transitions(
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
+        _require_inside(clips, t, window)
         here = _labels(clips[t.source], t.leave, t.leave + window)
         there = _labels(clips[t.target], t.enter, t.enter + window)
         edge = {"kind": "transition", "frames": window, "labels": here | there}
@@ -125,6 +130,14 @@ def from_transitions(
             edge = {"kind": "clip", "frames": end - start, "labels": _labels(clips[clip], start, end)}
             graph.add_edge((clip, start), (clip, end), **edge)
     return MotionGraph(tuple(clips), window, graph)
+
+
+def _require_inside(clips: Sequence[Motion], t: Transition, window: int) -> None:
+    for clip, start in ((t.source, t.leave), (t.target, t.enter)):
+        if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
+            raise MocapError(
+                f"A transition of {window} frames from frame {start} of clip {clip} lies outside the clips."
+            )
 
 
 def _require_names(clips: Sequence[Motion]) -> None:

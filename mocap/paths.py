@@ -94,7 +94,7 @@ def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
     Examples
     --------
     >>> spline([[0, 0], [1, 1], [0, 2], [-1, 1]], closed=True)
-    GroundPath(316 points, 6.3 m)
+    GroundPath(311 points, 6.2 m)
     """
     through = GroundPath(np.asarray(points, float)).points
     if closed:

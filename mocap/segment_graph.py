@@ -3,8 +3,8 @@
 A node is a segment, an edge says what may follow it. Where the homework's program slips, the mended way is
 the default and its own way an option: `weighting="distance"` makes the worse match the likelier one, and
 `drift=True` lays segments on one another in height too, so that a walk slowly rises or sinks. Three more
-slips are not kept: angles that flip on their way through Euler angles, segments after a transition that
-start on the last frame of the one before (so that it is shown twice), and clips changed in place.
+slips are not kept, but `homework_slips` shows them: angles that flip on their way through Euler angles,
+segments after a transition that show the last frame of the one before again, and clips changed in place.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap.blending import blend
+from mocap.blending import blend, sine_weights
 from mocap.errors import MocapError, NoWalk
 from mocap.matching import Metric, euler_grid, segment_distances, segments
 from mocap.motion import Motion, concatenate
@@ -90,8 +90,8 @@ def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
     """Raise unless each segment holds a window to enter by, one to leave by, and something between."""
     if not clips:
         raise MocapError("A segment graph needs at least one clip.")
-    if window < 1:
-        raise MocapError(f"A window needs at least one frame, got {window}.")
+    if window < 2:
+        raise MocapError(f"A window needs at least two frames, got {window}.")
     for clip in clips:
         if (length := min(segment, len(clip))) <= 2 * window:
             raise MocapError(
@@ -135,7 +135,7 @@ def segment_motion(
     """Play a walk: successors follow as they are, others are laid on the window that they blend with.
 
     The first frame of a segment that follows by a transition takes heading and place of the frame `window`
-    before the end. Over the window the pose goes over by u = (1 + sin(π i / (k-1) - π/2)) / 2.
+    before the end. Over the window the pose goes over by `sine_weights`.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def segment_motion(
         place = _lay(following, tail)
         lift = tail.root_positions[0, 1] - following.root_positions[0, 1] if drift else 0.0
         following = _placed(following, place, lift)
-        pieces += [current[:-window], blend(tail, following[:window], 1 - _ease(window))]
+        pieces += [current[:-window], blend(tail, following[:window], sine_weights(window))]
         current = following[window:]
     return replace(concatenate([*pieces, current]), name="walk")
 
@@ -190,7 +190,3 @@ def _placed(motion: Motion, place: PlanarTransform, lift: float) -> Motion:
     """Move a segment; one that has never been moved stays bit for bit."""
     moved = motion if place is IDENTITY else place.motion(motion)
     return replace(moved, root_positions=np.add(moved.root_positions, [0.0, lift, 0.0])) if lift else moved
-
-
-def _ease(window: int) -> Array:
-    return (1 + np.sin(np.linspace(-np.pi / 2, np.pi / 2, window))) / 2

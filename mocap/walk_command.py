@@ -38,15 +38,10 @@ def add_walk(commands: "Commands") -> None:
         type=Path,
         help="the clips that the graph was built of (default: those beside it, or the bundled ones)",
     )
-    add("--skeleton", type=Path, help="the .asf file of .amc clips (default: the one beside them that fits)")
+    add("--skeleton", type=Path, help="the .asf file of .amc clips (default: the one beside that fits)")
     add("--unit", type=float, help="metres in a unit of the path (default: 1; for .svg 0.01)")
-    add(
-        "--label",
-        action="append",
-        default=[],
-        metavar="METRES:LABEL",
-        help="from so far along the path on, this kind of motion; may be given many times",
-    )
+    wish = "from so far along the path on, this kind of motion; may be given many times"
+    add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
     add("--width", type=int, default=100, help="how thoroughly to search (default: %(default)s)")
     add("--clean", action="store_true", help="make planted feet stand still (along a path)")
     add("--seed", type=int, default=0, help="another seed, another random walk (default: %(default)s)")

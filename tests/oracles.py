@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from mocap.point_clouds import align, unit_weights
+from mocap.point_clouds import unit_weights
 from mocap.transforms import PlanarTransform
 
 
@@ -12,16 +12,22 @@ def squared_distance(transform, points, others, weights):
     return float(weights @ ((points - PlanarTransform(*transform).points(others)) ** 2).sum(-1))
 
 
+def _windows(points, window, weights):
+    """Lay out every window as one row: x, y and z times √w, shape (F - k + 1, k P) each, x and z centred."""
+    rows = np.moveaxis(sliding_window_view(points, window, axis=0), -1, 1).reshape(-1, len(weights), 3)
+    x, y, z = np.moveaxis(rows - np.einsum("p,npc->nc", weights, rows)[:, None] * [1, 0, 1], -1, 0)
+    return [np.ascontiguousarray(part * np.sqrt(weights)) for part in (x, y, z)]
+
+
 def distance_rows(a, b, window, rows, weights=None, taper=None):
-    """Some rows of the distance grid of points (F, P, 3): lay all windows of b on one of a at a time."""
-    joint, frame = unit_weights(weights, a.shape[1]), unit_weights(taper, window)
-    w = np.outer(frame, joint).ravel()
-    windows = sliding_window_view(b, window, axis=0)  # (F - k + 1, P, 3, k)
-    others = np.moveaxis(windows, -1, 1).reshape(len(windows), -1, 3)
+    """Some rows of the distance grid of points (F, P, 3): one window of a against all of b at a time."""
+    w = np.outer(unit_weights(taper, window), unit_weights(weights, a.shape[1])).ravel()
+    xb, yb, zb = _windows(b, window, w)
+    sizes = sum((part**2).sum(1) for part in (xb, yb, zb))
     for i in rows:
-        points = np.broadcast_to(a[i : i + window].reshape(-1, 3), others.shape)
-        left = points - PlanarTransform(*(f[:, None] for f in align(points, others, w))).points(others)
-        yield (left**2).sum(-1) @ w
+        xa, ya, za = (part[0] for part in _windows(a[i : i + window], window, w))
+        turned = np.hypot(xb @ xa + zb @ za, xb @ za - zb @ xa)
+        yield xa @ xa + ya @ ya + za @ za + sizes - 2 * yb @ ya - 2 * turned
 
 
 def distance_oracle(a, b, window, weights=None, taper=None):

@@ -1,5 +1,7 @@
 """`mocap info`, `mocap convert` and `mocap data`, as a person types them; `mocap.conversion`."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -89,6 +91,16 @@ def test_an_interruption_ends_the_conversion(clips, tmp_path):
     pairs = conversion.plan(clips, tmp_path / "out")
     with pytest.raises(KeyboardInterrupt):
         conversion.convert(pairs, conversion.Options(), interrupt)
+
+
+def die(*_):
+    os._exit(1)
+
+
+def test_a_worker_that_dies_is_told(clips, tmp_path, monkeypatch):
+    monkeypatch.setattr(conversion, "_convert", die)
+    with pytest.raises(MocapError, match="ended from outside: is there enough memory"):
+        conversion.convert(conversion.plan(clips, tmp_path / "out"), conversion.Options())
 
 
 def test_real_folders(real_data, tmp_path):

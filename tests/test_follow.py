@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
+import mocap
 from mocap import paths
-from mocap.compiling import on_ground
+from mocap.compiling import compile_graph, on_ground
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.follow import Wishes, follow_path
+from mocap.motion_graph import build, prune
 from mocap.paths import GroundPath, s_curve
 from mocap.routes import Prices
 from tests.graphs import sneaking, walking
@@ -29,6 +31,7 @@ def test_walks_stay_on_their_paths(shape):
     assert followed.seams_a_second < 1.6
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_what_it_tells_is_what_the_motion_does():
     followed = follow_path(GRAPH, s_curve())
     motion = followed.motion(name="s")
@@ -41,11 +44,13 @@ def test_what_it_tells_is_what_the_motion_does():
     assert f"{100 * followed.off.mean():.1f} cm off on average" in followed.report()
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_dear_seams_are_few():
     cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam)) for seam in (0.01, 2.0))
     assert dear.seams_a_second < 0.8 * cheap.seams_a_second
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_it_starts_where_and_as_asked():
     node = GRAPH.nodes[300]
     followed = follow_path(GRAPH, STRAIGHT, Wishes(start=node, heading=0.3))
@@ -67,6 +72,7 @@ def test_labels_are_had_where_they_are_asked_for():
     assert "without the label asked for" in followed.report() or not followed.unlabelled.any()
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_times_are_kept_where_they_can_be():
     for seconds in (9.5, 11.5):
         followed = follow_path(GRAPH, STRAIGHT, Wishes(times=[(0, 0), (8, seconds)]))
@@ -114,3 +120,18 @@ def test_a_label_out_of_reach_is_told_with_those_in_reach():
     start = next(node for node in sorted(source) if node[0] == 0)
     with pytest.raises(NoWalk, match="No walk comes to the label 'sneak' from there; it can reach: walk"):
         follow_path(cut, STRAIGHT, Wishes(labels=[(0, "sneak")], start=start))
+
+
+@pytest.fixture(scope="module")
+def cmu(real_data):
+    """Return the graph of CMU 16's walks."""
+    trials = [mocap.load(real_data / "cmu" / "16" / f"16_{n:02}.amc") for n in (*range(11, 35), 47, 58)]
+    return compile_graph(prune(build(trials, window=10, threshold=0.04, fps=30.0)))
+
+
+@pytest.mark.parametrize("shape", paths.SHAPES)
+def test_real_walks_stay_on_their_paths(cmu, shape):
+    followed = follow_path(cmu, paths.SHAPES[shape]())
+    assert followed.off.mean() <= 0.04
+    assert followed.off.max() <= 0.15
+    assert followed.seams_a_second <= 1.0

@@ -7,13 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.errors import MocapError, NoWalk
-from mocap.graph_summary import summary, threshold_sweep, velocity_jumps
+from mocap.graph_summary import summary
 from mocap.motion_graph import build, from_transitions, prune
 from mocap.pruning import notes_example
-from mocap.transforms import IDENTITY, PlanarTransform
-from mocap.transitions import Transition, find_transitions
-from tests.strategies import planar, wave
+from mocap.transforms import IDENTITY
+from mocap.transitions import Transition
+from tests.strategies import wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
 WINDOW = 8
@@ -68,57 +67,3 @@ def test_an_empty_graph_has_a_summary():
     graph = notes_example()
     graph.clear()
     assert summary(graph, fps=30.0)[:8] == (0, 0.0, 0, 0, 0, 0.0, 0.0, 0.0)
-
-
-def test_a_sweep_is_one_build_a_value():
-    found = find_transitions(CLIPS, window=WINDOW, below=LEVELS[-1])
-    jumps = velocity_jumps(CLIPS, found, window=WINDOW)
-    sweep = threshold_sweep(CLIPS, found, LEVELS, window=WINDOW)
-    for row in zip(*sweep, strict=True):
-        level, transitions, nodes, edges, largest_nodes, largest_frames, cost, jump = row
-        close = [i for i, t in enumerate(found) if t.cost < level]
-        graph = build(CLIPS, window=WINDOW, threshold=level)
-        assert transitions == graph.count("transition") == len(close)
-        assert (nodes, edges) == (graph.graph.number_of_nodes(), graph.graph.number_of_edges())
-        try:
-            kept = prune(graph)
-            assert (largest_nodes, largest_frames) == (len(kept.graph), kept.frames)
-        except NoWalk:
-            assert (largest_nodes, largest_frames) == (0, 0)
-        assert cost == pytest.approx(np.mean([found[i].cost for i in close]) if close else 0)
-        assert jump == pytest.approx(np.mean(jumps[close]) if close else 0)
-    assert sweep.largest_nodes[0] == 0 < sweep.largest_nodes[-1]
-
-
-def test_a_sweep_without_transitions():
-    sweep = threshold_sweep(CLIPS, [], [0.1, 0.2], window=WINDOW)
-    assert sweep.nodes.tolist() == [4, 4]
-    assert sweep.edges.tolist() == [2, 2]
-    assert sweep.largest_frames.tolist() == sweep.mean_cost.tolist() == [0, 0]
-    for levels in ([0.1, 0.0], [np.nan], 0.1):
-        with pytest.raises(MocapError, match="numbers above 0 m"):
-            threshold_sweep(CLIPS, [], levels, window=WINDOW)
-
-
-@given(planar)
-def test_a_copy_moves_as_the_original(transform):
-    moved = replace(transform.motion(CLIPS[0]), name="moved")
-    back = transform.inverse()
-    jumps = velocity_jumps(
-        [CLIPS[0], moved],
-        [
-            Transition(0, 30, 1, 30, 0.0, back),
-            Transition(0, 30, 1, 30, 0.0, back._replace(angle=back.angle + np.pi)),
-        ],
-        window=WINDOW,
-    )
-    assert jumps[0] == pytest.approx(0, abs=1e-9)
-    assert jumps[1] > 0.5
-
-
-def test_a_jump_is_in_metres_a_second():
-    faster = replace(
-        CLIPS[0], root_positions=CLIPS[0].root_positions + np.outer(np.arange(90) / 30, [3.0, 0, 0])
-    )
-    way = Transition(0, 30, 1, 30, 0.0, PlanarTransform(0.0, 0.0, 0.0))
-    assert velocity_jumps([CLIPS[0], faster], [way], window=WINDOW) == pytest.approx(3.0)

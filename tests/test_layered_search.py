@@ -42,6 +42,7 @@ def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds(monkeypatc
         assert walked <= 1.2 * best.cost + 1e-3
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_a_wider_beam_costs_more_and_follows_better():
     narrow, wide = (follow_path(GRAPH, s_curve(15), beam=Beam(width=width)) for width in (3, 100))
     assert wide.found.cost < narrow.found.cost

@@ -176,6 +176,11 @@ def test_segments_take_every_frame_once(frames, length):
     assert all(cut.stop - cut.start == length for cut in cuts[:-1])
 
 
+def test_segments_have_a_length():
+    with pytest.raises(MocapError, match="at least one frame, got 0"):
+        segments(10, 0)
+
+
 @pytest.mark.parametrize("metric", ALL)
 def test_segment_distances_lay_heads_on_tails(metric):
     a, _ = body_motion(0, 25)

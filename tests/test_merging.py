@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap.errors import MocapError
 from mocap.matching import align, point_cloud
 from mocap.merging import merge_choice_points
 from mocap.motion_graph import build, from_transitions, prune
@@ -82,3 +83,9 @@ def test_what_was_reached_still_is(rows, within, threshold):
     for _, (_, enter), edge in transitions_of(merged):
         assert enter >= WINDOW
         assert edge["cost"] < max(threshold, 0.02)
+
+
+def test_a_threshold_is_a_distance(graphs):
+    for threshold in (0, -1, np.nan):
+        with pytest.raises(MocapError, match="above 0 m"):
+            merge_choice_points(graphs[0], within=4, threshold=threshold)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap import files
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.motion import resample
 from mocap.motion_graph import MotionGraph, build, from_transitions, prune, smallest_threshold
@@ -60,6 +61,7 @@ def test_the_stretches_of_a_clip_are_the_clip(found):
     assert graph.count("transition") == len(found)
 
 
+@pytest.mark.filterwarnings("ignore:0 frames of clip stay")
 @given(transitions)
 def test_pruning_keeps_the_largest_set_of_nodes_that_reach_each_other(found):
     whole = from_transitions(CLIPS, found, window=WINDOW)
@@ -170,11 +172,28 @@ def test_rates_are_changed_only_on_demand():
     other = resample(CLIPS[1], 60.0)
     with pytest.raises(MocapError, match="'a' runs at 30 Hz, 'b' at 60 Hz"):
         build([CLIPS[0], other], window=WINDOW, threshold=0.05)
-    graph = build([CLIPS[0], other], window=WINDOW, threshold=0.05, fps=30.0)
-    assert [clip.fps for clip in graph.clips] == [30.0, 30.0]
+    graph = build([resample(clip, 30.0) for clip in (CLIPS[0], other)], window=WINDOW, threshold=0.05)
+    assert graph.fps == 30.0
     assert graph.clips[0] is CLIPS[0]
 
 
 def test_skeletons_must_be_the_same():
     with pytest.raises(SkeletonMismatch, match="differ in these joints"):
         build([CLIPS[0], random_motion(1, frames=30)], window=WINDOW, threshold=0.05)
+
+
+def test_a_transition_lies_inside_its_clips():
+    for row in ((0, 83, 1, 20), (0, 30, 1, 63), (0, -1, 1, 20), (2, 30, 1, 20), (0, 30, -1, 20)):
+        with pytest.raises(MocapError, match="lies outside the clips"):
+            from_transitions(CLIPS, [Transition(*row, 0.02, IDENTITY)], window=WINDOW)
+
+
+def test_the_walks_of_cmu_16(real_data):
+    numbers = (*range(11, 35), 47, 58)
+    clips = [resample(files.load(real_data / f"cmu/16/16_{n}.amc"), 30.0) for n in numbers]
+    whole = build(clips, window=10, threshold=0.03)
+    kept = prune(whole)
+    assert sum(map(len, clips)) == 2521
+    assert whole.count("transition") == pytest.approx(2176, abs=10)
+    assert len(whole.graph) == pytest.approx(1445, abs=10)
+    assert len(kept.graph) == pytest.approx(963, abs=10)

@@ -1,5 +1,6 @@
 """What is left is what brute force leaves; what goes, goes for a reason that holds."""
 
+import gc
 import warnings
 
 import networkx as nx
@@ -195,3 +196,13 @@ def test_without_a_cycle_there_is_no_walk():
 
 def test_label_sets_have_names():
     assert [name(labels) for labels in (BOTH, RUN, frozenset())] == ["run+walk", "run", "no label"]
+
+
+def test_the_garbage_collector_is_left_as_it_was():
+    for switch in (gc.disable, gc.enable):
+        switch()
+        before = gc.isenabled()
+        prune_graph(notes_example())
+        with pytest.raises(NoWalk):
+            prune_graph(nx.MultiDiGraph())
+        assert gc.isenabled() == before

@@ -143,7 +143,7 @@ def test_bad_input_is_named():
         ({"threshold": np.nan}, "above 0, got nan"),
         ({"weighting": "equal"}, "not 'equal'"),
         ({"window": 10}, "too short for windows of 10"),
-        ({"window": 0}, "at least one frame"),
+        ({"window": 1}, "at least two frames"),
         ({"segment": 0}, "segment of 0 frames"),
     ):
         with pytest.raises(MocapError, match=words):

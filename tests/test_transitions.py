@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap import minima
+from mocap import minima, transitions
 from mocap.errors import MocapError
 from mocap.matching import distance_grid, point_cloud
 from mocap.progress import bar
@@ -109,6 +109,15 @@ def test_many_transitions_come_out_one_by_one():
 def test_transitions_are_ordered_by_clip_and_frame():
     records = [t[:4] for t in find_transitions(CLIPS, window=8, below=0.1)]
     assert records == sorted(records)
+
+
+def test_many_frames_are_searched_in_32_bits_with_next_to_the_same_result(monkeypatch):
+    exact = find_transitions(CLIPS, window=8, below=0.1)
+    monkeypatch.setattr(transitions, "FEW", 100)
+    single = find_transitions(CLIPS, window=8, below=0.1)
+    assert np.array_equal(single.leave, exact.leave) and np.array_equal(single.enter, exact.enter)
+    assert single.cost == pytest.approx(exact.cost, abs=1e-6)
+    assert not np.array_equal(single.cost, exact.cost)
 
 
 def test_far_from_the_origin_nothing_changes():

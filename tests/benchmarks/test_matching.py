@@ -1,0 +1,126 @@
+"""How fast matching is, as ratios within one run, on a machine that does nothing else meanwhile.
+
+Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_matching.py
+Both sides of a ratio take turns, and of each the fastest turn counts.
+"""
+
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from mocap import load, resample
+from mocap.cloud_grid import distance_grid
+from mocap.point_clouds import point_cloud
+from mocap.transitions import find_transitions
+from tests.oracles import distance_rows
+
+pytestmark = pytest.mark.benchmark
+WINDOW = 10
+
+
+@pytest.fixture(scope="module")
+def clips(real_data):
+    names = ("circle", "curve1", "curve2")
+    return [resample(load(real_data / "hw3" / f"walk_fwd_{name}.AMC"), 30) for name in names]
+
+
+@pytest.fixture(scope="module")
+def points(clips):
+    joined = np.concatenate([point_cloud(clip) for clip in clips])
+    assert joined.shape == (3798, 31, 3)
+    return joined
+
+
+def fastest(*works, turns=5):
+    """Seconds of each work, the fastest of its turns."""
+    seconds = []
+    for _ in range(turns):
+        for work in works:
+            start = time.perf_counter()
+            work()
+            seconds.append(time.perf_counter() - start)
+    return np.array(seconds).reshape(turns, -1).min(0)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_all_pairs_take_at_most_six_bare_products_and_rows_fifty_times_that(points, dtype):
+    cloud = points.astype(dtype)
+    flat = np.tile(cloud.reshape(len(cloud), -1), 2)[:, : 5 * 31]  # (n, 5 P)
+    product, grid = fastest(lambda: flat @ flat.T, lambda: distance_grid(cloud, cloud, window=WINDOW))
+    some = range(0, len(points) - WINDOW + 1, 100)
+    (rows,) = fastest(lambda: list(distance_rows(points, points, WINDOW, some)), turns=1)
+    rows *= (len(points) - WINDOW + 1) / len(some)
+    print(
+        f"\n{dtype.__name__}: product {product:.3f} s, grid {grid:.3f} s = {grid / product:.1f} products, "
+        f"row by row {rows:.1f} s = {rows / grid:.0f} grids"
+    )
+    assert grid <= 6 * product
+    assert rows >= 50 * grid
+
+
+def test_the_window_hardly_matters(points):
+    cloud = points.astype(np.float32)
+    short, long = fastest(*(lambda k=k: distance_grid(cloud, cloud, window=k) for k in (10, 40)))
+    print(f"\nwindow 10: {short:.3f} s, 40: {long:.3f} s = {long / short:.2f} times")
+    assert long <= 1.5 * short
+
+
+def test_minima_and_candidates_take_at_most_twice_the_bound(points, clips):
+    flat = np.tile(points.reshape(len(points), -1), 2)[:, : 5 * 31]  # 64 bits, as the search of few clips
+    found = []
+    product, grid, search = fastest(
+        lambda: flat @ flat.T,
+        lambda: distance_grid(points, points, window=WINDOW),
+        lambda: found.append(len(find_transitions(clips, window=WINDOW, below=0.04))),
+    )
+    ratios = f"{search / grid:.1f} grids = {search / product:.1f} products"
+    print(f"\n{found[0]} transitions in {search:.3f} s = {ratios}")
+    assert search <= 2 * 6 * product
+
+
+SEARCH = """
+import resource, sys, time
+from pathlib import Path
+from mocap import load, resample
+from mocap.transitions import find_transitions
+
+folder, names, frames, below = Path(sys.argv[1]), sys.argv[2].split(","), int(sys.argv[3]), float(sys.argv[4])
+short = [resample(load(folder / name), 30) for name in names]
+clips = []
+while sum(map(len, clips)) < frames:
+    clips.append(short[len(clips) % len(short)])
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+start, busy = time.perf_counter(), time.process_time()
+with ThreadPoolExecutor(2) as pool:
+    found = find_transitions(clips, window=10, below=below, executor=pool)
+seconds, busy = time.perf_counter() - start, time.process_time() - busy
+after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+print(len(found), seconds, busy, (after - before) / 1000, after / 1000)
+"""
+
+
+def search(folder, names, frames, below):
+    """Search in a process of its own: transitions, seconds, CPU seconds, megabytes more, megabytes at all."""
+    command = [sys.executable, "-c", SEARCH, str(folder), ",".join(names), str(frames), str(below)]
+    alone = os.environ | {"OMP_NUM_THREADS": "1"}  # the executor's threads share the cores
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=alone)
+    return [float(word) for word in done.stdout.split()]
+
+
+def test_the_homeworks_clips_take_less_than_200_megabytes(real_data):
+    names = [f"walk_fwd_{name}.AMC" for name in ("circle", "curve1", "curve2")]
+    *_, more, whole = search(real_data / "hw3", names, 3798, 0.04)
+    print(f"\n{whole:.0f} MB, clips, Python and all; {more:.0f} MB of it in the search")
+    assert whole < 200
+
+
+def test_eighty_thousand_frames_in_a_minute_and_500_megabytes(real_data):
+    names = sorted(path.name for path in (real_data / "cmu" / "16").glob("*.amc"))
+    found, seconds, busy, _, whole = search(real_data / "cmu" / "16", names, 80_000, 0.02)
+    print(f"\n{found:.0f} transitions in {seconds:.0f} s ({busy:.0f} CPU seconds), {whole:.0f} MB")
+    assert whole < 500
+    assert busy < 120, "two cores have 120 seconds in a minute, whoever else uses them"
