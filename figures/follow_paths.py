@@ -45,7 +45,8 @@ def graphs() -> dict[str, CompiledGraph]:
 
 
 def _graph(clips: list[mocap.Motion]) -> motion_graph.MotionGraph:
-    return motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04, fps=30.0))
+    clips = [mocap.resample(clip, 30) for clip in clips]
+    return motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04))
 
 
 def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]:

@@ -125,8 +125,9 @@ def test_a_label_out_of_reach_is_told_with_those_in_reach():
 @pytest.fixture(scope="module")
 def cmu(real_data):
     """Return the graph of CMU 16's walks."""
-    trials = [mocap.load(real_data / "cmu" / "16" / f"16_{n:02}.amc") for n in (*range(11, 35), 47, 58)]
-    return compile_graph(prune(build(trials, window=10, threshold=0.04, fps=30.0)))
+    files = [real_data / "cmu" / "16" / f"16_{n:02}.amc" for n in (*range(11, 35), 47, 58)]
+    clips = [mocap.resample(mocap.load(file), 30) for file in files]
+    return compile_graph(prune(build(clips, window=10, threshold=0.04)))
 
 
 @pytest.mark.parametrize("shape", paths.SHAPES)
