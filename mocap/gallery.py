@@ -23,12 +23,13 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
 from PIL import Image
 
-from mocap import datasets, matching, motion_graph, plotting, pruning, synthesis, transitions
+from mocap import datasets, matching, motion_graph, paths, plotting, pruning, synthesis, transitions
 from mocap.atomic import replacing
 from mocap.errors import MocapError
+from mocap.follow import follow_path
 from mocap.footprints import footprints
 from mocap.kinematics import joint_positions
-from mocap.motion import Motion, resample
+from mocap.motion import resample
 from mocap.motion_graph import MotionGraph
 
 Array = NDArray[np.float64]
@@ -93,32 +94,12 @@ def draw_pruning() -> Figure:
 
 
 def draw_path() -> Figure:
-    """Draw a path, black, and the best of 16 random walks along it, yellow, with its footprints."""
-    angle = np.linspace(0, 1.2 * np.pi, 60)
-    path = 3.2 * np.stack([1 - np.cos(angle), np.sin(angle)], axis=-1)
-    walks = [_laid_on(path, seed) for seed in range(16)]
-    best = min(walks, key=lambda walk: np.abs(_spread(walk, path) - path).mean())
-    plotting.asked_and_walked(path, best)
-    plotting.footprints(footprints(best), ax=plt.gca())
+    """Draw a path asked for, black, and the walk that follows it, yellow, with its footprints."""
+    path = paths.figure_eight()
+    walk = follow_path(_graph(), path).motion()
+    plotting.asked_and_walked(path.points, walk)
+    plotting.footprints(footprints(walk), ax=plt.gca())
     return plt.gcf()
-
-
-def _laid_on(path: Array, seed: int) -> Motion:
-    """Walk at random as long as a path is, and lay the walk on it as well as it goes."""
-    graph = _graph()
-    walk = synthesis.to_motion(graph, synthesis.random_walk(graph, seconds=12, seed=seed))
-    steps = np.linalg.norm(np.diff(walk.root_positions[:, [0, 2]], axis=0), axis=1)
-    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
-    walk = walk[: max(WINDOW, int(np.searchsorted(np.cumsum(steps), length)))]
-    upright = [np.insert(points, 1, 0.0, axis=-1) for points in (path, _spread(walk, path))]
-    return matching.align(*upright).motion(walk)
-
-
-def _spread(walk: Motion, path: Array) -> Array:
-    """Give as many places of a walk as a path has points, evenly spread over its frames."""
-    frames = np.linspace(0, len(walk) - 1, len(path)).round().astype(int)
-    places: Array = walk.root_positions[frames][:, [0, 2]]
-    return places
 
 
 def draw_seam() -> Figure:

@@ -125,7 +125,7 @@ def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None)
     asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")
     walked = path_from_above(motion, ax=ax)
     walked[0].set_label("walked")
-    ax.legend(frameon=False)
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
     return [*asked, *walked[:2]]
 
 

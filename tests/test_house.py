@@ -37,9 +37,10 @@ LAYERS = [
     {"motion_graph", "thresholds", "widgets"},
     {"graph_drawing", "graph_files", "merging", "walks"},
     {"compiling", "plotting", "synthesis"},
-    {"control", "demo", "dumping", "gallery", "layered_search"},
-    {"follow", "show_commands"},
-    {"crowd", "keyframes", "paper_search", "walk_command"},
+    {"control", "demo", "dumping", "layered_search"},
+    {"follow"},
+    {"crowd", "gallery", "keyframes", "paper_search", "walk_command"},
+    {"show_commands"},
     {"__init__", "__main__"},
 ]
 
