@@ -9,9 +9,11 @@ Reading order
 What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
 `acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about:
 `point_clouds`, `cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`,
-`motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`, `synthesis`. Seams and
-feet: `joining`, `quality`, `legs`, `plants`, `leg_posing`, `footskate`; what once went wrong:
-`homework_slips`. What one sees: `stage`, `plotting`, `player`, `widgets`, `demo`.
+`motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`. Out of the graph:
+`walks`, `synthesis`, `dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`,
+`paper_search`, `keyframes`, `crowd`, `control`. Seams and feet: `joining`, `quality`, `legs`, `plants`,
+`leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `stage`, `plotting`,
+`player`, `widgets`, `demo`.
 
 References
 ----------

@@ -12,6 +12,7 @@ from mocap.commands import add_convert, add_data, add_info
 from mocap.errors import MocapError, MocapWarning
 from mocap.progress import bar
 from mocap.show_commands import add_figures, add_view
+from mocap.walk_command import add_walk
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -19,6 +20,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add_demo(commands)
     _add_graph(commands)
+    add_walk(commands)
     add_info(commands)
     add_convert(commands)
     add_data(commands)

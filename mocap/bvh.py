@@ -8,6 +8,7 @@ a centimetre unless told otherwise. `bvh_hierarchy` tells how joints are named.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap import rotations
-from mocap.atomic import LARGEST, check_room, read_text, rounded, to_numbers, write_text
+from mocap.atomic import LARGEST, check_room, read_text, replacing, rounded, to_numbers
 from mocap.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.errors import FormatError, MocapError
 from mocap.motion import Motion, turning
@@ -189,14 +190,53 @@ def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: i
     ------
     MocapError : for a name or frame rate that a BVH file cannot hold, or a folder one cannot write to.
     """
+    write_pieces([motion], path, frames=len(motion), turns=turning(motion), printing=(scale, precision))
+
+
+def write_pieces(
+    pieces: Iterable[Motion],
+    path: str | Path,
+    *,
+    frames: int,
+    turns: NDArray[np.bool_],
+    printing: tuple[float, int] = (0.01, 6),
+) -> None:
+    """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
+
+    Parameters
+    ----------
+    pieces : motions of one skeleton and rate, with `frames` frames together.
+    path : the file; it appears once it is whole.
+    frames : what the file's header promises.
+    turns : shape (J,), which joints ever turn, as by `motion.turning`.
+    printing : the scale, and the digits after the point, as for `write`.
+    """
+    scale, precision = printing
+    before: Array | None = None
+    with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="\n") as file:
+        for motion in pieces:
+            if before is None:
+                header, order = _header(motion, frames, turns, printing)
+                file.write(header)
+            angles = rotations.to_euler("ZXY", motion.rotations[:, order])
+            if before is not None:  # go on from the angles of the frame before
+                angles = np.concatenate([before, angles])
+            angles = rotations.continuous("ZXY", angles)[-len(motion) :]
+            before = angles[-1:]
+            values = np.hstack([motion.root_positions / scale, np.degrees(angles).reshape(len(motion), -1)])
+            values = rounded(values, precision, motion.name)
+            row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
+            file.write((row * len(values)) % tuple(values.ravel().tolist()))
+
+
+def _header(
+    motion: Motion, frames: int, turns: NDArray[np.bool_], printing: tuple[float, int]
+) -> tuple[str, list[int]]:
+    """Write all that comes before the frames, and tell in which order their joints stand."""
     seconds = 1 / motion.fps
     if not SHORTEST <= seconds <= LONGEST:
         raise MocapError(f"'{motion.name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
+    scale, precision = printing
     offsets = np.round(motion.skeleton.offsets / scale, precision) + 0.0  # no -0.000000
-    header, order = write_hierarchy(motion.skeleton, offsets, turning(motion), precision)
-    angles = np.degrees(rotations.continuous("ZXY", rotations.to_euler("ZXY", motion.rotations[:, order])))
-    values = np.hstack([motion.root_positions / scale, angles.reshape(len(motion), -1)])
-    values = rounded(values, precision, motion.name)
-    row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
-    frames = (row * len(values)) % tuple(values.ravel().tolist())
-    write_text(path, f"{header}MOTION\nFrames: {len(values)}\nFrame Time: {seconds!r}\n{frames}")
+    hierarchy, order = write_hierarchy(motion.skeleton, offsets, turns, precision)
+    return f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n", order

@@ -1,22 +1,23 @@
-"""Out of the graph: walks, and the motions they stand for.
+"""Out of the graph: random walks, and the motions that walks stand for."""
 
-A walk is a list of edges (start node, end node, key), each starting where the one before ends.
-"""
-
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mocap.blending import blend, cubic_weights
+from mocap import rotations
 from mocap.errors import MocapError, NoWalk
-from mocap.motion import Motion, concatenate
+from mocap.footskate import clean_up
+from mocap.motion import Motion
 from mocap.motion_graph import MotionGraph, Node
-from mocap.transforms import IDENTITY
+from mocap.plants import mark_plants
+from mocap.transforms import IDENTITY, PlanarTransform
+from mocap.walks import Edge, EdgeTable, FrameTable, edge_table, frame_table, require_node, require_walk
 
-Edge = tuple[Node, Node, int]
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 
 class Seam(NamedTuple):
@@ -59,14 +60,26 @@ def random_walk(
     """
     if not (np.isfinite(seconds) and seconds > 0):
         raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
+    walk: list[Edge] = []
+    frames = 0
+    for edge in wander(motion_graph, seed=seed, settle=settle, start=start):
+        walk.append(edge)
+        frames += motion_graph.graph.edges[edge]["frames"]
+        if frames >= seconds * motion_graph.clips[0].fps:
+            break
+    return walk
+
+
+def wander(
+    motion_graph: MotionGraph, *, seed: int = 0, settle: float = 1.0, start: Node | None = None
+) -> Iterator[Edge]:
+    """Give the edges of a random walk one by one, for ever; see `random_walk`."""
     graph, fps = motion_graph.graph, motion_graph.clips[0].fps
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))] if start is None else start
-    if node not in graph:
-        raise NoWalk(f"The graph has no node {node}.")
-    walk: list[Edge] = []
+    require_node(motion_graph, node)
     frames, since = 0, 0
-    while frames < seconds * fps:
+    while True:
         edges = list(graph.out_edges(node, keys=True, data=True))
         onward = [edge for edge in edges if edge[3]["kind"] == "clip"]
         leaving = [edge for edge in edges if edge[3]["kind"] == "transition"]
@@ -74,28 +87,39 @@ def random_walk(
         if not choices:
             raise NoWalk(f"The walk ends at node {node} after {frames / fps:.1f} s: prune the graph first.")
         odds = np.array([1 / (edge[3].get("cost", 0.0) + 1e-3) for edge in choices])
-        *edge, data = choices[random.choice(len(choices), p=odds / odds.sum())]
-        walk.append((edge[0], edge[1], edge[2]))
-        node, frames = edge[1], frames + data["frames"]
+        start_, node, key, data = choices[random.choice(len(choices), p=odds / odds.sum())]
+        yield start_, node, key
+        frames += data["frames"]
         since = since + data["frames"] if data["kind"] == "clip" else 0
-    return walk
 
 
-def to_motion(motion_graph: MotionGraph, walk: Sequence[Edge], *, name: str = "walk") -> Motion:
+def to_motion(
+    motion_graph: MotionGraph,
+    walk: Sequence[Edge],
+    *,
+    name: str = "walk",
+    place: PlanarTransform = IDENTITY,
+    clean: bool = False,
+) -> Motion:
     """Play a walk: stretches of clip as they are, transitions blended, each placed where the last one led.
 
-    Every frame is moved by the product of the transforms of the transitions passed so far [KGP02, 4.1].
-    A walk that passes none repeats its clip bit for bit.
+    Every frame is moved by the product of the transforms of the transitions passed so far [KGP02, 4.1]. All
+    frames are gathered, placed and blended at once, so the time is linear in the walk's length. A walk that
+    passes no transition repeats its clip bit for bit.
 
     Parameters
     ----------
     motion_graph : the graph.
     walk : edges, each starting where the one before ends.
     name : the new motion's name.
+    place : moves the whole motion; by default it starts where its first clip is.
+    clean : whether to make planted feet stand still, by `footskate.clean_up`; where no clip tells when its
+        feet stand, that is found out first.
 
     Returns
     -------
-    As many frames as the edges have together; it starts where its first clip is.
+    As many frames as the edges have together; labels and contacts are those of the clips, in a transition
+    those of the clip with the larger weight.
 
     Raises
     ------
@@ -103,32 +127,62 @@ def to_motion(motion_graph: MotionGraph, walk: Sequence[Edge], *, name: str = "w
 
     Notebook: 00-quickstart
     """
-    _require_walk(motion_graph, walk)
-    window = motion_graph.window
-    place, pieces = IDENTITY, []
-    for start, end, key in walk:
-        edge = motion_graph.graph.edges[start, end, key]
-        source, target = motion_graph.clips[start[0]], motion_graph.clips[end[0]]
-        if edge["kind"] == "clip":
-            piece = source[start[1] : end[1]]
-            pieces.append(piece if place is IDENTITY else place.motion(piece))
-        else:
-            leaving = source[start[1] : start[1] + window]
-            entering = edge["transform"].motion(target[end[1] - window : end[1]])
-            pieces.append(place.motion(blend(leaving, entering, cubic_weights(window))))
-            place = place.after(edge["transform"])
-    return replace(concatenate(pieces), name=name)
+    require_walk(motion_graph, walk)
+    if clean and not any(clip.contacts for clip in motion_graph.clips):
+        motion_graph = replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
+    edges = edge_table(motion_graph, walk)
+    table = frame_table(edges, motion_graph.window)
+    before = places(edges, place)
+    roots, turns = _placed(motion_graph, table.here, before, table.edge)
+    mixed = edges.blended[table.edge]
+    # The clip that a transition enters stays, from its blend on, where the transition put it.
+    there, turned = _placed(motion_graph, table.there[mixed], before, table.edge[mixed] + 1)
+    alpha = table.alpha[mixed, None]
+    roots[mixed] = alpha * roots[mixed] + (1 - alpha) * there
+    turns[mixed] = rotations.slerp(turned, turns[mixed], alpha)
+    labels, contacts = (_marks(motion_graph, table, kind) for kind in ("labels", "contacts"))
+    clip = motion_graph.clips[0]
+    motion = Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
+    return clean_up(motion) if clean else motion
 
 
-def _require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
-    if not walk:
-        raise NoWalk("The walk has no edges.")
-    for edge in walk:
-        if not motion_graph.graph.has_edge(*edge):
-            raise NoWalk(f"The graph has no edge {edge}.")
-    for (_, end, _), (start, _, _) in pairwise(walk):
-        if end != start:
-            raise NoWalk(f"The walk jumps from node {end} to node {start}.")
+def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransform:
+    """Multiply up the transforms along a walk of n edges: n + 1 places, the last where it ends.
+
+    Angles add up, and so do the steps t_i, each turned by the angles before it: with a ground point as the
+    complex number z + ix, a turn by θ is a product with exp(iθ), and both are running sums.
+    """
+    angle = np.cumsum(np.concatenate([[place.angle], np.asarray(edges.transform.angle)]))
+    steps = (edges.transform.z + 1j * np.asarray(edges.transform.x)) * np.exp(1j * angle[:-1])
+    moved = np.cumsum([place.z + 1j * place.x, *steps])
+    return PlanarTransform(angle, moved.imag, moved.real)
+
+
+def _placed(
+    motion_graph: MotionGraph, frames: Indices, places: PlanarTransform, chosen: Indices
+) -> tuple[Array, Array]:
+    """Gather frames (F, 2) and move each by one of the places: root positions and rotations."""
+    joints = len(motion_graph.clips[0].skeleton)
+    roots, turns = np.empty((len(frames), 3)), np.empty((len(frames), joints, 4))
+    for clip in np.unique(frames[:, 0]):
+        of_clip = frames[:, 0] == clip
+        roots[of_clip] = motion_graph.clips[clip].root_positions[frames[of_clip, 1]]
+        turns[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
+    place = PlanarTransform(*(np.asarray(numbers)[chosen] for numbers in places))
+    turned = place.angle != 0  # what is not turned keeps its last digits
+    turns[turned, 0] = rotations.multiply(rotations.about_y(place.angle)[turned], turns[turned, 0])
+    return place.points(roots), turns
+
+
+def _marks(motion_graph: MotionGraph, table: FrameTable, kind: str) -> dict[str, NDArray[np.bool_]]:
+    """Carry the labels or contacts over, of the frame with the larger weight."""
+    owner = np.where(table.alpha[:, None] >= 0.5, table.here, table.there)
+    marks: dict[str, NDArray[np.bool_]] = {}
+    for clip in np.unique(owner[:, 0]):
+        of_clip = owner[:, 0] == clip
+        for name, mark in getattr(motion_graph.clips[clip], kind).items():
+            marks.setdefault(name, np.zeros(len(owner), bool))[of_clip] = mark[owner[of_clip, 1]]
+    return marks
 
 
 def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
@@ -136,13 +190,9 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
 
     Notebook: 00-quickstart
     """
-    found, frame = [], 0
-    for edge in walk:
-        data = motion_graph.graph.edges[edge]
-        if data["kind"] == "transition":
-            found.append(Seam(frame, data["cost"]))
-        frame += data["frames"]
-    return found
+    edges = edge_table(motion_graph, walk)
+    first = np.cumsum(edges.frames) - edges.frames
+    return [Seam(int(first[i]), float(edges.cost[i])) for i in np.flatnonzero(edges.blended)]
 
 
 def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:

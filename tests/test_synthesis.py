@@ -1,5 +1,7 @@
 """A walk's frames are the clips' own, and its seams are as smooth as the blend promises."""
 
+from dataclasses import replace
+from decimal import Decimal, localcontext
 from itertools import pairwise
 
 import networkx as nx
@@ -13,11 +15,14 @@ from mocap.blending import blend, cubic_weights
 from mocap.errors import MocapError, NoWalk
 from mocap.kinematics import joint_positions
 from mocap.matching import distance_grid
+from mocap.motion import concatenate
 from mocap.motion_graph import build, from_transitions, prune
-from mocap.synthesis import random_walk, seams, to_motion
-from mocap.transforms import PlanarTransform, heading
+from mocap.synthesis import places, random_walk, seams, to_motion, wander
+from mocap.transforms import IDENTITY, PlanarTransform, heading
 from mocap.transitions import Transition
-from tests.strategies import seeds, wave
+from mocap.walks import edge_table
+from tests.graphs import bundled
+from tests.strategies import planar, seeds, wave
 
 CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
 WINDOW = 8
@@ -140,3 +145,71 @@ def test_a_graph_that_was_not_pruned_ends_the_walk():
     whole = from_transitions(CLIPS, [], window=WINDOW)
     with pytest.raises(NoWalk, match=r"ends at node \(0, 120\) after 4.0 s: prune"):
         random_walk(whole, seconds=60, start=(0, 0))
+
+
+def one_by_one(graph, walk, place=IDENTITY):
+    """Play a walk edge by edge, as the definition says: the slow way."""
+    pieces = []
+    for start, end, key in walk:
+        edge = graph.graph.edges[start, end, key]
+        leaving = graph.clips[start[0]][start[1] : start[1] + edge["frames"]]
+        if edge["kind"] == "transition":
+            entering = edge["transform"].motion(graph.clips[end[0]][end[1] - graph.window : end[1]])
+            pieces.append(place.motion(blend(leaving, entering, cubic_weights(graph.window))))
+            place = place.after(edge["transform"])
+        else:
+            pieces.append(place.motion(leaving))
+    return concatenate(pieces)
+
+
+@settings(max_examples=20)
+@given(seeds, planar)
+def test_all_at_once_is_what_edge_by_edge_is(seed, place):
+    walk = random_walk(GRAPH, seconds=8, seed=seed, settle=0.0)
+    motion, expected = to_motion(GRAPH, walk, place=place), one_by_one(GRAPH, walk, place)
+    assert motion.root_positions == pytest.approx(expected.root_positions, abs=1e-9)
+    assert rotations.angle_between(motion.rotations, expected.rotations).max() < 1e-7
+    for joint, mark in expected.contacts.items():
+        assert np.array_equal(motion.contacts[joint], mark)
+
+
+def test_ten_thousand_edges_do_not_drift():
+    """Against places multiplied up one by one in 50 digits."""
+    walk = [edge for edge, _ in zip(wander(GRAPH, settle=0.0), range(10_000), strict=False)]
+    place = places(edge_table(GRAPH, walk))
+    with localcontext(prec=50):
+        x = z = angle = Decimal(0)
+        for edge in walk:
+            step = GRAPH.graph.edges[edge].get("transform", IDENTITY)
+            cos, sin = (Decimal(f(float(angle))) for f in (np.cos, np.sin))
+            x, z = (
+                x + Decimal(step.x) * cos + Decimal(step.z) * sin,
+                z + Decimal(step.z) * cos - Decimal(step.x) * sin,
+            )
+            angle += Decimal(step.angle)
+    assert place.angle[-1] == pytest.approx(float(angle), abs=1e-9)
+    assert [place.x[-1], place.z[-1]] == pytest.approx([float(x), float(z)], abs=1e-7)
+
+
+def test_labels_come_from_the_clip_with_the_larger_weight():
+    here, there = (replace(clip, labels={name: True}) for clip, name in zip(CLIPS, "ab", strict=True))
+    whole = from_transitions([here, there], [Transition(0, 40, 1, 10, 0.1, IDENTITY)], window=WINDOW)
+    motion = to_motion(whole, [((0, 0), (0, 40), 0), ((0, 40), (1, 18), 0), ((1, 18), (1, 90), 0)])
+    expected = np.arange(len(motion)) < 40 + WINDOW // 2
+    assert np.array_equal(motion.labels["a"], expected)
+    assert np.array_equal(motion.labels["b"], ~expected)
+
+
+def test_cleaned_feet_stand_still():
+    graph = bundled("walk_circle")
+    walk = random_walk(graph, seconds=20, seed=2, settle=0.3)
+    plain, clean = (to_motion(graph, walk, clean=c) for c in (False, True))
+
+    def slide(motion):
+        """Return how far the ball of the left foot moves at most in a frame in which it stands."""
+        joint = next(name for name in clean.contacts if "oe" in name or "ball" in name.lower())
+        marks = clean.contacts[joint]
+        at = joint_positions(motion)[:, motion.skeleton.index(joint)]
+        return np.linalg.norm(np.diff(at, axis=0), axis=-1)[marks[1:] & marks[:-1]].max()
+
+    assert slide(clean) < 1e-3 < slide(plain)

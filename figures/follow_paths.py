@@ -1,0 +1,178 @@
+"""Walk along paths and tell how well it went: `python figures/follow_paths.py [FOLDER OF CMU SUBJECT 16]`.
+
+Writes `following.md`, a table, and the pictures `following.png` and `trade_off.png` beside this file. Times
+are CPU seconds, the least of three runs, as shares of the motion's duration.
+"""
+
+import sys
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+
+import mocap
+from mocap import datasets, motion_graph
+from mocap.compiling import CompiledGraph, compile_graph
+from mocap.control import measure_delay
+from mocap.crowd import clearance, walk_crowd
+from mocap.follow import Followed, Wishes, follow_path
+from mocap.layered_search import Beam
+from mocap.paper_search import follow_as_2002
+from mocap.paths import SHAPES, GroundPath, s_curve
+from mocap.routes import Prices
+from mocap.search import Budget
+
+FOLDER = Path(__file__).parent
+OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
+CMU = (*range(11, 35), 47, 58)
+BLACK, YELLOW = "#000000", "#E69F00"
+
+
+def graphs() -> dict[str, CompiledGraph]:
+    """Build the graphs of the bundled clips and, where their folder is given, of CMU's."""
+    clips = {"bundled clips": [datasets.sample(name) for name in OWN]}
+    if len(sys.argv) > 1:
+        clips["CMU 16, walks"] = [mocap.load(Path(sys.argv[1], f"16_{trial:02}.amc")) for trial in CMU]
+    return {name: compile_graph(_graph(found)) for name, found in clips.items()}
+
+
+def _graph(clips: list[mocap.Motion]) -> motion_graph.MotionGraph:
+    clips = [mocap.resample(clip, 30) for clip in clips]
+    return motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04))
+
+
+def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]:
+    """Do it some times; give the result and the least CPU time."""
+    times = []
+    for _ in range(runs):
+        start = time.process_time()
+        found = work()
+        times.append(time.process_time() - start)
+    return found, min(times)
+
+
+def row(name: str, followed: Followed, seconds: float) -> str:
+    """Write a row of the table."""
+    off = 100 * followed.off
+    return (
+        f"| {name} | {followed.path.length:.1f} | {followed.seconds:.1f} | {off.mean():.1f} "
+        f"| {off.max():.1f} | {followed.seams_a_second:.2f} | 1/{followed.seconds / seconds:.0f} |"
+    )
+
+
+HEAD = [
+    "| path | m | s | mean off, cm | worst, cm | seams/s | time |",
+    "|---|---|---|---|---|---|---|",
+]
+
+
+def table_of_shapes(name: str, graph: CompiledGraph, axes: list[Axes]) -> list[str]:
+    """Follow every shape, and draw it: the path asked for in black, the walked one in yellow."""
+    lines = [f"## {name}", "", *HEAD]
+    for (shape, draw), ax in zip(SHAPES.items(), axes, strict=True):
+        followed, seconds = timed(lambda draw=draw: follow_path(graph, draw()))
+        lines.append(row(shape, followed, seconds))
+        ax.plot(*followed.path.points.T, color=BLACK, linewidth=3)
+        ax.plot(*followed.track.T, color=YELLOW, linewidth=1.5)
+        ax.plot(*followed.track[0], "o", color=YELLOW, markersize=6)
+        ax.set(aspect="equal", title=shape)
+        ax.invert_xaxis()
+        ax.set_axis_off()
+    for length in (5.0, 20.0, 80.0):
+        followed, seconds = timed(lambda length=length: follow_path(graph, s_curve(length)), 1)
+        lines.append(row(f"S-curve of {length:.0f} m", followed, seconds))
+    return [*lines, ""]
+
+
+def against_the_paper(graph: CompiledGraph) -> list[str]:
+    """Follow the S-curve by the paper's search, with more and more walks tried, and by ours."""
+    best, seconds = timed(lambda: follow_path(graph, s_curve()))
+    lines = [*HEAD, row("layers, K = 100", best, seconds)]
+    for width in (10, 30, 300):
+        found, took = timed(lambda width=width: follow_path(graph, s_curve(), beam=Beam(width=width)), 1)
+        lines.append(row(f"layers, K = {width}", found, took))
+    start = Wishes(start=best.walk[0][0])
+    for nodes in (300, 1000, 3000):
+        budget = Budget(nodes=nodes)
+        found, took = timed(lambda budget=budget: follow_as_2002(graph, s_curve(), start, budget=budget), 1)
+        name = f"branch and bound, {found.found.expanded} expanded, {found.found.cut} cut"
+        lines.append(row(name, found, took))
+    return [*lines, ""]
+
+
+def trade_off(found: dict[str, CompiledGraph]) -> list[str]:
+    """Draw how far off the path walks are with fewer and fewer seams; tell it, too."""
+    figure, ax = plt.subplots(figsize=(5, 3.6), layout="constrained")
+    lines = ["| price of a seam, m² | " + " | ".join(f"{name}: seams/s, cm" for name in found) + " |"]
+    lines.append("|---" * (len(found) + 1) + "|")
+    prices = (0.01, 0.03, 0.1, 0.3, 1.0, 3.0)
+    points = {name: [_mean(graph, price) for price in prices] for name, graph in found.items()}
+    for name, curve in points.items():
+        ax.plot(*np.transpose(curve), "o-", label=name)
+    for place, price in enumerate(prices):
+        cells = [f"{curve[place][0]:.2f}, {curve[place][1]:.1f}" for curve in points.values()]
+        lines.append(f"| {price} | " + " | ".join(cells) + " |")
+    ax.set(xlabel="seams a second", ylabel="mean distance from the path (cm)", xlim=(0, None), ylim=(0, None))
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.legend(frameon=False)
+    figure.savefig(FOLDER / "trade_off.png", dpi=110)
+    return [*lines, ""]
+
+
+def _mean(graph: CompiledGraph, price: float) -> tuple[float, float]:
+    """Average seams a second and centimetres off over the shapes."""
+    beam = Beam(rescue=max(0.6, 2 * price))
+    walks = [follow_path(graph, draw(), beam=beam, prices=Prices(seam=price)) for draw in SHAPES.values()]
+    off = [walk.off.mean() for walk in walks]
+    return float(np.mean([w.seams_a_second for w in walks])), 100 * float(np.mean(off))
+
+
+def others(name: str, graph: CompiledGraph) -> str:
+    """Measure control and a crowd."""
+    delay = measure_delay(graph)
+    paths = [GroundPath(ends) for ends in ([[0, 0], [0, 8]], [[4, 4], [-4, 4]], [[0.2, 8], [0.2, 0]])]
+    alone = [follow_path(graph, path) for path in paths]
+    crowd = walk_crowd(graph, paths)
+    return (
+        f"| {name} | {delay.mean:.1f} s, {delay.slowest:.1f} s | {delay.step:.2f} ms, {delay.worst:.1f} ms "
+        f"| {clearance(alone):.2f} m | {clearance(crowd):.2f} m |"
+    )
+
+
+def main() -> None:
+    """Measure, draw, write."""
+    warnings.simplefilter("ignore", mocap.MocapWarning)
+    found = graphs()
+    figure, axes = plt.subplots(
+        len(found), len(SHAPES), figsize=(12, 3 * len(found)), squeeze=False, layout="constrained"
+    )
+    lines = ["# How well walks keep to their paths", ""]
+    lines += [
+        "Written by `python figures/follow_paths.py`; times are CPU seconds to the motion's duration.",
+        "",
+    ]
+    for (name, graph), ax in zip(found.items(), axes, strict=True):
+        lines += table_of_shapes(name, graph, list(ax))
+    figure.savefig(FOLDER / "following.png", dpi=100)
+    name, graph = list(found.items())[-1]
+    lines += [f"## Against the paper's search ({name}, S-curve)", "", *against_the_paper(graph)]
+    lines += ["## Seams against distance, the mean of the five shapes", "", *trade_off(found)]
+    lines += ["## Control and crowds", ""]
+    lines += [
+        "| clips | obeys after: mean, 95 % | a step: mean, worst | three paths cross: nearest | kept apart |"
+    ]
+    lines += ["|---|---|---|---|---|", *(others(*item) for item in found.items()), ""]
+    Path(FOLDER / "following.md").write_text("\n".join(lines), encoding="utf-8")
+    print("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

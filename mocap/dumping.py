@@ -1,0 +1,94 @@
+"""Motion dumping: random walks as long as one likes, written as they are made [KGP02, 5.3]."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from mocap import bvh
+from mocap.errors import MocapError
+from mocap.motion import Motion, turning
+from mocap.motion_graph import MotionGraph
+from mocap.progress import Progress
+from mocap.synthesis import places, to_motion, wander
+from mocap.transforms import IDENTITY, PlanarTransform
+from mocap.walks import Edge, edge_table
+
+
+def stream(
+    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0
+) -> Iterator[Motion]:
+    """Play a random walk piece by piece, so that memory holds one piece only.
+
+    Parameters
+    ----------
+    motion_graph : pruned, so that the walk never ends.
+    seconds : how long all pieces together shall be at least.
+    seed : the walk is that of `synthesis.random_walk` with this seed.
+    piece : seconds of a piece, at least.
+
+    Yields
+    ------
+    Motions, each going on where the one before ends; together they are that walk, frame for frame.
+
+    Examples
+    --------
+    >>> from mocap import datasets, motion, motion_graph
+    >>> clips = [motion.resample(datasets.sample(), 30)]
+    >>> graph = motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04))
+    >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
+    True
+    """
+    place = IDENTITY
+    for walk in _pieces(motion_graph, seconds, seed, piece):
+        yield to_motion(motion_graph, walk, place=place)
+        ends = places(edge_table(motion_graph, walk), place)
+        place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
+
+
+def dump(
+    motion_graph: MotionGraph, path: str | Path, *, seconds: float, seed: int = 0, progress: Progress = iter
+) -> int:
+    """Write a random walk as a `.bvh` file while it is made; an hour takes no more memory than a minute.
+
+    Parameters
+    ----------
+    motion_graph, seconds, seed : as for `stream`.
+    path : the file; it appears once it is whole.
+    progress : wraps the pieces, to show a bar.
+
+    Returns
+    -------
+    The number of frames written.
+
+    Raises
+    ------
+    MocapError : for another format, a folder that one cannot write to, or a duration that is none.
+    """
+    if Path(path).suffix.lower() != ".bvh":
+        raise MocapError(f"A long walk is written as .bvh, got '{path}'.")
+    # The same seed gives the same walk: count its frames first, for they stand at the file's top.
+    edges = motion_graph.graph.edges
+    counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
+    pieces = stream(motion_graph, seconds=seconds, seed=seed)
+    turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
+    bvh.write_pieces((next(pieces) for _ in progress(counts)), path, frames=sum(counts), turns=turns)
+    return sum(counts)
+
+
+def _pieces(motion_graph: MotionGraph, seconds: float, seed: int, piece: float) -> Iterator[list[Edge]]:
+    """Cut a random walk into pieces."""
+    for name, value in (("walk", seconds), ("piece", piece)):
+        if not (np.isfinite(value) and value > 0):
+            raise MocapError(f"A {name} must last longer than 0 s, got {value} s.")
+    fps, done, frames = motion_graph.clips[0].fps, 0, 0
+    walk: list[Edge] = []
+    for edge in wander(motion_graph, seed=seed):
+        walk.append(edge)
+        frames += motion_graph.graph.edges[edge]["frames"]
+        over = done + frames >= seconds * fps
+        if over or frames >= piece * fps:
+            yield walk
+            walk, done, frames = [], done + frames, 0
+        if over:
+            return

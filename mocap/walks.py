@@ -1,0 +1,107 @@
+"""A walk through a motion graph, as a list of edges and as arrays: what each of its frames is made of.
+
+An edge is (start node, end node, key). A walk is a list of edges, each starting where the one before ends,
+and its frames are those of its edges in order. Every frame is one frame of a clip, or a blend of two.
+"""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap.blending import cubic_weights
+from mocap.errors import NoWalk
+from mocap.motion_graph import MotionGraph, Node
+from mocap.transforms import IDENTITY, PlanarTransform
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Edge = tuple[Node, Node, int]
+
+
+class EdgeTable(NamedTuple):
+    """Edges as arrays of one length: a stretch of clip has cost 0 and the identity as its `transform`."""
+
+    leaves: Indices  # (E, 2): clip and frame
+    enters: Indices  # (E, 2)
+    frames: Indices
+    blended: NDArray[np.bool_]  # whether it is a transition
+    cost: Array
+    transform: PlanarTransform  # of arrays: lays the clip it enters on the one it leaves
+
+
+class FrameTable(NamedTuple):
+    """What the frames of some edges are made of: `alpha` times frame `here`, the rest of frame `there`."""
+
+    edge: Indices  # (F,): which of the edges a frame belongs to
+    here: Indices  # (F, 2): clip and frame
+    there: Indices  # (F, 2): the same as here on a stretch of clip
+    alpha: Array  # (F,)
+
+
+def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
+    """Raise `NoWalk` for an empty walk, an edge that the graph lacks, or one that starts elsewhere."""
+    if not walk:
+        raise NoWalk("The walk has no edges.")
+    for edge in walk:
+        if not motion_graph.graph.has_edge(*edge):
+            raise NoWalk(f"The graph has no edge {edge}.")
+    for (_, end, _), (start, _, _) in pairwise(walk):
+        if end != start:
+            raise NoWalk(f"The walk jumps from node {end} to node {start}.")
+
+
+def require_node(motion_graph: MotionGraph, node: Node) -> None:
+    """Raise `NoWalk` for a node that the graph lacks."""
+    if node not in motion_graph.graph:
+        clip, frame = node
+        near = min(
+            (n for n in motion_graph.graph if n[0] == clip), key=lambda n: abs(n[1] - frame), default=None
+        )
+        help_ = f"; the nearest is {near}" if near else ", and none in that clip"
+        raise NoWalk(f"The graph has no node {node}{help_}.")
+
+
+def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
+    """Gather what the graph knows of some edges."""
+    data = [motion_graph.graph.edges[edge] for edge in edges]
+    transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)
+    return EdgeTable(
+        np.array([start for start, _, _ in edges], np.intp).reshape(-1, 2),
+        np.array([end for _, end, _ in edges], np.intp).reshape(-1, 2),
+        np.array([edge["frames"] for edge in data], np.intp),
+        np.array([edge["kind"] == "transition" for edge in data], bool),
+        np.array([edge.get("cost", 0.0) for edge in data], float),
+        PlanarTransform(*transforms.T),
+    )
+
+
+def frame_table(edges: EdgeTable, window: int) -> FrameTable:
+    """Tell what every frame of some edges is made of [KGP02, Eqs. 5-7].
+
+    Two blends never share a frame: a transition enters its clip at the frame after its window, and the next
+    one leaves from there at the earliest.
+    """
+    edge = np.repeat(np.arange(len(edges.frames)), edges.frames)
+    step = ranges(np.zeros_like(edges.frames), edges.frames)  # frames since the edge's first
+    here, there = edges.leaves[edge], edges.enters[edge]
+    here[:, 1] += step
+    there[:, 1] += step - edges.frames[edge]
+    alpha = np.ones(len(edge))
+    blended = edges.blended[edge]
+    alpha[blended] = cubic_weights(window)[step[blended]]
+    return FrameTable(edge, here, there, alpha)
+
+
+def ranges(first: Indices, counts: Indices) -> Indices:
+    """Count up from each of some numbers, so many steps each, in one row.
+
+    Examples
+    --------
+    >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
+    [5, 6, 0, 1, 2]
+    """
+    before = np.cumsum(counts) - counts
+    return np.asarray(np.arange(counts.sum()) + np.repeat(first - before, counts))

@@ -1,0 +1,70 @@
+"""Long walks, written as they are made, are the walks they would be at once."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from mocap import files
+from mocap.dumping import dump, stream
+from mocap.errors import MocapError
+from mocap.motion import concatenate
+from mocap.motion_graph import build, prune
+from mocap.synthesis import random_walk, to_motion
+from tests.strategies import wave
+
+CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
+GRAPH = prune(build(CLIPS, window=8, threshold=0.05))
+
+
+def test_the_pieces_are_the_whole():
+    whole = to_motion(GRAPH, random_walk(GRAPH, seconds=60, seed=5))
+    pieces = list(stream(GRAPH, seconds=60, seed=5, piece=7))
+    assert len(pieces) > 6
+    joined = concatenate(pieces)
+    assert joined.root_positions == pytest.approx(whole.root_positions, abs=1e-9)
+    assert np.abs((joined.rotations * whole.rotations).sum(-1)) == pytest.approx(np.ones((len(whole), 4)))
+    assert np.array_equal(joined.contacts["hand"], whole.contacts["hand"])
+
+
+def test_a_file_written_in_pieces_is_one_written_at_once(tmp_path):
+    frames = dump(GRAPH, tmp_path / "pieces.bvh", seconds=90, seed=5)
+    whole = to_motion(GRAPH, random_walk(GRAPH, seconds=90, seed=5))
+    files.save(whole, tmp_path / "whole.bvh")
+    pieces, once = (files.load(tmp_path / f"{name}.bvh") for name in ("pieces", "whole"))
+    assert frames == len(pieces) == len(once) >= 90 * 30
+    assert pieces.root_positions == pytest.approx(once.root_positions, abs=1e-6)
+    assert np.abs((pieces.rotations * once.rotations).sum(-1)).min() > 1 - 1e-9
+
+
+def test_memory_does_not_grow_with_the_walk(tmp_path):
+    peaks = []
+    for seconds in (120, 600):
+        tracemalloc.start()
+        dump(GRAPH, tmp_path / "long.bvh", seconds=seconds)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
+
+
+def test_an_interruption_leaves_nothing(tmp_path):
+    def interrupted(pieces):
+        yield pieces[0]
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        dump(GRAPH, tmp_path / "walk.bvh", seconds=120, progress=interrupted)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "seconds", "message"),
+    [
+        ("walk.amc", 10, "as .bvh"),
+        ("walk.bvh", 0, "longer than 0 s"),
+        ("walk.bvh", np.nan, "longer than 0 s"),
+    ],
+)
+def test_what_cannot_be_written_is_told(tmp_path, name, seconds, message):
+    with pytest.raises(MocapError, match=message):
+        dump(GRAPH, tmp_path / name, seconds=seconds)
