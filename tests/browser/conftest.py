@@ -4,6 +4,7 @@ Pictures of what was seen are kept in the folder that MOCAP_ARTEFACTS names, els
 """
 
 import contextlib
+import json
 import os
 import shutil
 import socket
@@ -28,6 +29,10 @@ LAB = [
     "--LabApp.extension_manager=readonly",
     "--LabApp.expose_app_in_browser=True",
 ]
+SETTINGS = {
+    "notebook-extension/tracker": {"windowingMode": "none"},  # cells out of sight are there as well
+    "apputils-extension/notification": {"fetchNews": "false"},
+}
 CHROMIUM = [
     "--no-sandbox",
     "--disable-gpu",
@@ -55,7 +60,7 @@ def artefacts(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # no longer: Playwright's event loop would be found running by other tests
 def browser():
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     if program is None:
@@ -96,13 +101,17 @@ def page(browser, artefacts, request):
     assert errors == []
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def lab(tmp_path_factory):
     """Start JupyterLab on a free port with folders of its own; yield its address, and the notebooks'."""
     pytest.importorskip("jupyterlab", reason="pip install 'mocap[notebooks]'")
     home = tmp_path_factory.mktemp("lab")
     notebooks = home / "notebooks"
     notebooks.mkdir()
+    for name, settings in SETTINGS.items():
+        file = home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(settings))
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
