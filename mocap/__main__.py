@@ -1,7 +1,6 @@
 """The command `mocap`, or `python -m mocap`."""
 
 import argparse
-import math
 import sys
 import warnings
 from collections.abc import Sequence
@@ -101,9 +100,7 @@ def _graph(options: argparse.Namespace) -> int:
         return _graph_info(options.clips[1:])
     graph_files.require_suffix(options.out, ".npz")
     graph_files.require_suffix(options.graphml or "x.graphml", ".graphml")
-    if not math.isfinite(options.window * options.fps):
-        raise MocapError(f"There is no window of {options.window} s at {options.fps} Hz.")
-    window = max(2, round(options.window * options.fps))
+    window = demo.window_frames(options.window, options.fps)
     clips = demo.load_all(
         options.clips, skeleton=options.skeleton, scale=options.scale, progress=partial(bar, what="reading")
     )

@@ -64,6 +64,20 @@ def _shortened(names: list[str], most: int = 7) -> str:
     return shown if len(names) <= most else f"{shown}, … {names[-1]}"
 
 
+def window_frames(seconds: float, fps: float) -> int:
+    """Count the frames of a window; it must last at least two.
+
+    Examples
+    --------
+    >>> window_frames(1 / 3, 30.0)
+    10
+    """
+    frames = seconds * fps
+    if not (np.isfinite(frames) and round(frames) >= 2):
+        raise MocapError(f"A window needs two frames or more, got {seconds:g} s at {fps:g} Hz.")
+    return round(frames)
+
+
 def run(clips: Sequence[Motion], settings: Settings, progress: Progress = iter) -> Result:
     """Build the graph of some clips, prune it, and walk through it at random.
 
@@ -72,7 +86,7 @@ def run(clips: Sequence[Motion], settings: Settings, progress: Progress = iter) 
     NoWalk : where the threshold leaves no cycle, naming the smallest one that does.
     MocapError : for clips that do not go together, or are shorter than the window.
     """
-    window = max(2, round(settings.window * settings.fps))
+    window = window_frames(settings.window, settings.fps)
     clips = [resample(clip, settings.fps) for clip in clips]
     whole = motion_graph.build(clips, window=window, threshold=settings.threshold, progress=progress)
     try:
