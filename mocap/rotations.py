@@ -2,7 +2,8 @@
 
 This module alone knows in which order a quaternion's numbers stand. All functions broadcast over
 leading axes, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b first.
-Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own.
+Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own. No frames
+at all are fine everywhere; older versions of SciPy have no empty rotations, so none reach it.
 """
 
 import warnings
@@ -167,6 +168,8 @@ def from_rotvec(vectors: ArrayLike) -> Array:
     array([0., 0., 0., 1.])
     """
     vectors = np.asarray(vectors, float)
+    if not vectors.size:
+        return np.empty((*vectors.shape[:-1], 4))
     return _quaternions(Rotation.from_rotvec(vectors.reshape(-1, 3)), vectors.shape[:-1])
 
 
@@ -179,6 +182,8 @@ def to_rotvec(quaternions: ArrayLike) -> Array:
     array([ 0. , -0.5,  0. ])
     """
     shape = np.shape(quaternions)[:-1]
+    if not np.size(quaternions):
+        return np.empty((*shape, 3))
     return np.asarray(_rotation(quaternions).as_rotvec(), float).reshape(*shape, 3)
 
 
@@ -203,6 +208,8 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
     array([ True,  True,  True,  True])
     """
     a, b = np.broadcast_arrays(np.asarray(first, float), np.asarray(second, float))
+    if not a.size:
+        return np.empty(a.shape)
     return _quaternions(_rotation(a) * _rotation(b), a.shape[:-1])
 
 

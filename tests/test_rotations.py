@@ -115,3 +115,13 @@ def test_between_is_the_shortest_turn_onto_a_direction(seed):
     assert rotations.rotate(turn, units[0]) == pytest.approx(units[1], abs=1e-9)
     angles = np.arccos(np.clip((units[0] * units[1]).sum(-1), -1, 1))
     assert rotations.angle_between(turn, rotations.IDENTITY) == pytest.approx(angles, abs=1e-6)
+
+
+def test_no_rotations_at_all_are_fine():
+    none, vectors = np.empty((0, 4)), np.empty((0, 3))
+    assert rotations.multiply(none, rotations.IDENTITY).shape == (0, 4)
+    assert rotations.slerp(none, none, np.empty(0)).shape == (0, 4)
+    assert rotations.to_rotvec(none).shape == (0, 3)
+    assert rotations.from_rotvec(vectors).shape == (0, 4)
+    assert rotations.rotate(none, vectors).shape == (0, 3)
+    assert rotations.angle_between(none, none).shape == (0,)
