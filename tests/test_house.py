@@ -17,7 +17,7 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
     {"errors", "progress", "rotations", "routes", "style"},
-    {"atomic", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton"},
+    {"atomic", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton", "stills"},
     {
         "acclaim_skeleton",
         "amc",
