@@ -32,7 +32,7 @@ LAYERS = [
     {"acclaim", "blending", "bvh", "kinematics", "pacing", "path_files", "transforms"},
     {"acclaim_writer", "homework_slips", "inspection", "leg_posing", "plants", "point_clouds", "synthetic"},
     {"cloud_grid", "files", "footprints", "footskate", "stage"},
-    {"cmu", "conversion", "matching", "minima", "player"},
+    {"cmu", "conversion", "matching", "minima", "player", "pointing"},
     {"animation", "commands", "datasets", "joining", "live", "quality", "segment_graph", "transitions"},
     {"motion_graph", "thresholds", "widgets"},
     {"graph_drawing", "graph_files", "merging", "walks"},
