@@ -4,9 +4,9 @@
 // (left, top) and how far it goes from row 0 and column 0 to the last ones.
 
 const STYLE = `
-.mocap-pointing { position: relative; display: inline-block; touch-action: none; cursor: crosshair; }
-.mocap-pointing:focus-visible { outline: 3px solid #0072B2; }
-.mocap-pointing img { display: block; max-width: 100%; }
+.mocap-pointing { position: relative; touch-action: none; cursor: crosshair; }
+.mocap-pointing:focus-visible { outline: 3px solid #0072B2; outline-offset: -3px; }
+.mocap-pointing img { display: block; width: 100%; }
 .mocap-pointing i { position: absolute; width: 14px; height: 14px; margin: -8px; border: 2px solid #fff; border-radius: 50%;
   box-shadow: 0 0 0 2px #222; pointer-events: none; }`;
 

@@ -118,12 +118,16 @@ class Experiment:
         self._canvas = BlittedFigure()
         self._seconds = 0.0
         self._waiting: asyncio.TimerHandle | None = None
-        self.picture = ipywidgets.Image(format="png")  # has no alt of its own: the sentence stands below
+        shrinking = {"flex": "1 1 320px", "max_width": "max-content"}  # before one goes below the other
+        self.picture = ipywidgets.Image(format="png", layout=shrinking)  # its alt is the sentence below
         self.message = ipywidgets.HTML(layout={"display": "none"})
         sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
         self._images = [control for control in controls.values() if isinstance(control, Pointed)]
+        for image in self._images:
+            image.layout = shrinking
         above = [control for control in controls.values() if control not in self._images]
-        below = ipywidgets.HBox([*self._images, self.picture, self.message], layout={"flex_flow": "row wrap"})
+        below = ipywidgets.HBox([*self._images, self.picture, self.message])
+        below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
         self.box = ipywidgets.VBox([*above, below, sentence], layout={"align_items": "flex-start"})
         self.refresh()
         if self.error:
