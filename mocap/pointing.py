@@ -65,6 +65,7 @@ class Pointed:
     box: list[float]
     shape: tuple[int, int]
     picture: str
+    layout: Any
 
     def tell(self, _: object = None) -> None:
         """Say where the ring is, and the number there."""
