@@ -30,7 +30,7 @@ from mocap.live import draw_path as draw_path
 from mocap.live import linked as linked
 from mocap.player import play as play
 from mocap.pointing import Pointed, pointer
-from mocap.stills import figure_of
+from mocap.stills import few_colours, figure_of
 from mocap.stills import show as show
 
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
@@ -188,14 +188,11 @@ class Experiment:
 
     def _still(self) -> bytes:
         """Give the picture, to the right of the images that it depends on."""
-        picture: bytes = self.picture.value
-        if not self._images:
-            return picture
-        stills = [image.still() for image in self._images] + [Image.open(io.BytesIO(picture))]
+        stills = [image.still() for image in self._images] + [Image.open(io.BytesIO(self.picture.value))]
         row = Image.new("RGB", (sum(s.width for s in stills), max(s.height for s in stills)), "white")
         for number, still in enumerate(stills):
             row.paste(still, (sum(s.width for s in stills[:number]), 0))
-        return encoded(row)
+        return few_colours(row)
 
 
 def _told(error: Exception) -> str:
@@ -237,11 +234,11 @@ class BlittedFigure:
             if hasattr(artist, "do_3d_projection"):
                 artist.do_3d_projection()
             artist.draw(self.canvas.get_renderer())
-        return encoded(Image.fromarray(np.asarray(self.canvas.buffer_rgba())))
+        return encoded(np.asarray(self.canvas.buffer_rgba()))
 
 
-def encoded(pixels: Image.Image) -> bytes:
-    """Encode pixels as a PNG: quickly rather than small."""
+def encoded(pixels: np.ndarray) -> bytes:
+    """Encode pixels, shape (height, width, 4), as a PNG: quickly rather than small."""
     stream = io.BytesIO()
-    pixels.convert("RGB").save(stream, "png", compress_level=1)
+    Image.fromarray(pixels).convert("RGB").save(stream, "png", compress_level=1)
     return stream.getvalue()

@@ -81,7 +81,8 @@ def test_the_output_is_one_bundle_with_both_pictures():
     assert data["text/plain"] == metadata["image/png"]["alt"] == "Two windows."
     both, alone = pixels(base64.b64decode(data["image/png"])), pixels(grid.picture.value)
     assert both.shape[1] > alone.shape[1] + 400
-    assert np.array_equal(both[: len(alone), -alone.shape[1] :], alone)
+    assert np.abs(both[: len(alone), -alone.shape[1] :] - alone).max() < 16  # in few colours
+    assert len(data["image/png"]) < 90_000
 
 
 @pytest.mark.parametrize("origin", ["upper", "lower"])
