@@ -18,7 +18,7 @@ CHECKS = {f"checks.{path.stem}": path for path in sorted((PACKAGE / "checks").gl
 
 LAYERS = [
     {"checking", "errors", "progress", "rotations", "routes", "style"},
-    {"atomic", "course", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton"},
+    {"atomic", "course", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton", "stills"},
     {
         "acclaim_skeleton",
         "amc",
