@@ -6,6 +6,7 @@ import io
 import itertools
 import re
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -153,10 +154,11 @@ def test_code_shown_is_the_packages_own(name):
 # Exercises
 
 
-def exercises():
-    for name in NAMES:
-        for check, cell in course.tagged(read(name), "exercise"):
-            yield pytest.param(name, check, cell, id=f"{name[:2]}-{check}")
+EXERCISES = [
+    pytest.param(name, check, cell, id=f"{name}-{check}")
+    for name in NAMES
+    for check, cell in course.tagged(read(name), "exercise")
+]
 
 
 @every_notebook
@@ -179,7 +181,7 @@ def namespace(name, check):
     return space
 
 
-@pytest.mark.parametrize(("name", "check", "cell"), exercises())
+@pytest.mark.parametrize(("name", "check", "cell"), EXERCISES)
 def test_the_stub_fails_with_a_hint_and_the_solution_passes(name, check, cell, monkeypatch):
     monkeypatch.chdir(FOLDER)
     space = namespace(name, check)
@@ -270,3 +272,20 @@ def settings(experiment):
             yield rest | {name: value}
     for corner in itertools.islice(itertools.product(*([v[0], v[-1]] for v in ends.values())), 8):
         yield dict(zip(ends, corner, strict=True))
+
+
+# Glossary and formulas
+
+
+def test_the_glossary_is_in_order_and_every_word_is_linked_from_a_notebook():
+    words = re.findall(r"^## (.*)", (FOLDER / "GLOSSARY.md").read_text("utf-8"), re.MULTILINE)
+    assert words == sorted(words, key=str.lower)
+    linked = set(re.findall(r"\(GLOSSARY\.md#([\w-]+)\)", "".join(map(markdown, NAMES))))
+    assert {slug(word) for word in words} - linked == set()
+
+
+def test_the_formula_sheet_names_code_that_exists():
+    named = re.findall(r"`(\w+)\.(\w+)` \|$", (FOLDER / "FORMULAS.md").read_text("utf-8"), re.MULTILINE)
+    assert len(named) > 20
+    for module, name in named:
+        assert hasattr(import_module(f"mocap.{module}"), name), f"{module}.{name}"
