@@ -168,7 +168,7 @@ class Player {
 
   // The bar under the slider, and the words that go with its colours.
   showSources() {
-    const [first] = this.characters, sources = first ? first.sources : [];
+    const [{ sources }] = this.characters;
     const stops = sources.map((s, i) => {
       const end = i + 1 < sources.length ? sources[i + 1].start : this.seconds;
       return `${s.colour} ${(100 * s.start) / this.seconds}% ${(100 * end) / this.seconds}%`;
@@ -187,7 +187,7 @@ class Player {
   frameAll() {
     const places = [...this.characters.flatMap((c) => c.path.map(([, x, z]) => [x, z])), ...this.scene.asked];
     const span = (i) => [Math.min(...places.map((p) => p[i])), Math.max(...places.map((p) => p[i]))];
-    const [[x0, x1], [z0, z1]] = places.length ? [span(0), span(1)] : [[-2, 2], [-2, 2]];
+    const [[x0, x1], [z0, z1]] = [span(0), span(1)];
     this.centre = [(x0 + x1) / 2, this.scene.drawable ? 0 : 0.8, (z0 + z1) / 2];
     this.reach = Math.max(3.2, 1.1 * Math.hypot(x1 - x0, z1 - z0) + 1.5);
   }
@@ -243,7 +243,7 @@ class Player {
   }
 
   toggle(playing = !this.playing) {
-    this.playing = playing && this.characters.length > 0;
+    this.playing = playing;
     this.last = null;
     this.play.textContent = this.playing ? "❚❚" : "▶";
     this.play.setAttribute("aria-label", this.playing ? "pause" : "play");
@@ -334,15 +334,14 @@ class Player {
 
   draw() {
     const { canvas, camera } = this, sharp = devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
-    if (canvas.width !== Math.round(wide * sharp) || canvas.height !== Math.round(high * sharp)) {
-      canvas.width = Math.round(wide * sharp); canvas.height = Math.round(high * sharp);
-    }
+    const pixels = [wide, high].map((size) => Math.round(size * sharp));
+    if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
     this.pen2d = canvas.getContext("2d");
     this.pen2d.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.pen2d.clearRect(0, 0, wide, high);
     this.pen2d.lineCap = this.pen2d.lineJoin = "round";
     const target = this.target();
-    camera.place(target, this.follow.checked && this.characters.length ? 4.2 : this.reach, wide, high);
+    camera.place(target, this.follow.checked ? 4.2 : this.reach, wide, high);
     this.drawGround(target);
     const flat = (places) => places.map(([x, z]) => [x, 0, z]);
     this.stroke([flat(this.scene.asked)], "#000000", 6, 0.75);
@@ -355,11 +354,10 @@ class Player {
 
   // The ground under the first character, smoothed over a second so that the view does not rock with each step.
   target() {
-    const [first] = this.characters;
-    if (!first || !this.follow.checked) return this.centre;
+    if (!this.follow.checked) return this.centre;
     const mean = [0, 0.85, 0];
     for (let i = -4; i <= 4; i++) {
-      const pose = first.pose(this.time + i / 8);
+      const pose = this.characters[0].pose(this.time + i / 8);
       mean[0] += pose[0] / 9; mean[2] += pose[2] / 9;
     }
     return mean;
