@@ -229,14 +229,15 @@ def last_value(source, space):
 @every_notebook
 def test_experiments_work_over_the_whole_range_of_their_controls(name, monkeypatch):
     monkeypatch.chdir(FOLDER)
-    experiments = dict(course.tagged(read(name), "experiment"))
-    space = {"__name__": "__main__"}
+    experiments = [cell for _, cell in course.tagged(read(name), "experiment")]
+    space, shown = {"__name__": "__main__"}, []
     for cell in read(name).cells:
         if cell.cell_type == "code":
             with contextlib.redirect_stdout(io.StringIO()):
                 value = last_value(cell.source, space)
-            if any(cell is experiment for experiment in experiments.values()):
-                drive(value)
+            shown += [value] if any(cell is experiment for experiment in experiments) else []
+    for experiment in shown:  # after all cells, as a reader does who ran them all: names may have been reused
+        drive(experiment)
     plt.close("all")
 
 

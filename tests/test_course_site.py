@@ -83,7 +83,6 @@ def test_a_folder_without_notebooks_is_told(tmp_path):
         course_site.build_site(tmp_path, tmp_path / "out")
 
 
-@pytest.mark.tools
 def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
     pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install 'mocap[lite]'")
     assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0
