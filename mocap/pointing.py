@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from mocap.stills import figure_of, small_png
 SCRIPT = Path(__file__).with_name("pointing.js")
 
 
-def pointer(image: AxesImage, value: tuple[int, int] = (0, 0)) -> Any:  # noqa: ANN401
+def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: ANN401
     """Make a control of an image, such as a `plotting.distance_image`: its value is a (row, column).
 
     Parameters
@@ -42,7 +43,7 @@ def pointer(image: AxesImage, value: tuple[int, int] = (0, 0)) -> Any:  # noqa: 
     widget = _pointer_class()(box=_box(image), shape=numbers.shape, picture=f"data:image/png;base64,{png}")
     widget.numbers, widget.quantity = numbers, image.colorbar.ax.get_ylabel() if image.colorbar else "value"
     widget.observe(widget.tell, "value")
-    widget.value = value
+    widget.value = tuple(value)
     widget.tell()
     return widget
 
@@ -107,7 +108,7 @@ def _pointer_class() -> type[Any]:
         @traitlets.validate("value")
         def _inside(self, proposal: dict[str, Any]) -> tuple[int, ...]:
             value, (rows, columns) = proposal["value"], self.shape
-            if len(value) != 2 or not (0 <= value[0] < rows and 0 <= value[1] < columns):
+            if len(value) != 2 or value[0] not in range(rows) or value[1] not in range(columns):
                 raise MocapError(f"Rows go from 0 to {rows - 1}, columns to {columns - 1}, got {value}.")
             return (int(value[0]), int(value[1]))
 

@@ -45,7 +45,17 @@ def test_a_click_lays_the_two_windows_over_each_other():
     assert grid.values() == {"at": (30, 40)}
     assert np.any(pixels(grid.picture.value) != before)
     assert repr(grid) == "Experiment(lay, at=(30, 40))"
+
+
+def test_the_figures_are_closed():
+    plt.close("all")  # those of other tests
+    experiment().set(at=(1, 2))
     assert plt.get_fignums() == []
+
+
+def test_a_row_of_minima_is_a_place():
+    at = pointer(plotting.distance_image(GRID, fps=30), np.array([[3, 4]])[0])
+    assert at.value == (3, 4)
 
 
 def test_it_tells_the_cost():
@@ -53,7 +63,7 @@ def test_it_tells_the_cost():
     assert at.told == f"row 12, column 7: RMS distance (cm) {100 * np.sqrt(GRID[12, 7]):.3g}"
 
 
-@pytest.mark.parametrize("at", [(31, 0), (0, 41), (-1, 0), (1, 2, 3)])
+@pytest.mark.parametrize("at", [(31, 0), (0, 41), (-1, 0), (1, 2, 3), (1.5, 2)])
 def test_a_place_beside_the_image_is_refused(at):
     grid = experiment()
     with pytest.raises(MocapError, match="Rows go from 0 to 30, columns to 40"):
