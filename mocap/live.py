@@ -102,7 +102,8 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Parameters
     ----------
-    follow : from a path, shape (N, 2), points (x, z) in metres, to a motion, or a `play` of one.
+    follow : from a path, shape (N, 2), points (x, z) in metres, to a motion, or a `play` of one, whose
+        sentence is told below the canvas: how far off the walk is, say.
     path : what is drawn already when the canvas appears.
 
     Returns
@@ -119,12 +120,12 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     canvas = linked(_along(follow, points))
     canvas.scene = canvas.scene | on_canvas
     canvas.path = points.tolist()
-    canvas.error = None
+    canvas.error, canvas.message = None, canvas.player.alt
 
     def walk(change: dict[str, Any]) -> None:
         try:
             canvas.show(_along(follow, np.array(change["new"], float)), **on_canvas, autoplay=True)
-            canvas.error, canvas.message = None, ""
+            canvas.error, canvas.message = None, canvas.player.alt
         except Exception as error:  # whatever a student's function raises belongs on the page
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
 

@@ -23,7 +23,7 @@ const STYLE = `
 .mocap-player .scrub div { height: 5px; border-radius: 2px; }
 .mocap-player output { font-variant-numeric: tabular-nums; min-width: 11em; }
 .mocap-player .legend span { display: inline-block; width: 10px; height: 10px; margin: 0 4px 0 10px; }
-.mocap-player .message:not(:empty) { color: #A00000; padding: 4px 2px; }`;
+.mocap-player .message:not(:empty) { padding: 4px 2px; } .mocap-player .message.error { color: #A00000; }`;
 
 class Camera {
   constructor() { this.reset(); }
@@ -159,12 +159,14 @@ class Player {
     this.scrub.max = scene.frames - 1;
     this.drawButton.hidden = !scene.drawable;
     this.drawn = [];
-    this.message.textContent = this.model?.get("message") ?? "";
+    this.say(this.model?.get("message") ?? "");
     this.showSources();
     if (!again) this.frameAll();
     this.seek((this.model?.get("frame") ?? 0) / scene.fps);
     this.toggle(Boolean(scene.autoplay) && !this.calm);
   }
+
+  say(text) { this.message.textContent = text; this.message.classList.toggle("error", /^\w+Error:/.test(text)); }
 
   // The bar under the slider, and the words that go with its colours.
   showSources() {
@@ -218,7 +220,7 @@ class Player {
       if (this.scene === this.latest && this.model.get("frame") !== this.frame()) { this.toggle(false); this.seek(this.model.get("frame") / this.scene.fps); }
     });
     this.model.on("change:scene", () => this.load(this.model.get("scene")));
-    this.model.on("change:message", () => { this.message.textContent = this.model.get("message"); });
+    this.model.on("change:message", () => this.say(this.model.get("message")));
   }
 
   // Tell Python the frame, at most twenty times a second.
@@ -323,7 +325,7 @@ class Player {
   pointerup(event) {
     this.pointers.delete(event.pointerId);
     if (!this.drawing || this.drawn.length < 2) return;
-    this.message.textContent = "Looking for a walk …";
+    this.say("Looking for a walk …");
     this.model.set("path", this.drawn);
     this.model.save_changes();
   }

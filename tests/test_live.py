@@ -51,7 +51,7 @@ def test_a_drawn_path_becomes_a_walk():
     assert [path.shape for path in asked] == [(2, 2), (3, 2)]
     assert canvas.scene["frames"] == 60
     assert canvas.scene["asked"] == [[0, 0], [0, 2], [1, 2]]
-    assert (canvas.frame, canvas.error, canvas.message) == (0, None, "")
+    assert (canvas.frame, canvas.error, canvas.message) == (0, None, canvas.player.alt)
 
 
 def test_a_shorter_walk_may_come_after_a_longer_one():
@@ -73,7 +73,7 @@ def test_an_error_is_said_and_goes_with_the_next_path():
     assert canvas.message == "MocapError: No walk goes there."
     assert isinstance(canvas.error, MocapError)
     canvas.path = [[0, 0], [0, 2]]
-    assert (canvas.error, canvas.message) == (None, "")
+    assert (canvas.error, canvas.message) == (None, "A stick figure plays wave, 1.0 s.")
     with pytest.raises(MocapError, match="No walk"):
         draw_path(follow, [[0, 0], [0, 1], [0, 2]])
 
