@@ -12,8 +12,8 @@ What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. W
 `motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`. Out of the graph:
 `walks`, `synthesis`, `dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`,
 `paper_search`, `keyframes`, `crowd`, `control`. Seams and feet: `joining`, `quality`, `legs`, `plants`,
-`leg_posing`, `footskate`; what once went wrong: `homework_slips`. What one sees: `stage`, `plotting`,
-`player`, `widgets`, `demo`.
+`leg_posing`, `foot_targets`, `root_rise`, `calm_knees`, `footskate`; what once went wrong:
+`homework_slips`. What one sees: `stage`, `plotting`, `player`, `widgets`, `demo`.
 
 References
 ----------

@@ -19,6 +19,8 @@ from mocap.motion import Motion
 
 Array = NDArray[np.float64]
 
+BENT = np.radians(8.0)  # a knee straighter than this pops: a millimetre of leg is a centimetre of knee
+
 
 class KneeHinge(NamedTuple):
     """How far apart a knee's hinge can bring hip and ankle, in F frames.
@@ -37,6 +39,14 @@ class KneeHinge(NamedTuple):
     def reach(self) -> Array:
         """The longest distance from hip to ankle, (F,), metres."""
         return np.asarray(np.sqrt(self.size + 2 * self.radius))
+
+    def limit(self, distance: Array) -> Array:
+        """How far apart hip and ankle may come, where they are a distance (F,) apart in the clip, metres.
+
+        No knee becomes straighter than `BENT`, but where it is so already.
+        """
+        bent = np.sqrt(self.size + 2 * self.radius * np.cos(BENT))
+        return np.asarray(np.maximum(bent, np.minimum(distance, self.reach)))
 
     def turn(self, distance: Array) -> Array:
         """Turn until hip and ankle are a distance (F,) apart: radians. The knee bends to its own side."""
@@ -73,6 +83,24 @@ def knee_hinge(leg: Leg, poses: GlobalPoses, name: str) -> KneeHinge:
     return KneeHinge(axis, size, np.hypot(cos, sin), np.arctan2(sin, cos))
 
 
+def bend_and_swing(hinge: KneeHinge, bones: tuple[Array, Array], wanted: Array) -> tuple[Array, Array]:
+    """Turn a shank about its knee, then the whole leg about its hip, so that its ankle comes where wanted.
+
+    Parameters
+    ----------
+    hinge : the knee's.
+    bones : from hip to knee and from knee to ankle, (F, 3) each, metres.
+    wanted : from hip to where the ankle shall be, (F, 3), metres; what is out of reach is aimed at.
+
+    Returns
+    -------
+    The two rotations in the world's frame, (F, 4) each.
+    """
+    distance = np.minimum(np.linalg.norm(wanted, axis=-1), hinge.reach)
+    bend = rotations.from_rotvec(hinge.turn(distance)[:, None] * hinge.axis)
+    return bend, rotations.between(bones[0] + rotations.rotate(bend, bones[1]), wanted)
+
+
 def pose_leg(motion: Motion, leg: Leg, poses: GlobalPoses, ankle: Array, turn: ArrayLike) -> Array:
     """Pose a leg so that its ankle is where it shall be, and its foot turned.
 
@@ -102,9 +130,7 @@ def pose_leg(motion: Motion, leg: Leg, poses: GlobalPoses, ankle: Array, turn: A
             f"'{motion.name}', frame {frame}: '{motion.skeleton.names[leg.ankle]}' would have to be "
             f"{100 * (distance - hinge.reach)[frame]:.2g} cm out of its leg's reach; are its contacts true?"
         )
-    bend = rotations.from_rotvec(hinge.turn(distance)[:, None] * hinge.axis)
-    bent = knee - hip + rotations.rotate(bend, foot - knee)
-    swing = rotations.between(bent, wanted)
+    bend, swing = bend_and_swing(hinge, (knee - hip, foot - knee), wanted)
     sole = rotations.from_rotvec(turn)
     frames = [
         rotations.from_matrix(poses.matrices[:, j]) for j in (motion.skeleton.parents[leg.hip], *leg[:2])

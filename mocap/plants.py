@@ -24,6 +24,7 @@ GRAVITY = 9.81
 # How far from standing to swinging speed, on a logarithmic scale, a plant may start, and how far it lasts.
 # The ankle's shares are the smaller: where the foot rolls over heel and ball it creeps away without a jolt.
 ANKLE, BALL = (0.2, 0.3), (0.45, 0.55)
+STRAY = 0.25  # how far from its place a joint may be while it stands, as a share of the foot's length
 LOW = 0.25  # how far up from where it stands to the top of its swing a joint may be while it stands
 
 
@@ -35,7 +36,8 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     what a tenth of the balls' creeps stay below; its swinging speed is √(g · leg), at which legs swing as
     pendulums do. Between these two, on a logarithmic scale, lie the thresholds: below the first a plant
     starts, and it lasts as long as the creep stays below the second (hysteresis, so that noise does not
-    cut it) and the joint is low.
+    cut it), the joint is low, and no further than a quarter of the foot from its place, its median while it
+    stands: a foot that lands running, or rolls off, is slow before it stands and after.
 
     Parameters
     ----------
@@ -67,7 +69,8 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
         )
     joints = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
     positions = joint_positions(motion)[:, joints]  # (F, 2 · legs, 3)
-    length = max(leg.lengths(motion.skeleton)[:2].sum() for leg in legs)
+    lengths = np.max([leg.lengths(motion.skeleton) for leg in legs], axis=0)
+    length, stray = lengths[:2].sum(), STRAY * lengths[2]
     creep, heights = _creep(positions, span, motion.fps), positions[..., 1]
     swinging = np.sqrt(GRAVITY * length)
     # A clip made by arithmetic stands still to the last digit, and a logarithm wants a number above 0; where
@@ -78,6 +81,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     for column, joint in enumerate(joints):
         enter, leave = (standing ** (1 - share) * swinging**share for share in (ANKLE, BALL)[column % 2])
         still = hysteresis(creep[:, column], low[:, column], enter, leave)
+        still &= _near_place(positions[:, column], still, stray)
         marks[motion.skeleton.names[joint]] = settle(still, least_frames(motion.fps))
     return replace(motion, contacts={**motion.contacts, **marks})
 
@@ -96,6 +100,15 @@ def _low_enough(heights: Array, creep: Array, length: float) -> Array:
     # Where nothing swings, noise is no swing: a step lifts the ball by a tenth of the leg, or so.
     swing = np.maximum(np.percentile(heights, 99, axis=0) - standing, length / 10)
     return np.asarray(standing + swing * LOW)
+
+
+def _near_place(path: Array, still: Mask, stray: float) -> Mask:
+    """Mark where a joint's path (F, 3) is nearer than `stray` to its median within each run of `still`."""
+    near = np.zeros(len(still), bool)
+    for start, stop in runs(still):
+        places = path[start:stop]
+        near[start:stop] = np.linalg.norm(places - np.median(places, axis=0), axis=-1) < stray
+    return near
 
 
 def hysteresis(values: Array, allowed: Mask, enter: float, leave: float) -> Mask:

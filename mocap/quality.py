@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from mocap.errors import MocapError
@@ -15,29 +16,51 @@ from mocap.plants import runs
 
 Array = NDArray[np.float64]
 
-USUAL = 99.9  # percent: all but one frame in a thousand
+USUAL = 99.9  # percent: all but one window in a thousand
+LEAP = 5.0  # who jumps as many times further than nine frames in ten do, leaps: its data are broken
 
 
 class Spread(NamedTuple):
     """What is usual in some clips: the measure of a seam between them.
 
-    `velocity` (m/s) and `acceleration` (m/s²): the jumps that 99.9 % of the frames stay below; `floor`: for
-    each leg's ankle and ball the lowest height, metres.
+    `velocity` (m/s) and `acceleration` (m/s²): by clip, how they jump in each frame, NaN where the data leap;
+    `leap` the jump of velocity that is one, m/s; `floor`: for each leg's ankle and ball the lowest height,
+    metres.
     """
 
-    velocity: float
-    acceleration: float
+    velocity: tuple[Array, ...]
+    acceleration: tuple[Array, ...]
+    leap: float
     floor: Array
+
+    def within(self, frames: int) -> tuple[Array, Array]:
+        """List the largest jumps of velocity and of acceleration in each window of so many frames, sorted.
+
+        A seam is a window too: its largest jump is compared with the largest in other windows as long, not
+        with single frames. Windows in which the data leap are left out; a clip that is shorter is one window.
+
+        Examples
+        --------
+        >>> usual = Spread((np.array([1.0, 3, 2, np.nan, 4]),), (np.zeros(5),), 9.0, np.zeros(4))
+        >>> usual.within(2)[0]
+        array([3., 3.])
+        """
+        return self._largest(self.velocity, frames), self._largest(self.acceleration, frames)
+
+    def _largest(self, kind: Sequence[Array], frames: int) -> Array:
+        windows = (sliding_window_view(jumps, min(frames, len(jumps))).max(axis=-1) for jumps in kind)
+        largest = np.concatenate(list(windows))
+        return np.sort(largest[np.isfinite(largest)])
 
 
 class SeamQuality(NamedTuple):
     """A seam in five numbers; the smaller, the better.
 
-    `velocity_jump` and `acceleration_jump` are the largest at the seam, over what 99.9 % of the clips' own
-    frames stay below: up to 1 they are nothing special. `slide` is how far a planted joint strays over the
-    ground, on average over the plants that the seam touches, `depth` how far a foot sinks below the lowest
-    it ever is in the clips, `deviation` how far the root's path over the ground is from what it was before;
-    these three in centimetres.
+    `velocity_jump` and `acceleration_jump` are the largest at the seam, over what the largest in 99.9 % of
+    the clips' own windows of that length stay below: up to 1 they are nothing special. `slide` is how far a
+    planted joint strays over the ground, on average over the plants that the seam touches, `depth` how far a
+    foot sinks below the lowest it ever is in the clips, `deviation` how far the root's path over the ground
+    is from what it was before; these three in centimetres.
     """
 
     velocity_jump: float
@@ -82,6 +105,9 @@ def jumps(motion: Motion) -> tuple[Array, Array]:
 def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread:
     """Measure what is usual in some clips.
 
+    Captured clips leap where a marker was lost or mistaken for another. What jumps five times further
+    than nine frames in ten do is such a leap: it shall neither excuse a seam nor be blamed on one.
+
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
@@ -95,11 +121,16 @@ def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread
         raise MocapError("A seam is measured against its clips; none were given.")
     require_alike(clips)
     feet = _feet(legs_of(clips[0].skeleton, legs))
-    velocity, acceleration = (np.concatenate(kind) for kind in zip(*map(jumps, clips), strict=True))
-    floor = np.min([joint_positions(clip)[:, feet, 1].min(axis=0) for clip in clips], axis=0)
-    return Spread(
-        float(np.percentile(velocity, USUAL)), float(np.percentile(acceleration, USUAL)), np.asarray(floor)
+    velocity, acceleration = (tuple(kind) for kind in zip(*map(jumps, clips), strict=True))
+    leap = LEAP * float(np.percentile(np.concatenate(velocity), 90))
+    leaping = [jump > leap for jump in velocity]
+    # The third difference takes in a frame more than the second, and leaps as well.
+    velocity = tuple(np.where(bad, np.nan, jump) for bad, jump in zip(leaping, velocity, strict=True))
+    acceleration = tuple(
+        np.where(bad | np.roll(bad, 1), np.nan, jump) for bad, jump in zip(leaping, acceleration, strict=True)
     )
+    floor = np.min([joint_positions(clip)[:, feet, 1].min(axis=0) for clip in clips], axis=0)
+    return Spread(velocity, acceleration, leap, np.asarray(floor))
 
 
 def seam_quality(
@@ -135,26 +166,37 @@ def seam_quality(
     """
     before = motion if before is None else before
     feet = _feet(legs_of(motion.skeleton, legs))
-    _check_seam(motion, seam, usual, before)
+    _check_seam(motion, seam, before)
     around = slice(max(seam[0] - 1, 0), seam[1] + 1)
-    velocity, acceleration = (kind[around].max() for kind in jumps(motion))
+    usually = usual.within(len(range(len(motion))[around]))
+    velocity, acceleration = (
+        float(kind[around].max() / _usual(largest))
+        for kind, largest in zip(jumps(motion), usually, strict=True)
+    )
     path, old = (m.root_positions[around][:, [0, 2]] for m in (motion, before))
     positions = joint_positions(motion)
     depth = np.maximum(usual.floor - positions[around][:, feet, 1], 0.0).max()
     return SeamQuality(
-        float(velocity / usual.velocity),
-        float(acceleration / usual.acceleration),
+        velocity,
+        acceleration,
         100 * _slide(motion, seam, positions, feet),
         100 * float(depth),
         100 * float(np.linalg.norm(path - old, axis=-1).max()),
     )
 
 
+def _usual(largest: Array) -> float:
+    """Give what all but one window in a thousand stay below."""
+    if len(largest) == 0 or not largest[-1] > 0:
+        raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
+    return float(np.percentile(largest, USUAL))
+
+
 def _feet(legs: Sequence[Leg]) -> list[int]:
     return [joint for leg in legs for joint in leg[2:]]
 
 
-def _check_seam(motion: Motion, seam: tuple[int, int], usual: Spread, before: Motion) -> None:
+def _check_seam(motion: Motion, seam: tuple[int, int], before: Motion) -> None:
     if not 0 <= seam[0] < seam[1] <= len(motion):
         raise MocapError(
             f"'{motion.name}' has {len(motion)} frames, and no seam from {seam[0]} to {seam[1]}."
@@ -162,8 +204,6 @@ def _check_seam(motion: Motion, seam: tuple[int, int], usual: Spread, before: Mo
     require_alike([motion, before])
     if len(before) != len(motion):
         raise MocapError(f"Before there were {len(before)} frames, now {len(motion)}: not the same motion.")
-    if not min(usual.velocity, usual.acceleration) > 0:
-        raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
 
 
 def _slide(motion: Motion, seam: tuple[int, int], positions: Array, feet: Sequence[int]) -> float:
