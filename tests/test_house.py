@@ -30,7 +30,7 @@ LAYERS = [
         "paths",
         "walker",
     },
-    {"acclaim", "blending", "bvh", "kinematics", "pacing", "path_files", "transforms"},
+    {"acclaim", "blending", "bvh", "kinematics", "pacing", "path_files", "search_drawing", "transforms"},
     {"acclaim_writer", "homework_slips", "inspection", "leg_posing", "plants", "point_clouds", "synthetic"},
     {"cloud_grid", "files", "footprints", "footskate", "stage"},
     {"cmu", "conversion", "matching", "minima", "player"},
