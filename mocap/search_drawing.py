@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable
 from typing import NamedTuple
 
@@ -70,7 +71,7 @@ class SearchTree(NamedTuple):
         return line[::-1]
 
 
-def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float = float("inf")) -> SearchTree:
+def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float = math.inf) -> SearchTree:
     """Try every walk, and note which of them `search.branch_and_bound` comes to, and when.
 
     Parameters
