@@ -121,6 +121,8 @@ def branch_and_bound(
     ------
     NoWalk : for a node that the graph lacks, and where every walk ends before it is complete.
     MocapError : where g gives a cost below 0, with which the bound would cut what it must not.
+
+    Notebook: 07-walks-and-search
     """
     if node not in problem.graph:
         raise NoWalk(f"The graph has no node {node}.")
@@ -179,6 +181,8 @@ def search_ahead(
     Returns
     -------
     The whole walk; after Ctrl-C, as far as it has come.
+
+    Notebook: 07-walks-and-search
     """
     ahead, keep = look
     if not 1 <= keep <= ahead:

@@ -92,6 +92,8 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
     >>> tree = grow_tree(dear, 1, None, horizon=3)
     >>> len(tree.cost), tree.visits
     (15, 4)
+
+    Notebook: 07-walks-and-search
     """
     visit: dict[tuple[SearchEdge, ...], int] = {}
 
