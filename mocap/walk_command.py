@@ -73,11 +73,11 @@ def _walk(options: argparse.Namespace) -> int:
 
 
 def _followed(options: argparse.Namespace) -> "Followed":
-    from mocap import follow, layered_search, path_files
+    from mocap import follow, layered_search, path_files, routes
 
     path = path_files.load_path(options.path, scale=options.unit)
-    wishes = follow.Wishes(labels=[_label(text) for text in options.label])
-    beam = layered_search.Beam(width=options.width)
+    wishes = routes.Wishes(labels=[_label(text) for text in options.label])
+    beam = layered_search.Beam(width=options.width, progress=partial(bar, what="searching"))
     return follow.follow_path(_graph(options), path, wishes, beam=beam)
 
 

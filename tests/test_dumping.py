@@ -43,7 +43,7 @@ def test_a_file_written_in_pieces_is_one_written_at_once(tmp_path):
 def test_pieces_are_cleaned_as_the_whole_would_be(piece):
     """Cut anywhere, feet stand where they would without the cut; no frame is lost, and none comes twice.
 
-    A leg gets no straighter than it ever is in what is cleaned at once, so a few frames differ by millimetres.
+    A leg gets no straighter than it ever is in what is cleaned at once: a few frames differ by millimetres.
     """
     graph = bundled("walk_circle", "walk_curve_1")
     whole = to_motion(graph, random_walk(graph, seconds=30, seed=2), clean=True)

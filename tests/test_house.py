@@ -16,7 +16,7 @@ PACKAGE = ROOT / "mocap"
 MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 
 LAYERS = [
-    {"errors", "progress", "rotations", "routes", "style"},
+    {"errors", "progress", "rotations", "style"},
     {"atomic", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton"},
     {
         "acclaim_skeleton",
@@ -37,7 +37,8 @@ LAYERS = [
     {"motion_graph", "thresholds", "widgets"},
     {"graph_drawing", "graph_files", "merging", "walks"},
     {"compiling", "plotting", "synthesis"},
-    {"control", "demo", "dumping", "layered_search"},
+    {"control", "demo", "dumping", "routes"},
+    {"layered_search"},
     {"follow"},
     {"crowd", "gallery", "keyframes", "paper_search", "walk_command"},
     {"show_commands"},
