@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,15 +16,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.typing import ArrayLike, NDArray
-from PIL import Image
 
 from mocap.errors import MocapError
 from mocap.footprints import footprints
 from mocap.kinematics import joint_positions
 from mocap.motion import Motion
 from mocap.stage import bones, film_strip
+from mocap.stills import small_png
 from mocap.style import COLOURS, PATH, SOURCES, source_colours
 
 Array = NDArray[np.float64]
@@ -122,11 +120,7 @@ class Player:
     @cached_property
     def picture(self) -> bytes:
         """The strip of poses that stands in where nothing can move, as a PNG."""
-        canvas = FigureCanvasAgg(film_strip(self.motions))
-        canvas.draw()
-        stream = io.BytesIO()
-        Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(64).save(stream, "png")
-        return stream.getvalue()
+        return small_png(film_strip(self.motions))
 
     def html(self) -> str:
         """Give the player as part of a page; its picture stays where no script runs."""

@@ -114,6 +114,7 @@ class StickFigure:
     """
 
     def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0, colour: str | None = None) -> None:
+        self.figure = ax.figure
         self.starts, self.ends, self.sides = bones(skeleton)
         self.head = [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
         self.bones = {
@@ -152,8 +153,6 @@ def stick_figure(
     Returns
     -------
     A figure a pose.
-
-    Notebook: 00-quickstart
     """
     shown = [frames] if isinstance(frames, int) else list(frames)
     points = joint_positions(motion)[shown]

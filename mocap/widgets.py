@@ -27,6 +27,8 @@ from mocap.errors import MocapError
 from mocap.live import draw_path as draw_path
 from mocap.live import linked as linked
 from mocap.player import play as play
+from mocap.stills import figure_of
+from mocap.stills import show as show
 
 Drawn = Figure | Sequence[Artist]
 SLOW = 0.15  # seconds; a callback that takes longer waits until the reader's hand rests
@@ -190,7 +192,7 @@ class BlittedFigure:
     def png(self, drawn: Drawn) -> bytes:
         """Draw a figure, or artists over the picture of the rest of theirs."""
         artists = [] if isinstance(drawn, Figure) else sorted(drawn or (), key=Artist.get_zorder)
-        figure = drawn if isinstance(drawn, Figure) else _figure_of(artists)
+        figure = drawn if isinstance(drawn, Figure) else figure_of(artists)
         if figure is not self.figure:
             plt.close(figure)  # nothing of it may appear elsewhere on the page, nor stay behind
             self.figure, self.canvas = figure, FigureCanvasAgg(figure)
@@ -209,13 +211,6 @@ class BlittedFigure:
                 artist.do_3d_projection()
             artist.draw(self.canvas.get_renderer())
         return encoded(np.asarray(self.canvas.buffer_rgba()))
-
-
-def _figure_of(artists: Sequence[Artist]) -> Figure:
-    figure = artists[0].get_figure() if artists else None
-    if not isinstance(figure, Figure):
-        raise MocapError("An experiment's function must give a figure, or the artists that it moved.")
-    return figure
 
 
 def encoded(pixels: np.ndarray) -> bytes:

@@ -115,7 +115,7 @@ def test_an_error_in_the_first_drawing_is_raised():
 
 @pytest.mark.parametrize("nothing", [None, [], [plt.Line2D([0], [0])]])
 def test_a_function_that_gives_no_figure_is_told_so(nothing):
-    with pytest.raises(MocapError, match="must give a figure"):
+    with pytest.raises(MocapError, match="must be given as a figure"):
         explore(lambda n=1: nothing, alt="Nothing.", n=(0, 2))
 
 
