@@ -79,8 +79,8 @@ class Controller:
         graph: MotionGraph | CompiledGraph,
         *,
         start: Node | None = None,
-        ahead: float = 1.5,
-        width: int = 32,
+        ahead: float = 3.0,
+        width: int = 64,
     ) -> None:
         self.graph = compile_graph(graph)
         self.width, self.horizon = width, ahead * self.graph.fps

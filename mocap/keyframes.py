@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph
 from mocap.errors import MocapError
-from mocap.follow import Followed, Wishes, follow_path
+from mocap.follow import Followed, follow_path
 from mocap.layered_search import Beam
 from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath, spline
-from mocap.routes import Prices
+from mocap.routes import Prices, Wishes
 
 Array = NDArray[np.float64]
 

@@ -131,8 +131,8 @@ def to_motion(
     Notebook: 07-walks-and-search
     """
     require_walk(motion_graph, walk)
-    if clean and not any(clip.contacts for clip in motion_graph.clips):
-        motion_graph = replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
+    if clean:
+        motion_graph = with_plants(motion_graph)
     edges = edge_table(motion_graph, walk)
     table = frame_table(edges, motion_graph.window)
     before = places(edges, place)
@@ -147,6 +147,13 @@ def to_motion(
     clip = motion_graph.clips[0]
     motion = Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
     return clean_up(motion) if clean else motion
+
+
+def with_plants(motion_graph: MotionGraph) -> MotionGraph:
+    """Find out when feet stand, where no clip tells."""
+    if any(clip.contacts for clip in motion_graph.clips):
+        return motion_graph
+    return replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
 
 
 def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransform:
