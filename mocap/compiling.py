@@ -103,6 +103,8 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     Raises
     ------
     NoWalk : for a graph without edges.
+
+    Notebook: 08-path-synthesis
     """
     if isinstance(graph, CompiledGraph):
         return graph

@@ -64,6 +64,8 @@ def walk_crowd(
     Warns
     -----
     MocapWarning : where two come nearer than asked for, all the same.
+
+    Notebook: 08-path-synthesis
     """
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")

@@ -42,6 +42,8 @@ def stream(
     >>> graph = motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04))
     >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
     True
+
+    Notebook: 07-walks-and-search
     """
     if clean:
         motion_graph = with_plants(motion_graph)
@@ -97,6 +99,8 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     Raises
     ------
     MocapError : for another format, a folder that one cannot write to, or a duration that is none.
+
+    Notebook: 07-walks-and-search
     """
     if Path(path).suffix.lower() != ".bvh":
         raise MocapError(f"A long walk is written as .bvh, got '{path}'.")

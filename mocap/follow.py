@@ -144,6 +144,8 @@ def follow_path(
     Warns
     -----
     MocapWarning : where the walk is more than 15 cm off the path.
+
+    Notebook: 08-path-synthesis
     """
     wishes, compiled, beam = wishes or Wishes(), compile_graph(graph), beam or Beam()
     route = make_route(compiled, path, wishes)

@@ -64,6 +64,8 @@ def follow_as_2002(
     Raises
     ------
     NoWalk, MocapError : as there.
+
+    Notebook: 08-path-synthesis
     """
     compiled = compile_graph(graph)
     route = make_route(compiled, path, wishes)

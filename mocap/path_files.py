@@ -45,6 +45,8 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     ------
     MocapError : for a file that is missing or of another format.
     FormatError : for one that breaks its format, or draws what is not read here.
+
+    Notebook: 08-path-synthesis
     """
     path = Path(path)
     if scale is not None and not (np.isfinite(scale) and scale > 0):

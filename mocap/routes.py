@@ -33,6 +33,8 @@ class Wishes:
     least : progress in metres a second that even standing counts as, so that no walk stands for ever.
     others : where others are on the ground in each frame, shape (T, 2) each; at the end they stay.
     apart : metres to keep away from them.
+
+    Notebook: 08-path-synthesis
     """
 
     labels: Sequence[tuple[float, str]] = ()
@@ -56,6 +58,8 @@ class Prices:
     label : a frame without the label asked for.
     late : times the square of the seconds late or early, in each frame.
     crowding : times the square of the metres too near to another, in each frame.
+
+    Notebook: 08-path-synthesis
     """
 
     seam: float = 0.3
