@@ -115,8 +115,8 @@ def _cheapest(tree: Tree, slip: str = "") -> tuple[float, int]:
     return best, visited
 
 
-cheapest = Check(
-    name="cheapest",
+cheapest_way = Check(
+    name="cheapest_way",
     asks="the cost of the cheapest way from node 0 to a leaf, and how many nodes were visited",
     start="keep a stack of (cost so far, node); pop one, skip it if it costs as much as the best leaf, else "
     "count it, and push its children so that the cheapest is popped first.",

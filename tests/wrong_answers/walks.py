@@ -135,7 +135,7 @@ WRONG = {
         (wrong_sign, "wrong way round"),
         (other_order, "the other order"),
     ],
-    "cheapest": [
+    "cheapest_way": [
         (everything, "visit every node"),
         (dearest_first, "dearest child first"),
         (as_they_stand, "in any order"),
