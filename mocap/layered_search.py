@@ -145,8 +145,8 @@ class _Run:
             while states := self.waiting.pop(layer, []):
                 if time.monotonic() > deadline:
                     return "out of time"
-                # Who has not left the layer goes on with the next, so that a layer is one round of work.
-                self.sort(self.follow(self.select(np.concatenate(states))), min(layer + 1, last))
+                # Who has not left the layer goes on in it, or who lags would vie with those ahead.
+                self.sort(self.follow(self.select(np.concatenate(states))), layer)
         return ""
 
     def select(self, states: States) -> States:
