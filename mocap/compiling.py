@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
-AHEAD = (1 / 6, 1 / 3, 1 / 2)  # seconds
+AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
 HOP = 1 / 6  # seconds
 
 
@@ -103,6 +103,8 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     Raises
     ------
     NoWalk : for a graph without edges.
+
+    Notebook: 08-path-synthesis
     """
     if isinstance(graph, CompiledGraph):
         return graph

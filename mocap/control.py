@@ -69,6 +69,8 @@ class Controller:
     >>> controller = Controller(motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04)))
     >>> controller.step(heading=0.0, speed=1.0).rotations.shape
     (38, 4)
+
+    Notebook: 08-path-synthesis
     """
 
     SEAM = 0.1  # m²/s, as are all costs here
@@ -79,8 +81,8 @@ class Controller:
         graph: MotionGraph | CompiledGraph,
         *,
         start: Node | None = None,
-        ahead: float = 1.5,
-        width: int = 32,
+        ahead: float = 3.0,
+        width: int = 64,
     ) -> None:
         self.graph = compile_graph(graph)
         self.width, self.horizon = width, ahead * self.graph.fps
@@ -245,6 +247,8 @@ def measure_delay(
     turns : how many times.
     speed : metres a second.
     seed : of the turns.
+
+    Notebook: 08-path-synthesis
     """
     controller = Controller(graph)
     random, fps = np.random.default_rng(seed), controller.graph.fps

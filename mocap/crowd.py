@@ -1,23 +1,37 @@
 """Crowds: many characters off one graph, each on a path of its own, kept apart [KGP02, 5.3]."""
 
+import warnings
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
-from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph, compile_graph
-from mocap.errors import MocapError
-from mocap.follow import Followed, Wishes, follow_path
+from mocap.errors import MocapError, MocapWarning
+from mocap.follow import Followed, follow_path
 from mocap.layered_search import Beam
 from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath
-from mocap.routes import Prices
+from mocap.routes import Prices, Wishes
 
 Array = NDArray[np.float64]
+
+WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
+
+
+class Crowd(NamedTuple):
+    """Walks that begin together: each stands in its first pose for `waits` seconds, and in its last for ever.
+
+    `nearest` (K, K) tells how near any two come, metres between their roots; inf on the diagonal.
+    """
+
+    walks: list[Followed]
+    waits: list[float]
+    nearest: Array
 
 
 def walk_crowd(
@@ -27,12 +41,13 @@ def walk_crowd(
     apart: float = 0.8,
     beam: Beam | None = None,
     pool: Executor | None = None,
-) -> list[Followed]:
-    """Send a character along each path, all starting at once, none coming near another.
+) -> Crowd:
+    """Send a character along each path, none coming near another.
 
     First each walks as if alone; these searches run side by side in a `pool`. Then, one after the other,
-    whoever comes too near to one before searches again, with a price on the metres too near in each frame:
-    the first keeps to its path best, the last gives way to all.
+    whoever comes too near to one before searches again, with a price on the metres too near in each frame,
+    and where that does not help, lets the others pass before it sets out. So the first keeps to its path
+    best, and the last gives way to all.
 
     Parameters
     ----------
@@ -42,30 +57,57 @@ def walk_crowd(
     beam : how thoroughly to search.
     pool : a `concurrent.futures.ProcessPoolExecutor` for many characters; by default one after the other.
 
-    Returns
-    -------
-    A walk a path; `clearance` tells how near two come.
-
     Raises
     ------
     NoWalk, MocapError : as by `follow.follow_path`.
+
+    Warns
+    -----
+    MocapWarning : where two come nearer than asked for, all the same.
+
+    Notebook: 08-path-synthesis
     """
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
-    compiled, wishes, prices = compile_graph(graph), Wishes(apart=apart), Prices(crowding=20.0, stray=0.0)
-    wide = replace(beam or Beam(), width=3 * (beam or Beam()).width, rescue=3.0)
+    compiled, beam = compile_graph(graph), beam or Beam()
     walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam), paths))
+    waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
     for character, path in enumerate(paths):
-        before = [walk.track for walk in walks[:character]]
-        if min((_nearest(walks[character].track, track) for track in before), default=np.inf) < apart:
-            yielding = replace(wishes, others=before)
-            walks[character] = follow_path(compiled, path, yielding, beam=wide, prices=prices)
-    return walks
+        before = tracks[:character]
+        if _clearance(tracks[character], before) < apart:
+            found = _give_way(compiled, path, before, apart, beam)
+            walks[character], waits[character], tracks[character] = found
+    nearest = np.array([[_nearest(a, b) if a is not b else np.inf for b in tracks] for a in tracks])
+    if nearest.min(initial=np.inf) < apart:
+        a, b = np.unravel_index(nearest.argmin(), nearest.shape)
+        warnings.warn(
+            f"Characters {a} and {b} come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked "
+            "for: their paths leave them no room.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return Crowd(walks, waits, nearest)
 
 
-def clearance(walks: Sequence[Followed]) -> float:
-    """Measure how near any two of a crowd come, metres between their roots; inf for one alone."""
-    return min((_nearest(a.track, b.track) for a, b in combinations(walks, 2)), default=np.inf)
+def _give_way(
+    graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float, beam: Beam
+) -> tuple[Followed, float, Array]:
+    """Walk so as to keep away from some tracks, at the least wait that will do: walk, wait and track."""
+    wide = replace(beam, width=3 * beam.width, rescue=30.0)
+    prices, found = Prices(crowding=60.0, stray=0.0), []
+    for wait in WAITS:
+        frames = round(wait * graph.fps)
+        others = [track[min(frames, len(track) - 1) :] for track in before]
+        walk = follow_path(graph, path, Wishes(others=others, apart=1.1 * apart), beam=wide, prices=prices)
+        track = np.concatenate([np.repeat(walk.track[:1], frames, axis=0), walk.track])
+        found.append((walk, wait, track))
+        if _clearance(track, before) >= apart:
+            return found[-1]
+    return max(found, key=lambda way: _clearance(way[2], before))
+
+
+def _clearance(track: Array, others: Sequence[Array]) -> float:
+    return min((_nearest(track, other) for other in others), default=np.inf)
 
 
 def _nearest(a: Array, b: Array) -> float:

@@ -7,16 +7,19 @@ import numpy as np
 
 from mocap import bvh
 from mocap.errors import MocapError
-from mocap.motion import Motion, turning
+from mocap.footskate import clean_up
+from mocap.motion import Motion, concatenate, turning
 from mocap.motion_graph import MotionGraph
 from mocap.progress import Progress
-from mocap.synthesis import places, to_motion, wander
+from mocap.synthesis import places, to_motion, wander, with_plants
 from mocap.transforms import IDENTITY, PlanarTransform
 from mocap.walks import Edge, edge_table
 
+MARGIN = 3.0  # seconds: no plant of a walk lasts so long, and no correction reaches so far
+
 
 def stream(
-    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0
+    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0, clean: bool = False
 ) -> Iterator[Motion]:
     """Play a random walk piece by piece, so that memory holds one piece only.
 
@@ -26,6 +29,7 @@ def stream(
     seconds : how long all pieces together shall be at least.
     seed : the walk is that of `synthesis.random_walk` with this seed.
     piece : seconds of a piece, at least.
+    clean : whether to make planted feet stand still, as in `synthesis.to_motion`.
 
     Yields
     ------
@@ -38,22 +42,53 @@ def stream(
     >>> graph = motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04))
     >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
     True
+
+    Notebook: 07-walks-and-search
     """
+    if clean:
+        motion_graph = with_plants(motion_graph)
+    pieces = _motions(motion_graph, _pieces(motion_graph, seconds, seed, piece))
+    yield from _cleaned(pieces) if clean else pieces
+
+
+def _motions(motion_graph: MotionGraph, walks: Iterator[list[Edge]]) -> Iterator[Motion]:
+    """Play walks one after the other."""
     place = IDENTITY
-    for walk in _pieces(motion_graph, seconds, seed, piece):
+    for walk in walks:
         yield to_motion(motion_graph, walk, place=place)
         ends = places(edge_table(motion_graph, walk), place)
         place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
 
 
-def dump(
-    motion_graph: MotionGraph, path: str | Path, *, seconds: float, seed: int = 0, progress: Progress = iter
+def _cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
+    """Clean each piece together with twice `MARGIN` of what came before; hold its last `MARGIN` back.
+
+    So every frame is cleaned with all that it depends on around it, and the cuts cannot be seen.
+    """
+    waiting, done = next(pieces), 0
+    margin = round(MARGIN * waiting.fps)
+    for piece in pieces:
+        if len(waiting) - done > margin:
+            yield clean_up(waiting)[done:-margin]
+            waiting, done = waiting[-2 * margin :], min(len(waiting) - margin, margin)
+        waiting = concatenate([waiting, piece])
+    yield clean_up(waiting)[done:]
+
+
+def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
+    motion_graph: MotionGraph,
+    path: str | Path,
+    *,
+    seconds: float,
+    seed: int = 0,
+    clean: bool = False,
+    progress: Progress = iter,
 ) -> int:
     """Write a random walk as a `.bvh` file while it is made; an hour takes no more memory than a minute.
 
     Parameters
     ----------
-    motion_graph, seconds, seed : as for `stream`.
+    motion_graph, seconds, seed, clean : as for `stream`.
     path : the file; it appears once it is whole.
     progress : wraps the pieces, to show a bar.
 
@@ -64,13 +99,15 @@ def dump(
     Raises
     ------
     MocapError : for another format, a folder that one cannot write to, or a duration that is none.
+
+    Notebook: 07-walks-and-search
     """
     if Path(path).suffix.lower() != ".bvh":
         raise MocapError(f"A long walk is written as .bvh, got '{path}'.")
     # The same seed gives the same walk: count its frames first, for they stand at the file's top.
     edges = motion_graph.graph.edges
     counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
-    pieces = stream(motion_graph, seconds=seconds, seed=seed)
+    pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
     turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
     bvh.write_pieces((next(pieces) for _ in progress(counts)), path, frames=sum(counts), turns=turns)
     return sum(counts)

@@ -1,21 +1,22 @@
 """Walking along a path drawn on the ground [KGP02, 5.1], and how well it went."""
 
+import time
 import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap.compiling import AHEAD, CompiledGraph, compile_graph, walk_track
+from mocap.compiling import CompiledGraph, compile_graph, walk_track
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.layered_search import Beam, Found, States, search_layers, start_states
 from mocap.motion import Motion
-from mocap.motion_graph import MotionGraph, Node
+from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath
 from mocap.pruning import reached
-from mocap.routes import Prices, Route
+from mocap.routes import Prices, Route, Wishes, make_route
 from mocap.synthesis import to_motion
 from mocap.transforms import PlanarTransform
 from mocap.walks import Edge
@@ -24,33 +25,11 @@ Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
-SPACING = 0.02  # metres between the points of a route
 ASTRAY = 0.15  # metres from the path at which a walk has left it
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """What is asked for beside the path.
-
-    Parameters
-    ----------
-    labels : (metres, label): from so far along the path on, what kind of motion, as in
-        [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
-    times : (metres, seconds): when to pass there; between two such places, at a steady pace.
-    heading : the direction to start in, radians; by default the path's own.
-    start : the node to start at; by default whichever is best.
-    least : progress in metres a second that even standing counts as, so that no walk stands for ever.
-    others : where others are on the ground in each frame, shape (T, 2) each; at the end they stay.
-    apart : metres to keep away from them.
-    """
-
-    labels: Sequence[tuple[float, str]] = ()
-    times: Sequence[tuple[float, float]] = ()
-    heading: float | None = None
-    start: Node | None = None
-    least: float = 0.3
-    others: Sequence[Array] = ()
-    apart: float = 0.8
+NEAR = 0.04  # metres off on average,
+SEAMS = 1.0  # and transitions a second, up to which a path is well followed
+AGAIN = 1.25  # times as dear or cheap is a seam in a second search,
+WIDER = 1.5  # with a beam so many times as wide
 
 
 class Departure(NamedTuple):
@@ -103,6 +82,11 @@ class Followed:
         return kinds.count("transition") / self.seconds
 
     @property
+    def excess(self) -> float:
+        """The largest of its mean and worst distance and its seams a second, over 4 cm, 15 cm and 1."""
+        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_a_second / SEAMS))
+
+    @property
     def progress(self) -> float:
         """The share of the path that was walked, 1 for all of it."""
         return float(min(1.0, self.along[-1] / self.path.length))
@@ -139,8 +123,10 @@ def follow_path(
 ) -> Followed:
     """Find a walk whose root, seen from above, follows a path.
 
-    The search is that of `layered_search`; its time is linear in the path's length. Where no clip turns as
-    the path does, the walk cuts the corner and comes back; a warning tells where, and how far off it is.
+    The search is that of `layered_search`; its time is linear in the path's length. No one price of a seam
+    suits all paths: where, at the usual one, seams come too often or the walk strays too far
+    (`Followed.excess`), a second, wider search with a dearer or a cheaper seam follows, and the better walk
+    is taken. Where no clip turns as the path does, it cuts the corner and comes back; a warning tells where.
 
     Parameters
     ----------
@@ -148,7 +134,7 @@ def follow_path(
     path : where to walk.
     wishes : labels, times and the start.
     beam : how thoroughly to search.
-    prices : how much seams and wishes count against the distance.
+    prices : how much seams and wishes count against the distance; at prices of your own there is one search.
 
     Raises
     ------
@@ -158,82 +144,48 @@ def follow_path(
     Warns
     -----
     MocapWarning : where the walk is more than 15 cm off the path.
+
+    Notebook: 08-path-synthesis
     """
-    wishes, compiled = wishes or Wishes(), compile_graph(graph)
+    wishes, compiled, beam = wishes or Wishes(), compile_graph(graph), beam or Beam()
     route = make_route(compiled, path, wishes)
     starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
-    found = search_layers(compiled, route, starts, beam or Beam(), prices or Prices())
-    followed = account(compiled, path, route, found)
-    if (departures := followed.departures) and not wishes.others:  # else it gave way
+
+    def search(beam: Beam, prices: Prices) -> Followed:
+        return account(compiled, path, route, search_layers(compiled, route, starts, beam, prices))
+
+    followed = search(beam, prices) if prices else _at_best_price(search, beam)
+    if not wishes.others:  # else it gave way
+        _warn(followed.departures)
+    return followed
+
+
+def _at_best_price(search: Callable[[Beam, Prices], Followed], beam: Beam) -> Followed:
+    """Search at the usual price of a seam; where the walk is out of bounds, wider and at a better one."""
+    begun = time.monotonic()
+    first = search(beam, Prices())
+    if first.excess <= 1 or first.found.stopped:
+        return first
+    seam = Prices.seam * (AGAIN if first.seams_a_second > SEAMS else 1 / AGAIN)
+    left = beam.seconds - (time.monotonic() - begun)
+    try:
+        second = search(replace(beam, width=round(WIDER * beam.width), seconds=left), Prices(seam=seam))
+    except NoWalk:  # out of time at once
+        return first
+    return min(first, second, key=lambda walk: (walk.progress < 1, walk.excess))
+
+
+def _warn(departures: Sequence[Departure]) -> None:
+    """Tell where a walk leaves its path."""
+    if departures:
         worst = max(departures, key=lambda d: d.worst)
         warnings.warn(
             f"The walk leaves the path {len(departures)} times, the furthest by {100 * worst.worst:.0f} cm "
             f"at {worst.start:.1f} to {worst.end:.1f} m: no clips turn as it does there.",
             MocapWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
-    return followed
-
-
-def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
-    """Lay out along a path what is wished for there.
-
-    Raises
-    ------
-    MocapError : for a path longer than these clips walk in an hour, and for wishes that make no sense.
-    NoWalk : for a label that the graph lacks.
-    """
-    _check_length(graph, path)
-    if not (np.isfinite(wishes.least) and wishes.least > 0):
-        raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
-    for where, what in (*wishes.labels, *wishes.times):
-        if not 0 <= where <= path.length:
-            raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")
-    points = path.resampled(SPACING).points
-    along = np.linspace(0, path.length, len(points))
-    label = np.full(len(points), -1)
-    for start, name in sorted(wishes.labels):
-        label[along >= start - 1e-9] = _label(graph, name)
-    ground = np.asarray(points[:, 1] + 1j * points[:, 0])
-    clock, others = _clock(along, wishes), _together(wishes.others)
-    return Route(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
-
-
-def _together(tracks: Sequence[Array]) -> Points:
-    """Put the tracks of others into one array (K, T), as long as the longest: who has arrived, stays."""
-    frames = np.arange(max(map(len, tracks), default=1))
-    stay = [track[np.minimum(frames, len(track) - 1)] for track in tracks]
-    return np.array([track[:, 1] + 1j * track[:, 0] for track in stay], complex).reshape(-1, len(frames))
-
-
-def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
-    fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
-    if path.length > 3600 * fastest:
-        raise MocapError(
-            f"The path is {path.length:.0f} m long, more than these clips walk in an hour "
-            f"({3600 * fastest:.0f} m, at {fastest:.2f} m/s): is it in metres?"
-        )
-
-
-def _clock(along: Array, wishes: Wishes) -> Array:
-    """Interpolate the times asked for; beyond the first and the last any time will do."""
-    if not wishes.times:
-        return np.full(len(along), np.nan)
-    places, times = np.array(sorted(wishes.times), float).T
-    if not (np.isfinite(times).all() and times.min() >= 0 and (np.diff(times) > 0).all()):
-        raise MocapError(f"Times must grow along the path from 0 s on, got {times.tolist()}.")
-    if (np.diff(places) <= 0).any():
-        raise MocapError(f"Two times are asked for in one place: {places.tolist()} m.")
-    return np.asarray(np.interp(along, places, times, left=np.nan, right=np.nan))
-
-
-def _label(graph: CompiledGraph, name: str) -> int:
-    """Find a label's number, -1 for any."""
-    if name and name not in graph.labels:
-        have = ", ".join(graph.labels) or "none"
-        raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {have}.")
-    return graph.labels.index(name) if name else -1
 
 
 def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:

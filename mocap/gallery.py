@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
+import networkx as nx
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -31,6 +32,9 @@ from mocap.footprints import footprints
 from mocap.kinematics import joint_positions
 from mocap.motion import resample
 from mocap.motion_graph import MotionGraph
+from mocap.search import Problem, SearchEdge
+from mocap.search_drawing import TreePicture, grow_tree
+from mocap.style import ASKED
 
 Array = NDArray[np.float64]
 
@@ -126,12 +130,37 @@ def draw_match() -> Figure:
     return plt.gcf()
 
 
+def draw_search() -> Figure:
+    """Draw a search for five steps along a path that turns back: its tree, and the same on the ground."""
+    path = paths.GroundPath(np.array([(0, 0), (0, 2.1), (0.7, 2.1), (0.7, 0)]))
+    graph = nx.MultiDiGraph([("left", "right")] * 3 + [("right", "left")] * 3)
+    nx.set_edge_attributes(graph, 18, "frames")
+
+    def step(state: tuple[complex, float, int], edge: SearchEdge) -> tuple[float, Any]:
+        at, heading, steps = state
+        heading += np.pi / 6 * (edge[2] - 1)
+        at += 0.7 * np.exp(1j * heading)
+        x, z = path.at(0.7 * (steps + 1))
+        return abs(at - complex(z, x)) ** 2, (at, heading, steps + 1)
+
+    tree = grow_tree(Problem(graph, step, lambda state: state[2] == 5), "left", (0j, 0.0, 0))
+    figure = plt.figure(figsize=(10, 3.6), layout="constrained")
+    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
+    TreePicture(tree, ax=left).after()
+    right.plot(*path.points.T, color=ASKED, linewidth=5, alpha=0.85)
+    TreePicture(tree, places=[(at.imag, at.real) for at, _, _ in tree.state], ax=right).after()
+    right.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
+    right.xaxis.set_inverted(True)
+    return figure
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "nodes": draw_nodes,
     "distances": draw_distances,
     "pruning": draw_pruning,
     "path": draw_path,
+    "search": draw_search,
     "seam": draw_seam,
     "match": draw_match,
 }

@@ -8,17 +8,20 @@ from numpy.typing import NDArray
 
 from mocap.compiling import CompiledGraph
 from mocap.errors import MocapError
-from mocap.follow import Followed, Wishes, follow_path
+from mocap.follow import Followed, follow_path
 from mocap.layered_search import Beam
 from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath, spline
-from mocap.routes import Prices
+from mocap.routes import Prices, Wishes
 
 Array = NDArray[np.float64]
 
 
 class Waypoint(NamedTuple):
-    """A place (x, z) in metres, the label of the motion from there on, "" for any, and when to be there."""
+    """A place (x, z) in metres, the label of the motion from there on, "" for any, and when to be there.
+
+    Notebook: 08-path-synthesis
+    """
 
     x: float
     z: float
@@ -62,6 +65,8 @@ def through_waypoints(
     Raises
     ------
     NoWalk, MocapError : as there.
+
+    Notebook: 08-path-synthesis
     """
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)

@@ -6,7 +6,7 @@ turned which way. So here all walks advance together, a few centimetres of path 
 stand alike only the best goes on (dominance), and of these the `width` most promising (a beam). The time is
 linear in the path's length.
 
-The promise of a walk is what it has cost, and what it would cost to let its clip just play on for half a
+The promise of a walk is what it has cost, and what it would cost to let its clip just play on for most of a
 second, though no more than `rescue`: by then a transition could have mended it. Without this a walk that has
 just paid for a turn looks worse than one about to run off the path.
 """
@@ -20,8 +20,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap.compiling import CompiledGraph
+from mocap.compiling import AHEAD, CompiledGraph
 from mocap.errors import NoWalk
+from mocap.progress import Progress
 from mocap.routes import Prices, Route
 from mocap.walks import ranges
 
@@ -42,14 +43,16 @@ class Beam:
     place, turn : walks nearer than this, metres and radians, at the same node stand alike.
     rescue : the most that is expected to be lost where a walk is about to leave the path, m².
     seconds : time to search; when it is over, the best walk so far is taken.
+    progress : wraps the layers, to show a bar.
     """
 
     width: int = 100
     layer: float = 0.15
     place: float = 0.1
     turn: float = 0.1
-    rescue: float = 0.6
+    rescue: float = 1.5
     seconds: float = np.inf
+    progress: Progress = iter
 
 
 STATE = np.dtype(
@@ -137,14 +140,13 @@ class _Run:
     def to_the_end(self) -> str:
         """Work through the layers; say what stopped it before the last one."""
         deadline = time.monotonic() + self.beam.seconds
-        while self.waiting:
-            layer = min(self.waiting)
-            if time.monotonic() > deadline:
-                return "out of time"
-            states = np.concatenate(self.waiting[layer])
-            new = self.follow(self.select(states))
-            del self.waiting[layer]
-            self.sort(new)
+        last = int(self.route.length / self.beam.layer)
+        for layer in self.beam.progress(range(last + 1)):
+            while states := self.waiting.pop(layer, []):
+                if time.monotonic() > deadline:
+                    return "out of time"
+                # Who has not left the layer goes on in it, or who lags would vie with those ahead.
+                self.sort(self.follow(self.select(np.concatenate(states))), layer)
         return ""
 
     def select(self, states: States) -> States:
@@ -152,15 +154,16 @@ class _Run:
         beam, graph, node, turn = self.beam, self.graph, states["node"], states["turn"]
         body = (states["move"] + turn * graph.at[node]) / beam.place
         key = node
-        for value in (body.real, body.imag, np.angle(turn) / beam.turn):
-            key = (key << 14) + (np.floor(value).astype(np.int64) & 0x3FFF)
+        clock = states["frames"] * (4 / graph.fps) * bool(len(self.route.others))  # they move on
+        for value in (body.real, body.imag, np.angle(turn) / beam.turn, clock):
+            key = (key << 12) + (np.floor(value).astype(np.int64) & 0xFFF)
         ahead = states["move"][:, None] + turn[:, None] * graph.ahead[node]
         off = _square(ahead - self.route.near(states["along"][:, None] + self.ahead_along[node]))
         if len(self.route.others):  # to give way takes longer: look twice and thrice as far
             further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None] * beam.place) * [0, 1, 2]
-            off += self.crowding(further, states["frames"][:, None] + int(graph.fps / 2) * np.arange(1, 4))
-        # Each of the points ahead stands for a share of half a second's frames.
-        loss = off.sum(axis=1) * graph.fps / 6
+            then = np.arange(1, 4) * round(graph.fps * AHEAD[-1])
+            off += self.crowding(further, states["frames"][:, None] + then)
+        loss = off.sum(axis=1) * graph.fps * AHEAD[0]  # each point ahead stands for the frames up to it
         order = np.argsort(states["cost"] + np.minimum(loss, beam.rescue), kind="stable")
         _, first = np.unique(key[order], return_index=True)
         first.sort()
@@ -222,7 +225,7 @@ class _Run:
             price += self.prices.crowding * np.maximum(near, 0.0) ** 2
         return price
 
-    def sort(self, new: States) -> None:
+    def sort(self, new: States, earliest: int) -> None:
         """Sort states into the layers they have reached; those at the end compete for the best."""
         done = new["along"] >= self.route.length
         if done.any():
@@ -232,7 +235,7 @@ class _Run:
                 self.best = arrived[first : first + 1]
             # No cost is below 0, so what costs as much as the best walk cannot become better.
             new = new[~done & (new["cost"] < self.best["cost"][0])]
-        layer = (new["along"] / self.beam.layer).astype(np.intp)
+        layer = np.maximum((new["along"] / self.beam.layer).astype(np.intp), earliest)
         for reached in set(layer.tolist()):
             self.waiting.setdefault(reached, []).append(new[layer == reached])
 

@@ -114,6 +114,8 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     ------
     MocapError : where anywidget is not installed.
     Exception : whatever `follow` raises at the first path; later, the canvas shows it.
+
+    Notebook: 08-path-synthesis
     """
     on_canvas = {"drawable": True, "follow": False}
     points = np.reshape(np.asarray(path, float), (-1, 2))

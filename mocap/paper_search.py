@@ -6,11 +6,11 @@ import numpy as np
 
 from mocap.compiling import CompiledGraph, compile_graph
 from mocap.errors import NoWalk
-from mocap.follow import Followed, Wishes, account, make_route, start_of
+from mocap.follow import Followed, account, start_of
 from mocap.layered_search import Found
 from mocap.motion_graph import MotionGraph
 from mocap.paths import GroundPath
-from mocap.routes import Route
+from mocap.routes import Route, Wishes, make_route
 from mocap.search import Budget, Problem, SearchEdge, search_ahead
 
 
@@ -64,6 +64,8 @@ def follow_as_2002(
     Raises
     ------
     NoWalk, MocapError : as there.
+
+    Notebook: 08-path-synthesis
     """
     compiled = compile_graph(graph)
     route = make_route(compiled, path, wishes)

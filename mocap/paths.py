@@ -33,6 +33,8 @@ class GroundPath:
     >>> corner = GroundPath([[0, 0], [0, 3], [0, 3], [4, 3]])
     >>> corner, corner.at(4.0)
     (GroundPath(3 points, 7.0 m), array([1., 3.]))
+
+    Notebook: 08-path-synthesis
     """
 
     points: Array
@@ -95,6 +97,8 @@ def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
     --------
     >>> spline([[0, 0], [1, 1], [0, 2], [-1, 1]], closed=True)
     GroundPath(311 points, 6.2 m)
+
+    Notebook: 08-path-synthesis
     """
     through = GroundPath(np.asarray(points, float)).points
     if closed:
@@ -118,6 +122,8 @@ def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, f
     --------
     >>> arcs((0, 0), 0.0, [(2.0, 0.0), (np.pi / 2, np.pi / 2)]).points[-1].round(2)
     array([1., 3.])
+
+    Notebook: 08-path-synthesis
     """
     steps, turns = [], []
     for length, turn in pieces:
@@ -136,7 +142,10 @@ def circle(radius: float = 3.0) -> GroundPath:
 
 
 def s_curve(length: float = 20.0) -> GroundPath:
-    """Draw two bends, one to the right and one to the left, of nearly half a turn each."""
+    """Draw two bends, one to the right and one to the left, of nearly half a turn each.
+
+    Notebook: 08-path-synthesis
+    """
     bend = 0.9 * np.pi
     return arcs((0, 0), bend / 2, [(length / 2, -bend), (length / 2, bend)])
 
@@ -156,7 +165,10 @@ def figure_eight(radius: float = 2.5) -> GroundPath:
 
 
 def letter_s(radius: float = 1.5) -> GroundPath:
-    """Draw a letter S, from its upper end to its lower end."""
+    """Draw a letter S, from its upper end to its lower end.
+
+    Notebook: 08-path-synthesis
+    """
     return arcs((0, 0), 0.0, [(1.25 * np.pi * radius, 1.25 * np.pi), (1.25 * np.pi * radius, -1.25 * np.pi)])
 
 

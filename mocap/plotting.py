@@ -120,6 +120,8 @@ def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None)
     Returns
     -------
     The path asked for, the path walked, and its start.
+
+    Notebook: 08-path-synthesis
     """
     ax = _from_above(ax)
     asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")

@@ -8,6 +8,7 @@ What g and the halting rule need to know of the walk so far is a `state` of the 
 itself, or sums over it.
 """
 
+import math
 import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
@@ -53,8 +54,14 @@ class Problem:
 class Budget:
     """How many walks to expand at most, and for how many seconds to search."""
 
-    nodes: float = float("inf")
-    seconds: float = float("inf")
+    nodes: float = math.inf
+    seconds: float = math.inf
+
+    def spent(self, nodes: int, begun: float) -> str:
+        """Say what a search has run out of that expanded so many and began at a time of `time.monotonic`."""
+        if nodes >= self.nodes:
+            return "out of nodes"
+        return "out of time" if time.monotonic() > begun + self.seconds else ""
 
 
 class SearchResult(NamedTuple):
@@ -74,7 +81,7 @@ class SearchResult(NamedTuple):
     stopped: str
 
 
-class _Branch(NamedTuple):
+class Branch(NamedTuple):
     """A walk under way: its last edge, and the branch that it goes on from."""
 
     cost: float
@@ -82,9 +89,10 @@ class _Branch(NamedTuple):
     state: State
     frames: int = 0
     edge: SearchEdge | None = None
-    before: "_Branch | None" = None
+    before: "Branch | None" = None
 
     def walk(self) -> list[SearchEdge]:
+        """List its edges, the first one first."""
         edges, branch = [], self
         while branch.edge is not None and branch.before is not None:
             edges.append(branch.edge)
@@ -97,7 +105,7 @@ def branch_and_bound(
     node: Hashable,
     state: State,
     *,
-    horizon: float = float("inf"),
+    horizon: float = math.inf,
     budget: Budget | None = None,
 ) -> SearchResult:
     """Find the cheapest walk that is done, or at least `horizon` frames long.
@@ -113,40 +121,33 @@ def branch_and_bound(
     ------
     NoWalk : for a node that the graph lacks, and where every walk ends before it is complete.
     MocapError : where g gives a cost below 0, with which the bound would cut what it must not.
+
+    Notebook: 07-walks-and-search
     """
     if node not in problem.graph:
         raise NoWalk(f"The graph has no node {node}.")
-    budget = budget or Budget()
-    deadline = time.monotonic() + budget.seconds
-    best = furthest = _Branch(0.0, node, state)
-    bound, stack, expanded, cut, stopped = float("inf"), [best], 0, 0, ""
+    stack, best, budget, begun = [Branch(0.0, node, state)], None, budget or Budget(), time.monotonic()
+    furthest, expanded, cut, stopped = stack[0], 0, 0, ""
     try:
-        while stack:
+        while stack and not stopped:
             branch = stack.pop()
             furthest = max(furthest, branch, key=lambda b: b.frames)
-            if branch.cost >= bound:
+            if best and branch.cost >= best.cost:
                 cut += 1
             elif problem.done(branch.state) or branch.frames >= horizon:
-                best, bound = branch, branch.cost
-            elif stopped := _over(expanded >= budget.nodes, time.monotonic() > deadline):
-                break
-            else:
+                best = branch
+            elif not (stopped := budget.spent(expanded, begun)):
                 expanded += 1
-                stack += _children(problem, branch)  # the cheapest last, to be popped first
+                stack += children(problem, branch)  # the cheapest last, to be popped first
     except KeyboardInterrupt:
         stopped = "interrupted"
-    complete = bound < float("inf")
-    if not complete and not stopped:
+    if not (best or stopped):
         raise NoWalk(f"Every walk from node {node} ends too early: prune the graph first.")
-    best = best if complete else furthest
-    return SearchResult(best.walk(), best.cost, best.state, complete, expanded, cut, stopped)
+    last = best or furthest
+    return SearchResult(last.walk(), last.cost, last.state, best is not None, expanded, cut, stopped)
 
 
-def _over(nodes: bool, seconds: bool) -> str:
-    return "out of nodes" if nodes else "out of time" if seconds else ""
-
-
-def _children(problem: Problem, branch: _Branch) -> list[_Branch]:
+def children(problem: Problem, branch: Branch) -> list[Branch]:
     """Go on by every edge, the dearest first."""
     found = []
     for start, end, key, frames in problem.graph.out_edges(branch.node, keys=True, data="frames"):
@@ -154,7 +155,7 @@ def _children(problem: Problem, branch: _Branch) -> list[_Branch]:
         if not cost >= 0:
             raise MocapError(f"A cost must be 0 or more, got {cost} for the edge {(start, end, key)}.")
         found.append(
-            _Branch(branch.cost + cost, end, state, branch.frames + frames, (start, end, key), branch)
+            Branch(branch.cost + cost, end, state, branch.frames + frames, (start, end, key), branch)
         )
     return sorted(found, key=lambda child: child.cost, reverse=True)
 
@@ -180,6 +181,8 @@ def search_ahead(
     Returns
     -------
     The whole walk; after Ctrl-C, as far as it has come.
+
+    Notebook: 07-walks-and-search
     """
     ahead, keep = look
     if not 1 <= keep <= ahead:

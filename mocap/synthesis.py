@@ -56,7 +56,7 @@ def random_walk(
     ------
     NoWalk : for a start that the graph lacks, and where the walk runs into a dead end.
 
-    Notebook: 00-quickstart
+    Notebook: 07-walks-and-search
     """
     if not (np.isfinite(seconds) and seconds > 0):
         raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
@@ -73,7 +73,10 @@ def random_walk(
 def wander(
     motion_graph: MotionGraph, *, seed: int = 0, settle: float = 1.0, start: Node | None = None
 ) -> Iterator[Edge]:
-    """Give the edges of a random walk one by one, for ever; see `random_walk`."""
+    """Give the edges of a random walk one by one, for ever; see `random_walk`.
+
+    Notebook: 07-walks-and-search
+    """
     graph, fps = motion_graph.graph, motion_graph.clips[0].fps
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))] if start is None else start
@@ -125,11 +128,11 @@ def to_motion(
     ------
     NoWalk : for an empty walk, an edge that the graph lacks, or one that starts elsewhere.
 
-    Notebook: 00-quickstart
+    Notebook: 07-walks-and-search
     """
     require_walk(motion_graph, walk)
-    if clean and not any(clip.contacts for clip in motion_graph.clips):
-        motion_graph = replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
+    if clean:
+        motion_graph = with_plants(motion_graph)
     edges = edge_table(motion_graph, walk)
     table = frame_table(edges, motion_graph.window)
     before = places(edges, place)
@@ -146,11 +149,20 @@ def to_motion(
     return clean_up(motion) if clean else motion
 
 
+def with_plants(motion_graph: MotionGraph) -> MotionGraph:
+    """Find out when feet stand, where no clip tells."""
+    if any(clip.contacts for clip in motion_graph.clips):
+        return motion_graph
+    return replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
+
+
 def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransform:
     """Multiply up the transforms along a walk of n edges: n + 1 places, the last where it ends.
 
     Angles add up, and so do the steps t_i, each turned by the angles before it: with a ground point as the
     complex number z + ix, a turn by θ is a product with exp(iθ), and both are running sums.
+
+    Notebook: 07-walks-and-search
     """
     angle = np.cumsum(np.concatenate([[place.angle], np.asarray(edges.transform.angle)]))
     steps = (edges.transform.z + 1j * np.asarray(edges.transform.x)) * np.exp(1j * angle[:-1])
@@ -188,7 +200,7 @@ def _marks(motion_graph: MotionGraph, table: FrameTable, kind: str) -> dict[str,
 def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
     """List the transitions that a walk passes.
 
-    Notebook: 00-quickstart
+    Notebook: 07-walks-and-search
     """
     edges = edge_table(motion_graph, walk)
     first = np.cumsum(edges.frames) - edges.frames
@@ -196,7 +208,10 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
 
 
 def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:
-    """Tell which clip a walk plays from which frame on; within a transition it changes half-way."""
+    """Tell which clip a walk plays from which frame on; within a transition it changes half-way.
+
+    Notebook: 07-walks-and-search
+    """
     found, frame = [(0, motion_graph.clips[walk[0][0][0]].name)], 0
     for start, end, key in walk:
         data = motion_graph.graph.edges[start, end, key]

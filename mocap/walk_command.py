@@ -43,7 +43,7 @@ def add_walk(commands: "Commands") -> None:
     wish = "from so far along the path on, this kind of motion; may be given many times"
     add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
     add("--width", type=int, default=100, help="how thoroughly to search (default: %(default)s)")
-    add("--clean", action="store_true", help="make planted feet stand still (along a path)")
+    add("--clean", action="store_true", help="make planted feet stand still")
     add("--seed", type=int, default=0, help="another seed, another random walk (default: %(default)s)")
     walk.set_defaults(run=_walk)
 
@@ -55,8 +55,14 @@ def _walk(options: argparse.Namespace) -> int:
         raise MocapError(f"A walk is written as .bvh, got '{options.out}'.")
     if options.random is not None:
         seconds, graph = _seconds(options.random), _graph(options)
-        progress = partial(bar, what="writing")
-        frames = dumping.dump(graph, options.out, seconds=seconds, seed=options.seed, progress=progress)
+        frames = dumping.dump(
+            graph,
+            options.out,
+            seconds=seconds,
+            seed=options.seed,
+            clean=options.clean,
+            progress=partial(bar, what="writing"),
+        )
         print(f"{'walked':<12} {frames / graph.fps:.1f} s at random")
     else:
         followed = _followed(options)
@@ -67,11 +73,11 @@ def _walk(options: argparse.Namespace) -> int:
 
 
 def _followed(options: argparse.Namespace) -> "Followed":
-    from mocap import follow, layered_search, path_files
+    from mocap import follow, layered_search, path_files, routes
 
     path = path_files.load_path(options.path, scale=options.unit)
-    wishes = follow.Wishes(labels=[_label(text) for text in options.label])
-    beam = layered_search.Beam(width=options.width)
+    wishes = routes.Wishes(labels=[_label(text) for text in options.label])
+    beam = layered_search.Beam(width=options.width, progress=partial(bar, what="searching"))
     return follow.follow_path(_graph(options), path, wishes, beam=beam)
 
 

@@ -1,19 +1,21 @@
 """Walks keep to their paths, do what is asked for, and tell what they could not do."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
 import mocap
-from mocap import paths
+from mocap import follow, paths
 from mocap.compiling import compile_graph, on_ground
 from mocap.errors import MocapError, MocapWarning, NoWalk
-from mocap.follow import Wishes, follow_path
+from mocap.follow import follow_path
+from mocap.layered_search import Beam, search_layers
 from mocap.motion_graph import build, prune
 from mocap.paths import GroundPath, s_curve
-from mocap.routes import Prices
+from mocap.routes import Prices, Wishes
 from tests.graphs import sneaking, walking
 
 GRAPH = walking()
@@ -48,6 +50,47 @@ def test_what_it_tells_is_what_the_motion_does():
 def test_dear_seams_are_few():
     cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam)) for seam in (0.01, 2.0))
     assert dear.seams_a_second < 0.8 * cheap.seams_a_second
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
+    """By a second, wider search, at another price; the better walk of both is taken."""
+    tried = []
+
+    def search(graph, route, starts, beam, prices):
+        tried.append((search_layers(graph, route, starts, beam, prices), beam, prices))
+        return tried[-1][0]
+
+    monkeypatch.setattr(follow, "search_layers", search)
+    once = follow_path(GRAPH, s_curve(), prices=Prices())
+    assert once.excess > 1
+    assert len(tried) == 1
+    better = follow_path(GRAPH, s_curve())
+    assert len(tried) == 3
+    assert tried[2][1].width == 150
+    assert (tried[2][2].seam > Prices.seam) == (once.seams_a_second > 1)
+    assert better.excess <= once.excess
+    stopped = follow_path(GRAPH, s_curve(), beam=Beam(seconds=0.1))
+    assert stopped.found.stopped == "out of time"
+    assert len(tried) == 4
+    for bound in ("NEAR", "ASTRAY", "SEAMS"):
+        monkeypatch.setattr(follow, bound, 9.0)
+    assert follow_path(GRAPH, s_curve()).walk == once.walk
+    assert len(tried) == 5
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_a_second_search_without_time_leaves_the_first(monkeypatch):
+    searches = []
+
+    def search(graph, route, starts, beam, prices):
+        searches.append(beam)
+        late = replace(beam, seconds=-1.0) if len(searches) == 2 else beam
+        return search_layers(graph, route, starts, late, prices)
+
+    monkeypatch.setattr(follow, "search_layers", search)
+    assert follow_path(GRAPH, s_curve()).progress == 1.0
+    assert len(searches) == 2
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")

@@ -17,7 +17,7 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 CHECKS = {f"checks.{path.stem}": path for path in sorted((PACKAGE / "checks").glob("*.py"))}
 
 LAYERS = [
-    {"checking", "errors", "progress", "rotations", "routes", "style"},
+    {"checking", "errors", "progress", "rotations", "style"},
     {"atomic", "course", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton", "stills"},
     {
         "acclaim_skeleton",
@@ -32,6 +32,7 @@ LAYERS = [
         "motion",
         "paths",
         "pointing",
+        "search_drawing",
         "walker",
     },
     {"acclaim", "blending", "bvh", "course_command", "kinematics", "pacing", "path_files", "transforms"},
@@ -52,7 +53,8 @@ LAYERS = [
     {"motion_graph", "thresholds", "widgets"},
     {"graph_drawing", "graph_files", "merging", "walks"},
     {"compiling", "plotting", "synthesis"},
-    {"control", "demo", "dumping", "layered_search"},
+    {"control", "demo", "dumping", "routes"},
+    {"layered_search"},
     {"follow"},
     {"crowd", "gallery", "keyframes", "paper_search", "walk_command"},
     {"show_commands"},

@@ -9,6 +9,7 @@ from mocap.keyframes import Waypoint, through_waypoints
 from tests.graphs import sneaking, walking
 
 
+@pytest.mark.filterwarnings("ignore:The walk leaves")
 def test_places_and_times_are_kept():
     points = [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0), Waypoint(-0.5, 8, seconds=10.0)]
     found = through_waypoints(walking(), points)

@@ -6,12 +6,12 @@ import pytest
 from mocap import layered_search
 from mocap.compiling import compile_graph
 from mocap.errors import NoWalk
-from mocap.follow import Wishes, follow_path, make_route
+from mocap.follow import follow_path
 from mocap.layered_search import Beam, search_layers, start_states
 from mocap.motion_graph import from_transitions
 from mocap.paper_search import PathCost, PathState
 from mocap.paths import GroundPath, s_curve
-from mocap.routes import Prices
+from mocap.routes import Prices, Wishes, make_route
 from mocap.search import Problem, branch_and_bound
 from tests.graphs import walking
 from tests.strategies import wave
@@ -50,14 +50,30 @@ def test_a_wider_beam_costs_more_and_follows_better():
     assert wide.found.cut > 0
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_the_work_is_linear_in_the_length():
-    short, long = (follow_path(GRAPH, s_curve(length)).found.expanded for length in (10, 40))
+    prices = Prices()
+    walks = [follow_path(GRAPH, s_curve(length), prices=prices) for length in (10, 40)]
+    short, long = (walk.found.expanded for walk in walks)
     assert 3 < long / short < 5
 
 
 def test_the_cost_is_what_the_walk_is_off():
     followed = follow_path(GRAPH, GroundPath([[0, 0], [0, 6]]), prices=Prices(seam=0.0, match=0.0, stray=0.0))
     assert followed.found.cost >= (followed.off**2).sum() - 1e-9
+
+
+def test_it_tells_how_far_it_has_come():
+    seen = []
+
+    def progress(layers):
+        for layer in layers:
+            seen.append((layer, len(layers)))
+            yield layer
+
+    path = GroundPath([[0, 0], [0, 6]])
+    follow_path(GRAPH, path, beam=Beam(progress=progress, layer=0.25), prices=Prices())
+    assert seen == [(layer, 25) for layer in range(25)]
 
 
 def test_out_of_time_it_gives_the_best_so_far_and_says_so():
@@ -69,6 +85,7 @@ def test_out_of_time_it_gives_the_best_so_far_and_says_so():
         follow_path(GRAPH, s_curve(), beam=Beam(seconds=-1))
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_an_interruption_gives_the_best_walk_so_far(monkeypatch):
     rounds, follow = iter(range(40)), layered_search._Run.follow
 

@@ -3,9 +3,10 @@
 import pytest
 
 from mocap.errors import MocapWarning, NoWalk
-from mocap.follow import Wishes, follow_path
+from mocap.follow import follow_path
 from mocap.paper_search import follow_as_2002
 from mocap.paths import GroundPath, s_curve
+from mocap.routes import Wishes
 from mocap.search import Budget
 from tests.graphs import walking
 

@@ -48,14 +48,80 @@ def test_curves_are_the_curves_they_are(tmp_path):
     )
 
 
+@pytest.mark.parametrize("sweep", [0, 1])
+@pytest.mark.parametrize("large", [0, 1])
+def test_arcs_are_parts_of_their_circles(tmp_path, large, sweep):
+    """Of the two circles of radius 2 through (0, 0) and (-2, 0), each has a short and a long arc."""
+    path = load_path(svg(tmp_path, f'<path d="M0 0a-200 200 30 {large}{sweep}200 0"/>'))
+    furthest = (2 + np.sqrt(3) * (1 if large else -1)) * (1 if sweep else -1)  # clockwise is first up
+    centre = [-1, furthest - (2 if sweep else -2)]
+    assert np.hypot(*(path.points - centre).T) == pytest.approx(2)
+    assert path.points[len(path.points) // 2] == pytest.approx([-1, furthest])
+    assert path.points[-1].tolist() == [-2, 0]
+    assert path.length == pytest.approx(2 * np.pi / 3 * (5 if large else 1), rel=1e-3)
+
+
+@pytest.mark.parametrize("flags", ["0 0", "0 1", "1 0", "1 1"])
+def test_an_elliptic_arc_is_a_circular_one_tilted_and_squeezed(tmp_path, flags):
+    circular = (
+        f'<g transform="rotate(40)"><path transform="scale(2, .5)" d="M0 0A90 90 0 {flags} 60 80"/></g>'
+    )
+    c, s = np.cos(np.radians(40)), np.sin(np.radians(40))
+    end = [c * 120 - s * 40, s * 120 + c * 40]
+    elliptic = f'<path d="M0 0A180 45 40 {flags} {end[0]} {end[1]}"/>'
+    points = load_path(svg(tmp_path, circular)).points
+    assert load_path(svg(tmp_path, elliptic)).points == pytest.approx(points)
+
+
+def test_arcs_that_cannot_be_are_mended(tmp_path):
+    """Radii too short to reach grow; of radius 0 it is a line; to the same point it is nothing."""
+    half = load_path(svg(tmp_path, '<path d="M0 0A1 1 0 0 1 200 0"/>'))
+    assert half.length == pytest.approx(np.pi, rel=1e-3)
+    straight = load_path(svg(tmp_path, '<path d="M0 0A0 9 0 0 1 200 0A9 9 0 1 1 200 0"/>'))
+    assert straight.points.tolist() == [[0, 0], [-2, 0]]
+
+
+@pytest.mark.parametrize(
+    ("transform", "end"),
+    [
+        ("matrix(1 2 3 4 5 6)", (5 + 1 * 10 + 3 * 20, 6 + 2 * 10 + 4 * 20)),
+        ("translate(5)", (15, 20)),
+        ("translate(5, 6)", (15, 26)),
+        ("scale(2)", (20, 40)),
+        ("scale(2 3)", (20, 60)),
+        ("rotate(90)", (-20, 10)),
+        ("rotate(90, 10, 0)", (-10, 0)),
+        ("skewX(45)", (30, 20)),
+        ("skewY(45)", (10, 30)),
+        ("translate(5) scale(2), rotate(90)", (-35, 20)),  # the last comes first
+    ],
+)
+def test_transforms_move_what_is_drawn(tmp_path, transform, end):
+    body = f'<defs><line x2="1"/></defs><line transform="{transform}" x2="10" y2="20"/>'
+    assert load_path(svg(tmp_path, body), scale=1).points[-1] == pytest.approx(np.negative(end))
+
+
+def test_groups_carry_what_is_in_them(tmp_path):
+    body = (
+        '<g transform="translate(100)"><g transform="scale(2)"><polyline points="0 0 1 1"/></g></g>'
+        '<path d="M0 0L9 9"/>'
+    )
+    assert load_path(svg(tmp_path, body), scale=1).points.tolist() == [[-100, 0], [-102, -2]]
+
+
 @pytest.mark.parametrize(
     ("body", "message"),
     [
         ("", "a path, polyline, polygon or line, got none"),
         ('<path d=""/>', "starts with 'M'"),
         ('<path d="M 0 0 L 5"/>', "2 numbers for 'L'"),
-        ('<path d="M 0 0 A 5 5 0 0 1 9 9"/>', "'A': simplify"),
-        ('<path transform="scale(2)" d="M 0 0 L 5 5"/>', "transform"),
+        ('<path d="M 0 0 B 5 5"/>', "the commands M L .* A Z, got 'B'"),
+        ('<path d="M 0 0 L 5 5 z 9 9"/>', "the commands .*'9 9'"),
+        ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "7 numbers for 'A', got '5 5 0 2 1 9 9'"),
+        ('<path transform="scale(1, 2, 3)" d="M 0 0 L 5 5"/>', r"a transform, got 'scale\(1, 2, 3\)'"),
+        ('<path transform="perspective(9)" d="M 0 0 L 5 5"/>', "a transform, got 'perspective"),
+        ('<g transform="scale 2"><path d="M 0 0 L 5 5"/></g>', "a transform, got 'scale 2'"),
+        ('<defs><path d="M 0 0 L 5 5"/></defs>', "a path, polyline, polygon or line, got none"),
         ('<path d="M 0 0 L 0 0"/>', "zero length"),
         ('<polyline points="0 0"/>', "two points"),
         ("<path", "SVG picture"),

@@ -35,9 +35,10 @@ def test_it_walks_along_a_path(folder, capsys, path):
     assert len(files.load(out)) > 90
 
 
-def test_it_wanders(folder, capsys):
+@pytest.mark.parametrize("clean", [[], ["--clean"]])
+def test_it_wanders(folder, capsys, clean):
     out = folder / "out.bvh"
-    assert main(["walk", str(folder / "graph.npz"), "--random", "0.1min", "-o", str(out)]) == 0
+    assert main(["walk", str(folder / "graph.npz"), "--random", "0.1min", "-o", str(out), *clean]) == 0
     assert len(files.load(out)) >= 180
     assert "at random" in capsys.readouterr().out
 

@@ -1,0 +1,120 @@
+from itertools import pairwise
+
+import numpy as np
+
+
+def evenly(points, along):
+    length = np.linalg.norm(points[1:] - points[:-1], axis=1).sum()
+    index = np.clip(along / length, 0, 1) * (len(points) - 1)
+    before = np.minimum(index.astype(int), len(points) - 2)
+    return points[before] + (index - before)[:, None] * (points[before + 1] - points[before])
+
+
+def no_zero(points, along):
+    s = np.cumsum(np.linalg.norm(points[1:] - points[:-1], axis=1))
+    return np.column_stack([np.interp(along, s, points[1:, k]) for k in (0, 1)])
+
+
+def one_late(points, along):
+    s = np.cumsum(np.linalg.norm(points[1:] - points[:-1], axis=1))
+    return np.column_stack([np.interp(along, s, points[:-1, k]) for k in (0, 1)])
+
+
+def corner(points, along):
+    s = np.append(0, np.cumsum(np.linalg.norm(points[1:] - points[:-1], axis=1)))
+    return np.array([points[np.argmin((s - a) ** 2)] for a in along])
+
+
+def squared(points, along):
+    s = np.append(0, np.cumsum(((points[1:] - points[:-1]) ** 2).sum(axis=1)))
+    return np.column_stack([np.interp(along, s, points[:, k]) for k in (0, 1)])
+
+
+def summed(track, path, along, step):
+    cost, s = 0.0, along
+    for before, here in pairwise(track):
+        s += step(np.linalg.norm(here - before))
+        cost += ((here - path(s)) ** 2).sum()
+    return cost, s
+
+
+def may_stand(track, path, along, least):
+    return summed(track, path, along, lambda step: step)
+
+
+def floor_added(track, path, along, least):
+    return summed(track, path, along, lambda step: step + least)
+
+
+def from_zero(track, path, along, least):
+    return summed(track, path, 0, lambda step: max(step, least))
+
+
+def averaged(track, path, along, least):
+    cost, s = summed(track, path, along, lambda step: max(step, least))
+    return cost / len(track[1:]), s
+
+
+def not_squared(track, path, along, least):
+    cost, s = 0.0, along
+    for before, here in pairwise(track):
+        s = max(s + np.linalg.norm(here - before), s + least)
+        cost += np.linalg.norm(here - path(s))
+    return cost, s
+
+
+def one_each(stand, costs, order, columns=slice(None)):
+    kept = {}
+    for walk in order:
+        kept.setdefault(tuple(stand[walk][columns]), walk)
+    return list(kept.values())
+
+
+def only_cheap(stand, costs, width):
+    return sorted(range(len(costs)), key=lambda walk: costs[walk])[:width]
+
+
+def only_dominance(stand, costs, width):
+    return one_each(stand, costs, np.argsort(costs))
+
+
+def cut_too_soon(stand, costs, width):
+    return one_each(stand, costs, np.argsort(costs)[:width])
+
+
+def whoever_came_first(stand, costs, width):
+    return sorted(one_each(stand, costs, range(len(costs))), key=lambda walk: costs[walk])[:width]
+
+
+def never_mind_the_heading(stand, costs, width):
+    return one_each(stand, costs, np.argsort(costs), slice(3))[:width]
+
+
+def by_number(stand, costs, width):
+    return sorted(one_each(stand, costs, np.argsort(costs))[:width])
+
+
+WRONG = {
+    "point_at": [
+        (evenly, "evenly spaced"),
+        (no_zero, "missing from your lengths"),
+        (one_late, "one corner late"),
+        (corner, "the nearest corner"),
+        (squared, "a root is missing"),
+    ],
+    "edge_cost": [
+        (may_stand, "stand for ever"),
+        (floor_added, "a floor under it"),
+        (from_zero, "goes on from `along`"),
+        (averaged, "that is a mean"),
+        (not_squared, "sums their squares"),
+    ],
+    "survivors": [
+        (only_cheap, "the beam alone"),
+        (only_dominance, "dominance alone"),
+        (cut_too_soon, "dominance comes first"),
+        (whoever_came_first, "the first in the list"),
+        (never_mind_the_heading, "turned differently"),
+        (by_number, "the cheapest first"),
+    ],
+}
