@@ -11,8 +11,10 @@ import ast
 import base64
 import inspect
 import re
+import textwrap
 from collections.abc import Iterator
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +52,7 @@ def tagged(notebook: Any, kind: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN4
 
 
 def shown_source(name: str) -> str:
-    """Give a function of the package as a notebook shows it: without its docstring and type annotations.
+    """Give a function or method as a notebook shows it: without its docstring and type annotations.
 
     Examples
     --------
@@ -58,8 +60,8 @@ def shown_source(name: str) -> str:
     def about_y(angles):
         ...
     """
-    module, function = name.rsplit(".", 1)
-    text = inspect.getsource(getattr(import_module(f"mocap.{module}"), function))
+    module, _, function = name.partition(".")
+    text = textwrap.dedent(inspect.getsource(attrgetter(function)(import_module(f"mocap.{module}"))))
     node = ast.parse(text).body[0]
     assert isinstance(node, ast.FunctionDef)
     body = node.body[1:] if ast.get_docstring(node) is not None else node.body
