@@ -48,8 +48,8 @@ def build_lite(notebooks: Path, out: Path) -> Path:
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
         _copy(notebooks, contents)
         (wheel,) = wheels.glob("mocap-*.whl")
-        parts = ["--contents", contents, "--piplite-wheels", wheel, "--output-dir", out.resolve()]
-        _call(folder, ["jupyterlite_core", "build", *parts])
+        parts: list[str | Path] = ["--contents", contents, "--piplite-wheels", wheel]
+        _call(folder, ["jupyterlite_core", "build", *parts, "--output-dir", out.resolve()])
     return out / "lab" / "index.html"
 
 
