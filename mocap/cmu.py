@@ -63,6 +63,8 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     --------
     >>> [trial.name for trial in trials(subject=127, kind="walk")]
     ['127_04']
+
+    Notebook: 01-skeletons-and-clips
     """
     found = []
     for name, row in _registry().items():
@@ -109,6 +111,8 @@ def cmu(
     >>> cmu("16_99")
     Traceback (most recent call last):
     mocap.errors.MocapError: No trial '16_99' is listed; `mocap data list` shows those that are.
+
+    Notebook: 01-skeletons-and-clips
     """
     if clip is not None:
         subject_folder = clip.split("_")[0]

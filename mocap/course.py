@@ -13,8 +13,8 @@ import inspect
 import re
 import textwrap
 from collections.abc import Iterator
-from functools import reduce
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +52,7 @@ def tagged(notebook: Any, kind: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN4
 
 
 def shown_source(name: str) -> str:
-    """Give a function or method of the package as a notebook shows it: no docstring, no type annotations.
+    """Give a function or method as a notebook shows it: without its docstring and type annotations.
 
     Examples
     --------
@@ -60,8 +60,8 @@ def shown_source(name: str) -> str:
     def about_y(angles):
         ...
     """
-    module, *names = name.split(".")
-    text = textwrap.dedent(inspect.getsource(reduce(getattr, names, import_module(f"mocap.{module}"))))
+    module, _, function = name.partition(".")
+    text = textwrap.dedent(inspect.getsource(attrgetter(function)(import_module(f"mocap.{module}"))))
     node = ast.parse(text).body[0]
     assert isinstance(node, ast.FunctionDef)
     body = node.body[1:] if ast.get_docstring(node) is not None else node.body

@@ -27,6 +27,6 @@ def sample(name: str = "walk_circle") -> Motion:
     >>> sample("walk_straight").skeleton
     Skeleton(38 joints, root 'root')
 
-    Notebook: 00-quickstart
+    Notebook: 01-skeletons-and-clips
     """
     return synthetic.generate(name)

@@ -49,6 +49,8 @@ def load(
     >>> load("walk.fbx")
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf) and .bvh.
+
+    Notebook: 01-skeletons-and-clips
     """
     path = Path(path)
     _check("fps", fps)
@@ -84,6 +86,8 @@ def load_skeleton(path: str | Path) -> Skeleton:
     >>> load_skeleton("walk.amc")
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot read a skeleton from walk.amc: give an .asf file.
+
+    Notebook: 01-skeletons-and-clips
     """
     if Path(path).suffix.lower() != ".asf":
         raise MocapError(f"Cannot read a skeleton from {path}: give an .asf file.")
@@ -108,6 +112,8 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
     ...     save(turned, f"{folder}/turned.bvh")
     ...     read_angles(f"{folder}/turned.bvh")["root"]  # z, x, y
     array([[  0.,   0., 180.]])
+
+    Notebook: 01-skeletons-and-clips
     """
     path = Path(path)
     if path.suffix.lower() == ".bvh":
@@ -160,6 +166,8 @@ def save(
     ...     save(still, f"{folder}/still.bvh", precision=9)
     ...     load(f"{folder}/still.bvh")
     Motion('still', 1 frames at 30 Hz, 2 joints)
+
+    Notebook: 01-skeletons-and-clips
     """
     path, scale, precision = Path(path), form.get("scale"), form.get("precision", 6)
     _check("scale", scale)

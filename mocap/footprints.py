@@ -37,6 +37,8 @@ def footprints(motion: Motion) -> list[Footprint]:
     >>> still = np.tile([1.0, 0, 0, 0], (4, 1, 1))
     >>> footprints(Motion(foot, np.ones((4, 3)), still, 30.0, contacts={"lfoot": [1, 1, 0, 1]}))
     [Footprint(joint='lfoot', side='middle', start=0, end=2, x=1.0, z=1.0), ...start=3, end=4, x=1.0, z=1.0)]
+
+    Notebook: 01-skeletons-and-clips
     """
     if not motion.contacts:
         return []

@@ -15,6 +15,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import networkx as nx
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
@@ -24,17 +25,29 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
 from PIL import Image
 
-from mocap import datasets, matching, motion_graph, paths, plotting, pruning, synthesis, transitions
+from mocap import (
+    datasets,
+    matching,
+    motion_graph,
+    paths,
+    plotting,
+    pruning,
+    rotations,
+    synthesis,
+    transitions,
+)
 from mocap.atomic import replacing
 from mocap.errors import MocapError
 from mocap.follow import follow_path
 from mocap.footprints import footprints
 from mocap.kinematics import joint_positions
-from mocap.motion import resample
+from mocap.motion import Motion, resample
 from mocap.motion_graph import MotionGraph
 from mocap.search import Problem, SearchEdge
 from mocap.search_drawing import TreePicture, grow_tree
-from mocap.style import ASKED
+from mocap.stage import bones
+from mocap.style import ASKED, COLOURS
+from mocap.walker import SKELETON
 
 Array = NDArray[np.float64]
 
@@ -58,6 +71,49 @@ def draw_walk() -> Figure:
     ax.view_init(elev=15, azim=-97)
     plotting.stick_figure(walk, range((len(walk) - 1) % 18, len(walk), 18), ax=ax)
     return figure
+
+
+def draw_skeleton() -> Figure:
+    """Draw the bundled clips' body from the front, arms and toes spread, with the names of its joints."""
+    turns = np.tile(rotations.IDENTITY, (1, len(SKELETON), 1))
+    for side, sign in (("l", 1), ("r", -1)):
+        turns[0, SKELETON.index(f"{side}humerus")] = rotations.from_rotvec([0, 0, 1.75 * sign])
+        turns[0, SKELETON.index(f"{side}femur")] = rotations.about_y(1.2 * sign)
+        turns[0, SKELETON.index(f"{side}thumb")] = rotations.from_rotvec([0, 0, -0.8 * sign])
+    points = joint_positions(Motion(SKELETON, np.array([[0, 0.96, 0]]), turns, 1.0))[0, :, :2]
+    figure = plt.figure(figsize=(8, 6.4), layout="constrained")
+    ax = figure.add_subplot()
+    for start, end, side in zip(*bones(SKELETON), strict=True):
+        ax.plot(*points[[start, end]].T, "o-", color=COLOURS[side], linewidth=3, markersize=5)
+    for place in np.unique(points.round(6), axis=0):
+        here = np.flatnonzero(np.abs(points - place).max(axis=1) < 1e-5)
+        _name_joints(ax, place, ", ".join(SKELETON.names[int(joint)] for joint in here))
+    ax.set(aspect="equal", xlim=(-1.2, 1.2))
+    ax.set_axis_off()
+    return figure
+
+
+def _name_joints(ax: Axes, place: Array, names: str) -> None:
+    """Write names beside a place: slanted over the arms and under the toes, else level."""
+    x, y = place
+    away = 1 if x > -0.01 else -1
+    up, slant = -9 * names.startswith("lowerneck"), 0
+    if names.endswith("humerus"):
+        up = -8
+    elif abs(x) > 0.15:
+        above = 1 if y > 1 and not names.endswith("thumb_end") else -1
+        up, slant = 8 * above, 60 * above * away
+    ax.annotate(
+        names,
+        (x, y),
+        (4 * away if slant else 9 * away, up),
+        textcoords="offset points",
+        fontsize=9,
+        ha="left" if away > 0 else "right",
+        va="center",
+        rotation=slant,
+        rotation_mode="anchor",
+    )
 
 
 def draw_nodes() -> Figure:
@@ -156,6 +212,7 @@ def draw_search() -> Figure:
 
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
+    "skeleton": draw_skeleton,
     "nodes": draw_nodes,
     "distances": draw_distances,
     "pruning": draw_pruning,

@@ -28,6 +28,8 @@ def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
     ----------
     motion : what is moved.
     target, frame : where its first frame comes to lie.
+
+    Notebook: 03-transforms
     """
     planar = lay_on_ground(motion, target, frame)
     roots = planar.root_positions
@@ -42,6 +44,8 @@ def lay_on_ground(motion: Motion, target: Motion, frame: int) -> Motion:
     ----------
     motion : what is moved.
     target, frame : where its first frame comes to lie.
+
+    Notebook: 03-transforms
     """
     turn = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
     about = PlanarTransform(turn, 0.0, 0.0)
@@ -69,6 +73,8 @@ def euler_from_zero_to_pi(quaternions: ArrayLike) -> Array:
     >>> euler_from_zero_to_pi(rotations.from_euler("z", [[0.01], [-0.01]])).round(2) + 0.0
     array([[0.01, 0.  , 0.  ],
            [3.13, 3.14, 3.14]])
+
+    Notebook: 03-transforms
     """
     x, y, z = np.moveaxis(rotations.to_euler("xyz", quaternions), -1, 0)
     late = z < 0
@@ -86,6 +92,8 @@ def chain_on_last(slices: Sequence[Motion]) -> Motion:
     Parameters
     ----------
     slices : motions of one skeleton and rate.
+
+    Notebook: 03-transforms
     """
     chain = [slices[0]]
     for following in slices[1:]:
@@ -104,6 +112,8 @@ def turn_in_place(root_positions: Array, angle: float) -> Array:
     ----------
     root_positions : metres; changed.
     angle : radians about +y.
+
+    Notebook: 03-transforms
     """
     first = root_positions[0].copy()
     root_positions[:] = PlanarTransform(angle, first[0], first[2]).points(root_positions - first * [1, 0, 1])

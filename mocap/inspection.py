@@ -95,6 +95,8 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     heading  turns right by 0° in all
     path     0.05 m over the ground
     flaws    frozen in frame 6-8
+
+    Notebook: 01-skeletons-and-clips
     """
     positions = joint_positions(motion)
     headings = np.unwrap(heading(motion.rotations[:, 0]))

@@ -39,6 +39,8 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     >>> turn = Motion(arm, [[0, 2, 0]], [[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]], 30.0)
     >>> forward_kinematics(turn).positions[0, 1].round(6) + 0.0
     array([1., 2., 0.])
+
+    Notebook: 01-skeletons-and-clips
     """
     skeleton = motion.skeleton
     positions = np.empty((len(skeleton), len(motion), 3))  # a joint's frames together
@@ -53,7 +55,10 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 
 
 def joint_positions(motion: Motion) -> Array:
-    """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres."""
+    """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres.
+
+    Notebook: 01-skeletons-and-clips
+    """
     return forward_kinematics(motion).positions
 
 
@@ -73,6 +78,8 @@ def velocities(positions: Array, fps: float) -> Array:
     --------
     >>> velocities(np.array([0.0, 1.0, 2.0]), 30.0)
     array([30., 30., 30.])
+
+    Notebook: 01-skeletons-and-clips
     """
     if len(positions) < 2:
         raise MocapError(f"A velocity needs at least two frames, got {len(positions)}.")

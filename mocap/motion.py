@@ -42,7 +42,7 @@ class Motion:
     >>> still, still[2:5], still[::3].fps
     (Motion('still', 9 frames at 30 Hz, 2 joints), Motion('still', 3 frames at 30 Hz, 2 joints), 10.0)
 
-    Notebook: 00-quickstart
+    Notebook: 01-skeletons-and-clips
     """
 
     skeleton: Skeleton
@@ -145,7 +145,7 @@ def resample(motion: Motion, fps: float) -> Motion:
     >>> resample(slide, 4.0).root_positions[:, 0]
     array([0.  , 0.25, 0.5 , 0.75, 1.  ])
 
-    Notebook: 00-quickstart
+    Notebook: 01-skeletons-and-clips
     """
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
@@ -189,6 +189,8 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     >>> still = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "still")
     >>> concatenate([still, still], "stiller")
     Motion('stiller', 8 frames at 30 Hz, 1 joints)
+
+    Notebook: 01-skeletons-and-clips
     """
     if not motions:
         raise MocapError("There is nothing to concatenate.")

@@ -63,6 +63,8 @@ def play(
     >>> from mocap import datasets
     >>> play(datasets.sample("walk_straight"))
     Player('A stick figure plays walk_straight, ...')
+
+    Notebook: 01-skeletons-and-clips
     """
     if not motions:
         raise MocapError("There is no motion to play.")

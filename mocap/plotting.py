@@ -100,6 +100,8 @@ def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCo
     Returns
     -------
     The prints.
+
+    Notebook: 01-skeletons-and-clips
     """
     ax = _from_above(ax)
     at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)

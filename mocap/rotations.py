@@ -4,6 +4,8 @@ This module alone knows in which order a quaternion's numbers stand. All functio
 leading axes, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b first.
 Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own. No frames
 at all are fine everywhere; older versions of SciPy have no empty rotations, so none reach it.
+
+Notebook 01-skeletons-and-clips is about rotations, 03-transforms about Euler angles, 04-blending about slerp.
 """
 
 import warnings
@@ -101,6 +103,8 @@ def continuous(order: str, angles: ArrayLike) -> Array:
     array([[0.   , 1.5  , 0.   ],
            [0.   , 1.642, 0.   ],
            [0.   , 1.742, 0.   ]])
+
+    Notebook: 03-transforms
     """
     angles = _without_lock(order, np.asarray(angles, float))
     twins = angles * [1, -1, 1] + np.pi
@@ -206,6 +210,8 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
     --------
     >>> multiply(about_y(0.1), about_y(0.2)).round(6) == about_y(0.3).round(6)
     array([ True,  True,  True,  True])
+
+    Notebook: 01-skeletons-and-clips
     """
     a, b = np.broadcast_arrays(np.asarray(first, float), np.asarray(second, float))
     if not a.size:
@@ -231,6 +237,8 @@ def rotate(quaternions: ArrayLike, vectors: ArrayLike) -> Array:
     --------
     >>> rotate([1, 0, 0, 0], [1, 2, 3])
     array([1., 2., 3.])
+
+    Notebook: 01-skeletons-and-clips
     """
     return np.asarray((to_matrix(quaternions) @ np.asarray(vectors, float)[..., None])[..., 0])
 

@@ -47,6 +47,8 @@ class Skeleton:
     >>> leg = Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
     >>> len(leg), leg.index("knee"), leg.children(1)
     (3, 1, [2])
+
+    Notebook: 01-skeletons-and-clips
     """
 
     names: Sequence[str]

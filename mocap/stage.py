@@ -44,6 +44,8 @@ def stage(
     reach : metres each way from there.
     tall : metres of height above it that are seen.
     ax : 3D axes; by default they fill a new figure.
+
+    Notebook: 01-skeletons-and-clips
     """
     ax = ax or filled(plt.figure(figsize=(5, 5)))
     ax.set_axis_off()
@@ -153,6 +155,8 @@ def stick_figure(
     Returns
     -------
     A figure a pose.
+
+    Notebook: 01-skeletons-and-clips
     """
     shown = [frames] if isinstance(frames, int) else list(frames)
     points = joint_positions(motion)[shown]
@@ -188,6 +192,8 @@ def laid_over(
     Returns
     -------
     The figures of each.
+
+    Notebook: 03-transforms
     """
     clouds = [joint_positions(motion)[::every] for motion in (first, second)]
     ax = ax or _stage_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))

@@ -79,6 +79,8 @@ def generate(name: str) -> Motion:
     --------
     >>> generate("walk_straight")
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
+
+    Notebook: 01-skeletons-and-clips
     """
     if name not in NAMES:
         raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(NAMES)}.")
@@ -118,6 +120,8 @@ def walk(path: ArrayLike, *, style: str = "walk", speed: float | None = None, se
     --------
     >>> walk([[0, 0], [0, 2], [1, 4]], speed=1.2)
     Motion('walk', 427 frames at 120 Hz, 38 joints)
+
+    Notebook: 01-skeletons-and-clips
     """
     if style not in GAITS:
         raise MocapError(f"No style '{style}'; there are: {', '.join(GAITS)}.")

@@ -30,7 +30,7 @@ class PlanarTransform(NamedTuple):
     >>> quarter.points([0.0, 0.5, 1.0]).round(6) + 0.0
     array([2. , 0.5, 0. ])
 
-    Notebook: 00-quickstart
+    Notebook: 03-transforms
     """
 
     angle: float | Array
@@ -86,6 +86,8 @@ def heading(quaternions: ArrayLike) -> Array:
     --------
     >>> float(heading(rotations.about_y(0.7)).round(6))
     0.7
+
+    Notebook: 03-transforms
     """
     matrices = rotations.to_matrix(quaternions)
     return np.arctan2(-matrices[..., 2, 0], matrices[..., 0, 0])
@@ -112,6 +114,8 @@ def facing(quaternions: ArrayLike) -> Array:
     >>> on_the_back = rotations.multiply(rotations.about_y(0.7), rotations.from_euler("x", [-np.pi / 2]))
     >>> float(facing(on_the_back).round(6))
     0.7
+
+    Notebook: 03-transforms
     """
     w, _, y, _ = np.moveaxis(np.asarray(quaternions, float), -1, 0)
     # The cosine and the sine of θ, each times w² + y²: the same for q and -q.
@@ -137,6 +141,8 @@ def place(motion: Motion, heading: float, position: ArrayLike) -> Motion:
     >>> dot = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), [[5, 1, 5]], [[[1, 0, 0, 0]]], 30.0)
     >>> place(dot, 0.0, [2, 3]).root_positions
     array([[2., 1., 3.]])
+
+    Notebook: 03-transforms
     """
     target = np.asarray(position, float)
     if target.shape != (2,) or not np.isfinite([heading, *target]).all():
