@@ -34,7 +34,7 @@ def cubic_weights(window: int) -> Array:
 
     Notebook: 00-quickstart
     """
-    t = _steps(window)
+    t = window_steps(window)
     return np.asarray(2 * t**3 - 3 * t**2 + 1)
 
 
@@ -46,7 +46,7 @@ def linear_weights(window: int) -> Array:
     >>> linear_weights(4)
     array([0.75, 0.5 , 0.25, 0.  ])
     """
-    return 1 - _steps(window)
+    return 1 - window_steps(window)
 
 
 def quintic_weights(window: int) -> Array:
@@ -60,7 +60,7 @@ def quintic_weights(window: int) -> Array:
     >>> quintic_weights(4).round(4)
     array([0.8965, 0.5   , 0.1035, 0.    ])
     """
-    t = _steps(window)
+    t = window_steps(window)
     return np.asarray(1 - t**3 * (10 - 15 * t + 6 * t**2))
 
 
@@ -79,7 +79,7 @@ def sine_weights(window: int) -> Array:
     return np.asarray((1 - np.sin(np.linspace(-np.pi / 2, np.pi / 2, window))) / 2)
 
 
-def _steps(window: int) -> Array:
+def window_steps(window: int) -> Array:
     """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last."""
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
@@ -115,24 +115,37 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     Notebook: 00-quickstart
     """
     require_alike([a, b])
-    alpha = np.asarray(weights, float)
-    if len(a) != len(b) or alpha.shape != (len(a),):
-        raise MocapError(
-            f"Blending needs as many frames of each motion as weights, got {len(a)}, {len(b)}, {alpha.shape}."
-        )
-    if not ((alpha >= 0) & (alpha <= 1)).all():
-        raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
+    alpha = checked_weights(weights, len(a), len(b))
     of_a = alpha >= 0.5
+    alpha = alpha[:, None]  # (F, 1)
     return replace(
         a,
-        root_positions=alpha[:, None] * a.root_positions + (1 - alpha[:, None]) * b.root_positions,
-        rotations=rotations.slerp(b.rotations, a.rotations, alpha[:, None]),
-        labels=_chosen_marks(a.labels, b.labels, of_a),
-        contacts=_chosen_marks(a.contacts, b.contacts, of_a),
+        root_positions=alpha * a.root_positions + (1 - alpha) * b.root_positions,
+        rotations=rotations.slerp(b.rotations, a.rotations, alpha),
+        labels=chosen_marks(a.labels, b.labels, of_a),
+        contacts=chosen_marks(a.contacts, b.contacts, of_a),
     )
 
 
-def _chosen_marks(a: Marks, b: Marks, of_a: NDArray[np.bool_]) -> Mapping[str, NDArray[np.bool_]]:
+def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
+    """Take blend weights as an array, one for each frame of two motions that are as long.
+
+    Raises
+    ------
+    MocapError : for other lengths, and for weights outside [0, 1].
+    """
+    alpha = np.asarray(weights, float)
+    if frames != others or alpha.shape != (frames,):
+        raise MocapError(
+            f"Blending needs as many frames of each motion as weights, got {frames}, {others}, {alpha.shape}."
+        )
+    if not ((alpha >= 0) & (alpha <= 1)).all():
+        raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
+    return alpha
+
+
+def chosen_marks(a: Marks, b: Marks, of_a: NDArray[np.bool_]) -> Mapping[str, NDArray[np.bool_]]:
+    """Take each mark from the motion that a frame is `of`; one that a motion lacks is off there."""
     absent = np.zeros(len(of_a), bool)
     return {
         name: np.where(of_a, a.get(name, absent), b.get(name, absent)) for name in dict.fromkeys([*a, *b])

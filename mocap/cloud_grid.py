@@ -107,17 +107,17 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
     -------
     Shape (n, m), m², never negative; infinite where a window runs off its clip.
     """
-    ground = _tapered_sum(a.ground @ b.ground.conj().T, taper)
+    ground = tapered_sum(a.ground @ b.ground.conj().T, taper)
     ground += a.paths @ b.paths.conj().T
     grid: Floats = np.abs(ground)
-    grid += _tapered_sum(a.heights @ b.heights.T, taper)
+    grid += tapered_sum(a.heights @ b.heights.T, taper)
     grid *= -2
     grid += a.sizes[:, None]
     grid += b.sizes
     return np.asarray(np.maximum(grid, 0, out=grid))
 
 
-def _tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
+def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
     """Add up taper[f] · products[i + f, j + f] over the frames f of a window."""
     weights = taper.astype(products.real.dtype)
     if np.ptp(weights) == 0:
