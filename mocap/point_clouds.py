@@ -32,6 +32,8 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
     >>> fork = Skeleton(["a", "b", "c"], [-1, 0, 0], [[0, 0, 0], [0, 1, 0], [0, 1, 0]])
     >>> distinct_joints(fork)
     [0, 1]
+
+    Notebook: 02-matching
     """
     seen: set[tuple[int, ...]] = set()
     kept = []
@@ -67,7 +69,7 @@ def point_cloud(motion: Motion, surface: Surface | None = None) -> Array:
     >>> point_cloud(still).shape, point_cloud(still, Surface(along=2, around=4)).shape
     ((1, 2, 3), (1, 8, 3))
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
     """
     joints = distinct_joints(motion.skeleton)
     poses = forward_kinematics(motion)
@@ -125,7 +127,7 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     >>> [float(np.round(number, 6)) for number in align(moved, corner)]
     [0.5, 2.0, -1.0]
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
     """
     a, b = matching_clouds(points, others)
     w = unit_weights(weights, a.shape[-2])
@@ -164,6 +166,8 @@ def unit_weights(weights: ArrayLike | None, count: int) -> Array:
     --------
     >>> unit_weights([1, 3], 2)
     array([0.25, 0.75])
+
+    Notebook: 02-matching
     """
     w = np.ones(count) if weights is None else np.asarray(weights, float)
     if w.shape != (count,) or not np.isfinite(w).all() or np.any(w < 0) or not np.any(w > 0):
