@@ -32,7 +32,7 @@ def cubic_weights(window: int) -> Array:
     >>> cubic_weights(4)
     array([0.84375, 0.5    , 0.15625, 0.     ])
 
-    Notebook: 00-quickstart
+    Notebook: 04-blending
     """
     t = window_steps(window)
     return np.asarray(2 * t**3 - 3 * t**2 + 1)
@@ -45,6 +45,8 @@ def linear_weights(window: int) -> Array:
     --------
     >>> linear_weights(4)
     array([0.75, 0.5 , 0.25, 0.  ])
+
+    Notebook: 04-blending
     """
     return 1 - window_steps(window)
 
@@ -59,6 +61,8 @@ def quintic_weights(window: int) -> Array:
     --------
     >>> quintic_weights(4).round(4)
     array([0.8965, 0.5   , 0.1035, 0.    ])
+
+    Notebook: 04-blending
     """
     t = window_steps(window)
     return np.asarray(1 - t**3 * (10 - 15 * t + 6 * t**2))
@@ -73,6 +77,8 @@ def sine_weights(window: int) -> Array:
     --------
     >>> sine_weights(5).round(4)
     array([1.    , 0.8536, 0.5   , 0.1464, 0.    ])
+
+    Notebook: 04-blending
     """
     if window < 2:
         raise MocapError(f"Sine weights need a window of at least two frames, got {window}.")
@@ -80,7 +86,10 @@ def sine_weights(window: int) -> Array:
 
 
 def window_steps(window: int) -> Array:
-    """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last."""
+    """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last.
+
+    Notebook: 04-blending
+    """
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
     return np.arange(1, window + 1) / window
@@ -112,7 +121,7 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     >>> blend(here, there, [0.25]).root_positions
     array([[3., 1., 0.]])
 
-    Notebook: 00-quickstart
+    Notebook: 04-blending
     """
     require_alike([a, b])
     alpha = checked_weights(weights, len(a), len(b))
@@ -133,6 +142,8 @@ def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
     Raises
     ------
     MocapError : for other lengths, and for weights outside [0, 1].
+
+    Notebook: 04-blending
     """
     alpha = np.asarray(weights, float)
     if frames != others or alpha.shape != (frames,):
@@ -145,7 +156,10 @@ def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
 
 
 def chosen_marks(a: Marks, b: Marks, of_a: NDArray[np.bool_]) -> Mapping[str, NDArray[np.bool_]]:
-    """Take each mark from the motion that a frame is `of`; one that a motion lacks is off there."""
+    """Take each mark from the motion that a frame is `of`; one that a motion lacks is off there.
+
+    Notebook: 04-blending
+    """
     absent = np.zeros(len(of_a), bool)
     return {
         name: np.where(of_a, a.get(name, absent), b.get(name, absent)) for name in dict.fromkeys([*a, *b])

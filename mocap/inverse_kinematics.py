@@ -56,6 +56,8 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     >>> leg = two_bone([0, 1, 0], [0, 0.2, 0], (0.5, 0.5), [0, 0, 1])
     >>> leg.middle.round(6), bool(leg.reached)
     (array([0. , 0.6, 0.3]), True)
+
+    Notebook: 04-blending
     """
     upper, lower = lengths
     if not min(lengths) > 0:
@@ -82,6 +84,8 @@ def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, 
     Raises
     ------
     MocapError : where the target sits on the start, or `bend` points along the limb.
+
+    Notebook: 04-blending
     """
     reach = np.linalg.norm(target - start, axis=-1, keepdims=True)
     if not np.all(reach > 1e-9):
@@ -95,5 +99,8 @@ def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, 
 
 
 def bone_rotation(direction: Array, hinge: Array) -> Array:
-    """Turn -y onto the bone's direction and +x onto the hinge."""
+    """Turn -y onto the bone's direction and +x onto the hinge.
+
+    Notebook: 04-blending
+    """
     return rotations.from_matrix(np.stack([hinge, -direction, np.cross(hinge, -direction)], axis=-1))
