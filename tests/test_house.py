@@ -54,7 +54,7 @@ LAYERS = [
         "synthetic",
     },
     {"cloud_grid", "files", "footprints", "footskate", "stage"},
-    {"cmu", "conversion", "matching", "minima", "player"},
+    {"cmu", "conversion", "matching", "minima", "player", "pointing"},
     {"animation", "commands", "datasets", "joining", "live", "quality", "segment_graph", "transitions"},
     {"motion_graph", "thresholds", "widgets"},
     {"graph_drawing", "graph_files", "merging", "walks"},
