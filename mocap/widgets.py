@@ -7,7 +7,6 @@ not (a code host, a printed page), and a sentence where there are no pictures.
 from __future__ import annotations
 
 import asyncio
-import base64
 import html
 import importlib.util
 import inspect
@@ -30,7 +29,7 @@ from mocap.live import draw_path as draw_path
 from mocap.live import linked as linked
 from mocap.player import play as play
 from mocap.pointing import Pointed, pointer
-from mocap.stills import few_colours, figure_of
+from mocap.stills import Still, few_colours, figure_of
 from mocap.stills import show as show
 
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
@@ -181,10 +180,8 @@ class Experiment:
             self.refresh()
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
-        bundle = dict(self.box._repr_mimebundle_() or {})
-        bundle["text/plain"] = self.alt
-        bundle["image/png"] = base64.b64encode(self._still()).decode()
-        return bundle, {"image/png": {"alt": self.alt}}
+        still, metadata = Still(self._still(), self.alt)._repr_mimebundle_()
+        return {**(self.box._repr_mimebundle_() or {}), **still}, metadata
 
     def _still(self) -> bytes:
         """Give the picture, to the right of the images that it depends on."""
