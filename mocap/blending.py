@@ -32,9 +32,9 @@ def cubic_weights(window: int) -> Array:
     >>> cubic_weights(4)
     array([0.84375, 0.5    , 0.15625, 0.     ])
 
-    Notebook: 00-quickstart
+    Notebook: 04-blending
     """
-    t = _steps(window)
+    t = window_steps(window)
     return np.asarray(2 * t**3 - 3 * t**2 + 1)
 
 
@@ -45,8 +45,10 @@ def linear_weights(window: int) -> Array:
     --------
     >>> linear_weights(4)
     array([0.75, 0.5 , 0.25, 0.  ])
+
+    Notebook: 04-blending
     """
-    return 1 - _steps(window)
+    return 1 - window_steps(window)
 
 
 def quintic_weights(window: int) -> Array:
@@ -59,8 +61,10 @@ def quintic_weights(window: int) -> Array:
     --------
     >>> quintic_weights(4).round(4)
     array([0.8965, 0.5   , 0.1035, 0.    ])
+
+    Notebook: 04-blending
     """
-    t = _steps(window)
+    t = window_steps(window)
     return np.asarray(1 - t**3 * (10 - 15 * t + 6 * t**2))
 
 
@@ -73,14 +77,19 @@ def sine_weights(window: int) -> Array:
     --------
     >>> sine_weights(5).round(4)
     array([1.    , 0.8536, 0.5   , 0.1464, 0.    ])
+
+    Notebook: 04-blending
     """
     if window < 2:
         raise MocapError(f"Sine weights need a window of at least two frames, got {window}.")
     return np.asarray((1 - np.sin(np.linspace(-np.pi / 2, np.pi / 2, window))) / 2)
 
 
-def _steps(window: int) -> Array:
-    """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last."""
+def window_steps(window: int) -> Array:
+    """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last.
+
+    Notebook: 04-blending
+    """
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
     return np.arange(1, window + 1) / window
@@ -112,27 +121,45 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     >>> blend(here, there, [0.25]).root_positions
     array([[3., 1., 0.]])
 
-    Notebook: 00-quickstart
+    Notebook: 04-blending
     """
     require_alike([a, b])
-    alpha = np.asarray(weights, float)
-    if len(a) != len(b) or alpha.shape != (len(a),):
-        raise MocapError(
-            f"Blending needs as many frames of each motion as weights, got {len(a)}, {len(b)}, {alpha.shape}."
-        )
-    if not ((alpha >= 0) & (alpha <= 1)).all():
-        raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
+    alpha = checked_weights(weights, len(a), len(b))
     of_a = alpha >= 0.5
+    alpha = alpha[:, None]  # (F, 1)
     return replace(
         a,
-        root_positions=alpha[:, None] * a.root_positions + (1 - alpha[:, None]) * b.root_positions,
-        rotations=rotations.slerp(b.rotations, a.rotations, alpha[:, None]),
-        labels=_chosen_marks(a.labels, b.labels, of_a),
-        contacts=_chosen_marks(a.contacts, b.contacts, of_a),
+        root_positions=alpha * a.root_positions + (1 - alpha) * b.root_positions,
+        rotations=rotations.slerp(b.rotations, a.rotations, alpha),
+        labels=chosen_marks(a.labels, b.labels, of_a),
+        contacts=chosen_marks(a.contacts, b.contacts, of_a),
     )
 
 
-def _chosen_marks(a: Marks, b: Marks, of_a: NDArray[np.bool_]) -> Mapping[str, NDArray[np.bool_]]:
+def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
+    """Take blend weights as an array, one for each frame of two motions that are as long.
+
+    Raises
+    ------
+    MocapError : for other lengths, and for weights outside [0, 1].
+
+    Notebook: 04-blending
+    """
+    alpha = np.asarray(weights, float)
+    if frames != others or alpha.shape != (frames,):
+        raise MocapError(
+            f"Blending needs as many frames of each motion as weights, got {frames}, {others}, {alpha.shape}."
+        )
+    if not ((alpha >= 0) & (alpha <= 1)).all():
+        raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
+    return alpha
+
+
+def chosen_marks(a: Marks, b: Marks, of_a: NDArray[np.bool_]) -> Mapping[str, NDArray[np.bool_]]:
+    """Take each mark from the motion that a frame is `of`; one that a motion lacks is off there.
+
+    Notebook: 04-blending
+    """
     absent = np.zeros(len(of_a), bool)
     return {
         name: np.where(of_a, a.get(name, absent), b.get(name, absent)) for name in dict.fromkeys([*a, *b])

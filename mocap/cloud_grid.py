@@ -74,6 +74,8 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
     level : shape (P,), metres: heights to measure from, the same for all clips that are to be matched.
     weights, taper : shapes (P,) and (k,), of the points and of the window's frames; each adds up to one.
     dtype : the precision of what comes out; the work is done in 64 bits.
+
+    Notebook: 02-matching
     """
     window = len(taper)
     root = np.sqrt(weights)
@@ -106,19 +108,24 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
     Returns
     -------
     Shape (n, m), m², never negative; infinite where a window runs off its clip.
+
+    Notebook: 02-matching
     """
-    ground = _tapered_sum(a.ground @ b.ground.conj().T, taper)
+    ground = tapered_sum(a.ground @ b.ground.conj().T, taper)
     ground += a.paths @ b.paths.conj().T
     grid: Floats = np.abs(ground)
-    grid += _tapered_sum(a.heights @ b.heights.T, taper)
+    grid += tapered_sum(a.heights @ b.heights.T, taper)
     grid *= -2
     grid += a.sizes[:, None]
     grid += b.sizes
     return np.asarray(np.maximum(grid, 0, out=grid))
 
 
-def _tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
-    """Add up taper[f] · products[i + f, j + f] over the frames f of a window."""
+def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
+    """Add up taper[f] · products[i + f, j + f] over the frames f of a window.
+
+    Notebook: 02-matching
+    """
     weights = taper.astype(products.real.dtype)
     if np.ptp(weights) == 0:
         return np.asarray(diagonal_sum(products, len(weights)) * weights[0])
@@ -137,6 +144,8 @@ def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
     >>> diagonal_sum(np.array([[1, 2, 0], [0, 3, 4], [0, 0, 5]]), 2)
     array([[4, 6],
            [0, 8]])
+
+    Notebook: 02-matching
     """
     if window == 1:
         return products
@@ -183,7 +192,7 @@ def distance_grid(
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
         that are not finite or do not match, and weights that are negative, all 0 or of the wrong shape.
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
     """
     points = _matching_points(a, b, window)
     weights, frames = unit_weights(joint_weights, points[0].shape[1]), unit_weights(taper, window)

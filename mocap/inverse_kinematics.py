@@ -56,20 +56,14 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     >>> leg = two_bone([0, 1, 0], [0, 0.2, 0], (0.5, 0.5), [0, 0, 1])
     >>> leg.middle.round(6), bool(leg.reached)
     (array([0. , 0.6, 0.3]), True)
+
+    Notebook: 04-blending
     """
     upper, lower = lengths
     if not min(lengths) > 0:
         raise MocapError(f"Both bones need a length above 0, got {upper} and {lower}.")
     start, target, bend = np.broadcast_arrays(*(np.asarray(v, float) for v in (start, target, bend)))
-    reach = np.linalg.norm(target - start, axis=-1, keepdims=True)
-    if not np.all(reach > 1e-9):
-        raise MocapError("A limb cannot end where it starts: move the target off the start.")
-    along = (target - start) / reach
-    across = bend - (bend * along).sum(-1, keepdims=True) * along
-    width = np.linalg.norm(across, axis=-1, keepdims=True)
-    if not np.all(width > 1e-9):
-        raise MocapError("The bend must not point along the limb: which way shall the middle joint go?")
-    across = across / width
+    reach, along, across = limb_frame(start, target, bend)
     length = np.clip(reach, abs(upper - lower), upper + lower)
     cosine = np.clip((upper**2 + length**2 - lower**2) / (2 * upper * length), -1, 1)
     middle = start + upper * (cosine * along + np.sqrt(1 - cosine**2) * across)
@@ -78,12 +72,35 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     return TwoBone(
         middle,
         end,
-        _bone_rotation((middle - start) / upper, hinge),
-        _bone_rotation((end - middle) / lower, hinge),
+        bone_rotation((middle - start) / upper, hinge),
+        bone_rotation((end - middle) / lower, hinge),
         np.abs(reach - length)[..., 0] < 1e-9,
     )
 
 
-def _bone_rotation(direction: Array, hinge: Array) -> Array:
-    """Turn -y onto the bone's direction and +x onto the hinge."""
+def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, Array]:
+    """Measure how far the target is, (..., 1), and the directions to it and, across that, to the bend.
+
+    Raises
+    ------
+    MocapError : where the target sits on the start, or `bend` points along the limb.
+
+    Notebook: 04-blending
+    """
+    reach = np.linalg.norm(target - start, axis=-1, keepdims=True)
+    if not np.all(reach > 1e-9):
+        raise MocapError("A limb cannot end where it starts: move the target off the start.")
+    along = (target - start) / reach
+    across = bend - (bend * along).sum(-1, keepdims=True) * along
+    width = np.linalg.norm(across, axis=-1, keepdims=True)
+    if not np.all(width > 1e-9):
+        raise MocapError("The bend must not point along the limb: which way shall the middle joint go?")
+    return reach, along, across / width
+
+
+def bone_rotation(direction: Array, hinge: Array) -> Array:
+    """Turn -y onto the bone's direction and +x onto the hinge.
+
+    Notebook: 04-blending
+    """
     return rotations.from_matrix(np.stack([hinge, -direction, np.cross(hinge, -direction)], axis=-1))

@@ -48,6 +48,8 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     >>> from mocap.synthetic import SKELETON
     >>> [SKELETON.names[joint] for joint in find_legs(SKELETON)[0]]
     ['lfemur', 'ltibia', 'lfoot', 'ltoes']
+
+    Notebook: 04-blending
     """
     plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
     for pair in _NAMES:

@@ -54,7 +54,7 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     -------
     Shape (F_a - window + 1, F_b - window + 1), metres plus radians.
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
     """
     _require_windows(a, b, window)
 
@@ -93,6 +93,8 @@ def euler_grid(
     -----
     A motion holds quaternions. The skeleton remembers in which axes C and about which `dofs` its file
     tells a bone's angles, so they can be read off M = C⁻¹ L C: one truth, not two kept side by side.
+
+    Notebook: 02-matching
     """
     _require_windows(a, b, window)
     if unusable := {n: w for n, w in weights.items() if not (np.isfinite(w) and w >= 0)}:
@@ -128,6 +130,8 @@ def file_angles(motion: Motion, joint: int) -> Array:
     >>> bent = rotations.from_euler("x", [np.radians(30)])
     >>> file_angles(Motion(knee, [[0, 1, 0]], [[bent, [1, 0, 0, 0]]], 30.0), 0).round(6)
     array([[30.]])
+
+    Notebook: 02-matching
     """
     axis, dofs = motion.skeleton.axes[joint], motion.skeleton.dofs[joint]
     own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
@@ -168,6 +172,8 @@ def pose_grid(
     Raises
     ------
     MocapError : for another form, and for velocities that are negative or asked of a single frame.
+
+    Notebook: 02-matching
     """
     _require_windows(a, b, window)
     if form not in ("quaternion", "log"):

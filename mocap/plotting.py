@@ -50,7 +50,7 @@ def distance_image(
     names : of the clip along the rows and that along the columns.
     ax : axes; new ones by default.
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
     """
     ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
     seconds = (0, grid.shape[1] / fps, grid.shape[0] / fps, 0)

@@ -32,6 +32,8 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
     >>> fork = Skeleton(["a", "b", "c"], [-1, 0, 0], [[0, 0, 0], [0, 1, 0], [0, 1, 0]])
     >>> distinct_joints(fork)
     [0, 1]
+
+    Notebook: 02-matching
     """
     seen: set[tuple[int, ...]] = set()
     kept = []
@@ -67,7 +69,7 @@ def point_cloud(motion: Motion, surface: Surface | None = None) -> Array:
     >>> point_cloud(still).shape, point_cloud(still, Surface(along=2, around=4)).shape
     ((1, 2, 3), (1, 8, 3))
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
     """
     joints = distinct_joints(motion.skeleton)
     poses = forward_kinematics(motion)
@@ -125,22 +127,32 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     >>> [float(np.round(number, 6)) for number in align(moved, corner)]
     [0.5, 2.0, -1.0]
 
-    Notebook: 00-quickstart
+    Notebook: 02-matching
+    """
+    a, b = matching_clouds(points, others)
+    w = unit_weights(weights, a.shape[-2])
+    mean_a, mean_b = w @ a, w @ b
+    # Centred on their means, clouds far from the origin lose no digits.
+    xa, _, za = np.moveaxis(a - mean_a[..., None, :], -1, 0)
+    xb, _, zb = np.moveaxis(b - mean_b[..., None, :], -1, 0)
+    angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
+    turned = PlanarTransform(angle, 0.0, 0.0).points(mean_b)
+    return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
+
+
+def matching_clouds(points: ArrayLike, others: ArrayLike) -> tuple[Array, Array]:
+    """Take two clouds as arrays of shape (..., P, 3), metres.
+
+    Raises
+    ------
+    MocapError : for clouds of different sizes, and points that are not finite or too far away.
     """
     a, b = np.asarray(points, float), np.asarray(others, float)
     if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:
         raise MocapError(f"Clouds of shapes {a.shape} and {b.shape} do not match: both need (..., P, 3).")
     for cloud in (a, b):
         require_near(cloud, "the cloud")
-    w = unit_weights(weights, a.shape[-2])
-    # Centred on their means, clouds far from the origin lose no digits.
-    mean_a, mean_b = (np.einsum("p,...pc->...c", w, cloud) for cloud in (a, b))
-    (xa, _, za), (xb, _, zb) = (
-        np.moveaxis(cloud - mean[..., None, :], -1, 0) for cloud, mean in ((a, mean_a), (b, mean_b))
-    )
-    angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
-    turned = PlanarTransform(angle, 0.0, 0.0).points(mean_b)
-    return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
+    return a, b
 
 
 def unit_weights(weights: ArrayLike | None, count: int) -> Array:
@@ -154,6 +166,8 @@ def unit_weights(weights: ArrayLike | None, count: int) -> Array:
     --------
     >>> unit_weights([1, 3], 2)
     array([0.25, 0.75])
+
+    Notebook: 02-matching
     """
     w = np.ones(count) if weights is None else np.asarray(weights, float)
     if w.shape != (count,) or not np.isfinite(w).all() or np.any(w < 0) or not np.any(w > 0):

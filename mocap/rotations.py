@@ -277,6 +277,8 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     --------
     >>> slerp(about_y(0.2), about_y(0.4), 0.5).round(6) == about_y(0.3).round(6)
     array([ True,  True,  True,  True])
+
+    Notebook: 04-blending
     """
     difference = to_rotvec(multiply(inverse(start), end))
     return multiply(start, from_rotvec(np.asarray(amount, float)[..., None] * difference))
@@ -291,6 +293,8 @@ def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
     --------
     >>> float(angle_between(about_y(0.1), about_y(-0.3)).round(6))
     0.4
+
+    Notebook: 04-blending
     """
     a, b = (np.asarray(q, float) for q in (first, second))
     a, b = (q / np.sqrt(np.einsum("...i,...i", q, q))[..., None] for q in (a, b))

@@ -193,7 +193,7 @@ def laid_over(
     -------
     The figures of each.
 
-    Notebook: 03-transforms
+    Notebook: 02-matching
     """
     clouds = [joint_positions(motion)[::every] for motion in (first, second)]
     ax = ax or _stage_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))

@@ -16,6 +16,7 @@ import pytest
 from mocap import checks, course
 from mocap.live import _live_player
 from mocap.player import Player
+from mocap.pointing import Pointed
 from mocap.widgets import Experiment
 
 ROOT = Path(__file__).parents[1]
@@ -268,6 +269,9 @@ def settings(experiment):
         elif hasattr(control, "min"):
             middle = type(control.value)((control.min + control.max) / 2)
             ends[name] = [control.min, middle, control.max]
+        elif isinstance(control, Pointed):
+            rows, columns = control.shape
+            ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
         else:
             ends[name] = [False, True]
     rest = experiment.values()
