@@ -95,7 +95,10 @@ def build(
 
 
 def labels_between(motion: Motion, start: int, end: int) -> Labels:
-    """Collect the labels that the frames [start, end) bear."""
+    """Collect the labels that the frames [start, end) bear.
+
+    Notebook: 05-motion-graph
+    """
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 
 
@@ -111,6 +114,8 @@ def from_transitions(
     Raises
     ------
     SkeletonMismatch, MocapError : for clips that do not go together, and transitions outside them.
+
+    Notebook: 05-motion-graph
     """
     _require_names(clips)
     require_alike(clips)
@@ -130,6 +135,8 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
     Returns
     -------
     The graph of a `MotionGraph`.
+
+    Notebook: 05-motion-graph
     """
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):
@@ -196,6 +203,8 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     Raises
     ------
     NoWalk : where there is none at any threshold.
+
+    Notebook: 05-motion-graph
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]

@@ -74,7 +74,10 @@ class Pruning:
 
 
 def name(labels: Labels) -> str:
-    """Write a label set, as in "turn+walk"."""
+    """Write a label set, as in "turn+walk".
+
+    Notebook: 06-pruning
+    """
     return "+".join(sorted(labels)) or "no label"
 
 
@@ -86,6 +89,8 @@ def notes_example() -> nx.MultiDiGraph:
     >>> found = prune_graph(notes_example())
     >>> sorted(found.graph), sorted(found.orphans)
     ([1, 2, 3, 6, 7, 8], [4, 5])
+
+    Notebook: 06-pruning
     """
     graph = nx.MultiDiGraph()
     ends = [(1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4), (6, 5), (6, 7), (7, 5), (7, 8), (8, 3)]
@@ -119,6 +124,8 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     -----
     MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
         component to the second.
+
+    Notebook: 06-pruning
     """
     ways = numbered_edges(graph)
     found = largest_components(graph, ways, by_labels)
@@ -141,7 +148,10 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
 
 def numbered_edges(graph: nx.MultiDiGraph) -> Indices:
-    """Write a graph's edges as rows (start, end) of node numbers, in the order of its nodes: shape (E, 2)."""
+    """Write a graph's edges as rows (start, end) of node numbers, in the order of its nodes: shape (E, 2).
+
+    Notebook: 06-pruning
+    """
     number = {node: n for n, node in enumerate(graph)}
     return np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
 
@@ -153,13 +163,14 @@ def largest_components(
 
     Parameters
     ----------
-    graph : the graph.
-    ways : its edges, from `numbered_edges`.
+    graph, ways : the graph, and its edges as `numbered_edges` gives them.
     by_labels : whether each label set has a component of its own.
 
     Returns
     -------
     For each label set the nodes of its component, none where it has no cycle, and its frames of clip.
+
+    Notebook: 06-pruning
     """
     edges = [edge for _, _, edge in graph.edges(data=True)]
     frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
@@ -190,6 +201,8 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArr
     --------
     >>> largest_component(np.array([[0, 1], [1, 0], [1, 2], [2, 2]]), np.array([3, 4, 9, 5]), 3)
     (array([ True,  True, False]), 7)
+
+    Notebook: 06-pruning
     """
     part = component_numbers(ways, count)
     start, end = part[ways].T
@@ -203,16 +216,13 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArr
 
 
 def component_numbers(ways: Indices, count: int) -> Indices:
-    """Give each node the number of its strongly connected component.
+    """Give each node the number of its strongly connected component, shape (count,).
 
     Parameters
     ----------
-    ways : edges from node to node, numbers from 0 to count - 1, shape (E, 2).
-    count : how many nodes there are.
+    ways, count : edges from node to node, and how many nodes there are; as for `largest_component`.
 
-    Returns
-    -------
-    Shape (count,): the same number for nodes that reach each other.
+    Notebook: 06-pruning
     """
     matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
     return np.asarray(connected_components(matrix, directed=True, connection="strong")[1])
@@ -254,7 +264,10 @@ def _reason(on_cycle: bool, before: bool, after: bool) -> Reason:
 
 
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:
-    """Collect the nodes that a walk from some nodes can come to, these nodes among them."""
+    """Collect the nodes that a walk from some nodes can come to, these nodes among them.
+
+    Notebook: 06-pruning
+    """
     seen = set(start)
     waiting = list(seen)
     while waiting:

@@ -62,6 +62,8 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     Raises
     ------
     MocapError, SkeletonMismatch : for clips that do not go together or are too short, and senseless settings.
+
+    Notebook: 05-motion-graph
     """
     if weighting not in ("inverse", "distance"):
         raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
@@ -77,7 +79,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
 
 
 def connect(
-    parts: Sequence[Segment], distances: NDArray[np.floating], threshold: float, weighting: str = "inverse"
+    parts: Sequence[Segment], distances: NDArray[np.floating], threshold: float, weighting: str
 ) -> nx.DiGraph:
     """Join segments by edges: to the one that follows in the clip, and to those of other clips that match.
 
@@ -86,6 +88,8 @@ def connect(
     parts : the segments of all clips, in order.
     distances : D, shape (S, S), as `matching.segment_distances` gives it.
     threshold, weighting : as for `segment_graph`.
+
+    Notebook: 05-motion-graph
     """
     graph = nx.DiGraph()
     graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
@@ -113,6 +117,8 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
     --------
     >>> shares(np.array([100.0, 300.0]), "inverse"), shares(np.array([100.0, 300.0]), "distance")
     (array([0.75, 0.25]), array([0.25, 0.75]))
+
+    Notebook: 05-motion-graph
     """
     odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
     return np.asarray(odds / odds.sum())
@@ -145,6 +151,8 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     Raises
     ------
     NoWalk : for a start that the graph lacks, and for a walk that reaches a segment nothing follows.
+
+    Notebook: 05-motion-graph
     """
     if count < 1:
         raise MocapError(f"A walk needs at least one segment, got {count}.")
@@ -183,6 +191,8 @@ def segment_motion(
     Raises
     ------
     NoWalk : for an empty walk, or one that jumps.
+
+    Notebook: 05-motion-graph
     """
     if not walk or walk[0] not in graph:
         raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")

@@ -1,9 +1,11 @@
 """Checks of notebook 05."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap.checking import Check, Mistake
+from mocap.checking import Check, Mistake, close
 
 Array = NDArray[np.float64]
 
@@ -32,6 +34,10 @@ def _curve(rng: np.random.Generator) -> tuple[Array, Array, float]:
     frames = np.sort(rng.choice(3000, count, replace=False)).astype(float)
     frames[: rng.integers(1, 3)] = 0
     return np.linspace(0.01, 0.06, count), frames, float(rng.uniform(0.3, 0.95))
+
+
+def _same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    return bool(given == wanted) if isinstance(given, set) else close(given, wanted)
 
 
 inverse_shares = Check(
@@ -90,7 +96,12 @@ choice_points = Check(
     start="a clip without transitions has two nodes, where it starts and where it ends.",
     draw=_clip,
     truth=lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *(e + window for e in enters)}),
+    same=_same_order,
     mistakes=[
+        Mistake(
+            lambda frames, leaves, enters, window: {0, frames, *leaves, *(e + window for e in enters)},
+            "these are the right frames, but a set has no order: sort them.",
+        ),
         Mistake(
             lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *enters}),
             "the blend plays the window already: the clip goes on *after* the window that is entered.",

@@ -77,12 +77,17 @@ def _way(graph: nx.Graph, here: set[int], there: set[int]) -> bool:
     return bool(nx.has_path(graph, min(here), min(there)))
 
 
+def _same_members(given: Iterable[object], wanted: set[object]) -> bool:
+    return set(given) == wanted
+
+
 reachable = Check(
     name="reachable",
     asks="the set of nodes that a walk from `start` can come to, `start` among them",
     start="keep the nodes seen so far, and a list of those whose followers you have not looked at yet.",
     draw=lambda rng: (_graph(rng), int(rng.integers(1, 4))),
     truth=lambda successors, start: {start} | _after(successors, start),
+    same=_same_members,
     mistakes=[
         Mistake(
             lambda successors, start: {start, *successors[start]},
@@ -115,6 +120,7 @@ dead_ends = Check(
     start="a node is on a cycle when one of its followers can come back to it.",
     draw=lambda rng: (_graph(rng),),
     truth=_dead_ends,
+    same=_same_members,
     mistakes=[
         Mistake(
             lambda successors: {node for node, ends in successors.items() if not ends},
@@ -143,6 +149,7 @@ component_to_keep = Check(
     start="for each component, add up the frames of the edges that stay within it; max() takes a `key`.",
     draw=_components,
     truth=lambda components, edges: max(components, key=lambda part: _played(part, edges)),
+    same=_same_members,
     mistakes=[
         Mistake(
             lambda components, edges: max(components, key=len),
@@ -171,6 +178,7 @@ missing_ways = Check(
     start="try all ordered pairs; nx.has_path(graph, a, b) tells whether a way leads from a to b.",
     draw=_kinds,
     truth=_without_way,
+    same=_same_members,
     mistakes=[
         Mistake(
             lambda graph, kinds: {

@@ -54,6 +54,10 @@ def repeated(frames, leaves, enters, window):
     return np.sort([0, frames] + leaves + [enter + window for enter in enters])
 
 
+def unordered(frames, leaves, enters, window):
+    return set(leaves) | {enter + window for enter in enters} | {0, frames}
+
+
 def all_of_it(thresholds, frames, keep):
     return thresholds[frames == frames.max()].min()
 
@@ -89,6 +93,7 @@ WRONG = {
         (leave_after_window, "where its window starts"),
         (last_frame, "after the last frame"),
         (repeated, "one node, not two"),
+        (unordered, "a set has no order"),
     ],
     "suggested_threshold": [
         (all_of_it, "a share of it is enough"),
