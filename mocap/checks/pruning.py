@@ -30,7 +30,7 @@ def _on_cycle(successors: Successors, node: int) -> bool:
     return any(node in _after(successors, end) | {end} for end in successors[node])
 
 
-def _dead_ends(successors: Successors) -> set[int]:
+def _off_cycles(successors: Successors) -> set[int]:
     return {node for node in successors if not _on_cycle(successors, node)}
 
 
@@ -114,12 +114,12 @@ reachable = Check(
     ],
 )
 
-dead_ends = Check(
-    name="dead_ends",
+on_no_cycle = Check(
+    name="on_no_cycle",
     asks="the set of nodes that lie on no cycle",
     start="a node is on a cycle when one of its followers can come back to it.",
     draw=lambda rng: (_graph(rng),),
-    truth=_dead_ends,
+    truth=_off_cycles,
     same=_same_members,
     mistakes=[
         Mistake(

@@ -121,7 +121,7 @@ WRONG = {
         (against_the_arrows, "against the arrows"),
         (both_ways, "one way only"),
     ],
-    "dead_ends": [
+    "on_no_cycle": [
         (nothing_follows, "where do they lead"),
         (walks_end, "no way leads back"),
         (small_components, "an edge to itself"),
