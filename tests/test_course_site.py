@@ -87,6 +87,7 @@ def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
     pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install 'mocap[lite]'")
     assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0
     assert (tmp_path / "lite" / "lab" / "index.html").exists()
+    assert not (stored().parent / ".jupyterlite.doit.db").exists()
     (wheel,) = (tmp_path / "lite" / "pypi").glob("mocap-*.whl")
     assert wheel.stat().st_size > 1e5
     first = nbformat.read(tmp_path / "lite" / "files" / "00-quickstart.ipynb", 4)
