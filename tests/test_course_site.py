@@ -122,7 +122,7 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path)
     (stream,) = notebook.cells[1].outputs
     assert stream.text == "0\n1\n2\n"
     (shown,) = notebook.cells[2].outputs
-    assert set(shown.data) == {"image/png", "text/plain"}
+    assert set(shown.data) == {"image/png", "text/html", "text/plain"}
 
 
 @pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
