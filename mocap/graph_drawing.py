@@ -24,7 +24,7 @@ MOST_NODES = 100
 
 
 def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = None) -> LineCollection:
-    """Draw a motion graph: a bar a clip, along time, and an arc a transition, from leaving to entering.
+    """Draw a motion graph: a bar a clip, along time, and a line a transition, bent where it stays in a clip.
 
     Parameters
     ----------
@@ -71,10 +71,11 @@ def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = N
 
 
 def _arcs(ends: Array) -> Array:
-    """Bend lines (E, 2, 2), upwards at their middles so that those within one clip are seen: (E, 13, 2)."""
+    """Bend lines (E, 2, 2) upwards where both ends lie in one clip, so that they are seen: (E, 13, 2)."""
     t = np.linspace(0, 1, 13)[:, None]
     start, end = ends[:, :1], ends[:, 1:]
-    return start + t * (end - start) + 4 * t * (1 - t) * [0, 0.45]
+    lift = np.where(start[..., 1:] == end[..., 1:], [0, 0.45], 0)
+    return start + t * (end - start) + 4 * t * (1 - t) * lift
 
 
 def node_link(
@@ -100,6 +101,8 @@ def node_link(
     Raises
     ------
     MocapError : for more nodes, or none.
+
+    Notebook: 06-pruning
     """
     if not 0 < len(graph) <= MOST_NODES:
         raise MocapError(
@@ -164,6 +167,8 @@ def before_and_after(
     Returns
     -------
     The arcs of both.
+
+    Notebook: 06-pruning
     """
     if axes is None:
         size = (7, 1.4 * len(whole.clips) + 1.6)

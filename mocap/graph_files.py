@@ -51,7 +51,10 @@ class GraphFile(NamedTuple):
 
 
 def fingerprint(motion: Motion) -> str:
-    """Sum up all that a graph depends on in a clip: skeleton, poses, rate and labels (SHA-256)."""
+    """Sum up all that a graph depends on in a clip: skeleton, poses, rate and labels (SHA-256).
+
+    Notebook: 05-motion-graph
+    """
     skeleton = motion.skeleton
     digest = hashlib.sha256(repr((skeleton.names, motion.fps, sorted(motion.labels))).encode())
     marks = [motion.labels[label] for label in sorted(motion.labels)]
@@ -78,6 +81,8 @@ def save(motion_graph: MotionGraph, path: str | Path) -> None:
     Raises
     ------
     MocapError : for another suffix, and where the file cannot be written.
+
+    Notebook: 05-motion-graph
     """
     require_suffix(path, ".npz")
     clips, graph = motion_graph.clips, motion_graph.graph
@@ -125,6 +130,8 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
     ------
     FormatError : for a file that is no motion graph, is damaged, or of a newer version.
     MocapError : for a clip that is missing, or not what it was.
+
+    Notebook: 05-motion-graph
     """
     found = read(path)
     by_name = {clip.name: clip for clip in clips}
@@ -145,6 +152,8 @@ def read(path: str | Path) -> GraphFile:
     Raises
     ------
     FormatError, MocapError : as for `load`.
+
+    Notebook: 05-motion-graph
     """
     arrays = _arrays(path)
     _check(path, arrays)
@@ -229,6 +238,8 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
     Raises
     ------
     MocapError : for another suffix, a clip's name that XML cannot hold, and a file that cannot be written.
+
+    Notebook: 05-motion-graph
     """
     require_suffix(path, ".graphml")
     plain = nx.MultiDiGraph()

@@ -51,6 +51,8 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     ----------
     graph : its `graph`, pruned or not.
     fps : frames a second of its clips.
+
+    Notebook: 05-motion-graph
     """
     transitions = [edge["kind"] == "transition" for _, _, edge in graph.edges(data=True)]
     frames, mean_wait, worst_wait = _waits(graph)

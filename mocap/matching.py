@@ -238,6 +238,8 @@ def segments(frames: int, length: int) -> list[slice]:
     --------
     >>> [(s.start, s.stop) for s in segments(700, 200)]
     [(0, 200), (200, 400), (400, 700)]
+
+    Notebook: 05-motion-graph
     """
     check_window(length, max(frames, length), "A clip")
     starts = list(range(0, max(frames - length, 0) + 1, length))
@@ -263,6 +265,8 @@ def segment_distances(
     Raises
     ------
     MocapError : for no clips, different skeletons, and segments that are shorter than the window.
+
+    Notebook: 05-motion-graph
     """
     require_alike(clips)
     check_window(window, segment, "A segment")

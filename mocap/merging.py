@@ -39,6 +39,8 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     Returns
     -------
     A graph over the same clips; transitions that have come to lie between the same points are one.
+
+    Notebook: 05-motion-graph
     """
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")

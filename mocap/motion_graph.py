@@ -13,10 +13,11 @@ from itertools import pairwise
 import networkx as nx
 import numpy as np
 
+from mocap.collecting import uncollected
 from mocap.errors import MocapError, NoWalk
 from mocap.motion import Motion, require_alike
 from mocap.progress import Progress
-from mocap.pruning import Labels, prune_graph, uncollected
+from mocap.pruning import Labels, prune_graph
 from mocap.transitions import Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
@@ -93,8 +94,11 @@ def build(
     return from_transitions(clips, found, window=window)
 
 
-def _labels(motion: Motion, start: int, end: int) -> Labels:
-    """Collect the labels that the frames [start, end) bear."""
+def labels_between(motion: Motion, start: int, end: int) -> Labels:
+    """Collect the labels that the frames [start, end) bear.
+
+    Notebook: 05-motion-graph
+    """
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 
 
@@ -110,26 +114,45 @@ def from_transitions(
     Raises
     ------
     SkeletonMismatch, MocapError : for clips that do not go together, and transitions outside them.
+
+    Notebook: 05-motion-graph
     """
     _require_names(clips)
     require_alike(clips)
+    for transition in transitions:
+        _require_inside(clips, transition, window)
+    return MotionGraph(tuple(clips), window, cut_and_join(clips, transitions, window))
+
+
+def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], window: int) -> nx.MultiDiGraph:
+    """Cut clips where transitions leave and enter, and join the pieces: the heart of `from_transitions`.
+
+    Parameters
+    ----------
+    clips, transitions : alike, and within the clips; nothing is checked here.
+    window : frames in a transition.
+
+    Returns
+    -------
+    The graph of a `MotionGraph`.
+
+    Notebook: 05-motion-graph
+    """
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):
         graph.add_nodes_from([(clip, 0), (clip, len(motion))])
     for t in transitions:
-        _require_inside(clips, t, window)
-        here = _labels(clips[t.source], t.leave, t.leave + window)
-        there = _labels(clips[t.target], t.enter, t.enter + window)
+        leave, enter = (t.source, t.leave), (t.target, t.enter + window)
+        here = labels_between(clips[t.source], t.leave, t.leave + window)
+        there = labels_between(clips[t.target], t.enter, t.enter + window)
         edge = {"kind": "transition", "frames": window, "labels": here | there}
-        graph.add_edge(
-            (t.source, t.leave), (t.target, t.enter + window), **edge, cost=t.cost, transform=t.transform
-        )
+        graph.add_edge(leave, enter, **edge, cost=t.cost, transform=t.transform)
     # Within a clip the nodes stand in the order of time, so each is joined to the one after it.
     for (clip, start), (same, end) in pairwise(sorted(graph)):
         if clip == same:
-            edge = {"kind": "clip", "frames": end - start, "labels": _labels(clips[clip], start, end)}
-            graph.add_edge((clip, start), (clip, end), **edge)
-    return MotionGraph(tuple(clips), window, graph)
+            labels = labels_between(clips[clip], start, end)
+            graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, labels=labels)
+    return graph
 
 
 def _require_inside(clips: Sequence[Motion], t: Transition, window: int) -> None:
@@ -180,6 +203,8 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     Raises
     ------
     NoWalk : where there is none at any threshold.
+
+    Notebook: 05-motion-graph
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]

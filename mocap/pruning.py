@@ -11,11 +11,9 @@ The functions take any `networkx.MultiDiGraph`. Of its edges they read `frames`,
 asked to, `labels`.
 """
 
-import gc
 import warnings
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import compress, permutations
@@ -26,6 +24,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from mocap.collecting import uncollected
 from mocap.errors import MocapWarning, NoWalk
 
 Labels = frozenset[str]
@@ -74,23 +73,11 @@ class Pruning:
         return "\n".join(lines)
 
 
-@contextmanager
-def uncollected() -> Iterator[None]:
-    """Pause Python's garbage collector while a graph grows.
-
-    It would go through all edges made so far again and again, and find no rubbish: four fifths of the time.
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
-
-
 def name(labels: Labels) -> str:
-    """Write a label set, as in "turn+walk"."""
+    """Write a label set, as in "turn+walk".
+
+    Notebook: 06-pruning
+    """
     return "+".join(sorted(labels)) or "no label"
 
 
@@ -102,6 +89,8 @@ def notes_example() -> nx.MultiDiGraph:
     >>> found = prune_graph(notes_example())
     >>> sorted(found.graph), sorted(found.orphans)
     ([1, 2, 3, 6, 7, 8], [4, 5])
+
+    Notebook: 06-pruning
     """
     graph = nx.MultiDiGraph()
     ends = [(1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4), (6, 5), (6, 7), (7, 5), (7, 8), (8, 3)]
@@ -135,19 +124,17 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     -----
     MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
         component to the second.
+
+    Notebook: 06-pruning
     """
-    number = {node: n for n, node in enumerate(graph)}
-    ways = np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
-    found = {
-        labels: (frozenset(compress(number, inside)), frames)
-        for labels, (inside, frames) in _largest_components(graph, ways, by_labels).items()
-    }
+    ways = numbered_edges(graph)
+    found = largest_components(graph, ways, by_labels)
     components = {labels: nodes for labels, (nodes, _) in found.items() if nodes}
     if not components:
         one = " of edges with the same labels" if len(found) > 1 else ""
         raise NoWalk(f"The graph has no cycle{one}, so a walk through it ends: allow costlier transitions.")
     kept: Nodes = frozenset().union(*components.values())
-    pruned = _induced(graph, kept)
+    pruned = induced(graph, kept)
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in (*_too_short(frames, least_frames), *_missing_ways(pruned, components)):
         warnings.warn(message, MocapWarning, stacklevel=4)  # whoever called `motion_graph.prune`
@@ -160,18 +147,41 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     return Pruning(pruned, components, removed, tuple(reasons))
 
 
-def _largest_components(
+def numbered_edges(graph: nx.MultiDiGraph) -> Indices:
+    """Write a graph's edges as rows (start, end) of node numbers, in the order of its nodes: shape (E, 2).
+
+    Notebook: 06-pruning
+    """
+    number = {node: n for n, node in enumerate(graph)}
+    return np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
+
+
+def largest_components(
     graph: nx.MultiDiGraph, ways: Indices, by_labels: bool
-) -> dict[Labels, tuple[NDArray[np.bool_], int]]:
-    """Find the largest component of each label set, or of all edges: its nodes as a mask, its frames."""
+) -> dict[Labels, tuple[Nodes, int]]:
+    """Find the largest component of each label set, or of all edges.
+
+    Parameters
+    ----------
+    graph, ways : the graph, and its edges as `numbered_edges` gives them.
+    by_labels : whether each label set has a component of its own.
+
+    Returns
+    -------
+    For each label set the nodes of its component, none where it has no cycle, and its frames of clip.
+
+    Notebook: 06-pruning
+    """
     edges = [edge for _, _, edge in graph.edges(data=True)]
     frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
     labels = [edge.get("labels", NO_LABELS) if by_labels else NO_LABELS for edge in edges]
     sets = {one: n for n, one in enumerate(dict.fromkeys(labels))}
     which = np.array([sets[one] for one in labels], int)
-    return {
-        one: largest_component(ways[which == n], frames[which == n], len(graph)) for one, n in sets.items()
-    }
+    found = {}
+    for one, n in sets.items():
+        inside, count = largest_component(ways[which == n], frames[which == n], len(graph))
+        found[one] = (frozenset(compress(graph, inside)), count)
+    return found
 
 
 def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArray[np.bool_], int]:
@@ -191,8 +201,10 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArr
     --------
     >>> largest_component(np.array([[0, 1], [1, 0], [1, 2], [2, 2]]), np.array([3, 4, 9, 5]), 3)
     (array([ True,  True, False]), 7)
+
+    Notebook: 06-pruning
     """
-    part = _components(ways, count)
+    part = component_numbers(ways, count)
     start, end = part[ways].T
     inside = start == end
     if not inside.any():
@@ -203,13 +215,20 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArr
     return part == best, int(played[best])
 
 
-def _components(ways: Indices, count: int) -> Indices:
-    """Give each node the number of its strongly connected component."""
+def component_numbers(ways: Indices, count: int) -> Indices:
+    """Give each node the number of its strongly connected component, shape (count,).
+
+    Parameters
+    ----------
+    ways, count : edges from node to node, and how many nodes there are; as for `largest_component`.
+
+    Notebook: 06-pruning
+    """
     matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
     return np.asarray(connected_components(matrix, directed=True, connection="strong")[1])
 
 
-def _induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
+def induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
     """Copy the kept nodes, and all edges from one of them to another, in their order."""
     part = nx.MultiDiGraph(**graph.graph)
     part.add_nodes_from((node, data) for node, data in graph.nodes(data=True) if node in kept)
@@ -223,7 +242,7 @@ def _induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
 
 def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashable, Reason]:
     """Say of every node that goes what is wrong with it."""
-    part = _components(ways, len(graph))
+    part = component_numbers(ways, len(graph))
     on_cycle = np.bincount(part)[part] > 1
     on_cycle[ways[ways[:, 0] == ways[:, 1], 0]] = True
     after = reached(graph, kept)
@@ -245,7 +264,10 @@ def _reason(on_cycle: bool, before: bool, after: bool) -> Reason:
 
 
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:
-    """Collect the nodes that a walk from some nodes can come to, these nodes among them."""
+    """Collect the nodes that a walk from some nodes can come to, these nodes among them.
+
+    Notebook: 06-pruning
+    """
     seen = set(start)
     waiting = list(seen)
     while waiting:

@@ -62,6 +62,8 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     Raises
     ------
     MocapError, SkeletonMismatch : for clips that do not go together or are too short, and senseless settings.
+
+    Notebook: 05-motion-graph
     """
     if weighting not in ("inverse", "distance"):
         raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
@@ -71,19 +73,55 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     distances = segment_distances(clips, segment=segment, window=window, metric=metric)
     cuts = enumerate(segments(len(clip), segment) for clip in clips)
     parts = [Segment(clip, part.start, part.stop) for clip, slices in cuts for part in slices]
-    graph = nx.DiGraph(window=window)
+    graph = connect(parts, distances, threshold, weighting)
+    graph.graph["window"] = window
+    return graph
+
+
+def connect(
+    parts: Sequence[Segment], distances: NDArray[np.floating], threshold: float, weighting: str
+) -> nx.DiGraph:
+    """Join segments by edges: to the one that follows in the clip, and to those of other clips that match.
+
+    Parameters
+    ----------
+    parts : the segments of all clips, in order.
+    distances : D, shape (S, S), as `matching.segment_distances` gives it.
+    threshold, weighting : as for `segment_graph`.
+
+    Notebook: 05-motion-graph
+    """
+    graph = nx.DiGraph()
     graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
     for node, part in enumerate(parts):
         others = [j for j, s in enumerate(parts) if s.clip != part.clip and distances[node, j] < threshold]
-        goes_on = part.end < len(clips[part.clip])
-        if goes_on:
+        left = 1.0
+        if node + 1 < len(parts) and parts[node + 1].clip == part.clip:
             graph.add_edge(node, node + 1, kind="clip", probability=0.5 if others else 1.0)
+            left = 0.5
         costs = distances[node, others]
-        odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
-        shares = odds / odds.sum() * (0.5 if goes_on else 1.0)
-        for other, cost, share in zip(others, costs.tolist(), shares.tolist(), strict=True):
-            graph.add_edge(node, other, kind="transition", probability=share, cost=cost)
+        for other, cost, share in zip(others, costs, shares(costs, weighting), strict=True):
+            graph.add_edge(node, other, kind="transition", probability=float(left * share), cost=float(cost))
     return graph
+
+
+def shares(costs: NDArray[np.floating], weighting: str) -> Array:
+    """Share 1 among some matches, in proportion to D or to 1 / D.
+
+    Parameters
+    ----------
+    costs : D of each, shape (N,).
+    weighting : "distance" or "inverse".
+
+    Examples
+    --------
+    >>> shares(np.array([100.0, 300.0]), "inverse"), shares(np.array([100.0, 300.0]), "distance")
+    (array([0.75, 0.25]), array([0.25, 0.75]))
+
+    Notebook: 05-motion-graph
+    """
+    odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
+    return np.asarray(odds / odds.sum())
 
 
 def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
@@ -113,6 +151,8 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     Raises
     ------
     NoWalk : for a start that the graph lacks, and for a walk that reaches a segment nothing follows.
+
+    Notebook: 05-motion-graph
     """
     if count < 1:
         raise MocapError(f"A walk needs at least one segment, got {count}.")
@@ -151,6 +191,8 @@ def segment_motion(
     Raises
     ------
     NoWalk : for an empty walk, or one that jumps.
+
+    Notebook: 05-motion-graph
     """
     if not walk or walk[0] not in graph:
         raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")

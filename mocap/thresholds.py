@@ -95,6 +95,8 @@ def threshold_curve(
     >>> curve = threshold_curve([still], two, window=10, thresholds=[0.02, 0.04])
     >>> curve.transitions.tolist(), curve.nodes.tolist(), curve.frames.tolist()
     ([1, 2], [4, 6], [0, 30])
+
+    Notebook: 05-motion-graph
     """
     if thresholds is None and len(transitions) == 0:
         raise NoWalk("There are no transitions: allow costlier ones.")
@@ -162,6 +164,8 @@ def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window:
     Returns
     -------
     The RMS over the points of ‖v - T v'‖, shape (N,), metres a second.
+
+    Notebook: 05-motion-graph
     """
     moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2

@@ -37,6 +37,15 @@ def test_the_timeline_has_an_arc_a_transition(graph):
     assert [label.get_text() for label in arcs.axes.get_yticklabels()] == ["a", "b"]
 
 
+def test_only_what_stays_in_its_clip_is_bent(graph):
+    lines = plotting.timeline(graph).get_segments()
+    within = [line[0, 1] == line[-1, 1] for line in lines]
+    assert any(within) and not all(within)
+    for line, same in zip(lines, within, strict=True):
+        straight = np.linspace(line[0], line[-1], len(line))
+        assert np.abs(line - straight).max() == pytest.approx(0.45 if same else 0.0)
+
+
 def test_the_timeline_has_a_bar_a_stretch_of_clip(graph):
     bars = plotting.timeline(graph).axes.collections[1].get_segments()
     assert len(bars) == graph.count("clip")

@@ -17,7 +17,7 @@ MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
 CHECKS = {f"checks.{path.stem}": path for path in sorted((PACKAGE / "checks").glob("*.py"))}
 
 LAYERS = [
-    {"checking", "errors", "progress", "rotations", "style"},
+    {"checking", "collecting", "errors", "progress", "rotations", "style"},
     {"atomic", "course", "footsteps", "inverse_kinematics", "lab", "pruning", "search", "skeleton", "stills"},
     {
         "acclaim_skeleton",
