@@ -1,0 +1,171 @@
+"""Checks of notebook 09."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap.checking import Check, Mistake
+
+Array = NDArray[np.float64]
+
+
+def _curve(rng: np.random.Generator) -> tuple[Array, NDArray[np.intp], float]:
+    """Draw thresholds and frames kept at each; now and then a dearer graph keeps a little less."""
+    count = int(rng.integers(6, 20))
+    frames = np.sort(rng.integers(0, 5000, count))
+    frames[-2:] -= rng.integers(1, 60, 2)
+    return np.linspace(0.01, 0.1, count), np.maximum(frames, 0), float(rng.uniform(0.3, 0.95))
+
+
+enough_threshold = Check(
+    name="enough_threshold",
+    asks="the lowest threshold whose graph keeps at least `share` of what the best of them keeps",
+    start="which entries of `frames` reach share * frames.max(), and which threshold is the first of them?",
+    draw=_curve,
+    truth=lambda thresholds, frames, share: thresholds[frames >= share * frames.max()].min(),
+    mistakes=[
+        Mistake(
+            lambda thresholds, frames, share: int(np.argmax(frames >= share * frames.max())),
+            "that is its place in the list; give the threshold that stands there.",
+        ),
+        Mistake(
+            lambda thresholds, frames, share: thresholds[frames < share * frames.max()].max(),
+            "that is the last threshold that does not suffice; the next one does.",
+        ),
+        Mistake(
+            lambda thresholds, frames, share: thresholds[np.argmax(frames)],
+            "that one keeps the most; a share of it is enough.",
+        ),
+        Mistake(
+            lambda thresholds, frames, share: thresholds[frames >= share * frames.max()].max(),
+            "that is the loosest that suffices; the strictest makes the better seams.",
+        ),
+    ],
+)
+
+
+def _track(rng: np.random.Generator) -> Array:
+    return np.asarray(rng.normal(size=(int(rng.integers(12, 40)), 3)).cumsum(axis=0))
+
+
+def _seam(rng: np.random.Generator) -> tuple[Array, int, int, float]:
+    positions = _track(rng)
+    start = int(rng.integers(2, len(positions) - 6))
+    stop = int(rng.integers(start + 2, len(positions) - 2))
+    return positions, start, stop, float(rng.integers(24, 121))
+
+
+def _jumps(positions: Array) -> Array:
+    """Measure how much the step changes at each frame but the first and the last."""
+    return np.asarray(np.linalg.norm(np.diff(positions, 2, axis=0), axis=1))
+
+
+seam_jump = Check(
+    name="seam_jump",
+    asks="the largest of |x[f+1] - 2 x[f] + x[f-1]| times fps over the frames start <= f < stop",
+    start="np.diff(positions, 2, axis=0) holds the changes of step; its entry 0 belongs to frame 1.",
+    draw=_seam,
+    truth=lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max() * fps,
+    mistakes=[
+        Mistake(
+            lambda positions, start, stop, fps: _jumps(positions)[start:stop].max() * fps,
+            "you look a frame too late: entry 0 of the second differences belongs to frame 1.",
+        ),
+        Mistake(
+            lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max(),
+            "that is in metres a frame; velocities are in metres a second.",
+        ),
+        Mistake(
+            lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max() * fps**2,
+            "times fps squared it is an acceleration; the jump of a velocity takes fps once.",
+        ),
+        Mistake(
+            lambda positions, start, stop, fps: _jumps(positions).max() * fps,
+            "that is the largest of the whole clip; look at the seam alone.",
+        ),
+        Mistake(
+            lambda positions, start, stop, fps: (
+                np.linalg.norm(np.diff(positions, axis=0), axis=1)[start:stop].max() * fps
+            ),
+            "that is the speed; a steady walk has speed and no jump. Take the difference once more.",
+        ),
+    ],
+)
+
+
+def _weights(rng: np.random.Generator) -> tuple[Array, float]:
+    """Draw weights that fall from nearly 1 to 0, and seldom pass 0.5 in the middle."""
+    steps = np.arange(1, int(rng.integers(8, 60)) + 1)
+    return (1 - steps / len(steps)) ** rng.uniform(1.5, 4), float(rng.integers(24, 121))
+
+
+reaction_time = Check(
+    name="reaction_time",
+    asks="the seconds from the window's first frame to the first that holds more of the new motion",
+    start="find the first frame whose weight is below a half; frame p comes p / fps seconds after frame 0.",
+    draw=_weights,
+    truth=lambda weights, fps: int(np.argmax(weights < 0.5)) / fps,
+    mistakes=[
+        Mistake(
+            lambda weights, fps: int(np.argmax(weights < 0.5)),
+            "those are frames; a second has `fps` of them.",
+        ),
+        Mistake(
+            lambda weights, fps: len(weights) / 2 / fps,
+            "half the window is right for weights that fall evenly; these need not.",
+        ),
+        Mistake(
+            lambda weights, fps: len(weights) / fps,
+            "that is when the blend ends; the new motion leads before that.",
+        ),
+        Mistake(
+            lambda weights, fps: int(np.argmax(weights > 0.5)) / fps,
+            "the weights are the old motion's: it leads while they are above a half.",
+        ),
+    ],
+)
+
+
+def _steps(positions: Array) -> Array:
+    return np.asarray(np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T))
+
+
+def _standing(rng: np.random.Generator) -> tuple[Array, NDArray[np.bool_]]:
+    """Draw a track and two stretches of it in which the foot is said to stand."""
+    positions = _track(rng)
+    planted = np.zeros(len(positions), bool)
+    first, second = rng.integers(2, 5, 2)
+    planted[1 : 1 + first] = planted[7 : 7 + second] = True
+    return positions, planted
+
+
+ground_slid = Check(
+    name="ground_slid",
+    asks="the way over the ground in the steps at both ends of which the foot is planted, in metres",
+    start="the step from frame f to f+1 counts if planted[f] and planted[f+1]; the ground is x and z.",
+    draw=_standing,
+    truth=lambda positions, planted: _steps(positions)[planted[1:] & planted[:-1]].sum(),
+    mistakes=[
+        Mistake(
+            lambda positions, planted: np.linalg.norm(np.diff(positions, axis=0), axis=1)[
+                planted[1:] & planted[:-1]
+            ].sum(),
+            "the height is in it; sliding is over the ground, x and z.",
+        ),
+        Mistake(
+            lambda positions, planted: _steps(positions)[planted[1:]].sum(),
+            "the step by which the foot comes down is in it; both ends of a step must be planted.",
+        ),
+        Mistake(
+            lambda positions, planted: _steps(positions)[planted[:-1]].sum(),
+            "the step by which the foot leaves is in it; both ends of a step must be planted.",
+        ),
+        Mistake(
+            lambda positions, planted: _steps(positions[planted]).sum(),
+            "the way from one plant to the next is in it: between the two the foot swings.",
+        ),
+        Mistake(
+            lambda positions, planted: _steps(positions).sum(),
+            "the swings are in it; only planted feet slide.",
+        ),
+    ],
+)
