@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from mocap.commands import add_convert, add_data, add_info
+from mocap.course_command import add_course
 from mocap.errors import MocapError, MocapWarning
 from mocap.progress import bar
 from mocap.show_commands import add_figures, add_view
@@ -25,6 +26,7 @@ def _parser() -> argparse.ArgumentParser:
     add_data(commands)
     add_view(commands)
     add_figures(commands)
+    add_course(commands)
     lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
     lab.add_argument(
         "folder",

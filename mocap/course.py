@@ -10,13 +10,17 @@ from __future__ import annotations
 import ast
 import base64
 import inspect
+import io
 import re
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from PIL import Image
+
 from mocap.errors import MocapError
+from mocap.stills import COLOURS
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 WIDGET = "application/vnd.jupyter.widget-view+json"  # names a model that is gone once the kernel is
@@ -35,10 +39,10 @@ def read(path: Path) -> Any:  # noqa: ANN401
         raise MocapError("Notebooks need nbformat: pip install 'mocap[notebooks]'.") from error
     try:
         return nbformat.read(path, as_version=4)
-    except (nbformat.reader.NotJSONError, nbformat.ValidationError, AttributeError, KeyError) as error:
-        raise MocapError(f"{path}: is not a notebook.") from error
     except OSError as error:
         raise MocapError(f"{path}: {error.strerror}.") from error
+    except Exception as error:  # nbformat raises whatever it stumbles on
+        raise MocapError(f"{path}: is not a notebook.") from error
 
 
 def tagged(notebook: Any, kind: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN401
@@ -110,12 +114,22 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
 
 
 def _merged(outputs: list[Any]) -> list[Any]:
-    """Join the pieces in which a stream came, and drop the names of widgets that are no more."""
+    """Join the pieces in which a stream came, drop the names of widgets that are no more, pack pictures."""
     merged: list[Any] = []
     for output in outputs:
-        output.get("data", {}).pop(WIDGET, None)
+        data = output.get("data", {})
+        data.pop(WIDGET, None)
+        if "image/png" in data and "text/html" not in data:
+            data["image/png"] = _packed(data["image/png"])
         if output.output_type == "stream" and merged and merged[-1].get("name") == output.name:
             merged[-1].text += output.text
         else:
             merged.append(output)
     return merged
+
+
+def _packed(picture: str) -> str:
+    """Store a picture in few colours: what was made quickly need not be kept large."""
+    few = Image.open(io.BytesIO(base64.b64decode(picture))).convert("RGB").quantize(COLOURS)
+    few.save(packed := io.BytesIO(), "png", optimize=True)
+    return base64.b64encode(packed.getvalue()).decode()

@@ -53,10 +53,7 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
 
 
 def joint_positions(motion: Motion) -> Array:
-    """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres.
-
-    Notebook: 00-quickstart
-    """
+    """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres."""
     return forward_kinematics(motion).positions
 
 

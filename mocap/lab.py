@@ -12,6 +12,12 @@ PACKAGE = Path(__file__).parent
 FIRST = "00-quickstart.ipynb"
 
 
+def stored() -> Path:
+    """Find the notebooks as they are stored: in the checkout, or else in the installed package."""
+    checkout = PACKAGE.parent / "notebooks"
+    return checkout if (checkout / FIRST).exists() else PACKAGE / "notebooks"
+
+
 def course_folder(copy: Path) -> Path:
     """Find the notebooks: those of the checkout, or else a copy of the package's own that may be edited.
 
@@ -23,14 +29,14 @@ def course_folder(copy: Path) -> Path:
     -------
     The folder that holds them.
     """
-    checkout = PACKAGE.parent / "notebooks"
-    if (checkout / FIRST).exists():
-        return checkout
+    folder = stored()
+    if folder != PACKAGE / "notebooks":
+        return folder
     try:
         copy.mkdir(parents=True, exist_ok=True)
-        for notebook in sorted((PACKAGE / "notebooks").glob("*.ipynb")):
-            if not (copy / notebook.name).exists():
-                shutil.copy(notebook, copy)
+        for file in sorted(folder.iterdir()):
+            if not (copy / file.name).exists():
+                shutil.copy(file, copy)
     except OSError as error:
         raise MocapError(f"Cannot copy the notebooks to {copy}: {error.strerror}.") from error
     return copy

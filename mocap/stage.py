@@ -153,8 +153,6 @@ def stick_figure(
     Returns
     -------
     A figure a pose.
-
-    Notebook: 00-quickstart
     """
     shown = [frames] if isinstance(frames, int) else list(frames)
     points = joint_positions(motion)[shown]

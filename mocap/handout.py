@@ -1,0 +1,137 @@
+"""For instructors: the course without its solutions, and the marks of what comes back."""
+
+from __future__ import annotations
+
+import csv
+import io
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mocap.atomic import write_text
+from mocap.course import read, tagged
+from mocap.errors import MocapError
+
+SECONDS = 30  # that a student's cell may take
+
+
+def hand_out(notebooks: Path, out: Path) -> list[Path]:
+    """Copy the course without its solutions.
+
+    Parameters
+    ----------
+    notebooks : the course's folder.
+    out : where the copies go; none of them may be there yet, lest a student's work is lost.
+
+    Returns
+    -------
+    The copies.
+
+    Raises
+    ------
+    MocapError : where there are no notebooks, or a copy would replace a file.
+    """
+    import nbformat
+
+    files = sorted(notebooks.glob("*.ipynb"))
+    if not files:
+        raise MocapError(f"There are no notebooks in {notebooks}.")
+    out.mkdir(parents=True, exist_ok=True)
+    for file in (*files, *notebooks.glob("[A-Z]*.md")):
+        if (out / file.name).exists():
+            raise MocapError(f"{out / file.name} is there already; name another folder.")
+    for file in files:
+        notebook = read(file)
+        solutions = [cell for _, cell in tagged(notebook, "solution")]
+        notebook.cells = [cell for cell in notebook.cells if cell not in solutions]
+        write_text(out / file.name, nbformat.writes(notebook) + "\n")
+    for page in ("GLOSSARY.md", "FORMULAS.md"):
+        shutil.copy(notebooks / page, out)
+    return [out / file.name for file in files]
+
+
+class Mark(NamedTuple):
+    """How an exercise went: whose notebook, which exercise, right or not, and what the check said."""
+
+    handed_in: str
+    exercise: str
+    right: bool
+    said: str
+
+
+def mark(folder: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = iter) -> Iterator[Mark]:
+    """Run the exercises of every notebook in a folder and its folders, each notebook in a process of its own.
+
+    Of a notebook, its first code cell runs and then every exercise with the package's own check; no other
+    cell does. The code is the students' own: run it where you would run their programs by hand.
+
+    Parameters
+    ----------
+    folder : what was handed in; a file's name from there on says whose it is.
+    progress : wraps the notebooks while they are marked.
+
+    Yields
+    ------
+    A mark for every exercise.
+
+    Raises
+    ------
+    MocapError : where there are no notebooks.
+    """
+    files = sorted(file for file in folder.rglob("*.ipynb") if ".ipynb_checkpoints" not in file.parts)
+    if not files:
+        raise MocapError(f"There are no notebooks in {folder}.")
+    for file in progress(files):
+        whose = file.relative_to(folder).as_posix()
+        try:
+            notebook = read(file)
+        except MocapError as error:
+            yield Mark(whose, "", False, str(error))
+            continue
+        exercises = dict(tagged(notebook, "exercise"))
+        for name, said in zip(exercises, _run(notebook, exercises), strict=True):
+            yield Mark(whose, name, said.startswith("✓"), said)
+
+
+def _run(notebook: Any, exercises: dict[str, Any]) -> list[str]:  # noqa: ANN401
+    """Run the exercises of a notebook, and give what the checks say, by exercise."""
+    from nbclient import NotebookClient
+    from nbformat.v4 import new_code_cell, new_notebook
+
+    setup = next(cell for cell in notebook.cells if cell.cell_type == "code")
+    cells = [new_code_cell(setup.source)]
+    for name, cell in exercises.items():
+        check = f"print(checks.all_checks()[{name!r}].verdict(globals().get({name!r}, lambda *_: ...)))"
+        cells += [new_code_cell(cell.source), new_code_cell(f"from mocap import checks\n{check}")]
+    run = new_notebook(cells=cells)
+    NotebookClient(run, timeout=SECONDS, interrupt_on_timeout=True, allow_errors=True).execute()
+    return [
+        _said(cell.outputs + check.outputs)
+        for cell, check in zip(run.cells[1::2], run.cells[2::2], strict=True)
+    ]
+
+
+def _said(outputs: list[Any]) -> str:
+    """Give what a check printed; or the error of the student's cell, which came first."""
+    for output in outputs:
+        if output.output_type == "error":
+            late = output.ename == "KeyboardInterrupt"
+            return f"✗ stopped after {SECONDS} s" if late else f"✗ {output.ename}: {output.evalue}"
+    return str(outputs[-1].text.strip().splitlines()[-1])
+
+
+def to_csv(marks: Iterable[Mark]) -> str:
+    """Write marks as the text of a .csv file, a line each.
+
+    Examples
+    --------
+    >>> print(to_csv([Mark("ada/02.ipynb", "align", True, "✓ align: right on 40 random inputs.")]))
+    handed in,exercise,right,said
+    ada/02.ipynb,align,1,✓ align: right on 40 random inputs.
+    """
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(["handed in", "exercise", "right", "said"])
+    table.writerows([mark.handed_in, mark.exercise, int(mark.right), mark.said] for mark in marks)
+    return text.getvalue()
