@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 REAL = Path(os.environ.get("MOCAP_REAL_DATA", Path(__file__).parents[1] / "shared" / "data")).resolve()
-MISSING = None if REAL.is_dir() else f"no real clips at {REAL}; name their folder in MOCAP_REAL_DATA"
+THERE = all((REAL / folder).is_dir() for folder in ("cmu", "hw3"))
+MISSING = None if THERE else f"no real clips at {REAL}; name their folder in MOCAP_REAL_DATA"
 
 if not MISSING:
     os.environ["MOCAP_DATA"] = str(REAL / "cmu")  # for the kernels of the notebooks, which inherit it

@@ -8,36 +8,36 @@ from mocap.checking import Check, Mistake
 Array = NDArray[np.float64]
 
 
-def _curve(rng: np.random.Generator) -> tuple[Array, NDArray[np.intp], float]:
-    """Draw thresholds and frames kept at each; now and then a dearer graph keeps a little less."""
-    count = int(rng.integers(6, 20))
-    frames = np.sort(rng.integers(0, 5000, count))
-    frames[-2:] -= rng.integers(1, 60, 2)
-    return np.linspace(0.01, 0.1, count), np.maximum(frames, 0), float(rng.uniform(0.3, 0.95))
-
-
-enough_threshold = Check(
-    name="enough_threshold",
-    asks="the lowest threshold whose graph keeps at least `share` of what the best of them keeps",
-    start="which entries of `frames` reach share * frames.max(), and which threshold is the first of them?",
-    draw=_curve,
-    truth=lambda thresholds, frames, share: thresholds[frames >= share * frames.max()].min(),
+beyond_control = Check(
+    name="beyond_control",
+    asks="the share of the seams that jump more than 95 of 100 clips do where no seam is",
+    start="np.percentile(control, 95) is what all but a twentieth of the control stays below.",
+    draw=lambda rng: (rng.gamma(4.0, 0.1, rng.integers(20, 60)), rng.gamma(4.0, 0.07, rng.integers(20, 60))),
+    truth=lambda seams, control: np.mean(seams > np.percentile(control, 95)),
     mistakes=[
         Mistake(
-            lambda thresholds, frames, share: int(np.argmax(frames >= share * frames.max())),
-            "that is its place in the list; give the threshold that stands there.",
+            lambda seams, control: np.sum(seams > np.percentile(control, 95)),
+            "that is how many; the share is out of all seams.",
         ),
         Mistake(
-            lambda thresholds, frames, share: thresholds[frames < share * frames.max()].max(),
-            "that is the last threshold that does not suffice; the next one does.",
+            lambda seams, control: np.mean(seams > np.median(control)),
+            "half of the control itself is above its median: such a jump is nothing special.",
         ),
         Mistake(
-            lambda thresholds, frames, share: thresholds[np.argmax(frames)],
-            "that one keeps the most; a share of it is enough.",
+            lambda seams, control: np.mean(seams > control.mean()),
+            "much of the control itself is above its mean: such a jump is nothing special.",
         ),
         Mistake(
-            lambda thresholds, frames, share: thresholds[frames >= share * frames.max()].max(),
-            "that is the loosest that suffices; the strictest makes the better seams.",
+            lambda seams, control: np.mean(seams > control.max()),
+            "one wild frame in the control would excuse every seam; take its 95th percentile.",
+        ),
+        Mistake(
+            lambda seams, control: np.mean(seams > np.percentile(seams, 95)),
+            "you compare the seams with themselves: a twentieth is above, whatever you do.",
+        ),
+        Mistake(
+            lambda seams, control: np.mean(seams > np.percentile(control, 0.95)),
+            "np.percentile counts in hundredths: 95, not 0.95.",
         ),
     ],
 )

@@ -4,48 +4,58 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap.checking import Check, Mistake
+from mocap.plants import hysteresis
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
-def _stray(places: Array) -> float:
-    """Measure how far points on the ground, shape (n, 2), get from where they are on average."""
-    return float(np.linalg.norm(places - places.mean(axis=0), axis=1).max())
+def _creeping(rng: np.random.Generator) -> tuple[Array, float, float]:
+    """Draw speeds of a foot: runs in the swing, runs that only come near to standing, and plants."""
+    levels = rng.permutation([4.0, 0.6, 4.0, 0.2, 4.0, 0.2, 4.0])
+    speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
+    speeds[: len(speeds) - 2 : 9] = 0.7
+    return speeds, 0.2, 0.9
 
 
-creep = Check(
-    name="creep",
-    asks="the largest distance over the ground of a planted frame from the plant's mean place, in metres",
-    start="take positions[start:stop], only x and z, and subtract their mean; which row is the longest?",
-    draw=lambda rng: (rng.normal(size=(20, 3)), int(rng.integers(1, 8)), int(rng.integers(11, 19))),
-    truth=lambda positions, start, stop: _stray(positions[start:stop, [0, 2]]),
+def _still(speeds: Array, enter: float, leave: float) -> Mask:
+    return hysteresis(speeds, np.ones(len(speeds), bool), enter, leave)
+
+
+def _once_begun(speeds: Array, enter: float, leave: float) -> Mask:
+    """Begin only where a speed falls below `enter`, as one does who goes through the frames once."""
+    marks = np.zeros(len(speeds), bool)
+    for frame, speed in enumerate(speeds):
+        marks[frame] = speed < enter or (speed < leave and frame > 0 and marks[frame - 1])
+    return marks
+
+
+standing = Check(
+    name="standing",
+    asks="a mask of the runs below `leave` in which some frame is below `enter`",
+    start="runs(speeds < leave) lists the runs; which of them have a frame below `enter`?",
+    draw=_creeping,
+    truth=_still,
     mistakes=[
         Mistake(
-            lambda positions, start, stop: np.linalg.norm(
-                positions[start:stop] - positions[start:stop].mean(axis=0),
-                axis=1,
-            ).max(),
-            "the height is in it: over the ground only x and z count.",
+            lambda speeds, enter, leave: speeds < enter,
+            "that is one threshold, the strict one: noise cuts each plant into pieces.",
         ),
         Mistake(
-            lambda positions, start, stop: _stray(positions[:, [0, 2]]),
-            "that is of all frames; only start <= f < stop belong to the plant.",
+            lambda speeds, enter, leave: speeds < leave,
+            "that is one threshold, the loose one: runs that never slow down to `enter` are in it.",
         ),
         Mistake(
-            lambda positions, start, stop: np.linalg.norm(
-                positions[start:stop, [0, 2]] - positions[start, [0, 2]], axis=1
-            ).max(),
-            "you measure from the first frame; the mean of the plant is what the clean-up keeps.",
+            _once_begun,
+            "a run counts from its first frame below `leave`, also before it falls below `enter`.",
         ),
         Mistake(
-            lambda positions, start, stop: np.linalg.norm(
-                positions[start:stop, [0, 2]] - positions[start:stop, [0, 2]].mean(axis=0), axis=1
-            ).mean(),
-            "that is how far it strays on average; take the largest.",
+            lambda speeds, enter, leave: _still(speeds, leave, enter),
+            "the thresholds have changed places: `enter` is the stricter one.",
         ),
         Mistake(
-            lambda positions, start, stop: np.ptp(positions[start:stop, [0, 2]], axis=0).max(),
-            "that is the longer side of a box around the places; measure distances from their mean.",
+            lambda speeds, enter, leave: ~_still(speeds, enter, leave),
+            "that marks the swings.",
         ),
     ],
 )

@@ -1,24 +1,25 @@
 import numpy as np
 
 
-def its_place(thresholds, frames, share):
-    return next(place for place, kept in enumerate(frames) if kept >= share * max(frames))
+def how_many(seams, control):
+    limit = np.quantile(control, 0.95)
+    return len([jump for jump in seams if jump > limit])
 
 
-def one_too_early(thresholds, frames, share):
-    best = None
-    for threshold, kept in zip(thresholds, frames, strict=True):
-        if kept < share * frames.max():
-            best = threshold
-    return best
+def above_the_median(seams, control):
+    return sum(seams > np.median(control)) / len(seams)
 
 
-def the_most(thresholds, frames, share):
-    return thresholds[list(frames).index(max(frames))]
+def above_the_largest(seams, control):
+    return sum(seams > max(control)) / len(seams)
 
 
-def the_loosest(thresholds, frames, share):
-    return [t for t, kept in zip(thresholds, frames, strict=True) if kept >= share * max(frames)][-1]
+def among_themselves(seams, control):
+    return sum(seams > np.quantile(seams, 0.95)) / len(seams)
+
+
+def in_ones(seams, control):
+    return (seams > np.percentile(control, 0.95)).mean()
 
 
 def second_differences(x):
@@ -80,11 +81,12 @@ def with_swings(positions, planted):
 
 
 WRONG = {
-    "enough_threshold": [
-        (its_place, "place in the list"),
-        (one_too_early, "does not suffice"),
-        (the_most, "a share of it is enough"),
-        (the_loosest, "the strictest makes"),
+    "beyond_control": [
+        (how_many, "out of all seams"),
+        (above_the_median, "nothing special"),
+        (above_the_largest, "one wild frame"),
+        (among_themselves, "with themselves"),
+        (in_ones, "95, not 0.95"),
     ],
     "seam_jump": [
         (a_frame_late, "a frame too late"),

@@ -1,24 +1,27 @@
 import numpy as np
 
 
-def in_space(positions, start, stop):
-    plant = positions[start:stop]
-    return max(np.sqrt(((plant - plant.mean(0)) ** 2).sum(1)))
+def the_strict_one(speeds, enter, leave):
+    return [bool(speed < enter) for speed in speeds]
 
 
-def of_all_frames(positions, start, stop):
-    ground = positions[:, ::2]
-    return max(np.sqrt(((ground - ground.mean(0)) ** 2).sum(1)))
+def the_loose_one(speeds, enter, leave):
+    return [bool(speed < leave) for speed in speeds]
 
 
-def from_the_first(positions, start, stop):
-    ground = positions[start:stop, ::2]
-    return max(np.sqrt(((ground - ground[0]) ** 2).sum(1)))
+def going_through(speeds, enter, leave):
+    marks, on = [], False
+    for speed in speeds:
+        on = speed < leave if on else speed < enter
+        marks.append(on)
+    return np.array(marks)
 
 
-def on_average(positions, start, stop):
-    ground = positions[start:stop, ::2]
-    return np.mean(np.sqrt(((ground - ground.mean(0)) ** 2).sum(1)))
+def the_swings(speeds, enter, leave):
+    slow = speeds < leave
+    numbers = np.cumsum(np.diff(slow, prepend=False))
+    plants = {number for number, speed in zip(numbers, speeds, strict=True) if speed < enter}
+    return np.array([number not in plants for number in numbers])
 
 
 def ground_speeds(positions):
@@ -68,11 +71,11 @@ def walking(speeds, span, fastest_walk):
 
 
 WRONG = {
-    "creep": [
-        (in_space, "only x and z count"),
-        (of_all_frames, "of all frames"),
-        (from_the_first, "from the first frame"),
-        (on_average, "take the largest"),
+    "standing": [
+        (the_strict_one, "the strict one"),
+        (the_loose_one, "the loose one"),
+        (going_through, "from its first frame"),
+        (the_swings, "marks the swings"),
     ],
     "leaps": [
         (frame_before, "the frames before"),
