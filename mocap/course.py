@@ -10,17 +10,13 @@ from __future__ import annotations
 import ast
 import base64
 import inspect
-import io
 import re
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from PIL import Image
-
 from mocap.errors import MocapError
-from mocap.stills import COLOURS
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 WIDGET = "application/vnd.jupyter.widget-view+json"  # names a model that is gone once the kernel is
@@ -114,22 +110,13 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
 
 
 def _merged(outputs: list[Any]) -> list[Any]:
-    """Join the pieces in which a stream came, drop the names of widgets that are no more, pack pictures."""
+    """Join the pieces in which a stream came, drop the names of widgets that are no more."""
     merged: list[Any] = []
     for output in outputs:
         data = output.get("data", {})
         data.pop(WIDGET, None)
-        if "image/png" in data and "text/html" not in data:
-            data["image/png"] = _packed(data["image/png"])
         if output.output_type == "stream" and merged and merged[-1].get("name") == output.name:
             merged[-1].text += output.text
         else:
             merged.append(output)
     return merged
-
-
-def _packed(picture: str) -> str:
-    """Store a picture in few colours: what was made quickly need not be kept large."""
-    few = Image.open(io.BytesIO(base64.b64decode(picture))).convert("RGB").quantize(COLOURS)
-    few.save(packed := io.BytesIO(), "png", optimize=True)
-    return base64.b64encode(packed.getvalue()).decode()

@@ -45,21 +45,11 @@ def build_lite(notebooks: Path, out: Path) -> Path:
         raise MocapError("A JupyterLite site is built from a checkout of the package, which is not here.")
     with tempfile.TemporaryDirectory() as folder:
         wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
-        _call("pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout)
+        _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
         _copy(notebooks, contents)
         (wheel,) = wheels.glob("mocap-*.whl")
-        _call(
-            "jupyterlite_core",
-            "build",
-            "--lite-dir",
-            folder,
-            "--contents",
-            contents,
-            "--piplite-wheels",
-            wheel,
-            "--output-dir",
-            out.resolve(),
-        )
+        parts: list[str | Path] = ["--contents", contents, "--piplite-wheels", wheel]
+        _call(folder, ["jupyterlite_core", "build", *parts, "--output-dir", out.resolve()])
     return out / "lab" / "index.html"
 
 
@@ -77,9 +67,10 @@ def _copy(notebooks: Path, contents: Path) -> None:
         write_text(contents / page.name, page.read_text("utf-8"))
 
 
-def _call(*command: str | Path) -> None:
+def _call(folder: str, command: list[str | Path]) -> None:
+    """Run a module of Python's in a folder, where it may leave what it likes."""
     done = subprocess.run(
-        [sys.executable, "-m", *map(str, command)], capture_output=True, text=True, check=False
+        [sys.executable, "-m", *map(str, command)], cwd=folder, capture_output=True, text=True, check=False
     )
     if done.returncode:
         last = (done.stderr or done.stdout).strip().splitlines()[-1:]

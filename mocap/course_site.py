@@ -87,22 +87,11 @@ def _body(notebook: Any) -> str:  # noqa: ANN401
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             cell.source = MATH.sub(keep, cell.source)
-        for output in cell.get("outputs", ()):
-            _name_picture(output)
     exporter = HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
     body, _ = exporter.from_notebook_node(notebook)
     body = re.sub(r"FORMULA(\d+)\.", lambda found: formulas[int(found[1])], body)
     body = re.sub(r"(<h\d id=\")([^\"]+)\"", lambda found: f'{found[1]}{found[2].lower()}"', body)
     return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", body)
-
-
-def _name_picture(output: Any) -> None:  # noqa: ANN401
-    """Give a picture its sentence, which nbconvert would leave out."""
-    data = output.get("data", {})
-    if "image/png" in data and "text/html" not in data:
-        alt = output.metadata.get("image/png", {}).get("alt", "")
-        tag = f'<img alt="{html.escape(alt)}" src="data:image/png;base64,{data["image/png"].strip()}">'
-        data["text/html"] = f"{tag}<p><small>{html.escape(alt)}</small></p>"
 
 
 def _page(name: str, titles: dict[str, str], body: str) -> str:

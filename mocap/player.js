@@ -1,6 +1,7 @@
 // A player of stick figures on a canvas, without any library.
 //
-// `player.py` packs a scene: characters whose joints' places are 16-bit numbers, low + step · number metres.
+// `player.py` packs a scene: characters whose joints' places are 16-bit numbers, low + step · number metres. Sent
+// are their second differences over time, a coordinate after the other, deflated: less than half as much.
 // The same module runs in two shells: a page starts every `.mocap-player` in it (`startAll`), and anywidget
 // calls `render`, whose `model` shares `frame`, `scene` and `path` with Python.
 // World: y up, metres, seconds. A camera goes round a target; `Camera.see` is all the projection there is.
@@ -61,12 +62,10 @@ class Camera {
   }
 }
 
-function toBytes(data) {
-  if (typeof data !== "string") return data.buffer.slice(data.byteOffset, data.byteOffset + data.byteLength);
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(data).buffer;
-  const letters = atob(data), bytes = new Uint8Array(letters.length); // browsers from before 2025
-  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
-  return bytes.buffer;
+async function inflated(data) {
+  const fromBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const bytes = typeof data === "string" ? fromBase64(data) : data;
+  return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
 // A character: where its joints are at any time.
@@ -74,30 +73,37 @@ class Character {
   constructor(packed, bytes) {
     Object.assign(this, packed);
     this.numbers = new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3);
+    this.sum();
     this.seconds = (packed.frames - 1) / packed.fps;
     this.path = this.pathOnGround();
+  }
+
+  // Undo the differences, which wrap round at 2¹⁶.
+  sum() {
+    for (let i = 0, change = 0, number = 0; i < this.numbers.length; i++) {
+      if (i % this.frames === 0) change = number = 0;
+      change = (change + this.numbers[i]) & 65535;
+      this.numbers[i] = number = (number + change) & 65535;
+    }
   }
 
   // All joints at a time, between two frames on straight lines: x, y, z, x, y, z, ...
   pose(time) {
     const at = Math.min(Math.max(time, 0), this.seconds) * this.fps;
     const frame = Math.min(Math.floor(at), this.frames - 1), share = at - frame;
-    const wide = this.joints * 3, here = frame * wide, next = Math.min(frame + 1, this.frames - 1) * wide;
-    const places = new Float32Array(wide);
-    for (let i = 0; i < wide; i++) {
-      const number = this.numbers[here + i] * (1 - share) + this.numbers[next + i] * share;
-      places[i] = this.low[i % 3] + this.step[i % 3] * number;
-    }
+    const next = Math.min(frame + 1, this.frames - 1), places = new Float32Array(this.joints * 3);
+    for (let i = 0; i < places.length; i++) places[i] = this.place(i, frame) * (1 - share) + this.place(i, next) * share;
     return places;
+  }
+
+  place(coordinate, frame) {
+    return this.low[coordinate % 3] + this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame];
   }
 
   // [time, x, z] of the root, at most about a thousand times.
   pathOnGround() {
     const every = Math.max(1, Math.floor(this.frames / 1000)), path = [];
-    for (let frame = 0; frame < this.frames; frame += every) {
-      const root = frame * this.joints * 3;
-      path.push([frame / this.fps, ...[0, 2].map((i) => this.low[i] + this.step[i] * this.numbers[root + i])]);
-    }
+    for (let frame = 0; frame < this.frames; frame += every) path.push([frame / this.fps, this.place(0, frame), this.place(2, frame)]);
     return path;
   }
 
@@ -115,8 +121,7 @@ class Player {
     this.time = 0; this.speed = 1; this.playing = false; this.visible = true; this.pictures = 0; this.drawn = [];
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.build();
-    this.load(scene);
-    this.listen();
+    this.load(scene).then(() => this.listen());
   }
 
   // ---- the page ----
@@ -141,8 +146,10 @@ class Player {
     find(".reset").onclick = () => { this.camera.reset(); this.update(); };
   }
 
-  load(scene) {
-    const bytes = toBytes(scene.data), again = scene.drawable && this.scene;
+  async load(scene) {
+    this.latest = scene;
+    const bytes = await inflated(scene.data), again = scene.drawable && this.scene;
+    if (scene !== this.latest) return;
     this.scene = scene;
     this.characters = scene.characters.map((packed) => new Character(packed, bytes));
     this.seconds = (scene.frames - 1) / scene.fps;
@@ -155,13 +162,13 @@ class Player {
     this.message.textContent = this.model?.get("message") ?? "";
     this.showSources();
     if (!again) this.frameAll();
-    this.seek(0);
+    this.seek((this.model?.get("frame") ?? 0) / scene.fps);
     this.toggle(Boolean(scene.autoplay) && !this.calm);
   }
 
   // The bar under the slider, and the words that go with its colours.
   showSources() {
-    const [first] = this.characters, sources = first ? first.sources : [];
+    const [{ sources }] = this.characters;
     const stops = sources.map((s, i) => {
       const end = i + 1 < sources.length ? sources[i + 1].start : this.seconds;
       return `${s.colour} ${(100 * s.start) / this.seconds}% ${(100 * end) / this.seconds}%`;
@@ -180,7 +187,7 @@ class Player {
   frameAll() {
     const places = [...this.characters.flatMap((c) => c.path.map(([, x, z]) => [x, z])), ...this.scene.asked];
     const span = (i) => [Math.min(...places.map((p) => p[i])), Math.max(...places.map((p) => p[i]))];
-    const [[x0, x1], [z0, z1]] = places.length ? [span(0), span(1)] : [[-2, 2], [-2, 2]];
+    const [[x0, x1], [z0, z1]] = [span(0), span(1)];
     this.centre = [(x0 + x1) / 2, this.scene.drawable ? 0 : 0.8, (z0 + z1) / 2];
     this.reach = Math.max(3.2, 1.1 * Math.hypot(x1 - x0, z1 - z0) + 1.5);
   }
@@ -208,11 +215,10 @@ class Player {
 
   link() {
     this.model.on("change:frame", () => {
-      if (this.model.get("frame") !== this.frame()) { this.toggle(false); this.seek(this.model.get("frame") / this.scene.fps); }
+      if (this.scene === this.latest && this.model.get("frame") !== this.frame()) { this.toggle(false); this.seek(this.model.get("frame") / this.scene.fps); }
     });
     this.model.on("change:scene", () => this.load(this.model.get("scene")));
     this.model.on("change:message", () => { this.message.textContent = this.model.get("message"); });
-    this.seek(this.model.get("frame") / this.scene.fps);
   }
 
   // Tell Python the frame, at most twenty times a second.
@@ -237,7 +243,7 @@ class Player {
   }
 
   toggle(playing = !this.playing) {
-    this.playing = playing && this.characters.length > 0;
+    this.playing = playing;
     this.last = null;
     this.play.textContent = this.playing ? "❚❚" : "▶";
     this.play.setAttribute("aria-label", this.playing ? "pause" : "play");
@@ -328,15 +334,14 @@ class Player {
 
   draw() {
     const { canvas, camera } = this, sharp = devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
-    if (canvas.width !== Math.round(wide * sharp) || canvas.height !== Math.round(high * sharp)) {
-      canvas.width = Math.round(wide * sharp); canvas.height = Math.round(high * sharp);
-    }
+    const pixels = [wide, high].map((size) => Math.round(size * sharp));
+    if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
     this.pen2d = canvas.getContext("2d");
     this.pen2d.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.pen2d.clearRect(0, 0, wide, high);
     this.pen2d.lineCap = this.pen2d.lineJoin = "round";
     const target = this.target();
-    camera.place(target, this.follow.checked && this.characters.length ? 4.2 : this.reach, wide, high);
+    camera.place(target, this.follow.checked ? 4.2 : this.reach, wide, high);
     this.drawGround(target);
     const flat = (places) => places.map(([x, z]) => [x, 0, z]);
     this.stroke([flat(this.scene.asked)], "#000000", 6, 0.75);
@@ -349,11 +354,10 @@ class Player {
 
   // The ground under the first character, smoothed over a second so that the view does not rock with each step.
   target() {
-    const [first] = this.characters;
-    if (!first || !this.follow.checked) return this.centre;
+    if (!this.follow.checked) return this.centre;
     const mean = [0, 0.85, 0];
     for (let i = -4; i <= 4; i++) {
-      const pose = first.pose(this.time + i / 8);
+      const pose = this.characters[0].pose(this.time + i / 8);
       mean[0] += pose[0] / 9; mean[2] += pose[2] / 9;
     }
     return mean;
@@ -468,7 +472,7 @@ class Player {
     this.firstPicture ??= performance.now();
   }
 
-  end() { this.resized.disconnect(); this.seen.disconnect(); clearTimeout(this.telling); cancelAnimationFrame(this.waiting); }
+  end() { this.resized?.disconnect(); this.seen?.disconnect(); clearTimeout(this.telling); cancelAnimationFrame(this.waiting); }
 }
 
 // Shell one: a page. Each output that comes starts the players that have not been started yet.

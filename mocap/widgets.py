@@ -7,8 +7,8 @@ not (a code host, a printed page), and a sentence where there are no pictures.
 from __future__ import annotations
 
 import asyncio
-import base64
 import html
+import importlib.util
 import inspect
 import io
 import time
@@ -21,16 +21,18 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from PIL import Image
 
 from mocap.errors import MocapError
 from mocap.live import draw_path as draw_path
 from mocap.live import linked as linked
 from mocap.player import play as play
-from mocap.stills import figure_of
+from mocap.pointing import Pointed, pointer
+from mocap.stills import Still, few_colours, figure_of
 from mocap.stills import show as show
 
-Drawn = Figure | Sequence[Artist]
+Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
 SLOW = 0.15  # seconds; a callback that takes longer waits until the reader's hand rests
 
 
@@ -42,10 +44,11 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
     Parameters
     ----------
-    draw : called with the controls' values by name; gives a figure, or the artists it moved.
+    draw : called with the controls' values by name; gives what it drew, or a list of the artists it moved.
     alt : a sentence that says what the picture shows, for readers who do not see it.
     controls : name=(low, high) or (low, high, step) for a slider, a bool for a box, a list or {label: value}
-        for a choice, or a widget. A default in `draw`'s signature is where the control starts.
+        for a choice, an image such as a `plotting.distance_image` to click on for its (row, column), or a
+        widget. A default in `draw`'s signature is where the control starts.
 
     Returns
     -------
@@ -69,27 +72,32 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
 
 def _widgets(draw: Callable[..., Drawn], controls: dict[str, Any]) -> dict[str, Any]:
-    try:
-        from ipywidgets import interactive
-    except ImportError as error:
-        raise MocapError(
-            "Experiments need ipywidgets, which is not here: pip install 'mocap[notebooks]'."
-        ) from error
+    if importlib.util.find_spec("ipywidgets") is None:
+        raise MocapError("Experiments need ipywidgets, which is not here: pip install 'mocap[notebooks]'.")
     defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
     made = {}
     for name, control in controls.items():
         if name not in defaults:
             raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
-        try:
-            made[name] = interactive.widget_from_abbrev(control, defaults[name])
-        except (ValueError, TypeError):
-            made[name] = None
+        made[name] = _widget(control, defaults[name])
         if made[name] is None:
             raise MocapError(
                 f"The control {name}={control!r} is no range, choice or widget, such as (0, 10)."
             )
         made[name].description = name.replace("_", " ")
     return made
+
+
+def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore`)
+    """Make a widget of a control, or None."""
+    from ipywidgets import interactive
+
+    if isinstance(control, AxesImage):
+        return pointer(control, (0, 0) if default is inspect.Parameter.empty else default)
+    try:
+        return interactive.widget_from_abbrev(control, default)
+    except (ValueError, TypeError):
+        return None
 
 
 def step_aside(reason: object) -> None:
@@ -130,11 +138,17 @@ class Experiment:
         self._canvas = BlittedFigure()
         self._seconds = 0.0
         self._waiting: asyncio.TimerHandle | None = None
-        self.picture = ipywidgets.Image(format="png")  # has no alt of its own: the sentence stands below
+        shrinking = {"flex": "1 1 320px", "max_width": "max-content"}  # before one goes below the other
+        self.picture = ipywidgets.Image(format="png", layout=shrinking)  # its alt is the sentence below
         self.message = ipywidgets.HTML(layout={"display": "none"})
         sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
-        self.box = ipywidgets.VBox([*controls.values(), self.picture, self.message, sentence])
-        self.box.layout.align_items = "flex-start"
+        self._images = [control for control in controls.values() if isinstance(control, Pointed)]
+        for image in self._images:
+            image.layout = shrinking
+        above = [control for control in controls.values() if control not in self._images]
+        below = ipywidgets.HBox([*self._images, self.picture, self.message])
+        below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
+        self.box = ipywidgets.VBox([*above, below, sentence], layout={"align_items": "flex-start"})
         self.refresh()
         if self.error:
             raise self.error
@@ -187,10 +201,16 @@ class Experiment:
             self.refresh()
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
-        bundle = dict(self.box._repr_mimebundle_() or {})
-        bundle["text/plain"] = self.alt
-        bundle["image/png"] = base64.b64encode(self.picture.value).decode()
-        return bundle, {"image/png": {"alt": self.alt}}
+        still, metadata = Still(self._still(), self.alt)._repr_mimebundle_()
+        return {**(self.box._repr_mimebundle_() or {}), **still}, metadata
+
+    def _still(self) -> bytes:
+        """Give the picture, to the right of the images that it depends on."""
+        stills = [image.still() for image in self._images] + [Image.open(io.BytesIO(self.picture.value))]
+        row = Image.new("RGB", (sum(s.width for s in stills), max(s.height for s in stills)), "white")
+        for number, still in enumerate(stills):
+            row.paste(still, (sum(s.width for s in stills[:number]), 0))
+        return few_colours(row)
 
 
 def _told(error: Exception) -> str:
@@ -211,9 +231,10 @@ class BlittedFigure:
         self.figure: Figure | None = None
 
     def png(self, drawn: Drawn) -> bytes:
-        """Draw a figure, or artists over the picture of the rest of theirs."""
-        artists = [] if isinstance(drawn, Figure) else sorted(drawn or (), key=Artist.get_zorder)
-        figure = drawn if isinstance(drawn, Figure) else figure_of(artists)
+        """Draw a figure, or, of a list of artists, these over the picture of the rest of theirs."""
+        figure = figure_of(drawn)
+        moved = isinstance(drawn, Sequence) and all(isinstance(part, Artist) for part in drawn)
+        artists = sorted(drawn, key=Artist.get_zorder) if moved else []
         if figure is not self.figure:
             plt.close(figure)  # nothing of it may appear elsewhere on the page, nor stay behind
             self.figure, self.canvas = figure, FigureCanvasAgg(figure)

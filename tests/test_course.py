@@ -2,6 +2,7 @@
 
 import ast
 import contextlib
+import html
 import io
 import itertools
 import re
@@ -98,7 +99,9 @@ def test_every_picture_is_told_in_words(name):
         for output in cell.get("outputs", ()):
             for kind in output.get("data", {}):
                 if kind.startswith("image/"):
-                    assert len(output.metadata.get(kind, {}).get("alt", "")) >= 20, cell.id
+                    alt = output.metadata.get(kind, {}).get("alt", "")
+                    assert len(alt) >= 20, cell.id
+                    assert alt in html.unescape(output.data["text/html"])  # where JupyterLab looks for it
 
 
 @every_notebook

@@ -87,6 +87,7 @@ def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
     pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install 'mocap[lite]'")
     assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0
     assert (tmp_path / "lite" / "lab" / "index.html").exists()
+    assert not (stored().parent / ".jupyterlite.doit.db").exists()
     (wheel,) = (tmp_path / "lite" / "pypi").glob("mocap-*.whl")
     assert wheel.stat().st_size > 1e5
     first = nbformat.read(tmp_path / "lite" / "files" / "00-quickstart.ipynb", 4)
@@ -121,7 +122,7 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path)
     (stream,) = notebook.cells[1].outputs
     assert stream.text == "0\n1\n2\n"
     (shown,) = notebook.cells[2].outputs
-    assert set(shown.data) == {"image/png", "text/plain"}
+    assert set(shown.data) == {"image/png", "text/html", "text/plain"}
 
 
 @pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])

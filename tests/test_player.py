@@ -5,6 +5,7 @@ import html
 import io
 import json
 import re
+import zlib
 from dataclasses import replace
 
 import numpy as np
@@ -24,8 +25,10 @@ def unpacked(player, number=0):
     """Give a character of a scene, and where its joints are, shape (F, J, 3)."""
     scene = player.scene
     character = scene["characters"][number]
-    shape = (character["frames"], character["joints"], 3)
-    numbers = np.frombuffer(scene["data"], "<u2", int(np.prod(shape)), character["offset"]).reshape(shape)
+    shape = (character["joints"], 3, character["frames"])
+    data = zlib.decompress(scene["data"])
+    changes = np.frombuffer(data, "<u2", int(np.prod(shape)), character["offset"]).reshape(shape)
+    numbers = np.moveaxis(changes.cumsum(-1).cumsum(-1) % 2**16, -1, 0)
     return character, np.array(character["low"]) + np.array(character["step"]) * numbers
 
 

@@ -54,7 +54,7 @@ def test_moving_a_control_changes_the_picture():
 
 def test_the_output_is_one_bundle_of_controls_picture_and_sentence():
     data, metadata = explore(fresh, alt="A line.", frame=(0, 9))._repr_mimebundle_()
-    assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/plain"}
+    assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/html", "text/plain"}
     assert data["text/plain"] == "A line." == metadata["image/png"]["alt"]
     assert pixels(base64.b64decode(data["image/png"])).shape == (200, 200, 3)
 

@@ -10,9 +10,9 @@ from tests.browser.conftest import wait_until
 CELLS = {
     "start": """
         import ipywidgets, numpy as np
-        from mocap import datasets, plotting, resample
+        from mocap import datasets, joining, matching, plotting, resample
         from mocap.kinematics import joint_positions
-        from mocap.widgets import draw_path, explore, linked, play
+        from mocap.widgets import draw_path, explore, linked, play, show
         walk = resample(datasets.sample("walk_circle"), 30)[:240]
         points = joint_positions(walk)
 """,
@@ -23,6 +23,13 @@ CELLS = {
                 raise ValueError("here the clip ends")
             return body.pose(points[frame])
         explore(pose, alt="A stick figure at a frame.", frame=(0, 239))""",
+    "show": 'show(plotting.stick_figure(walk, 40), alt="One pose of a walk.")',
+    "point": """
+        def lay(at=(30, 100)):
+            i, j = at
+            return plotting.laid_over(walk[i : i + 10], joining.lay_on(walk, i, walk, j, 10)[j : j + 10])
+        grid = matching.distance_grid(walk, walk, window=10)
+        explore(lay, alt="Two windows laid over each other.", at=plotting.distance_image(grid, fps=30))""",
     "play": "play(walk)",
     "linked": """
         live = linked(play(walk, follow=False))
@@ -84,6 +91,34 @@ def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artef
     wait_until(lambda: picture.is_visible())
     wait_until(lambda: not error.is_visible())
     page.screenshot(path=artefacts / "lab-explore.png")
+
+
+def test_a_shown_picture_has_its_alt_text(notebook):
+    _, cell = notebook
+    picture = cell("show").get_by_role("img", name="One pose of a walk.")
+    wait_until(picture.is_visible)
+    assert picture.evaluate("img => img.naturalWidth") > 400
+
+
+def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook, artefacts):
+    page, cell = notebook
+    place = cell("point")
+    grid, told = place.locator(".mocap-pointing"), place.get_by_role("status")
+    wait_until(lambda: "row 30, column 100" in told.inner_text())
+    laid = place.locator("img").last
+    before, box = laid.get_attribute("src"), grid.bounding_box()
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    wait_until(lambda: laid.get_attribute("src") != before)
+    wait_until(lambda: "column 100" not in told.inner_text())
+    row, column = (int(part.split()[1]) for part in told.inner_text().split(":")[0].split(", "))
+    assert 100 < row < 130
+    assert 100 < column < 160  # the colours' bar is at the right
+    before = laid.get_attribute("src")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Shift+ArrowLeft")
+    wait_until(lambda: f"row {row + 1}, column {column - 10}:" in told.inner_text())
+    wait_until(lambda: laid.get_attribute("src") != before)
+    page.screenshot(path=artefacts / "lab-point.png")
 
 
 def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):

@@ -137,15 +137,45 @@ def test_the_mouse_turns_and_the_wheel_zooms(still):
     assert page.evaluate(f"{PLAYER}.camera.zoom") == 1
 
 
-def test_two_fingers_zoom(still):
+@pytest.fixture
+def touch(page):
+    """Give a function that puts fingers on places of the canvas: none, or one (x, y) each."""
+    session = page.context.new_cdp_session(page)
+    session.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+
+    def fingers(kind, *places):
+        box = page.locator("canvas").bounding_box()
+        points = [{"id": k, "x": box["x"] + x, "y": box["y"] + y} for k, (x, y) in enumerate(places)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    return fingers
+
+
+def test_two_fingers_zoom(still, touch):
     page = still(play(wave(300)))
-    touch = """([id, kind, x, y]) => document.querySelector('canvas').dispatchEvent(new PointerEvent(kind,
-        {pointerId: id, pointerType: 'touch', isPrimary: id === 5, clientX: x, clientY: y, bubbles: true}))"""
-    page.evaluate("Element.prototype.setPointerCapture = () => {}")  # no finger is really there
-    box = page.locator("canvas").bounding_box()
-    for id, kind, x in ((5, "down", 100), (6, "down", 200), (6, "move", 300), (6, "up", 300), (5, "up", 100)):
-        page.evaluate(touch, [id, f"pointer{kind}", box["x"] + x, box["y"] + 100])
-    assert page.evaluate(f"{PLAYER}.camera.zoom") == pytest.approx(2)
+    yaw, before = page.evaluate(f"{PLAYER}.camera.yaw"), colours(page)
+    touch("touchStart", (300, 100), (350, 100))
+    for apart in (70, 90, 100):
+        touch("touchMove", (300, 100), (300 + apart, 100))
+    touch("touchEnd")
+    assert page.evaluate(f"{PLAYER}.camera.zoom") == pytest.approx(2, rel=0.02)
+    assert page.evaluate(f"{PLAYER}.camera.yaw") == yaw
+    assert np.any(colours(page) != before)
+
+
+def test_one_finger_turns_and_does_not_scroll(still, touch):
+    page = still(play(wave(300)))
+    page.evaluate("document.body.style.height = '3000px'")
+    yaw, pitch, before = *page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]"), colours(page)
+    touch("touchStart", (300, 200))
+    for k in range(1, 10):
+        touch("touchMove", (300 - 10 * k, 200 + 5 * k))
+    touch("touchEnd")
+    assert page.evaluate(f"{PLAYER}.camera.yaw") == pytest.approx(yaw + 90 / 150, rel=0.05)
+    assert page.evaluate(f"{PLAYER}.camera.pitch") == pytest.approx(pitch + 45 / 150, rel=0.05)
+    assert page.evaluate("scrollY") == 0
+    assert np.any(colours(page) != before)
+    assert page.evaluate(f"{PLAYER}.pointers.size") == 0
 
 
 def test_the_camera_follows_or_stays(still):
