@@ -100,6 +100,27 @@ def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore
         return None
 
 
+def step_aside(reason: object) -> None:
+    """Say in a sentence why a notebook cannot go on, and let the cells below it do nothing.
+
+    Parameters
+    ----------
+    reason : an error, or a sentence.
+
+    Examples
+    --------
+    >>> step_aside("The clips are not here.")
+    The cells below do nothing until the kernel restarts: The clips are not here.
+
+    Notebook: 10-real-data
+    """
+    from IPython import get_ipython
+
+    print(f"The cells below do nothing until the kernel restarts: {reason}")
+    if (shell := get_ipython()) is not None:
+        shell.input_transformers_cleanup.append(lambda lines: [])  # of what a cell says, nothing is left
+
+
 class Experiment:
     """What `explore` gives: the controls, the picture, and the last error.
 

@@ -1,25 +1,10 @@
 """What the tests share."""
 
-import os
-from pathlib import Path
-
 import pytest
 from hypothesis import settings
 
-ROOT = Path(__file__).parents[1]
-
 settings.register_profile("house", deadline=None)  # a busy machine is no failure
 settings.load_profile("house")
-
-
-@pytest.fixture(scope="session")
-def real_data() -> Path:
-    """Return the folder of real clips, which the repository does not hold."""
-    folder = Path(os.environ.get("MOCAP_REAL_DATA", ROOT.parent / "shared" / "data"))
-    if not folder.is_dir():
-        pytest.skip(f"no real clips at {folder}; name their folder in MOCAP_REAL_DATA")
-    return folder
-
 
 ASKED_FOR = ("benchmark", "exhaustive")
 

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
+import requests
+from IPython.core.interactiveshell import InteractiveShell
 
 from mocap import checks, course
 from mocap.live import _live_player
@@ -231,7 +233,9 @@ def last_value(source, space):
 
 
 @every_notebook
-def test_experiments_work_over_the_whole_range_of_their_controls(name, monkeypatch):
+def test_experiments_work_over_the_whole_range_of_their_controls(name, monkeypatch, request):
+    if name == "10-real-data":
+        request.getfixturevalue("real_data")
     monkeypatch.chdir(FOLDER)
     experiments = [cell for _, cell in course.tagged(read(name), "experiment")]
     space, shown = {"__name__": "__main__"}, []
@@ -280,6 +284,25 @@ def settings(experiment):
             yield rest | {name: value}
     for corner in itertools.islice(itertools.product(*([v[0], v[-1]] for v in ends.values())), 8):
         yield dict(zip(ends, corner, strict=True))
+
+
+def test_without_clips_and_network_real_data_steps_aside_in_one_sentence(monkeypatch, tmp_path, capsys):
+    def unplugged(*_):
+        raise requests.ConnectionError
+
+    monkeypatch.setattr("mocap.cmu._download", unplugged)
+    monkeypatch.setattr("pooch.core.time.sleep", lambda seconds: None)
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path))
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    shell = InteractiveShell.instance()
+    try:
+        assert all(shell.run_cell(cell).success for cell in code("10-real-data"))
+    finally:
+        InteractiveShell.clear_instance()
+    said = capsys.readouterr()
+    assert re.fullmatch(r"The cells below do nothing until .*: .* MOCAP_DATA names\.\n", said.out)
+    assert said.err == ""
 
 
 # Glossary and formulas

@@ -1,0 +1,93 @@
+import numpy as np
+
+
+def the_strict_one(speeds, enter, leave):
+    return [bool(speed < enter) for speed in speeds]
+
+
+def the_loose_one(speeds, enter, leave):
+    return [bool(speed < leave) for speed in speeds]
+
+
+def going_through(speeds, enter, leave):
+    marks, on = [], False
+    for speed in speeds:
+        on = speed < leave if on else speed < enter
+        marks.append(on)
+    return np.array(marks)
+
+
+def the_swings(speeds, enter, leave):
+    slow = speeds < leave
+    numbers = np.cumsum(np.diff(slow, prepend=False))
+    plants = {number for number, speed in zip(numbers, speeds, strict=True) if speed < enter}
+    return np.array([number not in plants for number in numbers])
+
+
+def ground_speeds(positions):
+    steps = positions[1:] - positions[:-1]
+    return np.sqrt(steps[:, 0] ** 2 + steps[:, 2] ** 2)
+
+
+def frame_before(positions, fps, fastest):
+    return [f for f, speed in enumerate(ground_speeds(positions) * fps) if speed > fastest]
+
+
+def without_fps(positions, fps, fastest):
+    return [f + 1 for f, speed in enumerate(ground_speeds(positions)) if speed > fastest]
+
+
+def upwards_too(positions, fps, fastest):
+    speeds = np.sqrt(((positions[1:] - positions[:-1]) ** 2).sum(axis=1)) * fps
+    return list(np.nonzero(speeds > fastest)[0] + 1)
+
+
+def as_a_mask(positions, fps, fastest):
+    return ground_speeds(positions) * fps > fastest
+
+
+def frame_by_frame(speeds, span, fastest_walk):
+    return np.array([speed > fastest_walk for speed in speeds])
+
+
+def divided_by_span(speeds, span, fastest_walk):
+    half = span // 2
+    sums = [speeds[max(0, f - half) : f + half + 1].sum() for f in range(len(speeds))]
+    return np.array(sums) / span > fastest_walk
+
+
+def without_ends(speeds, span, fastest_walk):
+    return np.array([speeds[f : f + span].mean() for f in range(len(speeds) - span + 1)]) > fastest_walk
+
+
+def looking_back(speeds, span, fastest_walk):
+    return np.array([speeds[max(0, f - span + 1) : f + 1].mean() for f in range(len(speeds))]) > fastest_walk
+
+
+def walking(speeds, span, fastest_walk):
+    half = span // 2
+    means = [speeds[max(0, f - half) : f + half + 1].mean() for f in range(len(speeds))]
+    return np.array(means) <= fastest_walk
+
+
+WRONG = {
+    "standing": [
+        (the_strict_one, "the strict one"),
+        (the_loose_one, "the loose one"),
+        (going_through, "from its first frame"),
+        (the_swings, "marks the swings"),
+    ],
+    "leaps": [
+        (frame_before, "the frames before"),
+        (without_fps, "metres a frame"),
+        (upwards_too, "leave y out"),
+        (as_a_mask, "that is a mask"),
+    ],
+    "running": [
+        (frame_by_frame, "flickers"),
+        (divided_by_span, "still divide by all"),
+        (without_ends, "the ends are missing"),
+        (looking_back, "half a span late"),
+        (walking, "marks walking"),
+    ],
+}
