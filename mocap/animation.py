@@ -40,6 +40,8 @@ def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progr
     Raises
     ------
     MocapError : for another ending, where the file cannot be written, and for .mp4 without imageio-ffmpeg.
+
+    Notebook: 00-quickstart
     """
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:

@@ -86,8 +86,6 @@ def load_skeleton(path: str | Path) -> Skeleton:
     >>> load_skeleton("walk.amc")
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot read a skeleton from walk.amc: give an .asf file.
-
-    Notebook: 01-skeletons-and-clips
     """
     if Path(path).suffix.lower() != ".asf":
         raise MocapError(f"Cannot read a skeleton from {path}: give an .asf file.")

@@ -76,6 +76,8 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     Returns
     -------
     Shape (2, F, 3): the places while a joint stands, and the joints' own positions elsewhere.
+
+    Notebook: 04-blending
     """
     places = np.array(joints)
     placed = np.zeros((2, len(places[0])), bool)

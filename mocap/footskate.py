@@ -66,6 +66,8 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     >>> rise = (clean_up(skating).root_positions - skating.root_positions)[:, 1]
     >>> bool(0.002 < abs(rise).max() < 0.01)
     True
+
+    Notebook: 04-blending
     """
     legs = legs_of(motion.skeleton, legs)
     motion = replace(motion, contacts={**motion.contacts, **_settled_contacts(motion, legs)})

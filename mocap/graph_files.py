@@ -51,10 +51,7 @@ class GraphFile(NamedTuple):
 
 
 def fingerprint(motion: Motion) -> str:
-    """Sum up all that a graph depends on in a clip: skeleton, poses, rate and labels (SHA-256).
-
-    Notebook: 05-motion-graph
-    """
+    """Sum up all that a graph depends on in a clip: skeleton, poses, rate and labels (SHA-256)."""
     skeleton = motion.skeleton
     digest = hashlib.sha256(repr((skeleton.names, motion.fps, sorted(motion.labels))).encode())
     marks = [motion.labels[label] for label in sorted(motion.labels)]

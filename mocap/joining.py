@@ -52,6 +52,8 @@ def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
     >>> glide = Motion(bone, roots, np.tile([1.0, 0, 0, 0], (6, 2, 1)), 30.0)
     >>> join(glide, 3, glide, 0, 2).root_positions[:, 0].round(6) + 0.0
     array([0., 1., 2., 3., 4., 5., 6., 7., 8.])
+
+    Notebook: 04-blending
     """
     b = lay_on(a, i, b, j, window)
     mixed = blend(a[i : i + window], b[j : j + window], weights(window))
@@ -87,6 +89,8 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     >>> glide = Motion(bone, roots, np.tile([1.0, 0, 0, 0], (6, 2, 1)), 30.0)
     >>> inertialize(glide, 3, glide, 0, 2).root_positions[:, 0].round(6) + 0.0
     array([0., 1., 2., 3., 4., 5., 6., 7., 8.])
+
+    Notebook: 04-blending
     """
     b = lay_on(a, i, b, j, window)
     before = 1 if min(i, j) > 0 else 0
@@ -112,6 +116,8 @@ def lay_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, and windows that run off a clip.
+
+    Notebook: 04-blending
     """
     require_alike([a, b])
     if window < 1:

@@ -207,7 +207,10 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 
 
 def require_alike(motions: Sequence[Motion]) -> None:
-    """Raise unless all motions share one skeleton and one frame rate."""
+    """Raise unless all motions share one skeleton and one frame rate.
+
+    Notebook: 04-blending
+    """
     for motion in motions[1:]:
         try:
             motions[0].skeleton.require_same(motion.skeleton)

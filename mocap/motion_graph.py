@@ -35,8 +35,6 @@ class MotionGraph:
         "transition"), `frames`, and `labels`, a frozenset of all labels that some frame bears which they
         play or blend; transitions also `cost` (RMS distance, metres) and `transform`, which lays the clip
         they lead to on the one they come from.
-
-    Notebook: 00-quickstart
     """
 
     clips: tuple[Motion, ...]

@@ -137,7 +137,10 @@ def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, f
 
 
 def circle(radius: float = 3.0) -> GroundPath:
-    """Draw a circle to the left."""
+    """Draw a circle to the left.
+
+    Notebook: 10-real-data
+    """
     return arcs((0, 0), 0.0, [(2 * np.pi * radius, 2 * np.pi)])
 
 

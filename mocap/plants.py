@@ -59,6 +59,8 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     >>> marked = mark_plants(replace(clip, contacts={}))
     >>> round(float((marked.contacts["lfoot"] == clip.contacts["lfoot"]).mean()), 2)
     1.0
+
+    Notebook: 04-blending
     """
     legs = legs_of(motion.skeleton, legs)
     span = max(1, int(SPAN * motion.fps))
@@ -138,6 +140,8 @@ def runs(marks: Mask) -> NDArray[np.intp]:
     --------
     >>> runs(np.array([True, True, False, True])).tolist()
     [[0, 2], [3, 4]]
+
+    Notebook: 04-blending
     """
     edges = np.diff(np.asarray(marks, np.int8), prepend=0, append=0)
     return np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=-1)

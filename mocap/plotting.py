@@ -154,6 +154,8 @@ def joint_curve(
     Returns
     -------
     The K curves.
+
+    Notebook: 02-matching
     """
     ax = ax or plt.figure(figsize=(6, 2.8), layout="constrained").add_subplot()
     columns = np.reshape(values, (len(np.asarray(values)), -1))

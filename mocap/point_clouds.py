@@ -146,6 +146,8 @@ def matching_clouds(points: ArrayLike, others: ArrayLike) -> tuple[Array, Array]
     Raises
     ------
     MocapError : for clouds of different sizes, and points that are not finite or too far away.
+
+    Notebook: 02-matching
     """
     a, b = np.asarray(points, float), np.asarray(others, float)
     if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:

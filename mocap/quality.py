@@ -91,6 +91,8 @@ def jumps(motion: Motion) -> tuple[Array, Array]:
     >>> stop = Motion(dot, [[x, 1, 0] for x in (0, 1, 2, 2, 2)], np.tile([1.0, 0, 0, 0], (5, 1, 1)), 10.0)
     >>> jumps(stop)[0]
     array([ 0.,  0., 10.,  0.,  0.])
+
+    Notebook: 04-blending
     """
     if len(motion) < 4:
         raise MocapError(f"To see accelerations jump takes four frames; '{motion.name}' has {len(motion)}.")
@@ -116,6 +118,8 @@ def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread
     Raises
     ------
     SkeletonMismatch, MocapError : for clips that do not go together, none, or legs that cannot be found.
+
+    Notebook: 04-blending
     """
     if not clips:
         raise MocapError("A seam is measured against its clips; none were given.")
@@ -163,6 +167,8 @@ def seam_quality(
     >>> walk = generate("walk_straight")
     >>> seam_quality(join(walk, 500, walk, 233, 40), (500, 540), spread([walk])).velocity_jump < 1
     True
+
+    Notebook: 04-blending
     """
     before = motion if before is None else before
     feet = _feet(legs_of(motion.skeleton, legs))

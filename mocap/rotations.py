@@ -1,11 +1,9 @@
 """Unit quaternions as arrays `(..., 4)`, scalar first (w, x, y, z): a thin adapter over SciPy.
 
 This module alone knows in which order a quaternion's numbers stand. All functions broadcast over
-leading axes, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b first.
-Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own. No frames
-at all are fine everywhere; older versions of SciPy have no empty rotations, so none reach it.
-
-Notebook 01-skeletons-and-clips is about rotations, 03-transforms about Euler angles, 04-blending about slerp.
+leading axes, none included, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b
+first. Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own.
+Notebooks: 01-skeletons-and-clips, 03-transforms (Euler angles), 04-blending (slerp).
 """
 
 import warnings

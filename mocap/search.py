@@ -148,7 +148,10 @@ def branch_and_bound(
 
 
 def children(problem: Problem, branch: Branch) -> list[Branch]:
-    """Go on by every edge, the dearest first."""
+    """Go on by every edge, the dearest first.
+
+    Notebook: 07-walks-and-search
+    """
     found = []
     for start, end, key, frames in problem.graph.out_edges(branch.node, keys=True, data="frames"):
         cost, state = problem.step(branch.state, (start, end, key))

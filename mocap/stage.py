@@ -29,7 +29,10 @@ ZOOM = 1.55  # how near one stands
 
 
 def to_picture(points: ArrayLike) -> Array:
-    """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring."""
+    """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring.
+
+    Notebook: 03-transforms
+    """
     return np.roll(np.asarray(points, float), 1, axis=-1)
 
 

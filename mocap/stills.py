@@ -40,6 +40,8 @@ def show(drawn: Any, alt: str) -> Still:  # noqa: ANN401 (whatever a plotting fu
     --------
     >>> show(plt.figure().add_subplot().plot([1, 4, 9]), alt="A curve that rises.")
     Still('A curve that rises.')
+
+    Notebook: 00-quickstart
     """
     if not alt.strip():
         raise MocapError("A picture needs a sentence for readers who do not see it: alt='...'.")

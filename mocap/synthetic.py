@@ -79,8 +79,6 @@ def generate(name: str) -> Motion:
     --------
     >>> generate("walk_straight")
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
-
-    Notebook: 01-skeletons-and-clips
     """
     if name not in NAMES:
         raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(NAMES)}.")

@@ -165,7 +165,7 @@ def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window:
     -------
     The RMS over the points of ‖v - T v'‖, shape (N,), metres a second.
 
-    Notebook: 05-motion-graph
+    Notebook: 09-discussion
     """
     moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2

@@ -142,6 +142,8 @@ def find_transitions(
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
         out of reach, thresholds that are not above 0, and labels that no clip has.
+
+    Notebook: 05-motion-graph
     """
     require_alike(clips)
     for clip in clips:

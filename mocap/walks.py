@@ -54,7 +54,10 @@ def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
 
 
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
-    """Raise `NoWalk` for a node that the graph lacks."""
+    """Raise `NoWalk` for a node that the graph lacks.
+
+    Notebook: 07-walks-and-search
+    """
     if node not in motion_graph.graph:
         clip, frame = node
         near = min(
@@ -65,7 +68,10 @@ def require_node(motion_graph: MotionGraph, node: Node) -> None:
 
 
 def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
-    """Gather what the graph knows of some edges."""
+    """Gather what the graph knows of some edges.
+
+    Notebook: 07-walks-and-search
+    """
     data = [motion_graph.graph.edges[edge] for edge in edges]
     transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)
     return EdgeTable(

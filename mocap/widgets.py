@@ -67,6 +67,8 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     ...     return [line]
     >>> explore(draw, alt="A line that rises as its slope does.", slope=(-1.0, 1.0))
     Experiment(draw, slope=1.0)
+
+    Notebook: 00-quickstart
     """
     return Experiment(draw, alt, _widgets(draw, controls))
 

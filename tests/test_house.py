@@ -1,7 +1,6 @@
 """The house: its layers, its bounds, its tools."""
 
 import ast
-import re
 import subprocess
 import sys
 import tomllib
@@ -101,21 +100,6 @@ def test_a_module_is_short_and_so_are_its_functions(name):
             body = node.body[1:] if ast.get_docstring(node) else node.body
             lines = body[-1].end_lineno - body[0].lineno + 1 if body else 0
             assert lines <= 30, f"{name}.{node.name} has {lines} lines"
-
-
-def public_functions() -> dict[str, ast.FunctionDef]:
-    return {
-        f"{name}.{node.name}": node
-        for name, path in MODULES.items()
-        for node in ast.parse(path.read_text()).body
-        if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
-    }
-
-
-def test_a_docstring_names_only_notebooks_that_use_the_function():
-    for name, node in public_functions().items():
-        for notebook in re.findall(r"Notebook: (\S+)", ast.get_docstring(node) or ""):
-            assert node.name in (ROOT / "notebooks" / f"{notebook}.ipynb").read_text(), name
 
 
 def test_importing_the_package_is_light():
