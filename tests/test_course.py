@@ -140,6 +140,13 @@ def test_links_within_the_course_resolve(page):
             assert anchor in map(slug, re.findall(r"^#+ (.*)", target.read_text("utf-8"), re.MULTILINE)), link
 
 
+def test_the_instructors_table_tells_the_notebooks_minutes():
+    table = (FOLDER / "README.md").read_text("utf-8")
+    for name in NAMES:
+        minutes = re.search(r"\*\*About (\d+) minutes", markdown(name))[1]
+        assert f"]({name}.ipynb) | {minutes} |" in table
+
+
 # The code that is seen is the code that runs
 
 
