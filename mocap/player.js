@@ -128,6 +128,7 @@ class Player {
 
   build() {
     this.root.classList.add("mocap-player");
+    this.root.dataset.started = "true"; // so that no page's script takes a live player for one of its own
     this.root.innerHTML = `<style>${STYLE}</style><canvas tabindex="0" role="img"></canvas>
       <div class="bar"><button class="play" aria-label="play"></button>
         <div class="scrub"><input type="range" min="0" step="1" aria-label="frame"><div></div></div><output></output></div>
@@ -480,7 +481,6 @@ class Player {
 // Shell one: a page. Each output that comes starts the players that have not been started yet.
 export function startAll() {
   for (const root of document.querySelectorAll(".mocap-player:not([data-started])")) {
-    root.dataset.started = "true";
     root.player = new Player(root, JSON.parse(root.querySelector("script").textContent), null);
   }
 }

@@ -87,7 +87,7 @@ def test_an_error_is_shown_in_the_pictures_place():
 def test_the_output_is_one_bundle_with_both_pictures():
     grid = experiment()
     data, metadata = grid._repr_mimebundle_()
-    assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/plain"}
+    assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/html", "text/plain"}
     assert data["text/plain"] == metadata["image/png"]["alt"] == "Two windows."
     both, alone = pixels(base64.b64decode(data["image/png"])), pixels(grid.picture.value)
     assert both.shape[1] > alone.shape[1] + 400
