@@ -133,7 +133,7 @@ def follow_path(
     graph : pruned, so that walks do not end; compile it yourself to follow many paths.
     path : where to walk.
     wishes : labels, times and the start.
-    beam : how thoroughly to search.
+    beam : how thoroughly to search; by default half as wide where nothing but the path is wished for.
     prices : how much seams and wishes count against the distance; at prices of your own there is one search.
 
     Raises
@@ -147,8 +147,9 @@ def follow_path(
 
     Notebook: 08-path-synthesis
     """
-    wishes, compiled, beam = wishes or Wishes(), compile_graph(graph), beam or Beam()
+    wishes, compiled = wishes or Wishes(), compile_graph(graph)
     route = make_route(compiled, path, wishes)
+    beam = beam or Beam(width=Beam.width // 2 if route.bare else Beam.width)
     starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
 

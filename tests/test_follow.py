@@ -67,7 +67,7 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     assert len(tried) == 1
     better = follow_path(GRAPH, s_curve())
     assert len(tried) == 3
-    assert tried[2][1].width == 150
+    assert tried[2][1].width == 75
     assert (tried[2][2].seam > Prices.seam) == (once.seams_a_second > 1)
     assert better.excess <= once.excess
     stopped = follow_path(GRAPH, s_curve(), beam=Beam(seconds=0.1))
