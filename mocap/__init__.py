@@ -13,7 +13,8 @@ What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. W
 `walks`, `synthesis`, `dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`,
 `paper_search`, `keyframes`, `crowd`, `control`. Seams and feet: `joining`, `quality`, `legs`, `plants`,
 `leg_posing`, `foot_targets`, `root_rise`, `calm_knees`, `footskate`; what once went wrong:
-`homework_slips`. What one sees: `stage`, `plotting`, `player`, `widgets`, `demo`.
+`homework_slips`. What one sees: `stage`, `stills`, `plotting`, `search_drawing`, `player`, `pointing`,
+`widgets`, `demo`. The course itself: `checking`, `checks`, `course`, `handout`, `course_site`.
 
 References
 ----------
