@@ -24,6 +24,16 @@ KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 WIDGET = "application/vnd.jupyter.widget-view+json"  # names a model that is gone once the kernel is
 
 
+def library() -> Any:  # noqa: ANN401
+    """Give nbformat, or say what to install."""
+    try:
+        import nbclient  # noqa: F401  # which comes with it, and runs what it reads
+        import nbformat
+    except ImportError as error:
+        raise MocapError("Notebooks need nbformat and nbclient: pip install 'mocap[notebooks]'.") from error
+    return nbformat
+
+
 def read(path: Path) -> Any:  # noqa: ANN401
     """Read a notebook, as nbformat's object.
 
@@ -31,10 +41,7 @@ def read(path: Path) -> Any:  # noqa: ANN401
     ------
     MocapError : where nbformat is not installed, or the file is no notebook.
     """
-    try:
-        import nbformat
-    except ImportError as error:
-        raise MocapError("Notebooks need nbformat: pip install 'mocap[notebooks]'.") from error
+    nbformat = library()
     try:
         return nbformat.read(path, as_version=4)
     except OSError as error:
@@ -87,10 +94,9 @@ def run(path: Path, figures: Path) -> None:
     What the package has, the notebook takes from there: the code in `source:` cells, and pictures of
     `figures` that are attached under their names.
     """
-    import nbformat
+    nbformat, notebook = library(), read(path)
     from nbclient import NotebookClient
 
-    notebook = read(path)
     for name, cell in tagged(notebook, "source"):
         cell.source = shown_source(name)
     for cell in notebook.cells:

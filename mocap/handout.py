@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mocap.atomic import write_text
-from mocap.course import read, tagged
+from mocap.course import library, read, tagged
 from mocap.errors import MocapError
 
 SECONDS = 30  # that a student's cell may take
@@ -32,9 +32,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     ------
     MocapError : where there are no notebooks, or a copy would replace a file.
     """
-    import nbformat
-
-    files = sorted(notebooks.glob("*.ipynb"))
+    nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
     if not files:
         raise MocapError(f"There are no notebooks in {notebooks}.")
     out.mkdir(parents=True, exist_ok=True)
@@ -79,6 +77,7 @@ def mark(folder: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = it
     ------
     MocapError : where there are no notebooks.
     """
+    library()
     files = sorted(file for file in folder.rglob("*.ipynb") if ".ipynb_checkpoints" not in file.parts)
     if not files:
         raise MocapError(f"There are no notebooks in {folder}.")

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import sys
 
 import nbformat
 import pytest
@@ -71,6 +72,19 @@ def test_marks(copies, tmp_path, monkeypatch, capsys):
 def test_an_empty_folder_is_told(function, tmp_path):
     with pytest.raises(MocapError, match="There are no notebooks in"):
         function(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "command", [["handout", "-o", "out"], ["mark", "."], ["run", "n.ipynb"], ["site", "-o", "site"]]
+)
+def test_without_the_notebooks_libraries_one_sentence_says_what_to_install(
+    command, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setitem(sys.modules, "nbformat", None)
+    assert main(["course", *command]) != 0
+    assert "pip install 'mocap[notebooks]'" in capsys.readouterr().err
+    assert not list(tmp_path.glob("out/*"))
 
 
 def test_the_table_keeps_commas():
