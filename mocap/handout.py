@@ -13,6 +13,7 @@ from mocap.atomic import write_text
 from mocap.course import library, read, tagged
 from mocap.errors import MocapError
 
+PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for those who teach
 SECONDS = 30  # that a student's cell may take
 
 
@@ -36,7 +37,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     if not files:
         raise MocapError(f"There are no notebooks in {notebooks}.")
     out.mkdir(parents=True, exist_ok=True)
-    for file in (*files, *notebooks.glob("[A-Z]*.md")):
+    for file in (*files, *(notebooks / page for page in PAGES)):
         if (out / file.name).exists():
             raise MocapError(f"{out / file.name} is there already; name another folder.")
     for file in files:
@@ -44,7 +45,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
         solutions = [cell for _, cell in tagged(notebook, "solution")]
         notebook.cells = [cell for cell in notebook.cells if cell not in solutions]
         write_text(out / file.name, nbformat.writes(notebook) + "\n")
-    for page in ("GLOSSARY.md", "FORMULAS.md"):
+    for page in PAGES:
         shutil.copy(notebooks / page, out)
     return [out / file.name for file in files]
 

@@ -28,6 +28,7 @@ class _Shown:
     player: Player
 
     def show(self, player: Player, **extra: bool) -> None:
+        """Show another player in the same place, from its first frame on."""
         self.player = player
         self.frame = 0  # which every motion has
         self.scene = player.scene | extra
