@@ -70,7 +70,9 @@ def notebook(run):
 
 
 def state(place):
-    return place.locator(".mocap-player").evaluate("root => root.player.frame()")
+    """Give the frame that a player shows, or -1 before it has drawn one."""
+    frame = "root => root.player?.pictures ? root.player.frame() : -1"
+    return place.locator(".mocap-player").evaluate(frame)
 
 
 def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artefacts):
@@ -124,7 +126,6 @@ def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook
 def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):
     page, cell = notebook
     place = cell("play")
-    wait_until(lambda: place.locator("canvas").is_visible())
     wait_until(lambda: state(place) > 5)
     place.locator("canvas").focus()
     page.keyboard.press(" ")
@@ -154,7 +155,7 @@ def test_python_and_the_reader_move_one_frame(notebook):
 def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
     page, cell = notebook
     place = cell("draw")
-    wait_until(lambda: place.locator("canvas").is_visible())
+    wait_until(lambda: state(place) >= 0)
     box = place.locator("canvas").bounding_box()
 
     def draw(*pixels):
@@ -167,7 +168,7 @@ def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
 
     draw((100, 10), (160, 60), (60, 90))
     wait_until(lambda: place.locator(".mocap-player").get_attribute("data-playing") == "true")
-    assert "Python was asked for" in cell("drawn").locator(".jp-OutputArea-output").inner_text()
+    wait_until(lambda: cell("drawn").get_by_text("Python was asked for").is_visible())
     cell("draw")
     page.screenshot(path=artefacts / "lab-path.png")
     asked = place.locator(".mocap-player").evaluate("root => root.player.scene.asked.length")

@@ -21,7 +21,7 @@ def test_a_page_plays_folds_and_is_searched(page, site, artefacts):
     folded = page.locator("details").first
     assert folded.locator("p, pre").first.is_hidden()
     folded.locator("summary").click()
-    assert folded.locator("p, pre").first.is_visible()
+    wait_until(folded.locator("p, pre").first.is_visible)
     formula = page.locator("math[display=block]").first
     assert formula.bounding_box()["height"] > 15  # drawn, and by the browser alone
     page.locator("#search").fill("one transition")
@@ -31,7 +31,7 @@ def test_a_page_plays_folds_and_is_searched(page, site, artefacts):
     hit.click()
     wait_until(lambda: "#one-transition" in page.url)
     page.locator("#search").fill("no such word")
-    assert page.locator("#found").inner_text() == "Nothing found."
+    wait_until(lambda: page.locator("#found").inner_text() == "Nothing found.")
 
 
 def test_every_page_fits_a_phone(page, site, artefacts):
