@@ -1,7 +1,7 @@
 """Players that Python and the reader move together, and the canvas on which one draws a path.
 
-`player.js` in its second shell, `anywidget`: `frame`, `scene` and `path` are traits, which both sides may set
-and observe.
+The player's scripts in their second shell, `anywidget`: `frame`, `scene` and `path` are traits, which both
+sides may set and observe.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap.errors import MocapError
 from mocap.motion import Motion
-from mocap.player import SCRIPT, Player, play
+from mocap.player import Player, play, script
 
 Array = NDArray[np.float64]
 Follow = Callable[[Array], Motion | Player]
@@ -54,7 +54,7 @@ def _live_player() -> type[Any]:
     class LivePlayer(_Shown, anywidget.AnyWidget):
         """A player whose `frame` Python may set and observe."""
 
-        _esm = SCRIPT.read_text("utf-8")
+        _esm = script()
         scene = traitlets.Dict().tag(sync=True)
         frame = traitlets.Int(0).tag(sync=True)
         path: traitlets.List[Any] = traitlets.List().tag(sync=True)

@@ -1,13 +1,11 @@
 // A player of stick figures on a canvas, without any library.
 //
-// `player.py` packs a scene: characters whose joints' places are 16-bit numbers, low + step · number metres. Sent
-// are their second differences over time, a coordinate after the other, deflated: less than half as much.
-// The same module runs in two shells: a page starts every `.mocap-player` in it (`startAll`), and anywidget
-// calls `render`, whose `model` shares `frame`, `scene` and `path` with Python.
-// World: y up, metres, seconds. A camera goes round a target; `Camera.see` is all the projection there is.
+// `player.py` packs a scene (`player_scene.js`), `Picture` draws it (`player_picture.js`), and here is what the
+// reader touches. The three are joined to one module, which runs in two shells: a page starts every
+// `.mocap-player` in it (`startAll`), and anywidget calls `render`, whose `model` shares `frame`, `scene` and
+// `path` with Python.
 
 const KEYS = "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom.";
-const GHOSTS = 6, GHOST_GAP = 0.25; // how many earlier poses, and the seconds between them
 
 const STYLE = `
 .mocap-player { max-width: 720px; background: #fff; color: #222; font: 13px/1.4 system-ui, sans-serif; color-scheme: light; }
@@ -25,102 +23,13 @@ const STYLE = `
 .mocap-player .legend span { display: inline-block; width: 10px; height: 10px; margin: 0 4px 0 10px; }
 .mocap-player .message:not(:empty) { padding: 4px 2px; } .mocap-player .message.error { color: #A00000; }`;
 
-class Camera {
-  constructor() { this.reset(); }
-  reset() { this.yaw = 0.7; this.pitch = 0.25; this.zoom = 1; }
-
-  // Stand `distance` away from `target`, on a canvas of width × height pixels.
-  place(target, distance, width, height) {
-    const d = distance / this.zoom, cy = Math.cos(this.yaw), sy = Math.sin(this.yaw);
-    const cp = Math.cos(this.pitch), sp = Math.sin(this.pitch);
-    this.eye = [target[0] + d * sy * cp, target[1] + d * sp, target[2] + d * cy * cp];
-    this.right = [cy, 0, -sy];
-    this.up = [-sy * sp, cp, -cy * sp];
-    this.ahead = [-sy * cp, -sp, -cy * cp];
-    this.focus = 1.5 * Math.min(width, height);
-    this.middle = [width / 2, height / 2];
-  }
-
-  // Where a point is for the eye: [to the right, up, ahead], metres.
-  see(x, y, z) {
-    const a = x - this.eye[0], b = y - this.eye[1], c = z - this.eye[2];
-    const along = (v) => a * v[0] + b * v[1] + c * v[2];
-    return [along(this.right), along(this.up), along(this.ahead)];
-  }
-
-  pixel([right, up, ahead]) {
-    const scale = this.focus / ahead;
-    return [this.middle[0] + right * scale, this.middle[1] - up * scale];
-  }
-
-  // The point of the ground under a pixel, or null above the horizon.
-  ground(px, py) {
-    const r = (px - this.middle[0]) / this.focus, u = (this.middle[1] - py) / this.focus;
-    const ray = [0, 1, 2].map((i) => this.ahead[i] + r * this.right[i] + u * this.up[i]);
-    const far = -this.eye[1] / ray[1];
-    return far > 0 && far < 100 ? [this.eye[0] + far * ray[0], this.eye[2] + far * ray[2]] : null;
-  }
-}
-
-async function inflated(data) {
-  const fromBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const bytes = typeof data === "string" ? fromBase64(data) : data;
-  return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
-}
-
-// A character: where its joints are at any time.
-class Character {
-  constructor(packed, bytes) {
-    Object.assign(this, packed);
-    this.numbers = new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3);
-    this.sum();
-    this.seconds = (packed.frames - 1) / packed.fps;
-    this.path = this.pathOnGround();
-  }
-
-  // Undo the differences, which wrap round at 2¹⁶.
-  sum() {
-    for (let i = 0, change = 0, number = 0; i < this.numbers.length; i++) {
-      if (i % this.frames === 0) change = number = 0;
-      change = (change + this.numbers[i]) & 65535;
-      this.numbers[i] = number = (number + change) & 65535;
-    }
-  }
-
-  // All joints at a time, between two frames on straight lines: x, y, z, x, y, z, ...
-  pose(time) {
-    const at = Math.min(Math.max(time, 0), this.seconds) * this.fps;
-    const frame = Math.min(Math.floor(at), this.frames - 1), share = at - frame;
-    const next = Math.min(frame + 1, this.frames - 1), places = new Float32Array(this.joints * 3);
-    for (let i = 0; i < places.length; i++) places[i] = this.place(i, frame) * (1 - share) + this.place(i, next) * share;
-    return places;
-  }
-
-  place(coordinate, frame) {
-    return this.low[coordinate % 3] + this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame];
-  }
-
-  // [time, x, z] of the root, at most about a thousand times.
-  pathOnGround() {
-    const every = Math.max(1, Math.floor(this.frames / 1000)), path = [];
-    for (let frame = 0; frame < this.frames; frame += every) path.push([frame / this.fps, this.place(0, frame), this.place(2, frame)]);
-    return path;
-  }
-
-  // The colour of the clip that a time comes from.
-  colourAt(time) {
-    let colour = this.colour;
-    for (const source of this.sources) if (source.start <= time + 1e-9) colour = source.colour;
-    return colour;
-  }
-}
-
 class Player {
   constructor(root, scene, model) {
     this.root = root; this.model = model; this.camera = new Camera();
     this.time = 0; this.speed = 1; this.playing = false; this.visible = true; this.pictures = 0; this.drawn = [];
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.build();
+    this.picture = new Picture(this.canvas, this.camera);
     this.load(scene).then(() => this.listen());
   }
 
@@ -336,22 +245,9 @@ class Player {
   // ---- the picture ----
 
   draw() {
-    const { canvas, camera } = this, sharp = devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
-    const pixels = [wide, high].map((size) => Math.round(size * sharp));
-    if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
-    this.pen2d = canvas.getContext("2d");
-    this.pen2d.setTransform(sharp, 0, 0, sharp, 0, 0);
-    this.pen2d.clearRect(0, 0, wide, high);
-    this.pen2d.lineCap = this.pen2d.lineJoin = "round";
-    const target = this.target();
-    camera.place(target, this.follow.checked ? 4.2 : this.reach, wide, high);
-    this.drawGround(target);
-    const flat = (places) => places.map(([x, z]) => [x, 0, z]);
-    this.stroke([flat(this.scene.asked)], "#000000", 6, 0.75);
-    this.stroke([flat(this.drawn)], "#000000", 3);
-    for (const character of this.characters) this.drawTrail(character);
-    if (this.ghosts.checked) this.drawGhosts();
-    this.drawBodies();
+    const { characters, time, drawn, reach } = this, { asked, sides } = this.scene, target = this.target();
+    const distance = this.follow.checked ? 4.2 : reach, ghosts = this.ghosts.checked;
+    this.picture.draw({ characters, time, asked, drawn, sides, ghosts, target, distance, reach });
     this.showState();
   }
 
@@ -364,103 +260,6 @@ class Player {
       mean[0] += pose[0] / 9; mean[2] += pose[2] / 9;
     }
     return mean;
-  }
-
-  // Lines a metre apart that stay where they are in the world and fade with distance.
-  drawGround([x, , z]) {
-    const reach = Math.max(6, Math.ceil(1.3 * this.reach / Math.min(1, this.camera.zoom)));
-    const x0 = Math.round(x), z0 = Math.round(z);
-    for (let i = -reach; i <= reach; i++) {
-      const fade = 1 - Math.abs(i) / (reach + 1);
-      const along = [[x0 + i, 0, z0 - reach], [x0 + i, 0, z0 + reach]];
-      const across = [[x0 - reach, 0, z0 + i], [x0 + reach, 0, z0 + i]];
-      this.stroke([along, across], "#bbbbbb", 1, fade);
-    }
-  }
-
-  // The root's path in the colours of its sources, and footprints: strong while the foot stands, pale once it left.
-  drawTrail(character) {
-    const { path } = character;
-    for (let i = 1, start = 0; i <= path.length; i++) {
-      const colour = character.colourAt(path[start][0]);
-      if (i < path.length && character.colourAt(path[i][0]) === colour) continue;
-      const end = Math.min(i + 1, path.length);
-      const line = path.slice(start, end).map(([, px, pz]) => [px, 0, pz]);
-      this.stroke([line], character.sources.length ? colour : character.path_colour, 2.5);
-      start = i;
-    }
-    for (const [start, end, px, pz, side] of character.prints) {
-      if (this.time >= start) this.disc([px, 0.005, pz], 0.055, this.scene.sides[side], this.time < end ? 0.95 : 0.25, true);
-    }
-  }
-
-  drawGhosts() {
-    for (let k = GHOSTS; k > 0; k--) {
-      const time = this.time - k * GHOST_GAP;
-      if (time < 0) continue;
-      for (const character of this.characters) {
-        const lines = this.bones(character, time).map((bone) => bone.ends);
-        this.stroke(lines, character.colourAt(time), 0.03, 0.5 * (1 - k / (GHOSTS + 1)), true);
-      }
-    }
-  }
-
-  bones(character, time) {
-    const pose = character.pose(time), place = (joint) => Array.from(pose.subarray(3 * joint, 3 * joint + 3));
-    const bones = character.bones.map(([from, to, side]) => ({ ends: [place(from), place(to)], side }));
-    bones.head = character.head === null ? null : place(character.head);
-    return bones;
-  }
-
-  // Shadows first, then all bones of all bodies from the farthest to the nearest.
-  drawBodies() {
-    const parts = [];
-    for (const character of this.characters) {
-      const bones = this.bones(character, this.time), own = character.colourAt(this.time);
-      this.stroke(bones.map(({ ends }) => ends.map(([x, , z]) => [x, 0, z])), "#000000", 0.05, 0.15, true);
-      for (const { ends, side } of bones) {
-        const far = this.camera.see(...ends[0])[2] + this.camera.see(...ends[1])[2];
-        parts.push({ far: far / 2, paint: () => this.stroke([ends], side ? this.scene.sides[side] : own, 0.04, 1, true) });
-      }
-      if (bones.head) parts.push({ far: this.camera.see(...bones.head)[2], paint: () => this.disc(bones.head, 0.095, own, 1, false) });
-    }
-    for (const part of parts.sort((a, b) => b.far - a.far)) part.paint();
-  }
-
-  // Lines through points of the world, in one go, so that where they meet they are no darker; what lies behind
-  // the eye is cut off. Widths are pixels, or metres.
-  stroke(lines, colour, width, alpha = 1, metres = false) {
-    const { camera, pen2d } = this, near = 0.1;
-    let far = 0;
-    pen2d.beginPath();
-    for (const line of lines) {
-      const seen = line.map((point) => camera.see(...point));
-      for (let i = 1; i < seen.length; i++) {
-        let [a, b] = [seen[i - 1], seen[i]];
-        if (a[2] < near && b[2] < near) continue;
-        const cut = (p, q) => p.map((v, k) => v + (q[k] - v) * (near - p[2]) / (q[2] - p[2]));
-        if (a[2] < near) a = cut(a, b); else if (b[2] < near) b = cut(b, a);
-        far = (a[2] + b[2]) / 2;
-        pen2d.moveTo(...camera.pixel(a)); pen2d.lineTo(...camera.pixel(b));
-      }
-    }
-    if (!far) return;
-    pen2d.globalAlpha = alpha; pen2d.strokeStyle = colour;
-    pen2d.lineWidth = metres ? Math.max(1, (width * camera.focus) / far) : width;
-    pen2d.stroke();
-    pen2d.globalAlpha = 1;
-  }
-
-  // A ball, or, where it lies flat, a disc on the ground.
-  disc(place, radius, colour, alpha, flat) {
-    const { camera, pen2d } = this, seen = camera.see(...place);
-    if (seen[2] < 0.1) return;
-    const r = (radius * camera.focus) / seen[2];
-    pen2d.globalAlpha = alpha; pen2d.fillStyle = colour;
-    pen2d.beginPath();
-    pen2d.ellipse(...camera.pixel(seen), r, flat ? r * Math.sin(camera.pitch) + 0.5 : r, 0, 0, 2 * Math.PI);
-    pen2d.fill();
-    pen2d.globalAlpha = 1;
   }
 
   showState() {

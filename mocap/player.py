@@ -1,8 +1,8 @@
 """A player for notebooks and pages: stick figures that move, with nothing but a browser needed.
 
-`player.js` draws; this module packs what it draws. Places are sent as 16-bit numbers between the lowest and
-the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 pictures a second.
-What is sent are their second differences over time, which are small, and so shrink when deflated.
+The scripts in `PARTS` draw; this module packs what they draw. Places are sent as 16-bit numbers between the
+lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 pictures a
+second. What is sent are their second differences over time, which are small, and so shrink when deflated.
 """
 
 from __future__ import annotations
@@ -32,8 +32,13 @@ Array = NDArray[np.float64]
 Sources = Sequence[tuple[int, str]]
 
 SCREEN = 60.0  # pictures a second that a screen shows; a faster clip is thinned
-SCRIPT = Path(__file__).with_name("player.js")
-SIDES = ("middle", "left", "right")  # player.js counts them
+PARTS = ("player_scene.js", "player_picture.js", "player.js")  # of one module, in this order
+SIDES = ("middle", "left", "right")  # the scripts count them
+
+
+def script() -> str:
+    """Join the scripts to the one module that a page and a widget run."""
+    return "\n".join(Path(__file__).with_name(part).read_text("utf-8") for part in PARTS)
 
 
 def play(
@@ -94,7 +99,7 @@ class Player:
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What `player.js` draws; `data` holds, deflated, all characters' numbers, each from its `offset`."""
+        """What the scripts draw; `data` holds, deflated, all characters' numbers, each from its `offset`."""
         characters: list[dict[str, Any]] = []
         data = b""
         for number, motion in enumerate(self.motions):
@@ -134,7 +139,7 @@ class Player:
         return (
             f'<div class="mocap-player"><img alt="{alt}" src="data:image/png;base64,{picture}">'
             f'<script type="application/json">{scene}</script></div>\n'
-            f'<script type="module">\n{SCRIPT.read_text("utf-8")}\nstartAll();\n</script>\n'
+            f'<script type="module">\n{script()}\nstartAll();\n</script>\n'
         )
 
     def page(self) -> str:

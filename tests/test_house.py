@@ -102,6 +102,11 @@ def test_a_module_is_short_and_so_are_its_functions(name):
             assert lines <= 30, f"{name}.{node.name} has {lines} lines"
 
 
+@pytest.mark.parametrize("path", sorted(PACKAGE.glob("*.js")), ids=lambda path: path.name)
+def test_a_script_is_short(path):
+    assert len(path.read_text("utf-8").splitlines()) <= 300
+
+
 def test_importing_the_package_is_light():
     code = "import sys, mocap; print(sorted({m.split('.')[0] for m in sys.modules} & set(sys.argv[1:])))"
     heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy"]

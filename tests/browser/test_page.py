@@ -205,7 +205,9 @@ def test_ghosts_footprints_and_sources_are_seen(still, artefacts):
 def test_a_print_is_strong_while_the_foot_stands(still):
     motion = replace(wave(90), contacts={"hand": np.arange(90) < 30})
     page = still(play(motion, follow=False))
-    page.evaluate(f"{PLAYER}.painted = []; {PLAYER}.disc = (p, r, c, a) => {PLAYER}.painted.push(a); 0")
+    page.evaluate(
+        f"{PLAYER}.painted = []; {PLAYER}.picture.disc = (p, r, c, a) => {PLAYER}.painted.push(a); 0"
+    )
     page.evaluate(f"{PLAYER}.seek(0.5); {PLAYER}.draw(); {PLAYER}.seek(2); {PLAYER}.draw()")
     assert page.evaluate(f"[...new Set({PLAYER}.painted)]") == [0.95, 0.25]
 

@@ -1,0 +1,131 @@
+// The picture of a scene on a canvas: ground, paths, footprints, ghosts, and bodies with their shadows.
+
+const GHOSTS = 6, GHOST_GAP = 0.25; // how many earlier poses, and the seconds between them
+
+class Picture {
+  constructor(canvas, camera) { this.canvas = canvas; this.camera = camera; }
+
+  // Draw characters at a time as the camera sees them, from `distance` away from `target`. `asked` and `drawn` are
+  // lines on the ground; `sides` are colours, and the ground's lines go `reach` metres out and more.
+  draw({ characters, time, asked, drawn, sides, ghosts, target, distance, reach }) {
+    Object.assign(this, { characters, time, sides });
+    const [wide, high] = this.clear();
+    this.camera.place(target, distance, wide, high);
+    this.drawGround(target, reach);
+    const flat = (places) => places.map(([x, z]) => [x, 0, z]);
+    this.stroke([flat(asked)], "#000000", 6, 0.75);
+    this.stroke([flat(drawn)], "#000000", 3);
+    for (const character of characters) this.drawTrail(character);
+    if (ghosts) this.drawGhosts();
+    this.drawBodies();
+  }
+
+  // Wipe the canvas, as sharp as the screen is; give its size on the page.
+  clear() {
+    const { canvas } = this, sharp = devicePixelRatio || 1, size = [canvas.clientWidth, canvas.clientHeight];
+    const pixels = size.map((length) => Math.round(length * sharp));
+    if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) [canvas.width, canvas.height] = pixels;
+    this.pen = canvas.getContext("2d");
+    this.pen.setTransform(sharp, 0, 0, sharp, 0, 0);
+    this.pen.clearRect(0, 0, ...size);
+    this.pen.lineCap = this.pen.lineJoin = "round";
+    return size;
+  }
+
+  // Lines a metre apart that stay where they are in the world and fade with distance.
+  drawGround([x, , z], reach) {
+    const lines = Math.max(6, Math.ceil(1.3 * reach / Math.min(1, this.camera.zoom)));
+    const x0 = Math.round(x), z0 = Math.round(z);
+    for (let i = -lines; i <= lines; i++) {
+      const fade = 1 - Math.abs(i) / (lines + 1);
+      const along = [[x0 + i, 0, z0 - lines], [x0 + i, 0, z0 + lines]];
+      const across = [[x0 - lines, 0, z0 + i], [x0 + lines, 0, z0 + i]];
+      this.stroke([along, across], "#bbbbbb", 1, fade);
+    }
+  }
+
+  // The root's path in the colours of its sources, and footprints: strong while the foot stands, pale once it left.
+  drawTrail(character) {
+    const { path } = character;
+    for (let i = 1, start = 0; i <= path.length; i++) {
+      const colour = character.colourAt(path[start][0]);
+      if (i < path.length && character.colourAt(path[i][0]) === colour) continue;
+      const end = Math.min(i + 1, path.length);
+      const line = path.slice(start, end).map(([, px, pz]) => [px, 0, pz]);
+      this.stroke([line], character.sources.length ? colour : character.path_colour, 2.5);
+      start = i;
+    }
+    for (const [start, end, px, pz, side] of character.prints) {
+      if (this.time >= start) this.disc([px, 0.005, pz], 0.055, this.sides[side], this.time < end ? 0.95 : 0.25, true);
+    }
+  }
+
+  drawGhosts() {
+    for (let k = GHOSTS; k > 0; k--) {
+      const time = this.time - k * GHOST_GAP;
+      if (time < 0) continue;
+      for (const character of this.characters) {
+        const lines = this.bones(character, time).map((bone) => bone.ends);
+        this.stroke(lines, character.colourAt(time), 0.03, 0.5 * (1 - k / (GHOSTS + 1)), true);
+      }
+    }
+  }
+
+  bones(character, time) {
+    const pose = character.pose(time), place = (joint) => Array.from(pose.subarray(3 * joint, 3 * joint + 3));
+    const bones = character.bones.map(([from, to, side]) => ({ ends: [place(from), place(to)], side }));
+    bones.head = character.head === null ? null : place(character.head);
+    return bones;
+  }
+
+  // Shadows first, then all bones of all bodies from the farthest to the nearest.
+  drawBodies() {
+    const parts = [];
+    for (const character of this.characters) {
+      const bones = this.bones(character, this.time), own = character.colourAt(this.time);
+      this.stroke(bones.map(({ ends }) => ends.map(([x, , z]) => [x, 0, z])), "#000000", 0.05, 0.15, true);
+      for (const { ends, side } of bones) {
+        const far = this.camera.see(...ends[0])[2] + this.camera.see(...ends[1])[2];
+        parts.push({ far: far / 2, paint: () => this.stroke([ends], side ? this.sides[side] : own, 0.04, 1, true) });
+      }
+      if (bones.head) parts.push({ far: this.camera.see(...bones.head)[2], paint: () => this.disc(bones.head, 0.095, own, 1, false) });
+    }
+    for (const part of parts.sort((a, b) => b.far - a.far)) part.paint();
+  }
+
+  // Lines through points of the world, in one go, so that where they meet they are no darker; what lies behind
+  // the eye is cut off. Widths are pixels, or metres.
+  stroke(lines, colour, width, alpha = 1, metres = false) {
+    const { camera, pen } = this, near = 0.1;
+    let far = 0;
+    pen.beginPath();
+    for (const line of lines) {
+      const seen = line.map((point) => camera.see(...point));
+      for (let i = 1; i < seen.length; i++) {
+        let [a, b] = [seen[i - 1], seen[i]];
+        if (a[2] < near && b[2] < near) continue;
+        const cut = (p, q) => p.map((v, k) => v + (q[k] - v) * (near - p[2]) / (q[2] - p[2]));
+        if (a[2] < near) a = cut(a, b); else if (b[2] < near) b = cut(b, a);
+        far = (a[2] + b[2]) / 2;
+        pen.moveTo(...camera.pixel(a)); pen.lineTo(...camera.pixel(b));
+      }
+    }
+    if (!far) return;
+    pen.globalAlpha = alpha; pen.strokeStyle = colour;
+    pen.lineWidth = metres ? Math.max(1, (width * camera.focus) / far) : width;
+    pen.stroke();
+    pen.globalAlpha = 1;
+  }
+
+  // A ball, or, where it lies flat, a disc on the ground.
+  disc(place, radius, colour, alpha, flat) {
+    const { camera, pen } = this, seen = camera.see(...place);
+    if (seen[2] < 0.1) return;
+    const r = (radius * camera.focus) / seen[2];
+    pen.globalAlpha = alpha; pen.fillStyle = colour;
+    pen.beginPath();
+    pen.ellipse(...camera.pixel(seen), r, flat ? r * Math.sin(camera.pitch) + 0.5 : r, 0, 0, 2 * Math.PI);
+    pen.fill();
+    pen.globalAlpha = 1;
+  }
+}

@@ -1,0 +1,95 @@
+// What the player shows: characters, and the camera that sees them. `player.py` joins `player_scene.js`,
+// `player_picture.js` and `player.js`, in this order, to one module.
+//
+// World: y up, metres, seconds. A camera goes round a target; `Camera.see` is all the projection there is.
+
+class Camera {
+  constructor() { this.reset(); }
+  reset() { this.yaw = 0.7; this.pitch = 0.25; this.zoom = 1; }
+
+  // Stand `distance` away from `target`, on a canvas of width × height pixels.
+  place(target, distance, width, height) {
+    const d = distance / this.zoom, cy = Math.cos(this.yaw), sy = Math.sin(this.yaw);
+    const cp = Math.cos(this.pitch), sp = Math.sin(this.pitch);
+    this.eye = [target[0] + d * sy * cp, target[1] + d * sp, target[2] + d * cy * cp];
+    this.right = [cy, 0, -sy];
+    this.up = [-sy * sp, cp, -cy * sp];
+    this.ahead = [-sy * cp, -sp, -cy * cp];
+    this.focus = 1.5 * Math.min(width, height);
+    this.middle = [width / 2, height / 2];
+  }
+
+  // Where a point is for the eye: [to the right, up, ahead], metres.
+  see(x, y, z) {
+    const a = x - this.eye[0], b = y - this.eye[1], c = z - this.eye[2];
+    const along = (v) => a * v[0] + b * v[1] + c * v[2];
+    return [along(this.right), along(this.up), along(this.ahead)];
+  }
+
+  pixel([right, up, ahead]) {
+    const scale = this.focus / ahead;
+    return [this.middle[0] + right * scale, this.middle[1] - up * scale];
+  }
+
+  // The point of the ground under a pixel, or null above the horizon.
+  ground(px, py) {
+    const r = (px - this.middle[0]) / this.focus, u = (this.middle[1] - py) / this.focus;
+    const ray = [0, 1, 2].map((i) => this.ahead[i] + r * this.right[i] + u * this.up[i]);
+    const far = -this.eye[1] / ray[1];
+    return far > 0 && far < 100 ? [this.eye[0] + far * ray[0], this.eye[2] + far * ray[2]] : null;
+  }
+}
+
+async function inflated(data) {
+  const fromBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const bytes = typeof data === "string" ? fromBase64(data) : data;
+  return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+}
+
+// A character: where its joints are at any time. Their places are 16-bit numbers, low + step · number metres. Sent
+// are their second differences over time, a coordinate after the other, deflated: less than half as much.
+class Character {
+  constructor(packed, bytes) {
+    Object.assign(this, packed);
+    this.numbers = new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3);
+    this.sum();
+    this.seconds = (packed.frames - 1) / packed.fps;
+    this.path = this.pathOnGround();
+  }
+
+  // Undo the differences, which wrap round at 2¹⁶.
+  sum() {
+    for (let i = 0, change = 0, number = 0; i < this.numbers.length; i++) {
+      if (i % this.frames === 0) change = number = 0;
+      change = (change + this.numbers[i]) & 65535;
+      this.numbers[i] = number = (number + change) & 65535;
+    }
+  }
+
+  // All joints at a time, between two frames on straight lines: x, y, z, x, y, z, ...
+  pose(time) {
+    const at = Math.min(Math.max(time, 0), this.seconds) * this.fps;
+    const frame = Math.min(Math.floor(at), this.frames - 1), share = at - frame;
+    const next = Math.min(frame + 1, this.frames - 1), places = new Float32Array(this.joints * 3);
+    for (let i = 0; i < places.length; i++) places[i] = this.place(i, frame) * (1 - share) + this.place(i, next) * share;
+    return places;
+  }
+
+  place(coordinate, frame) {
+    return this.low[coordinate % 3] + this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame];
+  }
+
+  // [time, x, z] of the root, at most about a thousand times.
+  pathOnGround() {
+    const every = Math.max(1, Math.floor(this.frames / 1000)), path = [];
+    for (let frame = 0; frame < this.frames; frame += every) path.push([frame / this.fps, this.place(0, frame), this.place(2, frame)]);
+    return path;
+  }
+
+  // The colour of the clip that a time comes from.
+  colourAt(time) {
+    let colour = this.colour;
+    for (const source of this.sources) if (source.start <= time + 1e-9) colour = source.colour;
+    return colour;
+  }
+}
