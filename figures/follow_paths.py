@@ -4,6 +4,7 @@ Writes `following.md`, a table, and the pictures `following.png` and `trade_off.
 are CPU seconds, the least of three runs, as shares of the motion's duration.
 """
 
+import gc
 import sys
 import time
 import warnings
@@ -172,6 +173,7 @@ def _mean(graph: CompiledGraph, price: float) -> tuple[float, float]:
 
 def others(name: str, graph: CompiledGraph) -> str:
     """Measure control and a crowd."""
+    gc.freeze()  # what was measured before is not gone through in the middle of a step
     delay = measure_delay(graph)
     paths = [GroundPath(ends) for ends in ([[0, 0], [0, 8]], [[4, 4], [-4, 4]], [[0.2, 8], [0.2, 0]])]
     alone = [follow_path(graph, path) for path in paths]

@@ -51,6 +51,9 @@ class Controller:
     whose velocity is nearest to what is asked for: Σ ‖v - v'‖² Δt, plus `SEAM` for a transition and `LABEL`
     for each second without the label.
 
+    A step leaves next to nothing to collect. But when Python's collector goes through a whole graph, for
+    some other work's sake, that takes 30 to 90 ms: who must not stop calls `gc.freeze()` once all is built.
+
     Parameters
     ----------
     graph : pruned, so that there is always a way on.

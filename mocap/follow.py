@@ -28,8 +28,8 @@ Indices = NDArray[np.intp]
 ASTRAY = 0.15  # metres from the path at which a walk has left it
 NEAR = 0.04  # metres off on average,
 SEAMS = 1.0  # and transitions a second, up to which a path is well followed
-AGAIN = 1.25  # times as dear or cheap is a seam in a second search,
-WIDER = 1.5  # with a beam so many times as wide
+AGAIN = 1.25  # times as dear or cheap is a seam in a second and a third search,
+WIDER = (1.5, 2)  # with beams so many times as wide
 
 
 class Departure(NamedTuple):
@@ -125,8 +125,9 @@ def follow_path(
 
     The search is that of `layered_search`; its time is linear in the path's length. No one price of a seam
     suits all paths: where, at the usual one, seams come too often or the walk strays too far
-    (`Followed.excess`), a second, wider search with a dearer or a cheaper seam follows, and the better walk
-    is taken. Where no clip turns as the path does, it cuts the corner and comes back; a warning tells where.
+    (`Followed.excess`), a second and a third, wider search with a dearer or a cheaper seam follow, and the
+    best walk is taken. Where no clip turns as the path does, it cuts the corner and comes back; a warning
+    tells where.
 
     Parameters
     ----------
@@ -163,18 +164,20 @@ def follow_path(
 
 
 def _at_best_price(search: Callable[[Beam, Prices], Followed], beam: Beam) -> Followed:
-    """Search at the usual price of a seam; where the walk is out of bounds, wider and at a better one."""
+    """Search at the usual price of a seam; while the walk is out of bounds, wider and at a better one."""
     begun = time.monotonic()
-    first = search(beam, Prices())
-    if first.excess <= 1 or first.found.stopped:
-        return first
-    seam = Prices.seam * (AGAIN if first.seams_a_second > SEAMS else 1 / AGAIN)
-    left = beam.seconds - (time.monotonic() - begun)
-    try:
-        second = search(replace(beam, width=round(WIDER * beam.width), seconds=left), Prices(seam=seam))
-    except NoWalk:  # out of time at once
-        return first
-    return min(first, second, key=lambda walk: (walk.progress < 1, walk.excess))
+    best = search(beam, Prices())
+    for wider in WIDER:
+        if best.excess <= 1 or best.found.stopped:
+            return best
+        seam = Prices.seam * (AGAIN if best.seams_a_second > SEAMS else 1 / AGAIN)
+        left = beam.seconds - (time.monotonic() - begun)
+        try:
+            again = search(replace(beam, width=round(wider * beam.width), seconds=left), Prices(seam=seam))
+        except NoWalk:  # out of time at once
+            return best
+        best = min(best, again, key=lambda walk: (walk.progress < 1, walk.excess))
+    return best
 
 
 def _warn(departures: Sequence[Departure]) -> None:

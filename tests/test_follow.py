@@ -2,6 +2,8 @@
 
 import warnings
 from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ import mocap
 from mocap import follow, paths
 from mocap.compiling import compile_graph, on_ground
 from mocap.errors import MocapError, MocapWarning, NoWalk
-from mocap.follow import follow_path
+from mocap.follow import account, follow_path
 from mocap.layered_search import Beam, search_layers
 from mocap.motion_graph import build, prune
 from mocap.paths import GroundPath, s_curve
@@ -54,29 +56,44 @@ def test_dear_seams_are_few():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
-    """By a second, wider search, at another price; the better walk of both is taken."""
-    tried = []
+    """By a second and a third, wider search, at another price; the best walk is taken."""
+    tried, walks = [], []
 
     def search(graph, route, starts, beam, prices):
-        tried.append((search_layers(graph, route, starts, beam, prices), beam, prices))
-        return tried[-1][0]
+        tried.append((beam, prices))
+        return search_layers(graph, route, starts, beam, prices)
+
+    def measure(*args):
+        walks.append(account(*args))
+        return walks[-1]
+
+    def widths():
+        found = [beam.width for beam, _ in tried]
+        tried.clear()
+        return found
 
     monkeypatch.setattr(follow, "search_layers", search)
+    monkeypatch.setattr(follow, "account", measure)
     once = follow_path(GRAPH, s_curve(), prices=Prices())
     assert once.excess > 1
-    assert len(tried) == 1
+    assert widths() == [50]
     better = follow_path(GRAPH, s_curve())
-    assert len(tried) == 3
-    assert tried[2][1].width == 75
-    assert (tried[2][2].seam > Prices.seam) == (once.seams_a_second > 1)
-    assert better.excess <= once.excess
-    stopped = follow_path(GRAPH, s_curve(), beam=Beam(seconds=0.1))
+    assert better.excess == min(walk.excess for walk in walks)
+    assert (tried[1][1].seam > Prices.seam) == (once.seams_a_second > 1)
+    assert widths() in ([50, 75], [50, 75, 100])
+    with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
+        slow.setattr("mocap.layered_search.time", SimpleNamespace(monotonic=count().__next__))
+        stopped = follow_path(GRAPH, s_curve(), beam=Beam(seconds=30))
     assert stopped.found.stopped == "out of time"
-    assert len(tried) == 4
+    assert widths() == [100]
+    for bound in ("NEAR", "ASTRAY", "SEAMS"):
+        monkeypatch.setattr(follow, bound, getattr(follow, bound) / 9)
+    assert follow_path(GRAPH, s_curve()).excess > 1
+    assert widths() == [50, 75, 100]
     for bound in ("NEAR", "ASTRAY", "SEAMS"):
         monkeypatch.setattr(follow, bound, 9.0)
     assert follow_path(GRAPH, s_curve()).walk == once.walk
-    assert len(tried) == 5
+    assert widths() == [50]
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
