@@ -6,15 +6,16 @@ where a file is read or written, and nowhere else.
 
 Reading order
 -------------
-What motion is: `skeleton`, `motion`, `rotations`, `kinematics`, `transforms`. Where it comes from:
-`acclaim`, `bvh`, `files`, `inspection`, `synthetic`, `cmu`, `datasets`. What the course is about:
-`point_clouds`, `cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`,
-`motion_graph`, `pruning`, `thresholds`, `merging`, `graph_summary`, `graph_files`. Out of the graph:
-`walks`, `synthesis`, `dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`,
-`paper_search`, `keyframes`, `crowd`, `control`. Seams and feet: `joining`, `quality`, `legs`, `plants`,
-`leg_posing`, `foot_targets`, `root_rise`, `calm_knees`, `footskate`; what once went wrong:
-`homework_slips`. What one sees: `stage`, `stills`, `plotting`, `search_drawing`, `player`, `pointing`,
-`widgets`, `demo`. The course itself: `checking`, `checks`, `course`, `handout`, `course_site`.
+The numbers are those of the notebooks that tell of them. What motion is (01, 03): `skeleton`, `motion`,
+`rotations`, `kinematics`, `transforms`. Where it comes from (01, 10): `acclaim`, `bvh`, `files`,
+`inspection`, `synthetic`, `cmu`, `datasets`. What the course is about (02, 05, 06): `point_clouds`,
+`cloud_grid`, `matching`, `minima`, `transitions`, `blending`, `segment_graph`, `motion_graph`, `pruning`,
+`thresholds`, `merging`, `graph_summary`, `graph_files`. Out of the graph (07, 08): `walks`, `synthesis`,
+`dumping`, `search`, `paths`, `routes`, `compiling`, `layered_search`, `follow`, `paper_search`, `keyframes`,
+`crowd`, `control`. Seams and feet (04, 09): `joining`, `quality`, `legs`, `plants`, `leg_posing`,
+`foot_targets`, `root_rise`, `calm_knees`, `footskate`; what once went wrong (03): `homework_slips`. What one
+sees (00): `stage`, `stills`, `plotting`, `search_drawing`, `player`, `pointing`, `widgets`, `demo`. The
+course itself: `checking`, `checks`, `course`, `handout`, `course_site`.
 
 References
 ----------

@@ -166,17 +166,17 @@ def follow_path(
 def _at_best_price(search: Callable[[Beam, Prices], Followed], beam: Beam) -> Followed:
     """Search at the usual price of a seam; while the walk is out of bounds, wider and at a better one."""
     begun = time.monotonic()
-    best = search(beam, Prices())
+    best = last = search(beam, Prices())
     for wider in WIDER:
-        if best.excess <= 1 or best.found.stopped:
+        if best.excess <= 1 or last.found.stopped:
             return best
         seam = Prices.seam * (AGAIN if best.seams_a_second > SEAMS else 1 / AGAIN)
         left = beam.seconds - (time.monotonic() - begun)
         try:
-            again = search(replace(beam, width=round(wider * beam.width), seconds=left), Prices(seam=seam))
+            last = search(replace(beam, width=round(wider * beam.width), seconds=left), Prices(seam=seam))
         except NoWalk:  # out of time at once
             return best
-        best = min(best, again, key=lambda walk: (walk.progress < 1, walk.excess))
+        best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
     return best
 
 

@@ -97,14 +97,16 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-def test_a_second_search_without_time_leaves_the_first(monkeypatch):
+@pytest.mark.parametrize("left", [-1.0, 30.0])
+def test_a_second_search_that_is_stopped_is_the_last(monkeypatch, left):
     searches = []
 
     def search(graph, route, starts, beam, prices):
         searches.append(beam)
-        late = replace(beam, seconds=-1.0) if len(searches) == 2 else beam
+        late = replace(beam, seconds=left) if len(searches) == 2 else beam
         return search_layers(graph, route, starts, late, prices)
 
+    monkeypatch.setattr("mocap.layered_search.time", SimpleNamespace(monotonic=count().__next__))
     monkeypatch.setattr(follow, "search_layers", search)
     assert follow_path(GRAPH, s_curve()).progress == 1.0
     assert len(searches) == 2
