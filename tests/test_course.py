@@ -239,6 +239,7 @@ def last_value(source, space):
     return eval(compile(ast.Expression(last.value), "cell", "eval"), space) if last else None
 
 
+@pytest.mark.no_cover  # it takes half as long again; the modules have tests of their own
 @every_notebook
 def test_experiments_work_over_the_whole_range_of_their_controls(name, monkeypatch, request):
     if name == "10-real-data":
