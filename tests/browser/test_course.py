@@ -27,7 +27,7 @@ def test_it_runs_and_all_its_sliders_move(notebook, run, artefacts):
         box = handle.locator("xpath=ancestor::*[contains(@class, 'widget-vbox')]").first
         for key, end in (("End", "aria-valuemax"), ("Home", "aria-valuemin")):
             page.keyboard.press(key)
-            wait_until(lambda h=handle, e=end: h.get_attribute("aria-valuenow") == h.get_attribute(e), 5)
+            wait_until(lambda h=handle, e=end: h.get_attribute("aria-valuenow") == h.get_attribute(e))
             page.wait_for_timeout(300)
             assert "Error:" not in box.inner_text()
     page.screenshot(path=artefacts / f"{notebook.stem}.png")
