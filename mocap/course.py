@@ -18,6 +18,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
+from mocap.atomic import write_text
 from mocap.errors import MocapError
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
@@ -104,7 +105,7 @@ def run(path: Path, figures: Path) -> None:
             cell.attachments[name] = {"image/png": base64.b64encode((figures / name).read_bytes()).decode()}
     NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}}).execute()
     settle(notebook)
-    nbformat.write(notebook, path)
+    write_text(path, nbformat.writes(notebook) + "\n")
 
 
 def settle(notebook: Any) -> None:  # noqa: ANN401

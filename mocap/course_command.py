@@ -68,8 +68,13 @@ def _mark(options: argparse.Namespace) -> int:
     from mocap.atomic import write_text
     from mocap.handout import mark, to_csv
 
-    marks = list(mark(options.folder, partial(bar, what="marking")))
-    write_text(options.out, to_csv(marks))
+    marks = []
+    try:
+        for one in mark(options.folder, partial(bar, what="marking")):
+            marks.append(one)  # one by one: what is marked stays, even after Ctrl-C
+    finally:
+        if marks:
+            write_text(options.out, to_csv(marks))
     right = sum(mark.right for mark in marks)
     print(f"wrote {options.out}: {right} of {len(marks)} are right")
     return 0

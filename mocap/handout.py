@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import csv
 import io
 import shutil
@@ -90,35 +91,56 @@ def mark(folder: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = it
             yield Mark(whose, "", False, str(error))
             continue
         exercises = dict(tagged(notebook, "exercise"))
-        for name, said in zip(exercises, _run(notebook, exercises), strict=True):
+        if not exercises:
+            yield Mark(whose, "", False, "holds no exercises: their cells are tagged `exercise:NAME`.")
+        for name, said in _said(notebook, exercises).items():
             yield Mark(whose, name, said.startswith("✓"), said)
 
 
-def _run(notebook: Any, exercises: dict[str, Any]) -> list[str]:  # noqa: ANN401
-    """Run the exercises of a notebook, and give what the checks say, by exercise."""
+def _said(notebook: Any, exercises: dict[str, Any]) -> dict[str, str]:  # noqa: ANN401
+    """Run the exercises of a notebook, and give what the checks say; after one that ends Python, go on."""
+    setup = next((cell.source for cell in notebook.cells if cell.cell_type == "code"), "")
+    said: dict[str, str] = {}
+    while left := {name: cell for name, cell in exercises.items() if name not in said}:
+        said |= _run(setup, left)
+    return {name: said[name] for name in exercises}
+
+
+def _run(setup: str, exercises: dict[str, Any]) -> dict[str, str]:
+    """Run exercises in one process, up to the first that does not end or ends the process."""
     from nbclient import NotebookClient
+    from nbclient.exceptions import CellTimeoutError, DeadKernelError
     from nbformat.v4 import new_code_cell, new_notebook
 
-    setup = next(cell for cell in notebook.cells if cell.cell_type == "code")
-    cells = [new_code_cell(setup.source)]
+    cells = [new_code_cell(setup)]
     for name, cell in exercises.items():
-        check = f"print(checks.all_checks()[{name!r}].verdict(globals().get({name!r}, lambda *_: ...)))"
-        cells += [new_code_cell(cell.source), new_code_cell(f"from mocap import checks\n{check}")]
-    run = new_notebook(cells=cells)
-    NotebookClient(run, timeout=SECONDS, interrupt_on_timeout=True, allow_errors=True).execute()
-    return [
-        _said(cell.outputs + check.outputs)
-        for cell, check in zip(run.cells[1::2], run.cells[2::2], strict=True)
-    ]
+        verdict = f"checks.all_checks()[{name!r}].verdict(globals().get({name!r}, lambda *_: ...)).__str__()"
+        cells += [new_code_cell(cell.source), new_code_cell(f"from mocap import checks\n{verdict}")]
+    run, started = new_notebook(cells=cells), [0]
+    client = NotebookClient(run, timeout=SECONDS, allow_errors=True, shutdown_kernel="immediate")
+    client.on_cell_start = lambda cell, cell_index: started.append(cell_index)
+    names, ended = list(exercises), ""
+    try:
+        client.execute()
+    except CellTimeoutError:
+        ended = f"✗ stopped after {SECONDS} s"
+    except DeadKernelError:
+        ended = "✗ ends Python itself"
+    done = (started[-1] - 1) // 2 if ended else len(names)
+    said = [_verdict(*run.cells[2 * n + 1 : 2 * n + 3]) for n in range(done)]
+    at_fault = names if started[-1] == 0 else names[done : done + 1]
+    return dict(zip(names, said, strict=False)) | dict.fromkeys(at_fault, ended)
 
 
-def _said(outputs: list[Any]) -> str:
-    """Give what a check printed; or the error of the student's cell, which came first."""
-    for output in outputs:
+def _verdict(exercise: Any, check: Any) -> str:  # noqa: ANN401
+    """Give what a check says; or the error of the student's cell, which came first."""
+    for output in exercise.outputs + check.outputs:
         if output.output_type == "error":
-            late = output.ename == "KeyboardInterrupt"
-            return f"✗ stopped after {SECONDS} s" if late else f"✗ {output.ename}: {output.evalue}"
-    return str(outputs[-1].text.strip().splitlines()[-1])
+            return f"✗ {output.ename}: {output.evalue}"
+    results = [output for output in check.outputs if output.output_type == "execute_result"]
+    if not results:
+        return "✗ keeps the check silent"
+    return str(ast.literal_eval(results[0].data["text/plain"]))
 
 
 def to_csv(marks: Iterable[Mark]) -> str:

@@ -1,5 +1,6 @@
 """The course handed out, handed in, and marked."""
 
+import contextlib
 import csv
 import io
 import sys
@@ -15,6 +16,20 @@ from mocap.handout import hand_out, mark, to_csv
 from mocap.lab import stored
 
 RIGHT = "def speed(positions, fps):\n    return np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T) * fps\n"
+LOUD = """
+def cheapest(grid, minima):
+    print("✗ I say so")
+    np.log(0.0)
+    return minima[np.argmin(grid[minima[:, 0], minima[:, 1]])]
+"""
+DEAF = """
+import time
+for _ in range(99):
+    try:
+        time.sleep(60)
+    except KeyboardInterrupt:
+        pass
+"""
 
 
 @pytest.fixture(scope="module")
@@ -48,24 +63,54 @@ def hand_in(copy, target, **code):
 
 
 def test_marks(copies, tmp_path, monkeypatch, capsys):
-    hand_in(
-        copies[0], tmp_path / "ada" / "00.ipynb", speed=RIGHT, dead_ends="def dead_ends(edges)\n    return 1"
-    )
-    hand_in(
-        copies[0], tmp_path / "bob" / "00.ipynb", cheapest="import time\ntime.sleep(60)", speed="print(1)"
-    )
+    broken = "def dead_ends(edges)\n    return 1"
+    hand_in(copies[0], tmp_path / "ada" / "00.ipynb", speed=RIGHT, cheapest=LOUD, dead_ends=broken)
+    hand_in(copies[0], tmp_path / "bob" / "00.ipynb", speed="print(1)", cheapest=DEAF)
+    hand_in(copies[0], tmp_path / "cid" / "00.ipynb", speed=RIGHT, cheapest="import os\nos._exit(0)")
     (tmp_path / "bob" / "broken.ipynb").write_text("{")
-    monkeypatch.setattr(handout, "SECONDS", 6)
+    nbformat.write(nbformat.v4.new_notebook(), tmp_path / "cid" / "empty.ipynb")
+    monkeypatch.setattr(handout, "SECONDS", 9)
     assert main(["course", "mark", str(tmp_path), "-o", str(tmp_path / "marks.csv")]) == 0
-    assert "1 of 7 are right" in capsys.readouterr().out
+    assert "3 of 11 are right" in capsys.readouterr().out
     rows = list(csv.DictReader(io.StringIO((tmp_path / "marks.csv").read_text("utf-8"))))
     said = {(row["handed in"], row["exercise"]): (row["right"], row["said"]) for row in rows}
     assert said["ada/00.ipynb", "speed"] == ("1", "✓ speed: right on 40 random inputs.")
-    assert said["ada/00.ipynb", "cheapest"][1].startswith("✗ cheapest: not there yet")
+    assert said["ada/00.ipynb", "cheapest"] == ("1", "✓ cheapest: right on 40 random inputs.")
     assert said["ada/00.ipynb", "dead_ends"][1].startswith("✗ SyntaxError: ")
     assert said["bob/00.ipynb", "speed"][1].startswith("✗ speed: not there yet")
-    assert said["bob/00.ipynb", "cheapest"] == ("0", "✗ stopped after 6 s")
+    assert said["bob/00.ipynb", "cheapest"] == ("0", "✗ stopped after 9 s")
+    assert said["bob/00.ipynb", "dead_ends"][1].startswith("✗ dead_ends: not there yet")
     assert said["bob/broken.ipynb", ""][1].endswith("broken.ipynb: is not a notebook.")
+    assert said["cid/00.ipynb", "speed"] == ("1", "✓ speed: right on 40 random inputs.")
+    assert said["cid/00.ipynb", "cheapest"] == ("0", "✗ ends Python itself")
+    assert said["cid/empty.ipynb", ""][1].startswith("holds no exercises")
+
+
+@pytest.mark.parametrize(
+    ("first", "says"),
+    [
+        ("import os; os._exit(0)", "✗ ends Python itself"),
+        ("get_ipython().ast_node_interactivity = 'none'", "✗ keeps"),
+    ],
+)
+def test_a_first_cell_that_spoils_all_is_told_of_each_exercise(first, says, copies, tmp_path):
+    notebook = read(copies[0])
+    next(cell for cell in notebook.cells if cell.cell_type == "code").source = first
+    nbformat.write(notebook, tmp_path / "00.ipynb")
+    marks = list(mark(tmp_path))
+    assert len(marks) == 3
+    assert all(one.said.startswith(says) and not one.right for one in marks)
+
+
+def test_marks_made_before_an_interruption_are_kept(tmp_path, monkeypatch):
+    def marks(folder, progress):
+        yield handout.Mark("ada/00.ipynb", "speed", True, "✓")
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(handout, "mark", marks)
+    with contextlib.suppress(KeyboardInterrupt):
+        main(["course", "mark", str(tmp_path), "-o", str(tmp_path / "marks.csv")])
+    assert "ada/00.ipynb,speed,1" in (tmp_path / "marks.csv").read_text("utf-8")
 
 
 @pytest.mark.parametrize("function", [lambda folder: list(mark(folder)), lambda f: hand_out(f, f / "out")])
