@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
+from mocap.atomic import make_folder
 from mocap.commands import add_convert, add_data, add_info
 from mocap.course_command import add_course
 from mocap.errors import MocapError, MocapWarning
@@ -153,10 +154,7 @@ def _demo(options: argparse.Namespace) -> int:
     )
     result = demo.run(clips, settings, partial(bar, what="comparing"))
     print(result.table())
-    try:
-        options.out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MocapError(f"Cannot make the folder {options.out}: {error.strerror}.") from error
+    make_folder(options.out)
     files.save(result.walk, options.out / "walk.bvh")
     print(f"{'wrote':<12} {options.out / 'walk.bvh'}")
     plotting.save_animation(result.walk, options.out / "walk.gif", progress=partial(bar, what="drawing"))

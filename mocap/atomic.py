@@ -103,6 +103,21 @@ def write_text(path: str | Path, text: str) -> None:
         beside.write_text(text, encoding="utf-8", newline="\n")
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder, and those above it, where they are missing.
+
+    Examples
+    --------
+    >>> make_folder(Path(__file__))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot make the folder ...atomic.py: File exists.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MocapError(f"Cannot make the folder {path}: {error.strerror}.") from error
+
+
 def check_room(path: str | Path, poses: int, numbers: int) -> None:
     """Refuse a file whose few numbers would fill the memory with poses of joints that have none.
 

@@ -8,6 +8,7 @@ from itertools import repeat
 from pathlib import Path
 from typing import NamedTuple
 
+from mocap.atomic import make_folder
 from mocap.errors import MocapError
 from mocap.files import load, save
 from mocap.progress import Progress
@@ -99,11 +100,9 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
 def _convert(source: Path, target: Path, options: Options) -> Outcome:
     try:
         motion = load(source, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
-        target.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(target.parent)
         save(motion, target, widen=options.widen)
     except MocapError as error:
         named = any(str(path) in str(error) for path in (source, target))
         return Outcome(source, target, str(error) if named else f"{source}: {error}")
-    except OSError as error:
-        return Outcome(source, target, f"Cannot make the folder {target.parent}: {error.strerror}.")
     return Outcome(source, target, None)

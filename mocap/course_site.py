@@ -10,7 +10,7 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from mocap.atomic import write_text
+from mocap.atomic import make_folder, write_text
 from mocap.course import read
 from mocap.errors import MocapError
 
@@ -41,7 +41,7 @@ def build_site(
     files = sorted(notebooks.glob("*.ipynb")) + [notebooks / f"{name}.md" for name in PAGES]
     if len(files) == len(PAGES):
         raise MocapError(f"There are no notebooks in {notebooks}.")
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     contents = {file.stem: _contents(file) for file in files}
     titles = {name: PAGES.get(name) or _title(name, notebook) for name, notebook in contents.items()}
     index: list[dict[str, str]] = []

@@ -5,12 +5,11 @@ from __future__ import annotations
 import ast
 import csv
 import io
-import shutil
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mocap.atomic import write_text
+from mocap.atomic import make_folder, write_text
 from mocap.course import library, read, tagged
 from mocap.errors import MocapError
 
@@ -37,7 +36,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
     if not files:
         raise MocapError(f"There are no notebooks in {notebooks}.")
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     for file in (*files, *(notebooks / page for page in PAGES)):
         if (out / file.name).exists():
             raise MocapError(f"{out / file.name} is there already; name another folder.")
@@ -47,7 +46,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
         notebook.cells = [cell for cell in notebook.cells if cell not in solutions]
         write_text(out / file.name, nbformat.writes(notebook) + "\n")
     for page in PAGES:
-        shutil.copy(notebooks / page, out)
+        write_text(out / page, (notebooks / page).read_text("utf-8"))
     return [out / file.name for file in files]
 
 

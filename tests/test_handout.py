@@ -54,6 +54,13 @@ def test_a_handout_replaces_nothing(copies):
         hand_out(stored(), copies[0].parent)
 
 
+@pytest.mark.parametrize("command", ["handout", "site"])
+def test_a_folder_that_cannot_be_made_is_told(command, tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert main(["course", command, "-o", str(tmp_path / "file")]) != 0
+    assert f"Cannot make the folder {tmp_path / 'file'}: File exists." in capsys.readouterr().err
+
+
 def hand_in(copy, target, **code):
     notebook = read(copy)
     for name, cell in tagged(notebook, "exercise"):
