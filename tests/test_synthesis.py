@@ -12,12 +12,14 @@ from hypothesis import strategies as st
 
 from mocap import rotations
 from mocap.blending import blend, cubic_weights
+from mocap.datasets import sample
 from mocap.errors import MocapError, NoWalk
 from mocap.kinematics import joint_positions
 from mocap.matching import distance_grid
 from mocap.motion import concatenate
 from mocap.motion_graph import build, from_transitions, prune
-from mocap.synthesis import places, random_walk, seams, to_motion, wander
+from mocap.plants import mark_plants
+from mocap.synthesis import places, random_walk, seams, sources, to_motion, wander, with_plants
 from mocap.transforms import IDENTITY, PlanarTransform, heading
 from mocap.transitions import Transition
 from mocap.walks import edge_table
@@ -198,6 +200,28 @@ def test_labels_come_from_the_clip_with_the_larger_weight():
     expected = np.arange(len(motion)) < 40 + WINDOW // 2
     assert np.array_equal(motion.labels["a"], expected)
     assert np.array_equal(motion.labels["b"], ~expected)
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_sources_name_the_clip_that_each_frame_bears_the_label_of(seed):
+    named = [replace(clip, labels={clip.name: True}) for clip in CLIPS]
+    graph = prune(build(named, window=WINDOW, threshold=0.05))
+    walk = random_walk(graph, seconds=8, seed=seed, settle=0.0)
+    motion, told = to_motion(graph, walk), sources(graph, walk)
+    starts, names = zip(*told, strict=True)
+    of = np.searchsorted(starts, np.arange(len(motion)), side="right") - 1
+    for name in "ab":
+        assert np.array_equal(motion.labels[name], np.array(names)[of] == name)
+
+
+def test_plants_are_found_only_where_no_clip_tells():
+    assert with_plants(GRAPH) is GRAPH
+    walk = replace(sample("walk_straight")[:240], contacts={})
+    unmarked = from_transitions([walk], [], window=WINDOW)
+    (found,) = with_plants(unmarked).clips
+    assert found.contacts.keys() == mark_plants(walk).contacts.keys() != set()
+    assert with_plants(unmarked).graph is unmarked.graph
 
 
 def test_cleaned_feet_stand_still():
