@@ -54,7 +54,7 @@ def distance_image(
     """
     ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
     seconds = (0, grid.shape[1] / fps, grid.shape[0] / fps, 0)
-    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the numbers to shrink to the pixels
+    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes to shrink to the pixels
     image = ax.imshow(centimetres, cmap="cividis", extent=seconds, interpolation="nearest")
     rows, columns = np.reshape(minima, (-1, 2)).T
     ax.plot((columns + 0.5) / fps, (rows + 0.5) / fps, ".", color="#FFFFFF", markersize=4, label="minima")
