@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import mocap
-from mocap.transitions import find_transitions
+from mocap.matching.transitions import find_transitions
 
 FOLDER = Path(__file__).parent
 SIZES = (5_000, 10_000, 20_000, 40_000, 80_000, 200_000)

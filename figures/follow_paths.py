@@ -21,18 +21,19 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import mocap
-from mocap import datasets, motion_graph
-from mocap.compiling import CompiledGraph, compile_graph
-from mocap.control import measure_delay
-from mocap.crowd import walk_crowd
-from mocap.follow import Followed, follow_path
-from mocap.layered_search import Beam
-from mocap.paper_search import follow_as_2002
-from mocap.paths import SHAPES, GroundPath, arcs, circle, s_curve, spline
-from mocap.quality import seam_quality, spread
-from mocap.routes import Prices, Wishes
-from mocap.search import Budget
-from mocap.synthesis import with_plants
+from mocap.body.ground_path import SHAPES, GroundPath, arcs, circle, s_curve, spline
+from mocap.datasets import samples
+from mocap.graphs import motion_graph, pruning
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
+from mocap.quality.seam_measures import seam_quality, spread
+from mocap.steering.beam_search import Beam
+from mocap.steering.control import measure_delay
+from mocap.steering.crowd import walk_crowd
+from mocap.steering.paper_search import follow_as_2002
+from mocap.steering.path_following import Followed, follow_path
+from mocap.steering.path_objective import Prices, Wishes
+from mocap.synthesis.bounded_search import Budget
+from mocap.synthesis.walk_to_motion import with_plants
 
 FOLDER = Path(__file__).parent
 OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
@@ -42,7 +43,7 @@ BLACK, YELLOW = "#000000", "#E69F00"
 
 def graphs() -> dict[str, CompiledGraph]:
     """Build the graphs of the bundled clips and, where their folder is given, of CMU's."""
-    clips = {"bundled clips": [datasets.sample(name) for name in OWN]}
+    clips = {"bundled clips": [samples.sample(name) for name in OWN]}
     if len(sys.argv) > 1:
         clips["CMU 16, walks"] = [mocap.load(Path(sys.argv[1], f"16_{trial:02}.amc")) for trial in CMU]
     return {name: compile_graph(_graph(found)) for name, found in clips.items()}
@@ -50,7 +51,7 @@ def graphs() -> dict[str, CompiledGraph]:
 
 def _graph(clips: list[mocap.Motion]) -> motion_graph.MotionGraph:
     clips = [mocap.resample(clip, 30) for clip in clips]
-    return with_plants(motion_graph.prune(motion_graph.build(clips, window=10, threshold=0.04)))
+    return with_plants(pruning.prune(motion_graph.build(clips, window=10, threshold=0.04)))
 
 
 def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]:

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from mocap.point_clouds import unit_weights
-from mocap.transforms import PlanarTransform
+from mocap.body.planar import PlanarTransform
+from mocap.matching.point_clouds import unit_weights
 
 
 def squared_distance(transform, points, others, weights):

@@ -3,10 +3,10 @@
 import numpy as np
 from hypothesis import strategies as st
 
-from mocap import rotations
-from mocap.motion import Motion
-from mocap.skeleton import Skeleton
-from mocap.transforms import PlanarTransform
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.body.skeleton import Skeleton
 
 seeds = st.integers(0, 2**32 - 1)
 

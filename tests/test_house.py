@@ -1,6 +1,9 @@
-"""The house: its layers, its bounds, its tools."""
+"""The house: its rooms and their faces, its floors, its bounds, its tools."""
 
 import ast
+import importlib
+import inspect
+import re
 import subprocess
 import sys
 import tomllib
@@ -10,62 +13,68 @@ from pathlib import Path
 import pytest
 from packaging.requirements import Requirement
 
+import mocap
+
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "mocap"
-MODULES = {path.stem: path for path in sorted(PACKAGE.glob("*.py"))}
-CHECKS = {f"checks.{path.stem}": path for path in sorted((PACKAGE / "checks").glob("*.py"))}
-
-# From below to above. In a layer, too, a module uses only those that stand before it.
-LAYERS = {
-    "what all need": "errors progress collecting atomic rotations style",
-    "motion": "skeleton motion kinematics transforms inverse_kinematics",
-    "files": "amc acclaim_skeleton acclaim acclaim_writer bvh_hierarchy bvh files inspection conversion",
-    "clips to begin with": "footsteps gait walker pacing synthetic cmu datasets",
-    "what is alike": "point_clouds cloud_grid matching minima transitions",
-    "seams and feet": "blending joining legs plants footprints leg_posing foot_targets root_rise calm_knees "
-    "footskate quality homework_slips",
-    "graphs": "pruning segment_graph motion_graph merging thresholds graph_summary graph_files",
-    "out of the graph": "walks synthesis dumping search paths path_files compiling routes layered_search "
-    "follow paper_search keyframes crowd control",
-    "what one sees": "stills stage player animation graph_drawing plotting search_drawing live pointing "
-    "widgets",
-    "the course": "checking course handout course_site course_lite lab",
-    "commands": "demo gallery commands show_commands walk_command course_command __main__",
-}
-ORDER = " ".join(LAYERS.values()).split()
+MODULES = {str(path.relative_to(PACKAGE)): path for path in sorted(PACKAGE.rglob("*.py"))}
+ROOMS = sorted(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
+FACES = [room for room in ROOMS if room not in ("_shared", "cli")]
+every_room = pytest.mark.parametrize("room", ROOMS)
+every_face = pytest.mark.parametrize("room", FACES)
 
 
-def imported(path: Path, *, at_import: bool = False) -> set[str]:
-    """Name the modules of the package that a module imports; `at_import`: only those outside functions."""
-    found: set[str] = set()
-    tree = ast.parse(path.read_text())
-    for node in tree.body if at_import else ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.module == "mocap":
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("mocap."):
-            found.add(str(node.module).split(".")[1])
-        elif isinstance(node, ast.Import):
-            found |= {a.name.split(".")[1] for a in node.names if a.name.startswith("mocap.")}
-    return found
+def files(room: str) -> list[str]:
+    return sorted(path.stem for path in (PACKAGE / room).glob("*.py") if path.stem != "__init__")
 
 
-def test_every_module_has_its_place_in_the_layers():
-    assert sorted([*ORDER, "__init__"]) == sorted(MODULES)
+def test_the_rooms_are_those_of_the_plan():
+    assert {path.name for path in PACKAGE.glob("*.py")} == {"__init__.py", "__main__.py", "errors.py"}
+    assert set(ROOMS) - {"_shared"} == set(re.findall(r"^([a-z]+)  +\w", mocap.__doc__, re.MULTILINE))
 
 
-@pytest.mark.parametrize("name", ORDER)
-def test_a_module_imports_only_what_stands_before_it(name):
-    assert imported(MODULES[name]) <= set(ORDER[: ORDER.index(name)])
+@every_room
+def test_a_room_has_ten_files_at_most_and_its_face_lists_them_in_reading_order(room):
+    face = importlib.import_module(f"mocap.{room}")
+    listed = re.findall(r"^ ?\d+\. `(\w+)`: ", face.__doc__, re.MULTILINE)
+    folders = [path.parent.name for path in (PACKAGE / room).glob("*/__init__.py")]
+    assert sorted(listed) == sorted([*files(room), *folders])
+    assert len(files(room)) <= 10
 
 
-@pytest.mark.parametrize("name", CHECKS)
-def test_checks_import_anything_but_what_opens_the_course(name):
-    assert not imported(CHECKS[name]) & {"__main__", "course", "lab", "widgets", "plotting"}
+@every_face
+def test_a_face_gives_its_names_without_a_further_import(room):
+    code = (
+        f"import mocap; print(*(getattr(mocap.{room}, n).__name__ for n in dir(mocap.{room}) if n.islower()))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("name", MODULES | CHECKS)
+@every_face
+def test_a_face_solves_the_keys_of_papers_that_its_files_name(room):
+    texts = [path.read_text("utf-8") for path in (PACKAGE / room).rglob("*.py")]
+    named = {key for text in texts for key in re.findall(r"\[([A-Z][A-Za-z]+\d\d)", text)}
+    assert named <= set(
+        re.findall(r"^\.\. \[(\w+)\]", importlib.import_module(f"mocap.{room}").__doc__, re.MULTILINE)
+    )
+
+
+@every_room
+def test_no_file_bears_the_name_of_a_function_that_its_room_exports(room):
+    face = importlib.import_module(f"mocap.{room}")
+    assert not set(files(room)) & {name for name in dir(face) if not inspect.ismodule(getattr(face, name))}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_the_tests_stand_in_the_same_rooms(room):
+    tested = {path.stem.removeprefix("test_") for path in (ROOT / "tests" / room).glob("test_*.py")}
+    assert tested & set(files(room))
+
+
+@pytest.mark.parametrize("name", MODULES)
 def test_a_module_is_short_and_so_are_its_functions(name):
-    text = (MODULES | CHECKS)[name].read_text()
+    text = MODULES[name].read_text()
     assert len(text.splitlines()) <= 300
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.FunctionDef):
@@ -74,22 +83,16 @@ def test_a_module_is_short_and_so_are_its_functions(name):
             assert lines <= 30, f"{name}.{node.name} has {lines} lines"
 
 
-@pytest.mark.parametrize("path", sorted(PACKAGE.glob("*.js")), ids=lambda path: path.name)
+@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.js")), ids=lambda path: path.name)
 def test_a_script_is_short(path):
     assert len(path.read_text("utf-8").splitlines()) <= 300
 
 
 def test_importing_the_package_is_light():
     code = "import sys, mocap; print(sorted({m.split('.')[0] for m in sys.modules} & set(sys.argv[1:])))"
-    heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy"]
+    heavy = ["matplotlib", "ipywidgets", "networkx", "scipy", "numpy", "argparse", "tqdm"]
     done = subprocess.run([sys.executable, "-c", code, *heavy], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
-
-
-def test_plotting_stays_out_of_the_method():
-    code = "import sys, mocap.synthesis, mocap.files, mocap.datasets; print('matplotlib' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
 
 
 def test_every_dependency_has_a_lower_bound():
@@ -115,3 +118,9 @@ def test_style():
 @pytest.mark.tools
 def test_types():
     run("mypy")
+
+
+@pytest.mark.tools
+def test_floors():
+    """Who may import whom stands in pyproject.toml."""
+    run("importlinter.cli", "--no-cache")

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from mocap import course
+from mocap.course import notebooks
 
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 PACKAGE = Path(__file__).parents[1] / "mocap"
 
 
 def code(name):
-    cells = course.read(NOTEBOOKS[0].parent / f"{name}.ipynb").cells
+    cells = notebooks.read(NOTEBOOKS[0].parent / f"{name}.ipynb").cells
     return "\n".join(cell.source for cell in cells if cell.cell_type == "code")
 
 
@@ -47,7 +47,7 @@ def test_every_function_that_the_course_uses_names_a_notebook_that_teaches_it():
             assert re.search(r"^ *Notebooks?: \d\d-", told, re.MULTILINE), f"{where}, used in {path.name}"
 
 
-@pytest.mark.parametrize("path", sorted(PACKAGE.glob("*.py")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: path.stem)
 def test_a_docstring_names_only_notebooks_whose_code_uses_the_function(path):
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):

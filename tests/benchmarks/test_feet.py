@@ -9,17 +9,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.blending import blend
-from mocap.datasets import sample
-from mocap.footskate import clean_up
-from mocap.joining import inertialize, join
-from mocap.plants import mark_plants
-from mocap.synthetic import walk
+from mocap.blending.inertialization import inertialize
+from mocap.blending.interpolation import blend
+from mocap.blending.joining import join
+from mocap.datasets.generated import generate_walk
+from mocap.datasets.samples import sample
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
 
 pytestmark = pytest.mark.benchmark
 
 CLIP = sample("walk_circle")
-MINUTE = walk([[0, 0], [0, 55]], speed=0.85)[: 60 * 120]  # 60 s at 120 Hz
+MINUTE = generate_walk([[0, 0], [0, 55]], speed=0.85)[: 60 * 120]  # 60 s at 120 Hz
 PUSH = 0.01 * np.sin(np.arange(len(MINUTE)) / 40)[:, None]
 SKATING = replace(MINUTE, root_positions=MINUTE.root_positions + PUSH)
 

@@ -10,9 +10,10 @@ import time
 import numpy as np
 import pytest
 
-from mocap import files, rotations
-from mocap.kinematics import forward_kinematics
-from mocap.motion import Motion
+from mocap.body import rotations
+from mocap.body.kinematics import forward_kinematics
+from mocap.body.motion import Motion
+from mocap.files import load_save
 
 pytestmark = pytest.mark.benchmark
 
@@ -39,7 +40,7 @@ def clip(real_data):
 
 @pytest.fixture(scope="module")
 def motion(clip):
-    return files.load(clip)
+    return load_save.load(clip)
 
 
 def numbers_of(path):
@@ -51,21 +52,25 @@ def numbers_of(path):
 
 def test_reading_amc(benchmark, clip):
     numbers = numbers_of(clip)
-    hold(benchmark, lambda: files.load(clip), lambda: np.array(numbers.split(), float))
+    hold(benchmark, lambda: load_save.load(clip), lambda: np.array(numbers.split(), float))
 
 
 def test_reading_bvh(benchmark, motion, tmp_path):
-    files.save(motion, tmp_path / "a.bvh")
+    load_save.save(motion, tmp_path / "a.bvh")
     numbers = numbers_of(tmp_path / "a.bvh")
-    hold(benchmark, lambda: files.load(tmp_path / "a.bvh"), lambda: np.array(numbers.split(), float))
+    hold(benchmark, lambda: load_save.load(tmp_path / "a.bvh"), lambda: np.array(numbers.split(), float))
 
 
 @pytest.mark.parametrize("suffix", ["amc", "bvh"])
 def test_writing(benchmark, motion, tmp_path, suffix):
     path = tmp_path / f"a.{suffix}"
-    files.save(motion, path)
+    load_save.save(motion, path)
     values = np.array(numbers_of(path).split(), float)
-    hold(benchmark, lambda: files.save(motion, path), lambda: "%.6f " * len(values) % tuple(values.tolist()))
+    hold(
+        benchmark,
+        lambda: load_save.save(motion, path),
+        lambda: "%.6f " * len(values) % tuple(values.tolist()),
+    )
 
 
 def test_forward_kinematics(benchmark, motion):

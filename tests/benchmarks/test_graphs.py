@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import mocap
-from mocap.motion_graph import build, from_transitions, prune
-from mocap.pruning import prune_graph
-from mocap.thresholds import threshold_curve
-from mocap.transforms import PlanarTransform
-from mocap.transitions import Transitions
+from mocap.body.planar import PlanarTransform
+from mocap.graphs.motion_graph import build, from_transitions
+from mocap.graphs.pruning import prune, prune_graph
+from mocap.graphs.thresholds import threshold_curve
+from mocap.matching.transitions import Transitions
 from tests.strategies import wave
 
 pytestmark = pytest.mark.benchmark

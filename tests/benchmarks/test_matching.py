@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from mocap import load, resample
-from mocap.cloud_grid import distance_grid
-from mocap.point_clouds import point_cloud
-from mocap.transitions import find_transitions
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.point_clouds import point_cloud
+from mocap.matching.transitions import find_transitions
 from tests.oracles import distance_rows
 
 pytestmark = pytest.mark.benchmark

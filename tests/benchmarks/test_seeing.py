@@ -15,15 +15,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from mocap import plotting
-from mocap.datasets import sample
-from mocap.kinematics import joint_positions
-from mocap.motion_graph import from_transitions
-from mocap.player import play
-from mocap.synthetic import walk
-from mocap.transforms import PlanarTransform
-from mocap.transitions import Transition
-from mocap.widgets import explore
+from mocap.body.kinematics import joint_positions
+from mocap.body.planar import PlanarTransform
+from mocap.datasets.generated import generate_walk
+from mocap.datasets.samples import sample
+from mocap.graphs.motion_graph import from_transitions
+from mocap.matching.transitions import Transition
+from mocap.plotting import charts, graph_drawing, stick_figures
+from mocap.widgets.experiments import explore
+from mocap.widgets.player import play
 from tests.browser.conftest import artefacts, browser, page, wait_until  # noqa: F401  (fixtures)
 from tests.strategies import wave
 
@@ -39,7 +39,7 @@ def no_figure_stays_open():
 @pytest.fixture(scope="module")
 def minute():
     """Return three characters of 38 joints, 60 s at 120 Hz."""
-    return [walk([[x, 0], [x, 55]], speed=0.85)[: 60 * 120] for x in (-1, 0, 1)]
+    return [generate_walk([[x, 0], [x, 55]], speed=0.85)[: 60 * 120] for x in (-1, 0, 1)]
 
 
 def seconds(work):
@@ -63,10 +63,10 @@ def drawn(artists):
 def test_an_experiment_changes_within_60_ms():
     motion = sample("walk_circle")[:1200]
     points = joint_positions(motion)
-    (body,) = plotting.stick_figure(motion, 0)
+    (body,) = stick_figures.stick_figure(motion, 0)
     moving = explore(lambda frame: body.pose(points[frame]), alt="A pose.", frame=(0, 1199))
     afresh = explore(
-        lambda frame: plotting.stick_figure(motion, frame)[0].dot.figure, alt="A pose.", frame=(0, 1199)
+        lambda frame: stick_figures.stick_figure(motion, frame)[0].dot.figure, alt="A pose.", frame=(0, 1199)
     )
     blitted, whole = median_change(moving), median_change(afresh)
     print(f"\nan experiment: {1000 * blitted:.1f} ms a change, {1000 * whole:.0f} ms with a new figure")
@@ -76,7 +76,7 @@ def test_an_experiment_changes_within_60_ms():
 
 def test_a_grid_is_drawn_within_150_ms():
     grid = np.random.default_rng(0).random((1000, 1000))
-    took = min(seconds(lambda: drawn(plotting.distance_image(grid, fps=30))) for _ in range(3))
+    took = min(seconds(lambda: drawn(charts.distance_image(grid, fps=30))) for _ in range(3))
     print(f"\na grid of 1000 by 1000: {1000 * took:.0f} ms")
     assert took <= 0.150
 
@@ -88,7 +88,7 @@ def test_a_timeline_of_5000_transitions_is_drawn_within_500_ms(most):
     ends = random.integers(0, [8, 880, 8, 880], size=(5000, 4)).tolist()
     found = [Transition(a, i, b, j, random.random(), PlanarTransform(0, 0, 0)) for a, i, b, j in ends]
     graph = from_transitions(clips, found, window=10)
-    took = min(seconds(lambda: drawn(plotting.timeline(graph, most=most))) for _ in range(3))
+    took = min(seconds(lambda: drawn(graph_drawing.timeline(graph, most=most))) for _ in range(3))
     print(f"\na timeline, {most} of 5000 transitions shown: {1000 * took:.0f} ms")
     assert took <= 0.500
 

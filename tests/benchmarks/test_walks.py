@@ -7,12 +7,13 @@ import time
 
 import pytest
 
-from mocap import paths
-from mocap.control import measure_delay
-from mocap.follow import follow_path
-from mocap.paths import s_curve
-from mocap.synthesis import random_walk, to_motion
-from tests.graphs import walking
+from mocap.body import ground_path
+from mocap.body.ground_path import s_curve
+from mocap.steering.control import measure_delay
+from mocap.steering.path_following import follow_path
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.bundled import walking
 
 pytestmark = pytest.mark.benchmark
 
@@ -40,9 +41,9 @@ def test_playing_is_linear():
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-@pytest.mark.parametrize("shape", paths.SHAPES)
+@pytest.mark.parametrize("shape", ground_path.SHAPES)
 def test_paths_are_followed_in_a_fiftieth_of_the_motion(shape):
-    path = paths.SHAPES[shape]()
+    path = ground_path.SHAPES[shape]()
     followed = follow_path(walking(), path)
     assert seconds(lambda: follow_path(walking(), path)) < followed.seconds / 50
 

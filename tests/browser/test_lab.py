@@ -10,9 +10,10 @@ from tests.browser.conftest import wait_until
 CELLS = {
     "start": """
         import ipywidgets, numpy as np
-        from mocap import datasets, joining, matching, plotting, resample
-        from mocap.kinematics import joint_positions
-        from mocap.widgets import draw_path, explore, linked, play, show
+        from mocap import blending, datasets, matching, plotting, resample
+        from mocap.body import joint_positions
+        from mocap.plotting import show
+        from mocap.widgets import draw_path, explore, linked, play
         walk = resample(datasets.sample("walk_circle"), 30)[:240]
         points = joint_positions(walk)
 """,
@@ -27,7 +28,8 @@ CELLS = {
     "point": """
         def lay(at=(30, 100)):
             i, j = at
-            return plotting.laid_over(walk[i : i + 10], joining.lay_on(walk, i, walk, j, 10)[j : j + 10])
+            laid = blending.lay_window_on(walk, i, walk, j, 10)
+            return plotting.laid_over(walk[i : i + 10], laid[j : j + 10])
         grid = matching.distance_grid(walk, walk, window=10)
         explore(lay, alt="Two windows laid over each other.", at=plotting.distance_image(grid, fps=30))""",
     "play": "play(walk)",

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocap.player import play
+from mocap.widgets.player import play
 from tests.browser.conftest import wait_until
 from tests.strategies import wave
 
@@ -81,7 +81,7 @@ def test_scrubbing_goes_to_a_frame(still):
 
 
 def test_the_places_drawn_are_those_of_the_motion(still):
-    from mocap.kinematics import joint_positions
+    from mocap.body.kinematics import joint_positions
 
     motion = wave(61)
     page = still(play(motion))

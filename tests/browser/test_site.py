@@ -2,8 +2,8 @@
 
 import pytest
 
-from mocap.course_site import build_site
-from mocap.lab import stored
+from mocap.course.lab import stored
+from mocap.course.site import build_site
 from tests.browser.conftest import wait_until
 
 

@@ -1,6 +1,7 @@
 import numpy as np
 
-from mocap.rotations import from_euler, from_rotvec, multiply, rotate
+from mocap.body.euler import from_euler
+from mocap.body.rotations import from_rotvec, multiply, rotate
 
 
 def two_separate_angles(upper, fore, shoulder, elbow):

@@ -1,0 +1,7 @@
+"""Small things that all rooms need; not what to read first.
+
+1. `arrays`: names for kinds of arrays, and three small things to do with them
+2. `atomic`: a file is written whole or not at all
+3. `progress`: what functions take as `progress=`
+4. `collector`: pause Python's garbage collector while a graph grows
+"""

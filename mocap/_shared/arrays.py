@@ -1,0 +1,45 @@
+"""Names for kinds of arrays, and three small things that many modules do with them."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+Points = NDArray[np.complex128]
+"""Points on the ground, as complex numbers z + ix."""
+
+
+def frozen(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:
+    """Copy into an array that nobody can write to."""
+    array: NDArray[Any] = np.array(values, dtype)
+    array.flags.writeable = False
+    return array
+
+
+def runs(marks: Mask) -> NDArray[np.intp]:
+    """List the runs of True as rows [start, stop), shape (N, 2).
+
+    Examples
+    --------
+    >>> runs(np.array([True, True, False, True])).tolist()
+    [[0, 2], [3, 4]]
+
+    Notebook: 04-blending
+    """
+    edges = np.diff(np.asarray(marks, np.int8), prepend=0, append=0)
+    return np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=-1)
+
+
+def ranges(first: Indices, counts: Indices) -> Indices:
+    """Count up from each of some numbers, so many steps each, in one row.
+
+    Examples
+    --------
+    >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
+    [5, 6, 0, 1, 2]
+    """
+    before = np.cumsum(counts) - counts
+    return np.asarray(np.arange(counts.sum()) + np.repeat(first - before, counts))

@@ -1,0 +1,65 @@
+"""A text file is read whole or refused, and written whole or not at all."""
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from mocap.errors import MocapError
+
+
+@contextmanager
+def replacing(path: str | Path) -> Iterator[Path]:
+    """Write beside a file, then put the new one in its place in a single step.
+
+    Whatever goes wrong inside the `with` block, an interruption too, the old file stays as it was
+    and nothing is left beside it.
+
+    Parameters
+    ----------
+    path : the file to make or replace.
+
+    Yields
+    ------
+    A path in the same folder, with the same suffix, to write to.
+
+    Raises
+    ------
+    MocapError : when the folder is missing or cannot be written to.
+
+    Examples
+    --------
+    >>> with replacing("nowhere/walk.bvh") as beside:
+    ...     beside.write_text("")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
+    """
+    path = Path(path)
+    try:
+        folder = tempfile.TemporaryDirectory(prefix=".", dir=path.parent, ignore_cleanup_errors=True)
+        with folder as beside:  # a folder, so that the new file gets the permissions of any other
+            yield Path(beside, path.name)
+            Path(beside, path.name).replace(path)
+    except OSError as error:
+        raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
+
+
+def write_text(path: str | Path, text: str) -> None:
+    """Write a text file as UTF-8, whole or not at all."""
+    with replacing(path) as beside:
+        beside.write_text(text, encoding="utf-8", newline="\n")
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder, and those above it, where they are missing.
+
+    Examples
+    --------
+    >>> make_folder(Path(__file__))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot make the folder ...atomic.py: File exists.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MocapError(f"Cannot make the folder {path}: {error.strerror}.") from error

@@ -1,0 +1,29 @@
+"""From one motion into another: by a blend over a window, or by a cut whose offset dies away.
+
+Both ways start with two windows that look alike; the second clip is laid on the first, then the poses are
+mixed or the offset fades.
+
+Reading order (notebook 04)
+---------------------------
+1. `weights`: how much of the first motion each frame holds
+2. `interpolation`: two motions into one, frame by frame
+3. `joining`: from clip into clip, by a blend
+4. `inertialization`: a cut whose offset dies away
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "weights": ["cubic_weights", "linear_weights", "quintic_weights", "sine_weights", "window_steps"],
+        "interpolation": ["blend", "checked_weights", "chosen_marks"],
+        "joining": ["join", "lay_window_on"],
+        "inertialization": ["inertialize"],
+    },
+)

@@ -1,0 +1,88 @@
+"""Weights over a transition: how much of the first motion each frame of a blend holds."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.errors import MocapError
+
+
+def cubic_weights(window: int) -> Array:
+    """Give the weights α of the first motion over a transition, C¹ at both ends [KGP02, Eq. 7].
+
+    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1: it falls from nearly 1 to 0,
+    and is level where it would reach 1 (at p = -1) and 0.
+
+    Parameters
+    ----------
+    window : frames k of the transition.
+
+    Returns
+    -------
+    Shape (k,).
+
+    Examples
+    --------
+    >>> cubic_weights(4)
+    array([0.84375, 0.5    , 0.15625, 0.     ])
+
+    Notebook: 04-blending
+    """
+    t = window_steps(window)
+    return np.asarray(2 * t**3 - 3 * t**2 + 1)
+
+
+def linear_weights(window: int) -> Array:
+    """Give weights that fall evenly, α(p) = 1 - (p+1)/k: continuous, but with a kink at both ends.
+
+    Examples
+    --------
+    >>> linear_weights(4)
+    array([0.75, 0.5 , 0.25, 0.  ])
+
+    Notebook: 04-blending
+    """
+    return 1 - window_steps(window)
+
+
+def quintic_weights(window: int) -> Array:
+    """Give weights that are C² at both ends, so that accelerations do not jump either.
+
+    α(p) = 1 - 10 t³ + 15 t⁴ - 6 t⁵ with t = (p+1)/k, the lowest polynomial that is level and not curved
+    where it reaches 1 and 0.
+
+    Examples
+    --------
+    >>> quintic_weights(4).round(4)
+    array([0.8965, 0.5   , 0.1035, 0.    ])
+
+    Notebook: 04-blending
+    """
+    t = window_steps(window)
+    return np.asarray(1 - t**3 * (10 - 15 * t + 6 * t**2))
+
+
+def sine_weights(window: int) -> Array:
+    """Give the homework's weights, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, where k was 50.
+
+    Unlike the others they hold 1 in the first frame of the window: a frame is spent at either end.
+
+    Examples
+    --------
+    >>> sine_weights(5).round(4)
+    array([1.    , 0.8536, 0.5   , 0.1464, 0.    ])
+
+    Notebook: 04-blending
+    """
+    if window < 2:
+        raise MocapError(f"Sine weights need a window of at least two frames, got {window}.")
+    return np.asarray((1 - np.sin(np.linspace(-np.pi / 2, np.pi / 2, window))) / 2)
+
+
+def window_steps(window: int) -> Array:
+    """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last.
+
+    Notebook: 04-blending
+    """
+    if window < 1:
+        raise MocapError(f"A window needs at least one frame, got {window}.")
+    return np.arange(1, window + 1) / window

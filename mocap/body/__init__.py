@@ -1,0 +1,47 @@
+"""What a moving body is: a skeleton, its pose in every frame, and how to turn and move it.
+
+A `Motion` is a `Skeleton` plus arrays: where the root is and how each joint is turned, frame by frame. All
+other rooms stand on this one.
+
+Reading order (notebooks 01, 03)
+--------------------------------
+1. `skeleton`: a tree of joints
+2. `motion`: the body over time; other frame rates; clips in a row
+3. `rotations`: unit quaternions (w, x, y, z) as arrays: product, slerp, conversions
+4. `kinematics`: forward kinematics: from rotations to where every joint is
+5. `planar`: turns about the vertical and moves over the ground
+6. `euler`: Euler angles and their traps
+7. `ground_path`: lines on the ground, by metres along them
+8. `limbs`: which joints are the legs
+9. `two_bone_ik`: bend a limb of two bones to a target
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules=["rotations", "euler", "kinematics"],
+    submod_attrs={
+        "skeleton": ["Skeleton"],
+        "motion": ["Motion", "resample", "concatenate", "require_alike", "turning"],
+        "kinematics": ["GlobalPoses", "forward_kinematics", "joint_positions", "velocities"],
+        "planar": ["PlanarTransform", "heading", "place", "on_ground"],
+        "ground_path": [
+            "GroundPath",
+            "spline",
+            "arcs",
+            "circle",
+            "s_curve",
+            "rounded_square",
+            "figure_eight",
+            "letter_s",
+            "SHAPES",
+        ],
+        "limbs": ["Leg", "find_legs", "name_leg"],
+        "two_bone_ik": ["TwoBone", "two_bone"],
+    },
+)

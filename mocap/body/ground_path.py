@@ -1,0 +1,183 @@
+"""Lines on the ground to walk along: polylines, splines, and a few shapes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+
+from mocap._shared.arrays import Array, frozen
+from mocap.errors import MocapError
+
+FINE = 0.02  # metres between the points of a curve
+
+
+@dataclass(frozen=True, eq=False)
+class GroundPath:
+    """A polyline on the ground.
+
+    Parameters
+    ----------
+    points : shape (N, 2), (x, z) in metres; of points that repeat the one before, only the first is kept.
+
+    Raises
+    ------
+    MocapError : for fewer than two points, a length of zero, or a number that is not finite.
+
+    Examples
+    --------
+    >>> corner = GroundPath([[0, 0], [0, 3], [0, 3], [4, 3]])
+    >>> corner, corner.at(4.0)
+    (GroundPath(3 points, 7.0 m), array([1., 3.]))
+
+    Notebook: 08-path-synthesis
+    """
+
+    points: Array
+
+    def __post_init__(self) -> None:
+        points = np.asarray(self.points, float)
+        if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
+            raise MocapError(f"A path needs two points (x, z) or more, got an array {points.shape}.")
+        if not np.isfinite(points).all():
+            point = int(np.isfinite(points).all(axis=1).argmin())
+            raise MocapError(f"Point {point} of the path is not finite: {points[point].tolist()}.")
+        if np.abs(points).max() > 1e6:
+            raise MocapError(f"The path lies {np.abs(points).max():.3g} m away: is it in metres?")
+        moved = np.concatenate([[True], (np.diff(points, axis=0) != 0).any(axis=1)])
+        if moved.sum() < 2:
+            raise MocapError("The path has zero length: all its points are one.")
+        object.__setattr__(self, "points", frozen(points[moved], np.float64))
+
+    def __repr__(self) -> str:
+        return f"GroundPath({len(self.points)} points, {self.length:.1f} m)"
+
+    @property
+    def along(self) -> Array:
+        """Metres from the start to each point, shape (N,)."""
+        return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))])
+
+    @property
+    def length(self) -> float:
+        """Metres from the first point to the last."""
+        return float(self.along[-1])
+
+    def at(self, along: ArrayLike) -> Array:
+        """Give the points (..., 2) so many metres along; past either end that end."""
+        along = np.asarray(along, float)
+        return np.stack([np.interp(along, self.along, axis) for axis in self.points.T], axis=-1)
+
+    def resampled(self, spacing: float) -> GroundPath:
+        """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by that much."""
+        if not (np.isfinite(spacing) and spacing > 0):
+            raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
+        return GroundPath(self.at(np.linspace(0, self.length, int(np.ceil(self.length / spacing)) + 1)))
+
+
+def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
+    """Draw a smooth curve through some points, C² where it passes them.
+
+    A cubic spline over the square roots of the chords, which neither overshoots nor loops where points
+    lie close together.
+
+    Parameters
+    ----------
+    points : shape (N, 2), (x, z) in metres.
+    closed : whether it comes back to the first point.
+
+    Returns
+    -------
+    The curve, a point every 2 cm.
+
+    Examples
+    --------
+    >>> spline([[0, 0], [1, 1], [0, 2], [-1, 1]], closed=True)
+    GroundPath(311 points, 6.2 m)
+
+    Notebook: 08-path-synthesis
+    """
+    through = GroundPath(np.asarray(points, float)).points
+    if closed:
+        through = GroundPath(np.vstack([through, through[:1]])).points
+    knots = np.concatenate([[0.0], np.cumsum(np.sqrt(np.hypot(*np.diff(through, axis=0).T)))])
+    curve = CubicSpline(knots, through, bc_type="periodic" if closed else "natural")
+    between = np.linspace(0, knots[-1], 50 * len(knots))
+    return GroundPath(curve(between)).resampled(FINE)
+
+
+def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, float]]) -> GroundPath:
+    """Draw a line of arcs, each going on where and as the one before ends.
+
+    Parameters
+    ----------
+    start : (x, z), metres.
+    heading : radians; 0 goes towards +z, π/2 towards +x.
+    pieces : (length in metres, turn in radians, to the left where above 0); a turn of 0 goes straight on.
+
+    Examples
+    --------
+    >>> arcs((0, 0), 0.0, [(2.0, 0.0), (np.pi / 2, np.pi / 2)]).points[-1].round(2)
+    array([1., 3.])
+
+    Notebook: 08-path-synthesis
+    """
+    steps, turns = [], []
+    for length, turn in pieces:
+        count = max(2, int(np.ceil(length / FINE)))
+        steps.append(np.full(count, length / count))
+        turns.append(np.full(count, turn / count))
+    each = np.concatenate(turns)
+    facing = heading + np.cumsum(each) - each / 2  # half-way through each step
+    move = np.concatenate(steps)[:, None] * np.stack([np.sin(facing), np.cos(facing)], axis=1)
+    return GroundPath(np.vstack([start, np.asarray(start) + np.cumsum(move, axis=0)]))
+
+
+def circle(radius: float = 3.0) -> GroundPath:
+    """Draw a circle to the left.
+
+    Notebook: 10-real-data
+    """
+    return arcs((0, 0), 0.0, [(2 * np.pi * radius, 2 * np.pi)])
+
+
+def s_curve(length: float = 20.0) -> GroundPath:
+    """Draw two bends, one to the right and one to the left, of nearly half a turn each.
+
+    Notebook: 08-path-synthesis
+    """
+    bend = 0.9 * np.pi
+    return arcs((0, 0), bend / 2, [(length / 2, -bend), (length / 2, bend)])
+
+
+def rounded_square(side: float = 6.0, radius: float = 1.5) -> GroundPath:
+    """Draw a square with rounded corners, to the left."""
+    corner = (radius * np.pi / 2, np.pi / 2)
+    half = (side / 2 - radius, 0.0)
+    return arcs((0, 0), 0.0, [half, corner, *[(side - 2 * radius, 0.0), corner] * 3, half])
+
+
+def figure_eight(radius: float = 2.5) -> GroundPath:
+    """Draw a loop to the left and one to the right, joined by straight lines that cross."""
+    loop = (1.5 * np.pi * radius, 1.5 * np.pi)
+    pieces = [(radius, 0.0), loop, (2 * radius, 0.0), (loop[0], -loop[1]), (radius, 0.0)]
+    return arcs((0, 0), -np.pi / 4, pieces)
+
+
+def letter_s(radius: float = 1.5) -> GroundPath:
+    """Draw a letter S, from its upper end to its lower end.
+
+    Notebook: 08-path-synthesis
+    """
+    return arcs((0, 0), 0.0, [(1.25 * np.pi * radius, 1.25 * np.pi), (1.25 * np.pi * radius, -1.25 * np.pi)])
+
+
+SHAPES = {
+    "S-curve": s_curve,
+    "circle": circle,
+    "square": rounded_square,
+    "figure of eight": figure_eight,
+    "letter S": letter_s,
+}
+"""The shapes by name, each called without arguments."""

@@ -1,0 +1,84 @@
+"""From local rotations to where every joint is: forward kinematics, and velocities."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+
+
+class GlobalPoses(NamedTuple):
+    """Where the joints are, `positions` (F, J, 3) in metres; how they are turned, `matrices` (F, J, 3, 3)."""
+
+    positions: Array
+    matrices: Array
+
+
+def forward_kinematics(motion: Motion) -> GlobalPoses:
+    """Place every joint in the world, from the root down the tree.
+
+    R_j = R_parent · L_j and p_j = p_parent + R_parent · offset_j, where L_j is the joint's own rotation.
+
+    Parameters
+    ----------
+    motion : F frames of J joints.
+
+    Returns
+    -------
+    Positions (F, J, 3), metres, and rotation matrices (F, J, 3, 3).
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> arm = Skeleton(["shoulder", "hand"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
+    >>> turn = Motion(arm, [[0, 2, 0]], [[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]], 30.0)
+    >>> forward_kinematics(turn).positions[0, 1].round(6) + 0.0
+    array([1., 2., 0.])
+
+    Notebook: 01-skeletons-and-clips
+    """
+    skeleton = motion.skeleton
+    positions = np.empty((len(skeleton), len(motion), 3))  # a joint's frames together
+    matrices = np.empty((len(skeleton), len(motion), 3, 3))
+    positions[0], matrices[0] = motion.root_positions, rotations.to_matrix(motion.rotations[:, 0])
+    for joint in range(1, len(skeleton)):
+        above = matrices[skeleton.parents[joint]]
+        matrices[joint] = above @ rotations.to_matrix(motion.rotations[:, joint])
+        moved = np.einsum("fij,j->fi", above, skeleton.offsets[joint])
+        positions[joint] = positions[skeleton.parents[joint]] + moved
+    return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
+
+
+def joint_positions(motion: Motion) -> Array:
+    """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres.
+
+    Notebook: 01-skeletons-and-clips
+    """
+    return forward_kinematics(motion).positions
+
+
+def velocities(positions: Array, fps: float) -> Array:
+    """Differentiate positions over frames: central differences, one-sided at both ends.
+
+    Parameters
+    ----------
+    positions : shape (F, ...), metres; at least two frames.
+    fps : frames a second.
+
+    Returns
+    -------
+    Shape (F, ...), metres a second.
+
+    Examples
+    --------
+    >>> velocities(np.array([0.0, 1.0, 2.0]), 30.0)
+    array([30., 30., 30.])
+
+    Notebook: 01-skeletons-and-clips
+    """
+    if len(positions) < 2:
+        raise MocapError(f"A velocity needs at least two frames, got {len(positions)}.")
+    return np.asarray(np.gradient(positions, 1 / fps, axis=0))

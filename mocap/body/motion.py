@@ -1,0 +1,231 @@
+"""The body over time: a skeleton's pose in every frame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.arrays import Array, frozen
+from mocap.body import rotations
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError, SkeletonMismatch
+
+Marks = Mapping[str, NDArray[np.bool_]]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A skeleton's pose in F frames at a steady rate.
+
+    Parameters
+    ----------
+    skeleton : the joints.
+    root_positions : shape (F, 3), metres, y up.
+    rotations : shape (F, J, 4), unit quaternions (w, x, y, z) relative to the parent's frame.
+    fps : frames a second.
+    name : what errors and pictures call it.
+    labels : what kind of motion each frame is, as {label: (F,) booleans}; one boolean stands for all frames.
+    contacts : which joints stand on the ground, as {joint: (F,) booleans}.
+
+    Raises
+    ------
+    MocapError : for wrong shapes, no frames, numbers that are not finite, or quaternions not of length 1.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> still = Motion(bone, np.zeros((9, 3)), np.tile([1.0, 0, 0, 0], (9, 2, 1)), 30.0, "still")
+    >>> still, still[2:5], still[::3].fps
+    (Motion('still', 9 frames at 30 Hz, 2 joints), Motion('still', 3 frames at 30 Hz, 2 joints), 10.0)
+
+    Notebook: 01-skeletons-and-clips
+    """
+
+    skeleton: Skeleton
+    root_positions: Array
+    rotations: Array
+    fps: float
+    name: str = "motion"
+    labels: Marks = field(default_factory=dict)
+    contacts: Marks = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for key in ("root_positions", "rotations"):
+            object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
+        object.__setattr__(self, "fps", float(self.fps))
+        self._check_numbers()
+        for key in ("labels", "contacts"):
+            marks = {str(name): self._mark(name, mark) for name, mark in getattr(self, key).items()}
+            object.__setattr__(self, key, marks)
+        for joint in self.contacts:
+            self.skeleton.index(joint)
+
+    def _check_numbers(self) -> None:
+        frames, joints = len(self.root_positions), len(self.skeleton)
+        if frames == 0:
+            raise MocapError(f"Motion '{self.name}' has no frames.")
+        if self.root_positions.shape != (frames, 3) or self.rotations.shape != (frames, joints, 4):
+            raise MocapError(
+                f"Motion '{self.name}' of {joints} joints needs root positions (F, 3) and rotations "
+                f"(F, {joints}, 4), got {self.root_positions.shape} and {self.rotations.shape}."
+            )
+        if not (np.isfinite(self.fps) and self.fps > 0):
+            raise MocapError(f"Motion '{self.name}' needs a frame rate above 0, got {self.fps}.")
+        finite = np.isfinite(self.root_positions).all(-1) & np.isfinite(self.rotations).all((-2, -1))
+        if not finite.all():
+            raise MocapError(
+                f"Motion '{self.name}' holds a number that is not finite in frame {int(finite.argmin())}."
+            )
+        error = np.abs(np.sqrt(np.einsum("fjk,fjk->fj", self.rotations, self.rotations)) - 1)
+        if error.max() > 1e-6:
+            frame, joint = np.unravel_index(error.argmax(), error.shape)
+            raise MocapError(
+                f"Motion '{self.name}', frame {frame}, joint '{self.skeleton.names[joint]}': "
+                "the quaternion does not have length 1."
+            )
+
+    def _mark(self, name: str, mark: ArrayLike) -> NDArray[np.generic]:
+        if np.shape(mark) not in ((), (len(self),)):
+            raise MocapError(
+                f"Motion '{self.name}': mark '{name}' needs {len(self)} booleans, got shape {np.shape(mark)}."
+            )
+        return frozen(np.broadcast_to(np.asarray(mark, bool), (len(self),)), np.bool_)
+
+    def __len__(self) -> int:
+        return len(self.root_positions)
+
+    def __repr__(self) -> str:
+        return f"Motion('{self.name}', {len(self)} frames at {self.fps:g} Hz, {len(self.skeleton)} joints)"
+
+    def __getitem__(self, frames: slice) -> Motion:
+        """Take a stretch of frames; a step of n divides the frame rate by n."""
+        step = frames.step or 1
+        if step < 1:
+            raise MocapError(f"Frames run forwards only; got a step of {step}.")
+        return replace(
+            self,
+            root_positions=self.root_positions[frames],
+            rotations=self.rotations[frames],
+            fps=self.fps / step,
+            labels={name: mark[frames] for name, mark in self.labels.items()},
+            contacts={name: mark[frames] for name, mark in self.contacts.items()},
+        )
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first frame to the last."""
+        return (len(self) - 1) / self.fps
+
+
+def turning(motion: Motion) -> NDArray[np.bool_]:
+    """Tell which joints, shape (J,), ever turn against their parents by more than the noise of computing."""
+    return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
+
+
+def resample(motion: Motion, fps: float) -> Motion:
+    """Show a motion at another frame rate: roots interpolated on lines, rotations by slerp.
+
+    Parameters
+    ----------
+    motion : F frames.
+    fps : the new rate; at the motion's own rate it comes back as it is.
+
+    Returns
+    -------
+    floor(duration · fps) + 1 frames, the first one unchanged; marks from the nearest frame.
+
+    Examples
+    --------
+    >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
+    >>> slide = Motion(bone, [[0, 0, 0], [1, 0, 0]], np.tile([1.0, 0, 0, 0], (2, 1, 1)), 1.0)
+    >>> resample(slide, 4.0).root_positions[:, 0]
+    array([0.  , 0.25, 0.5 , 0.75, 1.  ])
+
+    Notebook: 01-skeletons-and-clips
+    """
+    if not (np.isfinite(fps) and fps > 0):
+        raise MocapError(f"A frame rate must be above 0, got {fps}.")
+    if fps == motion.fps:
+        return motion
+    times = np.arange(int(motion.duration * fps + 1e-9) + 1) * (motion.fps / fps)  # in old frames
+    before = np.minimum(times.astype(int), len(motion) - 1)
+    after = np.minimum(before + 1, len(motion) - 1)
+    amount = times - before
+    nearest = np.where(amount < 0.5, before, after)
+    roots = motion.root_positions
+    return replace(
+        motion,
+        root_positions=roots[before] + amount[:, None] * (roots[after] - roots[before]),
+        rotations=rotations.slerp(motion.rotations[before], motion.rotations[after], amount[:, None]),
+        fps=fps,
+        labels={name: mark[nearest] for name, mark in motion.labels.items()},
+        contacts={name: mark[nearest] for name, mark in motion.contacts.items()},
+    )
+
+
+def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
+    """Play motions one after the other, as they are: nothing is aligned or blended.
+
+    Parameters
+    ----------
+    motions : one or more, with one skeleton and one frame rate.
+    name : the new name; the first motion's by default.
+
+    Returns
+    -------
+    All their frames; a mark that one of them lacks is off there.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for different skeletons or rates, or an empty list.
+
+    Examples
+    --------
+    >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
+    >>> still = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "still")
+    >>> concatenate([still, still], "stiller")
+    Motion('stiller', 8 frames at 30 Hz, 1 joints)
+
+    Notebook: 01-skeletons-and-clips
+    """
+    if not motions:
+        raise MocapError("There is nothing to concatenate.")
+    first = motions[0]
+    require_alike(motions)
+    return replace(
+        first,
+        root_positions=np.concatenate([m.root_positions for m in motions]),
+        rotations=np.concatenate([m.rotations for m in motions]),
+        name=name or first.name,
+        labels=_joined_marks([(m.labels, len(m)) for m in motions]),
+        contacts=_joined_marks([(m.contacts, len(m)) for m in motions]),
+    )
+
+
+def require_alike(motions: Sequence[Motion]) -> None:
+    """Raise unless all motions share one skeleton and one frame rate.
+
+    Notebook: 04-blending
+    """
+    for motion in motions[1:]:
+        try:
+            motions[0].skeleton.require_same(motion.skeleton)
+        except SkeletonMismatch as error:
+            raise SkeletonMismatch(f"'{motions[0].name}' and '{motion.name}': {error}") from None
+        if motion.fps != motions[0].fps:
+            raise MocapError(
+                f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz: "
+                "resample one first."
+            )
+
+
+def _joined_marks(parts: Sequence[tuple[Marks, int]]) -> dict[str, NDArray[np.bool_]]:
+    names = list(dict.fromkeys(name for marks, _ in parts for name in marks))
+    return {
+        name: np.concatenate([marks.get(name, np.zeros(frames, bool)) for marks, frames in parts])
+        for name in names
+    }

@@ -1,0 +1,135 @@
+"""The body: a tree of joints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array, frozen
+from mocap.errors import MocapError, SkeletonMismatch
+
+_SIDES = [("left", "right"), ("Left", "Right"), ("_l", "_r"), ("_L", "_R"), ("l", "r"), ("L", "R")]
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """A tree of joints; end sites are ordinary joints without children.
+
+    Parameters
+    ----------
+    names : J unique names.
+    parents : shape (J,), the index of each joint's parent; -1 for joint 0, the root, and
+        `parents[j] < j` for every other.
+    offsets : shape (J, 3), metres: where a joint sits in the frame of its parent.
+    axes : shape (J, 4), quaternions C: how a file's own axes of a joint are turned against those of its
+        parent's frame, so that angles M in the file mean the rotation C M C⁻¹; by default not at all.
+    dofs : the axes about which a joint can turn, in the order of turning about fixed axes, such as "xyz" or
+        "x"; by default "xyz", and "" for a joint without children. Like `axes`, they say how a file tells
+        the motion's angles; a motion itself may turn any joint any way.
+
+    Raises
+    ------
+    MocapError : where one of these does not hold.
+
+    Examples
+    --------
+    >>> leg = Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
+    >>> len(leg), leg.index("knee"), leg.children(1)
+    (3, 1, [2])
+
+    Notebook: 01-skeletons-and-clips
+    """
+
+    names: Sequence[str]
+    parents: NDArray[np.intp]
+    offsets: Array
+    axes: Array = field(default_factory=lambda: np.empty((0, 4)))
+    dofs: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "names", tuple(self.names))
+        object.__setattr__(self, "parents", frozen(self.parents, np.intp))
+        object.__setattr__(self, "offsets", frozen(self.offsets, np.float64))
+        self._check_tree()
+        count = len(self.names)
+        unturned = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+        object.__setattr__(self, "axes", frozen(self.axes if len(self.axes) else unturned, np.float64))
+        free = ["xyz" if joint in self.parents else "" for joint in range(count)]
+        object.__setattr__(self, "dofs", tuple(self.dofs or free))
+        if self.axes.shape != (count, 4) or not np.allclose(np.linalg.norm(self.axes, axis=-1), 1):
+            raise MocapError(f"{count} joints need axes ({count}, 4) of length 1, got {self.axes.shape}.")
+        if len(self.dofs) != count or not all(
+            set(d) <= set("xyz") and len(set(d)) == len(d) for d in self.dofs
+        ):
+            raise MocapError(f"{count} joints need as many dofs, such as 'xyz', 'x' or '', got {self.dofs}.")
+
+    def _check_tree(self) -> None:
+        count = len(self.names)
+        if count == 0:
+            raise MocapError("A skeleton needs at least one joint.")
+        if len(set(self.names)) < count:
+            twice = sorted({name for name in self.names if self.names.count(name) > 1})
+            raise MocapError(f"Joint names must be unique; given twice: {', '.join(twice)}.")
+        if self.parents.shape != (count,) or self.offsets.shape != (count, 3):
+            raise MocapError(
+                f"{count} joints need parents ({count},) and offsets ({count}, 3), "
+                f"got {self.parents.shape} and {self.offsets.shape}."
+            )
+        if self.parents[0] != -1 or np.any(self.parents[1:] < 0):
+            raise MocapError("Joint 0, and no other, is the root with parent -1.")
+        if np.any(late := self.parents >= np.arange(count)):
+            raise MocapError(f"Joint '{self.names[int(late.argmax())]}' stands before its parent.")
+        if not np.isfinite(self.offsets).all():
+            joint = self.names[int(np.argwhere(~np.isfinite(self.offsets))[0, 0])]
+            raise MocapError(f"The offset of joint '{joint}' is not a finite number.")
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __repr__(self) -> str:
+        return f"Skeleton({len(self)} joints, root '{self.names[0]}')"
+
+    def index(self, name: str) -> int:
+        """Find a joint by its name."""
+        if name not in self.names:
+            raise MocapError(f"No joint '{name}'; there are: {', '.join(self.names)}.")
+        return self.names.index(name)
+
+    def children(self, joint: int) -> list[int]:
+        """List the joints that hang on `joint`."""
+        return [int(child) for child in np.flatnonzero(self.parents == joint)]
+
+    def side(self, joint: int) -> str:
+        """Tell "left" from "right" by a joint whose name is the mirror image; "middle" where there is none.
+
+        Examples
+        --------
+        >>> body = Skeleton(["lowerback", "lfoot", "rfoot"], [-1, 0, 0], np.eye(3))
+        >>> [body.side(joint) for joint in range(3)]
+        ['middle', 'left', 'right']
+        """
+        name = self.names[joint]
+        for left, right in _SIDES:
+            if left in name and name.replace(left, right, 1) in self.names:
+                return "left"
+            if right in name and name.replace(right, left, 1) in self.names:
+                return "right"
+        return "middle"
+
+    def require_same(self, other: Skeleton) -> None:
+        """Raise `SkeletonMismatch` unless `other` has the same joints in the same tree, and as long bones."""
+        if self is other:
+            return
+        if missing := set(self.names) ^ set(other.names):
+            raise SkeletonMismatch(f"The skeletons differ in these joints: {', '.join(sorted(missing))}.")
+        if tuple(self.names) != tuple(other.names) or not np.array_equal(self.parents, other.parents):
+            raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
+        gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)
+        if gaps.max() > 1e-6:
+            joint = int(gaps.argmax())
+            raise SkeletonMismatch(
+                f"The skeletons' bones differ: '{self.names[joint]}' sits {100 * gaps[joint]:.2g} cm apart."
+            )

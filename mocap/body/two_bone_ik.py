@@ -1,0 +1,105 @@
+"""From where a limb shall end to how its two bones turn: a triangle, solved in closed form.
+
+The limb's rest pose hangs straight down: both bones along -y of their frames, the hinge along +x, so
+that bending turns the lower bone backwards, as a knee does.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.errors import MocapError
+
+
+class TwoBone(NamedTuple):
+    """How a limb lies: `middle` and `end` (..., 3) in metres, and the bones' global rotations (..., 4).
+
+    Where `reached` (...) is False the target lies too far, or too near: the limb points at it all the same.
+    """
+
+    middle: Array
+    end: Array
+    upper: Array
+    lower: Array
+    reached: NDArray[np.bool_]
+
+
+def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], bend: ArrayLike) -> TwoBone:
+    """Bend a limb of two bones so that its end meets a target.
+
+    With bones a and b and the target at distance d, the law of cosines gives the angle at the start,
+    cos α = (a² + d² - b²) / (2 a d); the plane of the bend is the one that holds the target and `bend`.
+
+    Parameters
+    ----------
+    start : shape (..., 3), metres: the hip.
+    target : shape (..., 3), metres: where the ankle shall be.
+    lengths : the two bones', metres.
+    bend : shape (..., 3): the direction the middle joint points to; forwards for a knee.
+
+    Returns
+    -------
+    A `TwoBone`; its end is the target wherever `reached` says so.
+
+    Raises
+    ------
+    MocapError : where a length is not above 0, the target sits on the start, or `bend` points along the limb.
+
+    Examples
+    --------
+    >>> leg = two_bone([0, 1, 0], [0, 0.2, 0], (0.5, 0.5), [0, 0, 1])
+    >>> leg.middle.round(6), bool(leg.reached)
+    (array([0. , 0.6, 0.3]), True)
+
+    Notebook: 04-blending
+    """
+    upper, lower = lengths
+    if not min(lengths) > 0:
+        raise MocapError(f"Both bones need a length above 0, got {upper} and {lower}.")
+    start, target, bend = np.broadcast_arrays(*(np.asarray(v, float) for v in (start, target, bend)))
+    reach, along, across = limb_frame(start, target, bend)
+    length = np.clip(reach, abs(upper - lower), upper + lower)
+    cosine = np.clip((upper**2 + length**2 - lower**2) / (2 * upper * length), -1, 1)
+    middle = start + upper * (cosine * along + np.sqrt(1 - cosine**2) * across)
+    end = start + length * along
+    hinge = np.cross(across, along)
+    return TwoBone(
+        middle,
+        end,
+        bone_rotation((middle - start) / upper, hinge),
+        bone_rotation((end - middle) / lower, hinge),
+        np.abs(reach - length)[..., 0] < 1e-9,
+    )
+
+
+def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, Array]:
+    """Measure how far the target is, (..., 1), and the directions to it and, across that, to the bend.
+
+    Raises
+    ------
+    MocapError : where the target sits on the start, or `bend` points along the limb.
+
+    Notebook: 04-blending
+    """
+    reach = np.linalg.norm(target - start, axis=-1, keepdims=True)
+    if not np.all(reach > 1e-9):
+        raise MocapError("A limb cannot end where it starts: move the target off the start.")
+    along = (target - start) / reach
+    across = bend - (bend * along).sum(-1, keepdims=True) * along
+    width = np.linalg.norm(across, axis=-1, keepdims=True)
+    if not np.all(width > 1e-9):
+        raise MocapError("The bend must not point along the limb: which way shall the middle joint go?")
+    return reach, along, across / width
+
+
+def bone_rotation(direction: Array, hinge: Array) -> Array:
+    """Turn -y onto the bone's direction and +x onto the hinge.
+
+    Notebook: 04-blending
+    """
+    return rotations.from_matrix(np.stack([hinge, -direction, np.cross(hinge, -direction)], axis=-1))

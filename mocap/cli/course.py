@@ -1,0 +1,90 @@
+"""The command `mocap course`: for those who teach from the notebooks, and those who write them."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mocap import course
+from mocap._shared.atomic import write_text
+from mocap.cli.options import bar
+
+if TYPE_CHECKING:
+    from mocap.cli.options import Commands
+
+
+def add_course(commands: "Commands") -> None:
+    """Add `mocap course`, with a command of its own for each thing to do."""
+    parser = commands.add_parser(
+        "course",
+        help="hand out, mark, publish or run the notebooks",
+        description="Hand out, mark, publish or run the notebooks of the course.",
+    )
+    doing = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
+    _add(doing, "handout", _handout, "copy the notebooks without their solutions", Path("mocap-handout"))
+    _add(doing, "site", _site, "write the course as HTML pages that need no network", Path("mocap-site"))
+    _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
+    mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
+    mark.add_argument("folder", type=Path, help="folder with the notebooks, such as name/02-matching.ipynb")
+    run = doing.add_parser("run", help="run notebooks anew and store them with their outputs")
+    run.add_argument("notebooks", nargs="*", type=Path, help="(default: all of the checkout)")
+    run.set_defaults(run=_run)
+
+
+def _add(commands: "Commands", name: str, run: object, what: str, out: Path) -> argparse.ArgumentParser:
+    command = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
+    command.add_argument("-o", "--out", type=Path, default=out, help="where to (default: %(default)s)")
+    command.set_defaults(run=run)
+    return command
+
+
+def _handout(options: argparse.Namespace) -> int:
+    copies = course.hand_out(course.stored(), options.out)
+    print(f"wrote {len(copies)} notebooks to {options.out}")
+    return 0
+
+
+def _site(options: argparse.Namespace) -> int:
+    print(f"wrote {course.build_site(course.stored(), options.out, bar('converting'))}")
+    return 0
+
+
+def _lite(options: argparse.Namespace) -> int:
+    print(f"wrote {course.build_lite(course.stored(), options.out)}")
+    return 0
+
+
+def _mark(options: argparse.Namespace) -> int:
+    marks = []
+    try:
+        for one in course.mark(options.folder, bar("marking")):
+            marks.append(one)  # one by one: what is marked stays, even after Ctrl-C
+    finally:
+        if marks:
+            write_text(options.out, course.to_csv(marks))
+    right = sum(mark.right for mark in marks)
+    print(f"wrote {options.out}: {right} of {len(marks)} are right")
+    return 0
+
+
+def _run(options: argparse.Namespace) -> int:
+    folder = course.stored()
+    for notebook in bar("running")(options.notebooks or sorted(folder.glob("*.ipynb"))):
+        course.run(notebook, folder.parent / "figures")
+    return 0
+
+
+def add_lab(commands: "Commands") -> None:
+    """Add `mocap lab`."""
+    lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
+    lab.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        default=Path("mocap-course"),
+        help="where an installed package puts its copy of the notebooks (default: %(default)s)",
+    )
+    lab.set_defaults(run=_lab)
+
+
+def _lab(options: argparse.Namespace) -> int:
+    return int(course.open_course(options.folder))

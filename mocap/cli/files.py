@@ -1,0 +1,87 @@
+"""The commands about files: `mocap info`, `mocap convert` and `mocap data`."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mocap import datasets, files, quality
+from mocap.cli.options import add_reading, bar
+
+if TYPE_CHECKING:
+    from mocap.cli.options import Commands
+
+
+def add_info(commands: "Commands") -> None:
+    """Add `mocap info`."""
+    info = commands.add_parser(
+        "info",
+        help="tell a clip's length, path and flaws",
+        description="Tell how long a clip is, how far and where it goes, and what is wrong with it.",
+    )
+    info.add_argument("file", type=Path, help="an .amc or .bvh file")
+    add_reading(info)
+    info.set_defaults(run=_info)
+
+
+def _info(options: argparse.Namespace) -> int:
+    motion = files.load(options.file, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+    angles = files.read_angles(options.file, skeleton=options.skeleton)
+    print(quality.inspect(motion, angles).table())
+    return 0
+
+
+def add_convert(commands: "Commands") -> None:
+    """Add `mocap convert`."""
+    convert = commands.add_parser(
+        "convert",
+        help="convert clips between .amc and .bvh, whole folders too",
+        description="Convert a clip to the format of the other name's suffix, or all clips in a folder and "
+        "its folders. An .amc gets an .asf beside it. Lengths in a .bvh are centimetres.",
+    )
+    convert.add_argument("source", type=Path, metavar="IN", help="an .amc or .bvh file, or a folder")
+    convert.add_argument("target", type=Path, metavar="OUT", help="the new file, or folder")
+    add_reading(convert)
+    convert.add_argument(
+        "--to",
+        choices=["amc", "bvh"],
+        default="bvh",
+        help="format for a folder's clips (default: %(default)s)",
+    )
+    convert.add_argument(
+        "--widen", action="store_true", help="let all bones of a new .asf turn about three axes"
+    )
+    convert.set_defaults(run=_convert)
+
+
+def _convert(options: argparse.Namespace) -> int:
+    """Convert, and give 2 if any file failed."""
+    pairs = files.plan(options.source, options.target, f".{options.to}")
+    reading = files.Options(options.skeleton, options.fps, options.scale, options.widen)
+    outcomes = files.convert(pairs, reading, bar("converting"))
+    failed = [outcome for outcome in outcomes if outcome.problem]
+    print(f"{'converted':<10} {len(outcomes) - len(failed)} of {len(outcomes)}")
+    for outcome in failed:
+        print(f"{'failed':<10} {outcome.problem}")
+    return 2 if failed else 0
+
+
+def add_data(commands: "Commands") -> None:
+    """Add `mocap data list`."""
+    data = commands.add_parser("data", help="list clips to download", description="Clips to download.")
+    actions = data.add_subparsers(title="actions", required=True, metavar="ACTION")
+    listing = actions.add_parser(
+        "list",
+        help="list the trials of the CMU database that datasets.cmu fetches",
+        description="List the trials of the CMU database that datasets.cmu fetches by name.",
+    )
+    listing.add_argument("--subject", type=int, help="only this person's trials")
+    listing.add_argument("--kind", help="only trials with this word in their description")
+    listing.set_defaults(run=_list)
+
+
+def _list(options: argparse.Namespace) -> int:
+    print(f"{'trial':<8} {'frames':>6}  description")
+    for trial in datasets.trials(options.subject, options.kind):
+        print(f"{trial.name:<8} {trial.frames:>6}  {trial.description}")
+    print(f"\n{datasets.TERMS}")
+    return 0

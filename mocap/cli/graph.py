@@ -1,0 +1,76 @@
+"""The command `mocap graph`: build a motion graph and save it, or tell about a saved one."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mocap import body, files, graphs
+from mocap.cli.options import add_building, bar, window_frames
+
+if TYPE_CHECKING:
+    from mocap.cli.options import Commands
+
+ACTIONS = ("build", "info", "-h", "--help")
+
+
+def add_graph(commands: "Commands") -> None:
+    """Add `mocap graph build` and `mocap graph info`."""
+    graph = commands.add_parser(
+        "graph",
+        help="build a motion graph and save it, or tell about a saved one",
+        usage="mocap graph [build] CLIPS... -o graph.npz\n       mocap graph info graph.npz",
+        description="Build the motion graph of some clips, prune it and save it; or tell what a saved graph "
+        "can play. Without a word `mocap graph` builds; a folder of clips named info is ./info.",
+    )
+    actions = graph.add_subparsers(title="actions", required=True, metavar="ACTION")
+    build = actions.add_parser(
+        "build",
+        help="build a motion graph, prune it and save it",
+        description="Build the motion graph of some clips, prune it and save it.",
+    )
+    add = build.add_argument
+    add("clips", nargs="+", type=Path, help=".amc or .bvh files or folders of them")
+    add("-o", "--out", type=Path, default=Path("graph.npz"), help="file to write (default: %(default)s)")
+    add_building(build)
+    add("--by-labels", action="store_true", help="keep the largest component of each set of labels")
+    add("--whole", action="store_true", help="do not prune")
+    add("--graphml", type=Path, help="write the graph for other tools as well, as .graphml")
+    build.set_defaults(run=_build)
+    info = actions.add_parser(
+        "info", help="tell what a saved graph can play", description="Tell what a saved graph can play."
+    )
+    info.add_argument("file", type=Path, help="an .npz file from `mocap graph`")
+    info.set_defaults(run=_info)
+
+
+def _build(options: argparse.Namespace) -> int:
+    graphs.require_suffix(options.out, ".npz")
+    graphs.require_suffix(options.graphml or "x.graphml", ".graphml")
+    window = window_frames(options.window, options.fps)
+    clips = files.load_all(
+        options.clips, skeleton=options.skeleton, scale=options.scale, progress=bar("reading")
+    )
+    graph = graphs.build(
+        [body.resample(clip, options.fps) for clip in clips],
+        window=window,
+        threshold=options.threshold / 100,
+        progress=bar("comparing"),
+    )
+    if not options.whole:
+        graph = graphs.prune(graph, by_labels=options.by_labels)
+    print(graphs.summary(graph.graph, fps=graph.fps).table())
+    graphs.save(graph, options.out)
+    print(f"{'wrote':<12} {options.out}")
+    if options.graphml:
+        graphs.write_graphml(graph, options.graphml)
+        print(f"{'wrote':<12} {options.graphml}")
+    return 0
+
+
+def _info(options: argparse.Namespace) -> int:
+    found = graphs.read(options.file)
+    for name, frames in zip(found.names, found.frames, strict=True):
+        print(f"{'clip':<12} {name}: {frames} frames at {found.fps:g} Hz, {frames / found.fps:.1f} s")
+    print(f"{'window':<12} {found.window} frames, {found.window / found.fps:.2f} s")
+    print(graphs.summary(found.graph, fps=found.fps).table())
+    return 0

@@ -1,0 +1,38 @@
+"""The command `mocap view`: play a clip in the browser."""
+
+import argparse
+import sys
+import tempfile
+import webbrowser
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mocap import files, widgets
+from mocap.cli.options import add_reading, bar
+
+if TYPE_CHECKING:
+    from mocap.cli.options import Commands
+
+
+def add_view(commands: "Commands") -> None:
+    """Add `mocap view`."""
+    view = commands.add_parser(
+        "view",
+        help="play a clip in the browser",
+        description="Play a clip in the browser, on a page that needs nothing else and can be passed on.",
+    )
+    add = view.add_argument
+    add("clip", type=Path, help="an .amc or .bvh file")
+    add("-o", "--out", type=Path, help="keep the page, or a .gif, .mp4 or .png instead, and open no browser")
+    add_reading(view)
+    view.set_defaults(run=_view)
+
+
+def _view(options: argparse.Namespace) -> int:
+    clip = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+    out = options.out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{options.clip.stem}.html")
+    widgets.save_animation(clip, out, progress=bar("drawing"))
+    print(f"{'wrote':<12} {out}")
+    if options.out is None and not webbrowser.open(out.as_uri()):
+        print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
+    return 0

@@ -1,0 +1,114 @@
+"""The command `mocap walk`: out of a saved graph, along a path or at random."""
+
+import argparse
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mocap import body, files, graphs, steering, synthesis
+from mocap.cli.options import bar
+from mocap.errors import MocapError
+
+if TYPE_CHECKING:
+    from mocap.cli.options import Commands
+    from mocap.graphs.motion_graph import MotionGraph
+    from mocap.steering.path_following import Followed
+
+UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def add_walk(commands: "Commands") -> None:
+    """Add `mocap walk`."""
+    walk = commands.add_parser(
+        "walk",
+        help="walk through a saved graph, along a path or at random",
+        description="Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at "
+        "random, and write the motion as .bvh (centimetres).",
+    )
+    add = walk.add_argument
+    add("graph", type=Path, help="an .npz file from `mocap graph`")
+    what = walk.add_mutually_exclusive_group(required=True)
+    what.add_argument("--path", type=Path, help="a .csv file of points x, z in metres, or an .svg picture")
+    what.add_argument("--random", metavar="TIME", help="how long to wander, such as 60s, 10min or 1h")
+    add("-o", "--out", type=Path, default=Path("walk.bvh"), help="file to write (default: %(default)s)")
+    add(
+        "--clips",
+        nargs="+",
+        type=Path,
+        help="the clips that the graph was built of (default: those beside it, or the bundled ones)",
+    )
+    add("--skeleton", type=Path, help="the .asf file of .amc clips (default: the one beside that fits)")
+    add("--unit", type=float, help="metres in a unit of the path (default: 1; for .svg 0.01)")
+    wish = "from so far along the path on, this kind of motion; may be given many times"
+    add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
+    add("--width", type=int, default=100, help="how thoroughly to search (default: %(default)s)")
+    add("--clean", action="store_true", help="make planted feet stand still")
+    add("--seed", type=int, default=0, help="another seed, another random walk (default: %(default)s)")
+    walk.set_defaults(run=_walk)
+
+
+def _walk(options: argparse.Namespace) -> int:
+
+    if options.out.suffix.lower() != ".bvh":
+        raise MocapError(f"A walk is written as .bvh, got '{options.out}'.")
+    if options.random is not None:
+        seconds, graph = _seconds(options.random), _graph(options)
+        frames = synthesis.dump(
+            graph,
+            options.out,
+            seconds=seconds,
+            seed=options.seed,
+            clean=options.clean,
+            progress=bar("writing"),
+        )
+        print(f"{'walked':<12} {frames / graph.fps:.1f} s at random")
+    else:
+        followed = _followed(options)
+        print(f"{'walked':<12} {followed.report()}")
+        files.save(followed.motion(clean=options.clean), options.out)
+    print(f"{'wrote':<12} {options.out}")
+    return 0
+
+
+def _followed(options: argparse.Namespace) -> "Followed":
+
+    path = files.load_path(options.path, scale=options.unit)
+    wishes = steering.Wishes(labels=[_label(text) for text in options.label])
+    beam = steering.Beam(width=options.width, progress=bar("searching"))
+    followed: Followed = steering.follow_path(_graph(options), path, wishes, beam=beam)
+    return followed
+
+
+def _seconds(text: str) -> float:
+    """Read a duration.
+
+    Examples
+    --------
+    >>> _seconds("60s"), _seconds("1.5min"), _seconds("2")
+    (60.0, 90.0, 2.0)
+    """
+    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)\s*(s|min|h)?", text.strip())
+    if found is None or float(found[1]) == 0:
+        raise MocapError(f"How long is '{text}'? Write 60s, 10min or 1h.")
+    return float(found[1]) * UNITS[found[2] or "s"]
+
+
+def _label(text: str) -> tuple[float, str]:
+    """Read a label and where it starts, as in 6.5:sneak."""
+    metres, _, label = text.partition(":")
+    try:
+        return float(metres), label
+    except ValueError:
+        raise MocapError(f"From where on is '{text}'? Write METRES:LABEL, as in 6.5:sneak.") from None
+
+
+def _graph(options: argparse.Namespace) -> "MotionGraph":
+    """Read the graph, and the clips that it was built of."""
+    found = graphs.read(options.graph)
+    progress = bar("reading")
+    if options.clips:
+        clips = files.load_all(options.clips, skeleton=options.skeleton, scale=None, progress=progress)
+    else:
+        clips = graphs.find_clips(options.graph, skeleton=options.skeleton, progress=progress)
+    graph: MotionGraph = graphs.load(options.graph, [body.resample(clip, found.fps) for clip in clips])
+    return graph

@@ -1,0 +1,184 @@
+"""How the course's exercises check themselves: random input, one oracle, and hints for known mistakes.
+
+A check holds what a right function gives and what typical wrong ones give. It calls a student's function on
+random input, tells right from wrong, and names the mistake where it knows it. It never raises, and never
+shows a solution. The checks themselves are in `mocap.checks`, a module for each notebook.
+"""
+
+from __future__ import annotations
+
+import copy
+import inspect
+import traceback
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Answer = Callable[..., Any]
+
+
+class Mistake(NamedTuple):
+    """A wrong answer that students give, as a function, and the hint meant for it."""
+
+    answer: Answer
+    hint: str
+
+
+class Verdict(NamedTuple):
+    """What a check says of a function: whether it is right, and a sentence or two."""
+
+    right: bool
+    message: str
+
+    def __str__(self) -> str:
+        return f"{'✓' if self.right else '✗'} {self.message}"
+
+
+class Trial(NamedTuple):
+    """One call of a student's function: what went in, what should come out, and what came."""
+
+    arguments: tuple[Any, ...]
+    wanted: Any
+    given: Any
+
+
+def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Tell whether two answers are the same: numbers to 8 digits, all else exactly, item by item."""
+    if isinstance(wanted, (set, frozenset, dict, str)) or wanted is None:
+        return bool(given == wanted)
+    try:
+        a, b = np.asarray(given, float), np.asarray(wanted, float)
+    except (TypeError, ValueError):
+        return len(given) == len(wanted) and all(map(close, given, wanted))
+    return a.shape == b.shape and np.allclose(a, b, rtol=1e-8, atol=1e-9)
+
+
+def close_angles(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Tell whether angles in radians are the same up to whole turns."""
+    a, b = np.asarray(given, float), np.asarray(wanted, float)
+    return close(np.cos(a), np.cos(b)) and close(np.sin(a), np.sin(b))
+
+
+def close_rotations(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Tell whether quaternions are the same up to their signs, which turn nothing."""
+    a, b = np.asarray(given, float), np.asarray(wanted, float)
+    signs = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0, -1, 1) if a.shape == b.shape else 1
+    return close(a * signs, b)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """An exercise's check; call it with the student's function.
+
+    Parameters
+    ----------
+    name : the function's name in the notebook.
+    asks : what the function must give, as the end of a sentence.
+    start : the hint for one who has not begun.
+    draw : from a random generator to the arguments of one call.
+    truth : the oracle: from arguments to the right answer.
+    mistakes : known wrong answers with their hints; where several fit, the first speaks.
+    same : tells whether two answers are the same.
+    trials : how many random inputs to try.
+
+    Examples
+    --------
+    >>> double = Check(
+    ...     name="double", asks="twice the number", start="What is 2 times x?",
+    ...     draw=lambda rng: (rng.normal(),), truth=lambda x: 2 * x,
+    ...     mistakes=[Mistake(lambda x: x * x, "That is the square.")])
+    >>> double(lambda x: ...)
+    ✗ double: not there yet. It must give twice the number. Hint: What is 2 times x?
+    >>> double(lambda x: x**2)
+    ✗ double: That is the square.
+    >>> double(lambda x: x + x)
+    ✓ double: right on 40 random inputs.
+    """
+
+    name: str
+    asks: str
+    start: str
+    draw: Callable[[np.random.Generator], tuple[Any, ...]]
+    truth: Answer
+    mistakes: Sequence[Mistake]
+    same: Callable[[Any, Any], bool] = close
+    trials: int = 40
+
+    def __call__(self, answer: Answer) -> None:
+        """Print the verdict on a student's function."""
+        print(self.verdict(answer))
+
+    def verdict(self, answer: Answer) -> Verdict:
+        """Try a function on random input, and say what is wrong with it, if anything."""
+        rng = np.random.default_rng(0)
+        tried: list[Trial] = []
+        try:
+            for _ in range(self.trials):
+                arguments = self.draw(rng)
+                used = copy.deepcopy(arguments)
+                tried.append(Trial(arguments, self.truth(*copy.deepcopy(arguments)), answer(*used)))
+                if tried[-1].given is ...:
+                    raise NotImplementedError
+                if not all(map(_unchanged, used, arguments)):
+                    return self._wrong("your function changes its arguments; work on a copy.")
+        except NotImplementedError:
+            return self._wrong(f"not there yet. It must give {self.asks}. Hint: {self.start}")
+        except Exception as error:  # whatever a student's function raises belongs on the page
+            return self._wrong(_raised(error, answer))
+        failed = [trial for trial in tried if not self._same(trial.given, trial.wanted)]
+        if failed:
+            return self._wrong(self._known_mistake(tried) or self._first_wrong(failed[0]))
+        return Verdict(True, f"{self.name}: right on {self.trials} random inputs.")
+
+    def _wrong(self, message: str) -> Verdict:
+        return Verdict(False, f"{self.name}: {message}")
+
+    def _same(self, given: Any, wanted: Any) -> bool:  # noqa: ANN401
+        try:
+            return bool(self.same(given, wanted))
+        except Exception:  # of another kind altogether
+            return False
+
+    def _known_mistake(self, tried: list[Trial]) -> str | None:
+        for mistake in self.mistakes:
+            if all(self._same(t.given, mistake.answer(*copy.deepcopy(t.arguments))) for t in tried):
+                return mistake.hint
+        return None
+
+    def _first_wrong(self, trial: Trial) -> str:
+        if trial.given is None:
+            return "your function gives None; does it end in `return`?"
+        given, wanted = np.shape(_array(trial.given)), np.shape(_array(trial.wanted))
+        if given != wanted:
+            return f"your answer has the shape {given}; it should be {wanted}."
+        if wanted == () and not isinstance(trial.wanted, str):
+            numbers = f"you give {_short(trial.given)} where it should be {_short(trial.wanted)}"
+            return f"{numbers}. It must give {self.asks}."
+        return f"right in shape, wrong in value. It must give {self.asks}. Hint: {self.start}"
+
+
+def _unchanged(used: Any, argument: Any) -> bool:  # noqa: ANN401
+    return not isinstance(argument, np.ndarray) or np.array_equal(used, argument, equal_nan=True)
+
+
+def _array(value: Any) -> Any:  # noqa: ANN401
+    try:
+        return np.asarray(value, float)
+    except (TypeError, ValueError):
+        return None
+
+
+def _short(value: Any) -> str:  # noqa: ANN401
+    return f"{value:.4g}" if isinstance(value, (float, np.floating)) else repr(value)[:60]
+
+
+def _raised(error: Exception, answer: Answer) -> str:
+    """Say what a function raised, and where in it."""
+    here = inspect.getsourcefile(answer) if inspect.isfunction(answer) else None
+    lines = [
+        f for f in traceback.extract_tb(error.__traceback__) if f.filename == here and f.name != "verdict"
+    ]
+    at = f" in `{lines[-1].line}`" if lines and lines[-1].line else ""
+    return f"your function raises {type(error).__name__}{at}: {error}"

@@ -1,0 +1,160 @@
+"""Checks of notebook 05."""
+
+from typing import Any
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.course.check import Check, Mistake, close
+
+
+def _matches(rng: np.random.Generator) -> tuple[Array, float]:
+    """Draw the distances of some matches, and what the successor leaves to them."""
+    return rng.uniform(100, 400, rng.integers(1, 9)), float(rng.choice([0.5, 1.0]))
+
+
+def _with_odds(rng: np.random.Generator) -> tuple[Array, Array]:
+    costs, left = _matches(rng)
+    odds = rng.uniform(0.1, 1, len(costs))
+    return costs, left * odds / odds.sum()
+
+
+def _clip(rng: np.random.Generator) -> tuple[int, list[int], list[int], int]:
+    """Draw a clip's length, where transitions leave and enter it, and their window."""
+    frames, window = int(rng.integers(60, 300)), int(rng.integers(5, 15))
+    leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
+    return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
+
+
+def _curve(rng: np.random.Generator) -> tuple[Array, Array, float]:
+    """Draw thresholds, the frames that would be kept at each, and the share that is enough."""
+    count = rng.integers(5, 20)
+    frames = np.sort(rng.choice(3000, count, replace=False)).astype(float)
+    frames[: rng.integers(1, 3)] = 0
+    return np.linspace(0.01, 0.06, count), frames, float(rng.uniform(0.3, 0.95))
+
+
+def _same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    return bool(given == wanted) if isinstance(given, set) else close(given, wanted)
+
+
+inverse_shares = Check(
+    name="inverse_shares",
+    asks="the probability of each match, which fall as D grows and add up to `left`",
+    start="a match at half the distance should come twice as often: begin with 1 / costs.",
+    draw=_matches,
+    truth=lambda costs, left: left / costs / np.sum(1 / costs),
+    mistakes=[
+        Mistake(
+            lambda costs, left: left * costs / np.sum(costs),
+            "in proportion to D the worst match comes most often: that is the slip to mend.",
+        ),
+        Mistake(
+            lambda costs, left: 1 / costs / np.sum(1 / costs),
+            "these add up to 1, but the successor may have taken half: only `left` is to be shared.",
+        ),
+        Mistake(lambda costs, left: left / costs, "these do not add up to `left`: divide by their sum."),
+        Mistake(lambda costs, left: 1 / costs, "these do not add up to `left`: divide by their sum."),
+        Mistake(
+            lambda costs, left: left * (1 - costs / np.sum(costs)),
+            "1 - D / ΣD falls with D, but with n matches it adds up to n - 1, and a single one gets nothing.",
+        ),
+    ],
+)
+
+expected_seam = Check(
+    name="expected_seam",
+    asks="the mean D of the matches that are taken",
+    start="weight each D by its probability; then think of the walks that take no match at all.",
+    draw=_with_odds,
+    truth=lambda costs, probabilities: np.sum(costs * probabilities) / np.sum(probabilities),
+    mistakes=[
+        Mistake(
+            lambda costs, probabilities: np.sum(costs * probabilities),
+            "where the successor takes half, the probabilities add up to ½: divide by their sum.",
+        ),
+        Mistake(
+            lambda costs, probabilities: np.mean(costs),
+            "this is the mean for an even die; the likelier matches count for more.",
+        ),
+        Mistake(
+            lambda costs, probabilities: np.mean(costs * probabilities),
+            "weights have taken the place of 1 / n already: sum, and divide by the sum of the probabilities.",
+        ),
+        Mistake(
+            lambda costs, probabilities: costs[np.argmax(probabilities)],
+            "that is the likeliest match alone; the others are taken too.",
+        ),
+    ],
+)
+
+choice_points = Check(
+    name="choice_points",
+    asks="the frames of the clip's nodes, in order and each once",
+    start="a clip without transitions has two nodes, where it starts and where it ends.",
+    draw=_clip,
+    truth=lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *(e + window for e in enters)}),
+    same=_same_order,
+    mistakes=[
+        Mistake(
+            lambda frames, leaves, enters, window: {0, frames, *leaves, *(e + window for e in enters)},
+            "these are the right frames, but a set has no order: sort them.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *enters}),
+            "the blend plays the window already: the clip goes on *after* the window that is entered.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted({*leaves, *(e + window for e in enters)}),
+            "the clip's start and end are nodes too.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted(
+                {0, frames, *(i + window for i in leaves), *(e + window for e in enters)}
+            ),
+            "a transition leaves where its window starts: the blend plays the window's frames.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted(
+                {0, frames - 1, *leaves, *(e + window for e in enters)}
+            ),
+            "a node lies before the frame that it counts, so the one after the last frame is `frames`.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted(
+                [0, frames, *leaves, *(e + window for e in enters)]
+            ),
+            "where two transitions touch the clip at one frame there is one node, not two.",
+        ),
+    ],
+)
+
+suggested_threshold = Check(
+    name="suggested_threshold",
+    asks="the lowest threshold at which at least `keep` of the most frames is kept",
+    start="which entries of `frames` are at least keep * frames.max()?",
+    draw=_curve,
+    truth=lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep * frames.max())],
+    mistakes=[
+        Mistake(
+            lambda thresholds, frames, keep: thresholds[np.argmax(frames)],
+            "that keeps all that can be kept; a share of it is enough.",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep)],
+            "`keep` is a share, not a number of frames: of what?",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: thresholds[np.argmax(frames > 0)],
+            "that is where the first cycle appears, whatever it plays.",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: frames[np.argmax(frames >= keep * frames.max())],
+            "those are frames; the threshold at the same place is asked for.",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: np.argmax(frames >= keep * frames.max()),
+            "that is a place in the array; the threshold at that place is asked for.",
+        ),
+    ],
+)

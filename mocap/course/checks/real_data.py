@@ -1,0 +1,153 @@
+"""Checks of notebook 10."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask
+from mocap.course.check import Check, Mistake
+from mocap.feet.footplants import hysteresis
+
+
+def _creeping(rng: np.random.Generator) -> tuple[Array, float, float]:
+    """Draw speeds of a foot: runs in the swing, runs that only come near to standing, and plants."""
+    levels = rng.permutation([4.0, 0.6, 4.0, 0.2, 4.0, 0.2, 4.0])
+    speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
+    speeds[: len(speeds) - 2 : 9] = 0.7
+    return speeds, 0.2, 0.9
+
+
+def _still(speeds: Array, enter: float, leave: float) -> Mask:
+    return hysteresis(speeds, np.ones(len(speeds), bool), enter, leave)
+
+
+def _once_begun(speeds: Array, enter: float, leave: float) -> Mask:
+    """Begin only where a speed falls below `enter`, as one does who goes through the frames once."""
+    marks = np.zeros(len(speeds), bool)
+    for frame, speed in enumerate(speeds):
+        marks[frame] = speed < enter or (speed < leave and frame > 0 and marks[frame - 1])
+    return marks
+
+
+standing = Check(
+    name="standing",
+    asks="a mask of the runs below `leave` in which some frame is below `enter`",
+    start="runs(speeds < leave) lists the runs; which of them have a frame below `enter`?",
+    draw=_creeping,
+    truth=_still,
+    mistakes=[
+        Mistake(
+            lambda speeds, enter, leave: speeds < enter,
+            "that is one threshold, the strict one: noise cuts each plant into pieces.",
+        ),
+        Mistake(
+            lambda speeds, enter, leave: speeds < leave,
+            "that is one threshold, the loose one: runs that never slow down to `enter` are in it.",
+        ),
+        Mistake(
+            _once_begun,
+            "a run counts from its first frame below `leave`, also before it falls below `enter`.",
+        ),
+        Mistake(
+            lambda speeds, enter, leave: _still(speeds, leave, enter),
+            "the thresholds have changed places: `enter` is the stricter one.",
+        ),
+        Mistake(
+            lambda speeds, enter, leave: ~_still(speeds, enter, leave),
+            "that marks the swings.",
+        ),
+    ],
+)
+
+
+def _leaping(rng: np.random.Generator) -> tuple[Array, float, float]:
+    """Draw a steady way over the ground with a leap or two, and a bob that is no leap."""
+    fps, frames = float(rng.integers(30, 121)), int(rng.integers(20, 50))
+    steps = rng.normal(0.8, 0.1, (frames, 3)) / fps
+    steps[rng.integers(1, frames, 2), 2] += 9.0 / fps
+    steps[rng.integers(1, frames), 1] += 9.0 / fps
+    return steps.cumsum(axis=0), fps, 5.0
+
+
+def _speeds(positions: Array, fps: float) -> Array:
+    return np.asarray(np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T) * fps)
+
+
+leaps = Check(
+    name="leaps",
+    asks="the frames at which the root arrives over the ground faster than `fastest`, as a list",
+    start="np.diff gives the step from each frame to the next; a step lasts 1 / fps seconds.",
+    draw=_leaping,
+    truth=lambda positions, fps, fastest: (np.flatnonzero(_speeds(positions, fps) > fastest) + 1).tolist(),
+    mistakes=[
+        Mistake(
+            lambda positions, fps, fastest: np.flatnonzero(_speeds(positions, fps) > fastest),
+            "these are the frames before the leaps: step f leads from frame f to frame f + 1.",
+        ),
+        Mistake(
+            lambda positions, fps, fastest: np.flatnonzero(_speeds(positions, 1.0) > fastest) + 1,
+            "you compare metres a frame with metres a second.",
+        ),
+        Mistake(
+            lambda positions, fps, fastest: (
+                np.flatnonzero(np.linalg.norm(np.diff(positions, axis=0), axis=1) * fps > fastest) + 1
+            ),
+            "a jump upwards is no leap over the ground; leave y out.",
+        ),
+        Mistake(
+            lambda positions, fps, fastest: _speeds(positions, fps) > fastest,
+            "that is a mask; np.flatnonzero makes frame numbers of it.",
+        ),
+    ],
+)
+
+
+def _tempo(rng: np.random.Generator) -> tuple[Array, int, float]:
+    """Draw speeds that bob with every step, walking first and then running."""
+    frames, span = 120, 2 * int(rng.integers(3, 10)) + 1
+    change = rng.integers(40, 80)
+    speeds = np.where(np.arange(frames) < change, 1.2, 2.8) + rng.normal(0, 0.9, frames)
+    return np.abs(speeds), span, 2.0
+
+
+def _smooth(speeds: Array, span: int) -> Array:
+    counts = np.convolve(np.ones(len(speeds)), np.ones(span), "same")
+    return np.asarray(np.convolve(speeds, np.ones(span), "same") / counts)
+
+
+running = Check(
+    name="running",
+    asks="for each frame whether the mean speed over the `span` frames around it is above `fastest_walk`",
+    start="for frame f take the mean of the speeds from f - span // 2 to f + span // 2 that the clip has.",
+    draw=_tempo,
+    truth=lambda speeds, span, fastest_walk: _smooth(speeds, span) > fastest_walk,
+    mistakes=[
+        Mistake(
+            lambda speeds, span, fastest_walk: speeds > fastest_walk,
+            "frame by frame the label flickers with every step; average over the span first.",
+        ),
+        Mistake(
+            lambda speeds, span, fastest_walk: (
+                np.convolve(speeds, np.ones(span) / span, "same") > fastest_walk
+            ),
+            "at the clip's ends fewer frames are there, and you still divide by all of `span`.",
+        ),
+        Mistake(
+            lambda speeds, span, fastest_walk: (
+                np.convolve(speeds, np.ones(span) / span, "valid") > fastest_walk
+            ),
+            "the ends are missing: every frame needs its label.",
+        ),
+        Mistake(
+            lambda speeds, span, fastest_walk: (
+                (np.convolve(speeds, np.ones(span)) / np.convolve(np.ones(len(speeds)), np.ones(span)))[
+                    : len(speeds)
+                ]
+                > fastest_walk
+            ),
+            "your mean looks only back, so the label comes half a span late; take frames on both sides.",
+        ),
+        Mistake(
+            lambda speeds, span, fastest_walk: _smooth(speeds, span) < fastest_walk,
+            "that marks walking; running is the faster one.",
+        ),
+    ],
+)

@@ -1,0 +1,199 @@
+"""Checks of notebook 03."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.body.planar import PlanarTransform
+from mocap.course.check import Check, Mistake, close, close_angles
+
+Placed = tuple[float, float, float]
+
+
+def _same_transform(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Tell whether (angle, x, z) are the same, the angle up to whole turns."""
+    angle, *shift = given
+    return len(shift) == 2 and close_angles(angle, wanted[0]) and close(shift, wanted[1:])
+
+
+def _points(rng: np.random.Generator) -> tuple[Array, float, float, float]:
+    angle, x, z = rng.uniform(-3, 3, 3)
+    return rng.normal(size=(int(rng.integers(1, 9)), 3)), angle, x, z
+
+
+def _moved_first(points: Array, angle: float, x: float, z: float) -> Array:
+    return PlanarTransform(angle, 0.0, 0.0).points(points + np.array([x, 0, z]))
+
+
+move_points = Check(
+    name="move_points",
+    asks="the moved points, shape (N, 3)",
+    start="take the columns x, y, z; write the two lines of the formula; put them together with np.stack.",
+    draw=_points,
+    truth=lambda points, angle, x, z: PlanarTransform(angle, x, z).points(points),
+    mistakes=[
+        Mistake(
+            lambda points, angle, x, z: PlanarTransform(-angle, x, z).points(points),
+            "the sign of θ: a turn by a positive angle about +y brings z towards x, not x towards z.",
+        ),
+        Mistake(
+            _moved_first,
+            "you move first and turn then, so the turn carries the move along; turn first.",
+        ),
+        Mistake(
+            lambda points, angle, x, z: PlanarTransform(angle, 0, 0).points(points) + np.array([x, z, 0]),
+            "the second column is y, the height: the ground is columns 0 and 2.",
+        ),
+        Mistake(
+            lambda points, angle, x, z: PlanarTransform(angle, 0, 0).points(points),
+            "turned, but not moved.",
+        ),
+    ],
+)
+
+
+undo = Check(
+    name="undo",
+    asks="the three numbers (angle, x, z) of the transform that brings everything back",
+    start="solve p' = R p + t for p: what stands where the angle stood, what where the shift stood?",
+    draw=lambda rng: tuple(rng.uniform(-3, 3, 3)),
+    truth=lambda angle, x, z: tuple(PlanarTransform(angle, x, z).inverse()),
+    mistakes=[
+        Mistake(
+            lambda angle, x, z: (-angle, -x, -z),
+            "minus each number undoes them in the wrong order: the way back has to be turned back, too.",
+        ),
+        Mistake(
+            lambda angle, x, z: (-angle, *_turned(angle, -x, -z)),
+            "the shift is turned the wrong way: R⁻¹ turns by -θ.",
+        ),
+        Mistake(
+            lambda angle, x, z: (-angle, *_turned(-angle, x, z)),
+            "the sign of the shift: p = R⁻¹ p' - R⁻¹ t.",
+        ),
+        Mistake(
+            lambda angle, x, z: (angle, *_turned(-angle, -x, -z)),
+            "the sign of the angle: the way back turns the other way round.",
+        ),
+    ],
+    same=_same_transform,
+)
+
+
+def _turned(angle: float, x: float, z: float) -> tuple[float, float]:
+    moved = PlanarTransform(angle, 0.0, 0.0).points([x, 0, z])
+    return float(moved[0]), float(moved[2])
+
+
+def _places(rng: np.random.Generator) -> tuple[Placed, Placed]:
+    first, second = (tuple(rng.uniform(-3, 3, 3).tolist()) for _ in range(2))
+    return first, second
+
+
+def _lay_on(moving: Placed, target: Placed) -> Placed:
+    angle = target[0] - moving[0]
+    x, z = _turned(angle, *moving[1:])
+    return angle, target[1] - x, target[2] - z
+
+
+def _turned_otherwise(moving: Placed, target: Placed) -> Placed:
+    angle = moving[0] - target[0]
+    x, z = _turned(angle, *moving[1:])
+    return angle, target[1] - x, target[2] - z
+
+
+lay_on = Check(
+    name="lay_on",
+    asks="the angle, x and z of the transform that lays the first body's place on the second's",
+    start="the angle first. Then turn the moving body's (x, z) by it, and see how far it still has to go.",
+    draw=_places,
+    truth=_lay_on,
+    mistakes=[
+        Mistake(
+            lambda moving, target: (target[0] - moving[0], target[1] - moving[1], target[2] - moving[2]),
+            "the turn is about the origin and carries the body away: measure the shift from where it lies "
+            "after the turn.",
+        ),
+        Mistake(
+            lambda moving, target: _lay_on(target, moving),
+            "that lays the second on the first; it is the first that should move.",
+        ),
+        Mistake(
+            _turned_otherwise,
+            "the sign of the angle: it must bring the moving heading to the target's.",
+        ),
+        Mistake(
+            lambda moving, target: (target[0], *_lay_on((0.0, *moving[1:]), target)[1:]),
+            "the moving body has a heading already; turn by the difference.",
+        ),
+    ],
+    same=_same_transform,
+)
+
+
+def _wrapped(angle: float) -> float:
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+turn_between = Check(
+    name="turn_between",
+    asks="the shorter turn from a to b, in [-π, π), to the left above 0",
+    start="subtract, then add or take away whole turns until the result lies between -π and π.",
+    draw=lambda rng: tuple(rng.uniform(-np.pi, np.pi, 2)),
+    truth=lambda a, b: _wrapped(b - a),
+    mistakes=[
+        Mistake(
+            lambda a, b: b - a,
+            "for 170° and -170° that is -340°, nearly a whole turn the wrong way.",
+        ),
+        Mistake(lambda a, b: _wrapped(a - b), "the sign: that is the turn from b to a."),
+        Mistake(
+            lambda a, b: (b - a) % (2 * np.pi),
+            "that lies between 0 and 2π: a turn of 10° to the right becomes 350° to the left.",
+        ),
+        Mistake(
+            lambda a, b: abs(_wrapped(b - a)),
+            "left and right look the same now: keep the sign.",
+        ),
+    ],
+)
+
+
+def _around(rng: np.random.Generator) -> tuple[Array]:
+    middle = np.pi + rng.uniform(-0.3, 0.3)
+    headings = middle + rng.uniform(-0.8, 0.8, int(rng.integers(3, 9)))
+    return ((headings + np.pi) % (2 * np.pi) - np.pi,)
+
+
+def _mean_vector(headings: ArrayLike) -> tuple[float, float]:
+    return float(np.sin(headings).mean()), float(np.cos(headings).mean())
+
+
+mean_heading = Check(
+    name="mean_heading",
+    asks="the mean direction, in radians",
+    start="a heading is a point on the circle, (sin θ, cos θ); take the mean of the points, and its angle.",
+    draw=_around,
+    truth=lambda headings: np.arctan2(*_mean_vector(headings)),
+    mistakes=[
+        Mistake(
+            lambda headings: np.mean(headings),
+            "the mean of 170° and -170° is 0° that way, the opposite of where both look.",
+        ),
+        Mistake(
+            lambda headings: np.arctan2(*_mean_vector(headings)[::-1]),
+            "sine and cosine are swapped: arctan2 takes the sine first.",
+        ),
+        Mistake(
+            lambda headings: np.arctan(np.divide(*_mean_vector(headings))),
+            "arctan knows only half the circle; arctan2 takes sine and cosine apart and knows all of it.",
+        ),
+        Mistake(
+            lambda headings: np.median(headings),
+            "the median cuts the circle at ±180° as well; no sorted list of headings means anything.",
+        ),
+    ],
+    same=close_angles,
+)

@@ -1,0 +1,180 @@
+"""Trials of the CMU Graphics Lab Motion Capture Database, fetched once and kept.
+
+`cmu.tsv` beside this module lists subjects 02, 03, 16, 49 and 127, each file with its SHA-256, so that a
+file is either whole or refused. Files lie in the platform's cache folder, or where the environment variable
+`MOCAP_DATA` says, as `<subject>/<file>`; what is there needs no network.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import re
+import sys
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, overload
+
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+from mocap.files.load_save import load
+
+if TYPE_CHECKING:
+    from pooch import Pooch
+
+BASE_URL = "http://mocap.cs.cmu.edu/subjects"
+RETRIES = 3  # after 1, 2 and 3 seconds
+TIMEOUT = 30.0  # seconds without an answer
+TERMS = (
+    "These clips come from the CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), created with "
+    "funding from NSF EIA-0196217. They are free for research and in commercial products, but you may not "
+    "resell them, not even converted."
+)
+
+
+class Trial(NamedTuple):
+    """One trial of the database: its `name`, such as "16_15", and what the database says it shows."""
+
+    name: str
+    subject: int
+    frames: int
+    description: str
+
+
+@cache
+def _registry() -> dict[str, dict[str, str]]:
+    with Path(__file__).with_name("cmu.tsv").open(encoding="utf-8", newline="") as file:
+        return {row["file"]: row for row in csv.DictReader(file, delimiter="\t")}
+
+
+def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
+    """List the trials that `cmu` can give.
+
+    Parameters
+    ----------
+    subject : only trials of this person.
+    kind : only trials whose description has this word, whatever its case.
+
+    Raises
+    ------
+    MocapError : when there is none.
+
+    Examples
+    --------
+    >>> [trial.name for trial in trials(subject=127, kind="walk")]
+    ['127_04']
+
+    Notebook: 01-skeletons-and-clips
+    """
+    found = []
+    for name, row in _registry().items():
+        person, file = name.split("/")
+        asked = subject in (None, int(person)) and _says(row["description"], kind)
+        if file.endswith(".amc") and asked:
+            found.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
+    if not found:
+        subjects = ", ".join(sorted({name.split("/")[0] for name in _registry()}))
+        wanted = f"subject {subject or 'any'} with '{kind or ''}'"
+        raise MocapError(f"No trial of {wanted} is listed; the subjects are {subjects}.")
+    return found
+
+
+def _says(description: str, kind: str | None) -> bool:
+    return kind is None or bool(re.search(rf"\b{re.escape(kind)}\b", description, re.IGNORECASE))
+
+
+@overload
+def cmu(clip: str) -> Motion: ...
+@overload
+def cmu(*, subject: int | None = None, kind: str | None = None) -> list[Motion]: ...
+def cmu(
+    clip: str | None = None, *, subject: int | None = None, kind: str | None = None
+) -> Motion | list[Motion]:
+    """Give a trial of the CMU database, or all of a person and a kind, at 120 Hz.
+
+    Parameters
+    ----------
+    clip : a trial's name; or else
+    subject : the person's number,
+    kind : a word of the description, such as "walk"; `mocap data list` shows them all.
+
+    Returns
+    -------
+    The motion; a list of them unless one is named.
+
+    Raises
+    ------
+    MocapError : for a trial that is not listed, or a file that cannot be had: what to do instead.
+
+    Examples
+    --------
+    >>> cmu("16_99")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: No trial '16_99' is listed; `mocap data list` shows those that are.
+
+    Notebook: 10-real-data
+    """
+    if clip is not None:
+        subject_folder = clip.split("_")[0]
+        if f"{subject_folder}/{clip}.amc" not in _registry():
+            raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
+        asf = fetch(f"{subject_folder}/{subject_folder}.asf")
+        return load(fetch(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
+    if subject is None and kind is None:
+        raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
+    return [cmu(trial.name) for trial in trials(subject, kind)]
+
+
+def fetch(name: str) -> Path:
+    """Find a listed file, such as "16/16.asf", in the cache, or download it.
+
+    Raises
+    ------
+    MocapError : when it cannot be had; the cache never keeps part of a file.
+    """
+    from requests import RequestException
+
+    store = _store()
+    url, hint = store.get_url(name), f"put a copy of {name} into a folder that MOCAP_DATA names"
+    try:
+        return Path(store.fetch(name, downloader=_download))
+    except RequestException as error:
+        status = error.response.status_code if error.response is not None else None
+        answer = f"answers {status}" if status else "breaks off or does not answer"
+        raise MocapError(f"{url} {answer}: try again later, or {hint}.") from error
+    except ValueError as error:  # the checksum
+        raise MocapError(f"{url} is not the file listed: its checksum differs; {hint}.") from error
+    except OSError as error:
+        problem = f"Cannot keep {name} in {store.abspath} ({error.strerror or error})"
+        raise MocapError(f"{problem}: let MOCAP_DATA name a folder you may write to.") from error
+
+
+def _store() -> Pooch:
+    import pooch
+
+    pooch.get_logger().setLevel("WARNING")
+    return pooch.create(
+        path=pooch.os_cache("mocap"),
+        base_url=BASE_URL,
+        env="MOCAP_DATA",
+        registry={name: row["sha256"] for name, row in _registry().items()},
+        retry_if_failed=RETRIES,
+    )
+
+
+def _download(url: str, output_file: str, store: Pooch) -> None:
+    """Download a file, and end its lines as the listed one does: copies differ in nothing else."""
+    import pooch
+
+    _show_terms()
+    pooch.HTTPDownloader(progressbar=sys.stderr.isatty(), timeout=TIMEOUT)(url, output_file, store)
+    got = Path(output_file).read_bytes()
+    unix = got.replace(b"\r\n", b"\n")
+    for data in (unix, unix.replace(b"\n", b"\r\n")):
+        if hashlib.sha256(data).hexdigest() in store.registry.values():
+            Path(output_file).write_bytes(data)
+
+
+@cache
+def _show_terms() -> None:
+    print(TERMS, file=sys.stderr)

@@ -1,0 +1,153 @@
+"""The body that walks, and its legs: from planted feet up to the pelvis, and down again.
+
+Given the way of the pelvis over the ground and the paths of both feet, the pelvis rides as high as lets
+the loaded knees bend as they should; then `two_bone_ik` bends both legs down to the feet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from mocap._shared.arrays import Array
+from mocap.body import euler, rotations
+from mocap.body.skeleton import Skeleton
+from mocap.body.two_bone_ik import two_bone
+from mocap.datasets.footsteps import Foot, FootPath
+from mocap.errors import MocapError
+
+STATURE = 1.75  # metres
+FPS = 120.0
+LEAST_KNEE = np.radians(6.0)  # no knee ever locks
+
+# Each joint's parent and place (left, up, ahead) in it, as shares of stature. The lengths of the limbs follow
+# D. A. Winter, Biomechanics and Motor Control of Human Movement, 4th ed. (2009), Fig. 4.1, after Drillis and
+# Contini (1966): thigh 0.245, shank 0.246, ankle 0.039 high, upper arm 0.186, forearm 0.146, hand 0.108.
+_LEG = {
+    "hipjoint": ("root", (0, 0, 0)),
+    "femur": ("hipjoint", (0.050, -0.049, 0.023)),
+    "tibia": ("femur", (0, -0.245, 0)),
+    "foot": ("tibia", (0, -0.246, 0)),
+    "toes": ("foot", (0, -0.024, 0.074)),
+    "toes_end": ("toes", (0, -0.005, 0.040)),
+}
+_TRUNK = {
+    "lowerback": ("root", (0, 0, 0)),
+    "upperback": ("lowerback", (0, 0.0705, 0)),
+    "thorax": ("upperback", (0, 0.0705, 0)),
+    "lowerneck": ("thorax", (0, 0.0705, 0)),
+    "upperneck": ("lowerneck", (0, 0.063, 0)),
+    "head": ("upperneck", (0, 0.057, 0)),
+    "head_end": ("head", (0, 0.0895, 0)),
+}
+_ARM = {
+    "clavicle": ("thorax", (0, 0.0705, 0)),
+    "humerus": ("clavicle", (0.106, 0.026, -0.011)),
+    "radius": ("humerus", (0, -0.186, 0)),
+    "wrist": ("radius", (0, -0.146, 0)),
+    "hand": ("wrist", (0, -0.029, 0)),
+    "fingers": ("hand", (0, -0.034, 0)),
+    "fingers_end": ("fingers", (0, -0.045, 0)),
+    "thumb": ("wrist", (0, -0.029, 0)),
+    "thumb_end": ("thumb", (0, -0.029, 0.017)),
+}
+
+
+def _skeleton() -> Skeleton:
+    """Build a body of CMU's 31 bones, upright, its arms hanging, its feet pointing ahead."""
+    rows: dict[str, tuple[str, tuple[float, ...]]] = {"root": ("", (0, 0, 0))}
+    for side, limb in (("l", _LEG), ("r", _LEG), ("", _TRUNK), ("l", _ARM), ("r", _ARM)):
+        for joint, (parent, (left, up, ahead)) in limb.items():
+            above = side + parent if parent in limb else parent
+            rows[side + joint] = (above, (-left if side == "r" else left, up, ahead))
+    names = list(rows)
+    parents = [names.index(parent) if parent else -1 for parent, _ in rows.values()]
+    return Skeleton(names, np.array(parents), STATURE * np.array([offset for _, offset in rows.values()]))
+
+
+SKELETON = _skeleton()
+HIPS = {side: SKELETON.offsets[SKELETON.index(f"{side}femur")] for side in "lr"}
+THIGH, SHANK = 0.245 * STATURE, 0.246 * STATURE
+FOOT = Foot(0.039 * STATURE, 0.015 * STATURE, 0.029 * STATURE, 0.074 * STATURE, 0.040 * STATURE)
+
+
+def pelvis_height(
+    root: Array,
+    hips: Mapping[str, Array],
+    feet: Mapping[str, FootPath],
+    bends: Mapping[str, Array],
+    weight: ArrayLike,
+) -> Array:
+    """Let the pelvis ride on the legs: as high as makes each loaded knee bend as it should.
+
+    With knee angle κ a leg is ℓ long, ℓ² = a² + b² + 2 a b cos κ, and lifts its hip √(ℓ² - d²) above the
+    ankle that stands d away on the level. The legs' wishes are averaged by load.
+
+    Parameters
+    ----------
+    root : shape (F, 3), metres: the pelvis at its usual height.
+    hips : {side: (F, 3)}: the hip joints seen from the root, metres.
+    feet : {side: the foot's path}.
+    bends : {side: (F,)}: how far each knee should bend, radians.
+    weight : number or shape (F,): how much the usual height counts beside a leg that carries the body (1).
+
+    Returns
+    -------
+    Shape (F,), metres; smooth, and never so high that a leg could not reach its foot with a bent knee.
+    """
+    wishes, weights = np.multiply(weight, root[:, 1]), np.full(len(root), weight)
+    limit = np.full(len(root), np.inf)
+    for side, foot in feet.items():
+        apart = foot.ankle - root - hips[side]
+        floor = foot.ankle[:, 1] - hips[side][:, 1]
+        wishes = wishes + foot.load * (floor + _rise(apart, bends[side]))
+        weights = weights + foot.load
+        limit = np.minimum(limit, floor + _rise(apart, LEAST_KNEE))
+    height = gaussian_filter1d(wishes / weights, 0.03 * FPS)
+    # The drop to within reach is widened as far as the bell that smooths it: nowhere is it too small.
+    around = round(0.1 * FPS)
+    drop = maximum_filter1d(np.maximum(height - limit, 0), 1 + 2 * around)
+    return np.asarray(height - gaussian_filter1d(drop, 0.04 * FPS, radius=around))
+
+
+def _rise(apart: Array, knee: ArrayLike) -> Array:
+    """Tell how far a hip stands above its ankle when the knee is bent and they lie so far apart."""
+    length2 = THIGH**2 + SHANK**2 + 2 * THIGH * SHANK * np.cos(knee)
+    return np.asarray(np.sqrt(np.maximum(length2 - apart[:, 0] ** 2 - apart[:, 2] ** 2, 0)))
+
+
+def leg(side: str, pelvis: Array, root: Array, foot: FootPath, ahead: Array) -> dict[str, Array]:
+    """Bend a leg down to its foot; the knee points halfway between the foot and the pelvis.
+
+    Parameters
+    ----------
+    side : "l" or "r".
+    pelvis : shape (F, 4), the root's orientation.
+    root : shape (F, 3), its place, metres.
+    foot : where the foot is.
+    ahead : shape (F, 3), the unit vectors the pelvis faces along.
+
+    Returns
+    -------
+    {joint: rotations (F, 4) relative to the parent} of the hip, the knee, the ankle and the toes.
+
+    Raises
+    ------
+    MocapError : where the leg is too short for the step.
+    """
+    toes = np.stack([np.sin(foot.yaw), np.zeros_like(foot.yaw), np.cos(foot.yaw)], axis=-1)
+    hip = root + rotations.rotate(pelvis, HIPS[side])
+    limb = two_bone(hip, foot.ankle, (THIGH, SHANK), ahead + toes)
+    if not limb.reached.all():
+        raise MocapError("The steps are longer than the legs: walk slower, or round a wider turn.")
+    sole = rotations.multiply(rotations.about_y(foot.yaw), euler.from_euler("x", -foot.pitch[:, None]))
+    turns = [pelvis, limb.upper, limb.lower, sole]
+    local = {
+        side + joint: rotations.multiply(rotations.inverse(above), turn)
+        for joint, (above, turn) in zip(("femur", "tibia", "foot"), pairwise(turns), strict=True)
+    }
+    return local | {side + "toes": euler.from_euler("x", (foot.pitch - foot.toe)[:, None])}

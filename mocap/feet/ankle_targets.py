@@ -1,0 +1,138 @@
+"""Where feet shall stand, and how they come there and leave: steps 1, 2 and 5 of [KSG02].
+
+Step 5 is taken with step 2, as one curve that bends least, instead of by fades. While only the ball stands,
+the foot may turn about it, so that the ankle need not follow.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from mocap._shared.arrays import Array, Mask, runs
+from mocap.body import rotations
+from mocap.body.kinematics import GlobalPoses
+from mocap.body.limbs import Leg
+from mocap.body.motion import Motion
+from mocap.feet.leg_ik import knee_hinge
+
+FADE = 0.04  # seconds in which a correction dies away, where no other plant is near
+
+
+class FootTarget(NamedTuple):
+    """Where an ankle shall be, `ankle` (F, 3) in metres, and how its foot turns, `turn` (F, 3) in radians.
+
+    Turns are rotation vectors in the world's frame; `planted` (F,) says when the ankle or the ball stands.
+    """
+
+    ankle: Array
+    turn: Array
+    planted: Mask
+
+
+def foot_target(motion: Motion, leg: Leg, poses: GlobalPoses) -> FootTarget:
+    """Place a foot's plants, and carry its ankle from one to the next: steps 1, 2 and 5 of [KSG02].
+
+    Parameters
+    ----------
+    motion : with contacts for the leg's ankle and ball.
+    leg : whose foot.
+    poses : the motion's.
+    """
+    hip, _, ankle, ball = (poses.positions[:, joint] for joint in leg)
+    flat, down = (motion.contacts[motion.skeleton.names[joint]] for joint in (leg.ankle, leg.ball))
+    length = float(leg.lengths(motion.skeleton)[2])
+    hinge = knee_hinge(leg, poses, motion.skeleton.names[leg.knee])
+    reach = hinge.limit(np.linalg.norm(ankle - hip, axis=-1))
+    places = _draw_near(place_plants((ankle, ball), (flat, down), length), (flat, down), hip, reach)
+    # Where only the ball stands, the ankle stays as near as the foot's length allows to where it is on its
+    # way from and to its own plants: that the foot must turn a little is seen less than a leg that stretches.
+    near = ankle + smooth_fill(places[0] - ankle, flat, motion.fps)
+    away = near - places[1]
+    behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
+    goal = np.where(flat[:, None], places[0], behind)
+    turn = np.zeros_like(ankle)
+    turn[down] = rotations.to_rotvec(rotations.between((ball - ankle)[down], (places[1] - goal)[down]))
+    moved = smooth_fill(goal - ankle, flat | down, motion.fps)
+    return FootTarget(ankle + moved, smooth_fill(turn, down, motion.fps), flat | down)
+
+
+def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
+    """Give each plant of an ankle and its ball one place: where the joint is on average [KSG02, step 1].
+
+    A plant that starts while the other joint stands is placed a foot's length from that, in the mean
+    direction, so that the rigid foot fits both.
+
+    Parameters
+    ----------
+    joints : the ankle's and the ball's positions, (F, 3) each, metres.
+    marks : when they stand, (F,) each.
+    length : from ankle to ball, metres.
+
+    Returns
+    -------
+    Shape (2, F, 3): the places while a joint stands, and the joints' own positions elsewhere.
+
+    Notebook: 04-blending
+    """
+    places = np.array(joints)
+    placed = np.zeros((2, len(places[0])), bool)
+    plants = sorted((start, stop, kind) for kind in (0, 1) for start, stop in runs(marks[kind]).tolist())
+    for start, stop, kind in plants:
+        own, other = joints[kind], joints[1 - kind]
+        place = own[start:stop].mean(axis=0)
+        if placed[1 - kind, start]:
+            together = np.flatnonzero(placed[1 - kind, start:stop]) + start
+            away = (own - other)[together].mean(axis=0)
+            place = places[1 - kind, start] + length * away / np.linalg.norm(away)
+        places[kind, start:stop], placed[kind, start:stop] = place, True
+    return places
+
+
+def _draw_near(places: Array, marks: tuple[Mask, Mask], hip: Array, reach: Array) -> Array:
+    """Draw plants to the hip until a leg that lies more than it stands reaches them: no rise would help."""
+    flat, down = marks
+    for start, stop in runs(flat | down):
+        for _ in range(8):  # the furthest frame first; where hips move, then what is the furthest now
+            apart = (places[0] - hip)[start:stop]
+            distance = np.linalg.norm(apart, axis=-1)
+            lies = flat[start:stop] & (np.abs(apart[:, 1]) < np.hypot(apart[:, 0], apart[:, 2]))
+            excess = np.where(lies, distance - reach[start:stop], 0.0)
+            worst = excess.argmax()
+            if excess[worst] <= 0:
+                break
+            places[:, start:stop] -= (excess + 1e-9)[worst] * apart[worst] / distance[worst]
+    return places
+
+
+def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
+    """Fill in the frames that are not known with the curve that bends least and stays near 0.
+
+    It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² with the known frames held: value and slope go
+    on at both ends of a plant, and die away within `FADE` = 1 / (κ · fps) where the next plant is far.
+
+    Parameters
+    ----------
+    values : shape (F, C); what stands in frames not known does not matter.
+    known : shape (F,).
+    fps : frames a second.
+
+    Returns
+    -------
+    Shape (F, C); all 0 where nothing is known.
+
+    Examples
+    --------
+    >>> smooth_fill(np.array([[0.0], [9], [1]]), np.array([True, False, True]), 120.0).round(3)[:, 0]
+    array([0. , 0.5, 1. ])
+    """
+    filled = np.where(known[:, None], values, 0.0)
+    if known.all() or not known.any():
+        return filled
+    frames = len(values)
+    bend = sparse.diags([1.0, -2.0, 1.0], [0, 1, 2], shape=(max(frames - 2, 0), frames))
+    cost = (bend.T @ bend + (FADE * fps) ** -4.0 * sparse.identity(frames)).tocsc()
+    free = ~known
+    pull = cost[free][:, known] @ filled[known]
+    filled[free] = -sparse.linalg.splu(cost[free][:, free].tocsc()).solve(pull)
+    return filled

@@ -1,0 +1,52 @@
+"""Where feet stood, read from a motion's contacts."""
+
+from typing import NamedTuple
+
+from mocap._shared.arrays import runs
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+
+
+class Footprint(NamedTuple):
+    """A `joint` of a body's `side` that stood in frames [start, end), on average at (x, z), metres."""
+
+    joint: str
+    side: str
+    start: int
+    end: int
+    x: float
+    z: float
+
+
+def find_footprints(motion: Motion) -> list[Footprint]:
+    """List where joints stood: one print for each run of frames in which `motion.contacts` has one down.
+
+    Parameters
+    ----------
+    motion : the motion; one without contacts leaves no prints.
+
+    Returns
+    -------
+    The prints, joint by joint, each joint's in the order of time.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> foot = Skeleton(["lfoot"], [-1], [[0, 0, 0]])
+    >>> import numpy as np
+    >>> still = np.tile([1.0, 0, 0, 0], (4, 1, 1))
+    >>> find_footprints(Motion(foot, np.ones((4, 3)), still, 30.0, contacts={"lfoot": [1, 1, 0, 1]}))
+    [Footprint(joint='lfoot', side='middle', start=0, end=2, x=1.0, z=1.0), ...start=3, end=4, x=1.0, z=1.0)]
+
+    Notebook: 01-skeletons-and-clips
+    """
+    if not motion.contacts:
+        return []
+    points = joint_positions(motion)
+    prints = []
+    for name, down in motion.contacts.items():
+        joint = motion.skeleton.index(name)
+        for start, end in runs(down).tolist():
+            x, _, z = points[start:end, joint].mean(axis=0).tolist()
+            prints.append(Footprint(name, motion.skeleton.side(joint), start, end, x, z))
+    return prints

@@ -1,0 +1,242 @@
+"""BVH files: a hierarchy of joints, and the numbers of their channels in every frame.
+
+Position channels stand in place of a joint's offset, and rotation channels turn about the joint's own axes
+in the order given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file names no unit: it is `scale` metres,
+a centimetre unless told otherwise. `bvh_hierarchy` tells how joints are named.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from decimal import Decimal
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap._shared.atomic import replacing
+from mocap.body import euler, rotations
+from mocap.body.motion import Motion, turning
+from mocap.body.skeleton import Skeleton
+from mocap.errors import FormatError, MocapError
+from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers
+
+STILL = 1e-5  # metres a joint may move in its parent's frame and still count as fixed: noise of printing
+SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
+TIMES = re.compile(
+    r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
+)
+
+
+class Channels(NamedTuple):
+    """A BVH file as it stands: its joints, the numbers of all channels (F, channels), the frame rate."""
+
+    joints: list[Joint]
+    values: Array
+    fps: float
+
+
+def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> Motion:
+    """Read a BVH file.
+
+    Position channels below the root are fine as long as they keep still. If the root has only one child, and
+    that one moves, as where a reference point carries the hips, the two become one joint of the child's name.
+
+    Parameters
+    ----------
+    path : the file.
+    scale : metres in one unit of the file.
+    fps : frames a second. By default what the frame time says, and a whole number where its digits allow it.
+
+    Returns
+    -------
+    The motion, named after the file.
+
+    Raises
+    ------
+    FormatError : naming the line that breaks the format.
+    """
+    joints, values, rate = read_channels(path, fps=fps)
+    places, local = _poses(joints, values)
+    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
+        joints, places, local = _without_reference(joints, places, local)
+    for joint, place in zip(joints[1:], np.swapaxes(places, 0, 1)[1:], strict=True):
+        if _moves(place, scale):
+            got = f"one that moves by {scale * np.ptp(place, axis=0).max():.2g} m"
+            raise FormatError(path, joint.line, f"'{joint.name}' in one place below its parent", got)
+    offsets = np.vstack([np.zeros((1, 3)), scale * places[0, 1:]])
+    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
+    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
+    return Motion(skeleton, scale * places[:, 0], local, rate, Path(path).stem)
+
+
+def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
+    """Read a BVH file as it stands; `fps` goes before its frame time."""
+    text = read_text(path)
+    start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
+    if start is None:
+        raise FormatError(path, None, "a line 'MOTION'", "none")
+    joints = read_hierarchy(path, text[: start.start()])
+    times = TIMES.match(text, start.end())
+    if times is None:
+        line = text.count("\n", 0, start.end()) + 2
+        got = f"'{' '.join(text[start.end() :][:80].split())}'"
+        raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
+    values = _values(path, text, times, sum(len(joint.channels) for joint in joints))
+    check_room(path, len(values) * len(joints), values.size)
+    return Channels(joints, values, fps or _rate(path, text, times))
+
+
+def read_angles(path: str | Path) -> dict[str, Array]:
+    """Give each joint's angles, shape (F, rotation channels), degrees, as they stand in the file."""
+    joints, values, _ = read_channels(path, fps=1.0)
+    found, column = {}, 0
+    for joint in joints:
+        turns = [column + place for place, name in enumerate(joint.channels) if name in ROTATIONS]
+        found[joint.name] = values[:, turns]
+        column += len(joint.channels)
+    return found
+
+
+def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
+    """Read the frames (F, width); `times` is where their count stands."""
+    line = text.count("\n", 0, times.start(1)) + 1
+    count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
+    if count < 1 or width == 0:
+        raise FormatError(path, line, "one frame or more", f"{times[1]}, of {width} channels")
+    words = text[times.end() :].split()
+    if len(words) == count * width:
+        try:
+            values = np.array(words, float)
+        except ValueError:
+            values = np.array([np.nan])
+        if np.all(np.abs(values) < LARGEST):
+            return values.reshape(-1, width)
+    found = 0
+    for number, row in enumerate(text[times.end() :].split("\n"), text.count("\n", 0, times.end()) + 1):
+        if row.strip():
+            to_numbers(path, number, row.split(), f"{width} numbers after {found} complete frames", width)
+            found += 1
+    raise FormatError(path, line, f"'Frames: {found}', as many as follow", f"'Frames: {times[1]}'")
+
+
+def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
+    """Read the frame rate, a whole one where the frame time is that of one, rounded or cut off."""
+    line = text.count("\n", 0, times.start(2)) + 1
+    seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
+    if not SHORTEST <= seconds <= LONGEST:
+        raise FormatError(path, line, f"a frame time from {SHORTEST:g} to {LONGEST:g} s", times[2])
+    last_digit = 10.0 ** int(Decimal(times[2]).as_tuple().exponent)
+    whole = max(1, round(1 / seconds))
+    return float(whole) if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12) else 1 / seconds
+
+
+def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
+    """Sort the channels into places below the parent (F, J, 3), in file units, and rotations (F, J, 4)."""
+    places = np.tile(np.array([joint.offset for joint in joints]), (len(values), 1, 1))
+    local = np.tile(rotations.IDENTITY, (len(values), len(joints), 1))
+    column = 0
+    for index, joint in enumerate(joints):
+        block = values[:, column : column + len(joint.channels)]
+        column += len(joint.channels)
+        for channel, numbers in zip(joint.channels, block.T, strict=True):
+            if channel in POSITIONS:
+                places[:, index, POSITIONS.index(channel)] = numbers
+        turning = [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
+        if turning:
+            order = _turns(joint).upper()
+            local[:, index] = euler.from_euler(order, np.radians(block[:, turning]))
+    return places, local
+
+
+def _turns(joint: Joint) -> str:
+    """Name the axes of a joint's rotation channels, in their order."""
+    return "".join(channel[0] for channel in joint.channels if channel in ROTATIONS)
+
+
+def _moves(place: Array, scale: float) -> bool:
+    return bool(np.ptp(place, axis=0).max() * scale > STILL)
+
+
+def _without_reference(joints: list[Joint], places: Array, local: Array) -> tuple[list[Joint], Array, Array]:
+    """Put the only child in the root's place: p = p_root + R_root p_child, R = R_root R_child."""
+    places, local = places.copy(), local.copy()
+    places[:, 1] = places[:, 0] + rotations.rotate(local[:, 0], places[:, 1])
+    local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
+    kept = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
+    return kept, places[:, 1:], local[:, 1:]
+
+
+def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: int = 6) -> None:
+    """Write a BVH file.
+
+    Joints come depth first. A leaf that never turns, named as reading would name it, becomes an End Site; any
+    other leaf is a joint with an End Site of zero length. Of all equal angles those nearest to the frame
+    before are written, so that every curve is continuous.
+
+    Parameters
+    ----------
+    motion : F frames.
+    path : the file; one that exists is replaced when the new one is whole.
+    scale : metres in one unit of the file.
+    precision : digits after the point; 6 keep joints to 1e-7 m in centimetres.
+
+    Raises
+    ------
+    MocapError : for a name or frame rate that a BVH file cannot hold, or a folder one cannot write to.
+    """
+    write_pieces([motion], path, frames=len(motion), turns=turning(motion), printing=(scale, precision))
+
+
+def write_pieces(
+    pieces: Iterable[Motion],
+    path: str | Path,
+    *,
+    frames: int,
+    turns: NDArray[np.bool_],
+    printing: tuple[float, int] = (0.01, 6),
+) -> None:
+    """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
+
+    Parameters
+    ----------
+    pieces : motions of one skeleton and rate, with `frames` frames together.
+    path : the file; it appears once it is whole.
+    frames : what the file's header promises.
+    turns : shape (J,), which joints ever turn, as by `body.turning`.
+    printing : the scale, and the digits after the point, as for `write`.
+    """
+    scale, precision = printing
+    before: Array | None = None
+    with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="\n") as file:
+        for motion in pieces:
+            if before is None:
+                header, order = _header(motion, frames, turns, printing)
+                file.write(header)
+            angles = euler.to_euler("ZXY", motion.rotations[:, order])
+            if before is not None:  # go on from the angles of the frame before
+                angles = np.concatenate([before, angles])
+            angles = euler.continuous("ZXY", angles)[-len(motion) :]
+            before = angles[-1:]
+            values = np.hstack([motion.root_positions / scale, np.degrees(angles).reshape(len(motion), -1)])
+            values = rounded(values, precision, motion.name)
+            row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
+            file.write((row * len(values)) % tuple(values.ravel().tolist()))
+
+
+def _header(
+    motion: Motion, frames: int, turns: NDArray[np.bool_], printing: tuple[float, int]
+) -> tuple[str, list[int]]:
+    """Write all that comes before the frames, and tell in which order their joints stand."""
+    seconds = 1 / motion.fps
+    if not SHORTEST <= seconds <= LONGEST:
+        raise MocapError(f"'{motion.name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
+    scale, precision = printing
+    offsets = np.round(motion.skeleton.offsets / scale, precision) + 0.0  # no -0.000000
+    hierarchy, order = write_hierarchy(motion.skeleton, offsets, turns, precision)
+    return f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n", order

@@ -1,0 +1,108 @@
+"""Convert motion files, whole folders too, several at a time."""
+
+import os
+import signal
+from collections.abc import Sequence
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from itertools import repeat
+from pathlib import Path
+from typing import NamedTuple
+
+from mocap._shared.atomic import make_folder
+from mocap._shared.progress import Progress
+from mocap.errors import MocapError
+from mocap.files.load_save import load, save
+
+FORMATS = (".amc", ".bvh")
+QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # it is for the main process to say that it was interrupted
+
+
+class Options(NamedTuple):
+    """What `files.load` and `files.save` take: `skeleton`, `fps` and `scale` to read, `widen` to write."""
+
+    skeleton: Path | None = None
+    fps: float | None = None
+    scale: float | None = None
+    widen: bool = False
+
+
+class Outcome(NamedTuple):
+    """A file, what it was to become, and why it did not (a sentence that names one of the two), or None."""
+
+    source: Path
+    target: Path
+    problem: str | None
+
+
+def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
+    """Pair each motion file with the one to write.
+
+    Parameters
+    ----------
+    source : a file, or a folder, whose folders count as well.
+    target : for a file, another file; for a folder, a folder that gets the same folders.
+    suffix : the format to write below a folder.
+
+    Raises
+    ------
+    MocapError : when there is nothing to convert, or two files would become one.
+
+    Examples
+    --------
+    >>> plan("walk.amc", "walk.bvh") == [(Path("walk.amc"), Path("walk.bvh"))]
+    True
+    """
+    source, target = Path(source), Path(target)
+    if not source.is_dir():
+        return [(source, target)]
+    found = sorted(path for path in source.rglob("*") if path.suffix.lower() in FORMATS and path.is_file())
+    if not found:
+        raise MocapError(f"The folder {source} holds no .amc or .bvh file.")
+    pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
+    taken: dict[Path, Path] = {}
+    for path, new in pairs:
+        if (first := taken.setdefault(new, path)) != path:
+            raise MocapError(f"{first} and {path} would both become {new}: convert them one by one.")
+    return pairs
+
+
+def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Progress = iter) -> list[Outcome]:
+    """Convert files, as many at a time as there are processors; one that fails does not stop the others.
+
+    Parameters
+    ----------
+    pairs : files to read and files to write, as `plan` gives them.
+    options : how to read and to write.
+    progress : wraps the pairs while they are worked through.
+
+    Returns
+    -------
+    What became of each.
+
+    Examples
+    --------
+    >>> convert([(Path("gone.bvh"), Path("walk.amc"))], Options())[0].problem
+    'Cannot read gone.bvh: No such file or directory.'
+    """
+    if len(pairs) == 1:
+        return [_convert(*pairs[0], options)]
+    workers = min(len(pairs), os.cpu_count() or 1)
+    with ProcessPoolExecutor(workers, initializer=signal.signal, initargs=QUIETLY) as pool:
+        outcomes = pool.map(_convert, *zip(*pairs, strict=True), repeat(options))
+        try:
+            return [next(outcomes) for _ in progress(pairs)]
+        except BrokenExecutor as error:
+            raise MocapError("A worker was ended from outside: is there enough memory?") from error
+        finally:  # after an interruption, nothing more is begun
+            pool.shutdown(cancel_futures=True)
+
+
+def _convert(source: Path, target: Path, options: Options) -> Outcome:
+    try:
+        motion = load(source, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+        make_folder(target.parent)
+        save(motion, target, widen=options.widen)
+    except MocapError as error:
+        named = any(str(path) in str(error) for path in (source, target))
+        return Outcome(source, target, str(error) if named else f"{source}: {error}")
+    return Outcome(source, target, None)

@@ -1,0 +1,245 @@
+"""Read and write motions, whatever the format: the suffix of the file's name decides."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TypedDict, Unpack
+
+from mocap._shared.arrays import Array
+from mocap._shared.atomic import write_text
+from mocap._shared.progress import Progress
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import FormatError, MocapError
+from mocap.files import acclaim, amc, bvh
+from mocap.files.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
+from mocap.files.asf import read_skeleton
+from mocap.files.text import read_text
+
+
+def load_all(
+    paths: Sequence[Path], *, skeleton: Path | None, scale: float | None, progress: Progress
+) -> list[Motion]:
+    """Load files, and of folders every `.amc` and `.bvh` file in them."""
+    found: list[Path] = []
+    for path in paths:
+        inside = (
+            sorted(p for p in path.iterdir() if p.suffix.lower() in (".amc", ".bvh"))
+            if path.is_dir()
+            else [path]
+        )
+        if not inside:
+            raise MocapError(f"The folder {path} holds no .amc or .bvh file.")
+        found += inside
+    return [load(path, skeleton=skeleton, scale=scale) for path in progress(found)]
+
+
+def load(
+    path: str | Path,
+    *,
+    skeleton: str | Path | None = None,
+    fps: float | None = None,
+    scale: float | None = None,
+) -> Motion:
+    """Read a motion from an `.amc` or `.bvh` file.
+
+    Parameters
+    ----------
+    path : the file; capital letters in its suffix are fine.
+    skeleton : for `.amc`, the `.asf` file of its skeleton. By default the one beside it that fits: of the
+        same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
+    fps : frames a second, which goes before what the file says. An `.amc` says none unless `save` wrote it,
+        and by default has 120 as most of the CMU database.
+    scale : metres in one unit of the file; by default 0.01 for `.bvh`, and what the skeleton says for `.amc`.
+
+    Returns
+    -------
+    The motion, named after the file.
+
+    Raises
+    ------
+    MocapError : for a file that is missing or of another format, or when no skeleton fits.
+    FormatError : for a file that breaks its format; it names the line.
+
+    Examples
+    --------
+    >>> load("walk.fbx")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf) and .bvh.
+
+    Notebook: 01-skeletons-and-clips
+    """
+    path = Path(path)
+    _check("fps", fps)
+    _check("scale", scale)
+    match path.suffix.lower():
+        case ".amc":
+            asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
+            return acclaim.read_amc(path, read_skeleton(asf, scale=scale), fps=fps)
+        case ".bvh":
+            return bvh.read(path, scale=scale or 0.01, fps=fps)
+        case ".asf":
+            raise MocapError(f"{path} is a skeleton without a motion: load_skeleton reads it.")
+    raise MocapError(f"Cannot read {path}: mocap reads .amc (with .asf) and .bvh.")
+
+
+def load_skeleton(path: str | Path) -> Skeleton:
+    """Read a skeleton from an `.asf` file.
+
+    Parameters
+    ----------
+    path : the file.
+
+    Returns
+    -------
+    The joints, in metres.
+
+    Raises
+    ------
+    MocapError, FormatError : as for `load`.
+
+    Examples
+    --------
+    >>> load_skeleton("walk.amc")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot read a skeleton from walk.amc: give an .asf file.
+    """
+    if Path(path).suffix.lower() != ".asf":
+        raise MocapError(f"Cannot read a skeleton from {path}: give an .asf file.")
+    return read_skeleton(path).skeleton
+
+
+def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
+    """Give each joint's angles as they stand in the file, shape (F, its axes), degrees.
+
+    `load` makes rotations of them, which hold no jump where an angle jumps from 180° to -180°.
+
+    Parameters
+    ----------
+    path, skeleton : as for `load`.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> turned = Motion(bone, [[0, 0, 0]], [[[0, 0, 1, 0], [1, 0, 0, 0]]], 30.0)
+    >>> with TemporaryDirectory() as folder:
+    ...     save(turned, f"{folder}/turned.bvh")
+    ...     read_angles(f"{folder}/turned.bvh")["root"]  # z, x, y
+    array([[  0.,   0., 180.]])
+
+    Notebook: 01-skeletons-and-clips
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".bvh":
+        return bvh.read_angles(path)
+    asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
+    return acclaim.read_angles(path, read_skeleton(asf))
+
+
+class Form(TypedDict, total=False):
+    """How numbers stand in a file: `scale` is metres in a unit, `precision` digits after the point."""
+
+    scale: float | None
+    precision: int
+
+
+def save(
+    motion: Motion,
+    path: str | Path,
+    *,
+    skeleton: str | Path | None = None,
+    widen: bool = False,
+    **form: Unpack[Form],
+) -> None:
+    """Write a motion to an `.amc` or `.bvh` file; a file that exists is replaced once the new one is whole.
+
+    Marks (labels and contacts) have no place in these formats and are left out.
+
+    Parameters
+    ----------
+    motion : F frames.
+    path : the file.
+    skeleton : for `.amc`, the `.asf` file that it is to fit; by default one of the same name is written
+        beside it.
+    widen : for `.amc`, let the bones of that new skeleton turn about all three axes, as blended motions need.
+    scale : metres in one unit of the file; by default 0.01 for `.bvh`, 0.0564 (as in the CMU database) or
+        what the skeleton says for `.amc`.
+    precision : digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to 1e-10 m.
+
+    Raises
+    ------
+    MocapError : for another format, a missing folder, or what the format cannot hold: the bone that would
+        lose most, how much, and in which frame.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> still = Motion(bone, [[0, 0, 0]], [[[1, 0, 0, 0], [1, 0, 0, 0]]], 30.0)
+    >>> with TemporaryDirectory() as folder:
+    ...     save(still, f"{folder}/still.bvh", precision=9)
+    ...     load(f"{folder}/still.bvh")
+    Motion('still', 1 frames at 30 Hz, 2 joints)
+
+    Notebook: 01-skeletons-and-clips
+    """
+    path, scale, precision = Path(path), form.get("scale"), form.get("precision", 6)
+    _check("scale", scale)
+    if not 0 <= precision <= 15:
+        raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
+    match path.suffix.lower():
+        case ".amc" if skeleton is None:
+            _save_with_skeleton(motion, path, widen, form)
+        case ".amc" if widen:
+            raise MocapError("widen=True writes a new skeleton: leave skeleton= out, or widen.")
+        case ".amc":
+            asf = read_skeleton(Path(skeleton or ""), scale=scale)
+            asf.skeleton.require_same(motion.skeleton)
+            write_text(path, to_amc(motion, asf, precision=precision))
+        case ".bvh":
+            bvh.write(motion, path, scale=scale or 0.01, precision=precision)
+        case _:
+            raise MocapError(f"Cannot write {path}: mocap writes .amc (with .asf) and .bvh.")
+
+
+def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> None:
+    asf = to_acclaim(widened(motion) if widen else motion.skeleton, scale=form.get("scale") or UNIT)
+    amc, beside = to_amc(motion, asf, precision=form.get("precision", 6)), path.with_suffix(".asf")
+    text = to_asf(asf, " ".join(path.stem.split()))
+    if beside.exists() and read_text(beside) != text:  # other clips may need it
+        raise MocapError(
+            f"{beside} holds another skeleton: choose another name for {path.name}, or delete that file, "
+            f"or set skeleton= to it if the motion fits."
+        )
+    write_text(beside, text)
+    write_text(path, amc)
+
+
+def _check(name: str, value: float | None) -> None:
+    if value is not None and not (math.isfinite(value) and value > 0):
+        raise MocapError(f"{name} must be a number above 0, got {value}.")
+
+
+def _skeleton_for(path: Path) -> Path:
+    """Choose among the `.asf` files beside an AMC file."""
+    counts = amc.first_frame(path)
+    beside = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
+    fitting = [file for file in beside if _fits(file, counts)]
+    for stem in (path.stem, path.stem.split("_")[0]):
+        for file in fitting:
+            if file.stem.lower() == stem.lower():
+                return file
+    if len(fitting) == 1:
+        return fitting[0]
+    found = ", ".join(file.name for file in fitting or beside) or "no .asf file"
+    problem = "several fit" if fitting else "none fits"
+    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", f"{problem} ({found})")
+
+
+def _fits(file: Path, counts: dict[str, int]) -> bool:
+    try:
+        asf = read_skeleton(file)
+    except MocapError:
+        return False
+    return amc.fits(counts, asf.dofs(), asf.needed())

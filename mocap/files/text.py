@@ -1,0 +1,133 @@
+"""A text file is read whole or refused, and its lines and numbers are checked."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.errors import FormatError, MocapError
+
+LARGEST = 1e9  # no length, angle or time in a motion file comes near
+
+
+def read_text(path: str | Path, *, most: int = -1) -> str:
+    r"""Read a text file, its lines ended by "\n" whatever they ended with on disk.
+
+    Text that is not UTF-8 is read as Latin-1, which older exporters wrote.
+
+    Parameters
+    ----------
+    path : the file.
+    most : bytes to read, -1 for all.
+
+    Returns
+    -------
+    Its text, without a byte order mark.
+
+    Raises
+    ------
+    MocapError : when the file cannot be opened.
+    FormatError : when it is empty, holds zero bytes, or an unresolved merge.
+
+    Examples
+    --------
+    >>> read_text("nowhere/walk.bvh")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot read nowhere/walk.bvh: No such file or directory.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(most)
+    except OSError as error:
+        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
+    if (zero := data.find(b"\0")) >= 0:
+        raise FormatError(path, data.count(b"\n", 0, zero) + 1, "text", "a zero byte, as in a binary file")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if not text.strip():
+        raise FormatError(path, None, "some text", "an empty file")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    if (marker := f"\n{text}".find("\n<<<<<<< ")) >= 0:
+        got = "'<<<<<<<', an unresolved merge: take one of its two versions"
+        raise FormatError(path, text.count("\n", 0, marker) + 1, "one version of the file", got)
+    return text
+
+
+def check_room(path: str | Path, poses: int, numbers: int) -> None:
+    """Refuse a file whose few numbers would fill the memory with poses of joints that have none.
+
+    Raises
+    ------
+    FormatError : for over 10 million poses of one joint, and fewer than a number to ten of them.
+    """
+    if poses > 10_000_000 and poses > 10 * numbers:
+        raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
+
+
+def rounded(numbers: Array, precision: int, name: str) -> Array:
+    """Round the numbers of a motion for printing, without -0.0.
+
+    Raises
+    ------
+    MocapError : for a number that reading would refuse.
+
+    Examples
+    --------
+    >>> rounded(np.array([-0.04, 1.26]), 1, "walk")
+    array([0. , 1.3])
+    """
+    if np.any(np.abs(numbers) >= LARGEST):
+        raise MocapError(
+            f"'{name}' goes {LARGEST:g} units far, or turns by as many degrees: no file holds it."
+        )
+    return np.round(numbers, precision) + 0.0
+
+
+def lines(text: str) -> Iterator[tuple[int, list[str]]]:
+    r"""Go through the lines that say something: their numbers, from 1, and their words; `#` starts a comment.
+
+    Examples
+    --------
+    >>> list(lines("1  # first frame\n\nroot 0 1.5"))
+    [(1, ['1']), (3, ['root', '0', '1.5'])]
+    """
+    for number, line in enumerate(re.finditer(r"[^\n]*\n?", text), 1):  # no list of a million lines
+        if words := line[0].partition("#")[0].split():
+            yield number, words
+
+
+def to_numbers(path: str | Path, line: int, words: list[str], expected: str, count: int) -> Array:
+    """Turn words into numbers, every one of them finite and below 10⁹.
+
+    Parameters
+    ----------
+    path, line, expected : what the error names.
+    words : what stands in the file.
+    count : how many there must be.
+
+    Returns
+    -------
+    The numbers, shape (len(words),).
+
+    Raises
+    ------
+    FormatError : for more or fewer words, one that is no number, or one that no motion needs.
+
+    Examples
+    --------
+    >>> to_numbers("a.bvh", 3, ["1.5", "7.6e-016"], "2 numbers", 2)
+    array([1.5e+00, 7.6e-16])
+    """
+    if len(words) != count:
+        raise FormatError(path, line, expected, str(len(words)))
+    try:
+        numbers = np.array([float(word) for word in words])
+    except ValueError as error:
+        raise FormatError(path, line, expected, f"'{' '.join(words)}'") from error
+    if not np.all(np.abs(numbers) < LARGEST):  # false for nan, too
+        raise FormatError(path, line, f"{expected}, all below {LARGEST:g}", f"'{' '.join(words)}'")
+    return numbers

@@ -1,0 +1,56 @@
+"""Motion graphs: every way through some clips that looks like one motion [KGP02].
+
+`build` finds the transitions and cuts the clips where they touch; `prune` keeps the part that a walk never
+has to leave. The graph itself is a `networkx.MultiDiGraph` of nodes (clip, frame).
+
+Reading order (notebooks 05, 06)
+--------------------------------
+ 1. `motion_graph`: clips, choice points and transitions as one graph
+ 2. `components`: strongly connected components, and what can be reached
+ 3. `pruning`: cut what a walk could not leave, and say why
+ 4. `thresholds`: which threshold?
+ 5. `choice_points`: fewer, fuller choice points
+ 6. `graph_summary`: what a graph can play
+ 7. `storage`: one file for a graph: .npz; GraphML for other tools
+ 8. `edge_tables`: what each edge plays, as arrays
+ 9. `compiled_graph`: a whole graph as arrays, for searches
+10. `homework_graph`: the homework's simpler graph
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "motion_graph": ["MotionGraph", "build", "from_transitions", "cut_and_join", "labels_between"],
+        "components": [
+            "component_numbers",
+            "largest_component",
+            "largest_components",
+            "numbered_edges",
+            "reached",
+            "NO_LABELS",
+        ],
+        "pruning": ["Pruning", "Reason", "prune", "prune_graph", "notes_example"],
+        "thresholds": ["ThresholdCurve", "smallest_threshold", "threshold_curve", "velocity_jumps"],
+        "choice_points": ["merge_choice_points"],
+        "graph_summary": ["Summary", "summary"],
+        "storage": ["find_clips", "load", "read", "require_suffix", "save", "write_graphml"],
+        "edge_tables": ["EdgeTable", "FrameTable", "edge_table", "frame_table", "require_node"],
+        "compiled_graph": ["CompiledGraph", "compile_graph"],
+        "homework_graph": [
+            "Segment",
+            "connect",
+            "segment_distances",
+            "segment_graph",
+            "segment_motion",
+            "segment_walk",
+            "segments",
+            "shares",
+        ],
+    },
+)

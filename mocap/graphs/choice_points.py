@@ -1,0 +1,105 @@
+"""Fewer, fuller choice points: those a few frames apart become one, where that loses nothing.
+
+Local minima scatter: where two clips stay alike for a while, transitions leave from a handful of frames in a
+row. Moved to one frame they cost a little more, and a walk that comes by meets all of them at once. A
+transition may leave its clip later than before, or enter the other earlier, but never the other way round:
+so each walk of the old graph has its counterpart in the new one, and no frame of a clip is lost.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.errors import MocapError
+from mocap.graphs.motion_graph import MotionGraph, Node, from_transitions
+from mocap.matching.point_clouds import align, point_cloud
+from mocap.matching.transitions import Transition
+
+Ends = tuple[Node, Node]
+
+AT_ONCE = 2048  # transitions measured together: bounds the memory
+
+
+def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: float) -> MotionGraph:
+    """Merge the choice points of a clip that lie within a few frames, where that loses nothing.
+
+    The transitions moved are aligned and measured anew. Where one would cost `threshold` or more, run over
+    the end of its clip, or blend windows that overlap, the point farther from its goal stays where it was.
+
+    Parameters
+    ----------
+    motion_graph : not yet pruned, since the ends of the clips come back.
+    within : the largest number of frames between the first and the last point of a group.
+    threshold : the RMS distance that no moved transition may reach, metres; as for `graphs.build`.
+
+    Returns
+    -------
+    A graph over the same clips; transitions that have come to lie between the same points are one.
+
+    Notebook: 05-motion-graph
+    """
+    if not threshold > 0:
+        raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")
+    clips, window = motion_graph.clips, motion_graph.window
+    edges = motion_graph.graph.edges(data=True)
+    ways = {
+        (a, b): Transition(a[0], a[1], b[0], b[1] - window, edge["cost"], edge["transform"])
+        for a, b, edge in edges
+        if edge["kind"] == "transition"
+    }
+    goals = _goals(list(ways), within)
+    old, measured = list(ways), dict(ways)
+    while True:  # each round sends at least one point back, or is the last
+        new = [(goals[a], goals[b]) for a, b in old]
+        fresh = [ends for ends in dict.fromkeys(new) if ends not in measured and _fits(clips, window, *ends)]
+        measured.update(_measured(clips, window, fresh))
+        bad = [
+            ends
+            for ends, moved in zip(old, new, strict=True)
+            if moved != ends and (moved not in measured or measured[moved].cost >= threshold)
+        ]
+        if not bad:
+            return from_transitions(clips, [measured[ends] for ends in dict.fromkeys(new)], window=window)
+        for back in {max(ends, key=lambda node: abs(node[1] - goals[node][1])) for ends in bad}:
+            goals[back] = back
+
+
+def _goals(ways: Sequence[Ends], within: int) -> dict[Node, Node]:
+    """Send each choice point to one that no point of its group left later, and none entered earlier."""
+    left, entered = ({ends[side] for ends in ways} for side in (0, 1))
+    groups: list[list[Node]] = []
+    for node in sorted(left | entered):
+        last = groups[-1] if groups else [(-1, 0)]
+        together = last[0][0] == node[0] and node[1] - last[0][1] <= within
+        if together and not (node in left and any(before in entered for before in last)):
+            last.append(node)
+        else:
+            groups.append([node])
+    return {
+        node: max((n for n in group if n in left), default=group[0]) for group in groups for node in group
+    }
+
+
+def _fits(clips: Sequence[Motion], window: int, leave: Node, enter: Node) -> bool:
+    inside = leave[1] + window <= len(clips[leave[0]]) and enter[1] >= window
+    return inside and (leave[0] != enter[0] or abs(enter[1] - window - leave[1]) >= window)
+
+
+def _measured(
+    clips: Sequence[Motion], window: int, ends: Sequence[Ends]
+) -> Iterator[tuple[Ends, Transition]]:
+    """Align the windows of transitions from node to node, and tell the RMS distance that is left."""
+    clouds = [point_cloud(clip).reshape(len(clip), -1) for clip in clips]
+    for first in range(0, len(ends), AT_ONCE):
+        part = ends[first : first + AT_ONCE]
+        points, others = (
+            np.stack([clouds[clip][start : start + window].reshape(-1, 3) for clip, start in starts])
+            for starts in ([a for a, _ in part], [(clip, frame - window) for _, (clip, frame) in part])
+        )  # (N, window · P, 3)
+        there = np.stack(align(points, others), axis=-1)  # (N, 3)
+        laid = PlanarTransform(*there.T[..., None]).points(others)
+        costs = np.sqrt(((points - laid) ** 2).sum(-1).mean(-1))
+        for (a, b), cost, numbers in zip(part, costs.tolist(), there.tolist(), strict=True):
+            yield (a, b), Transition(a[0], a[1], b[0], b[1] - window, cost, PlanarTransform(*numbers))

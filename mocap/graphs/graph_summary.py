@@ -1,0 +1,102 @@
+"""Reading a graph: what it can play, how soon a walk can turn off, which kinds of motion it can reach."""
+
+from typing import NamedTuple
+
+import networkx as nx
+import numpy as np
+
+from mocap.graphs.components import Labels, reached
+from mocap.graphs.pruning import name
+
+
+class Summary(NamedTuple):
+    """What a motion graph can play.
+
+    `frames` of the clips, which last `seconds`; `nodes`, `edges`, `transitions` of them; `out_degree`, the
+    mean number of edges that leave a node; `mean_wait` and `worst_wait`, the seconds from a frame of a clip
+    until a transition leaves it, infinite where the clip ends first; `reachable`, for each label set the
+    others that a walk which starts with it can come to.
+    """
+
+    frames: int
+    seconds: float
+    nodes: int
+    edges: int
+    transitions: int
+    out_degree: float
+    mean_wait: float
+    worst_wait: float
+    reachable: dict[Labels, frozenset[Labels]]
+
+    def table(self) -> str:
+        """Write it in lines for people."""
+        wait = f"{self.mean_wait:.2f} s away on average, {self.worst_wait:.2f} s at worst"
+        rows = [
+            ("frames", f"{self.frames} of the clips, {self.seconds:.1f} s"),
+            ("nodes", f"{self.nodes}, with {self.out_degree:.2f} edges out of each"),
+            ("edges", f"{self.edges}, of them {self.transitions} transitions"),
+            ("turn-off", wait if np.isfinite(self.worst_wait) else "none before the end of some clip"),
+        ]
+        if len(self.reachable) > 1:
+            rows += [
+                (name(here), f"leads to {', '.join(sorted(map(name, there))) or 'nothing else'}")
+                for here, there in self.reachable.items()
+            ]
+        return "\n".join(f"{what:<12} {text}" for what, text in rows)
+
+
+def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
+    """Sum up the graph of a `MotionGraph`.
+
+    Parameters
+    ----------
+    graph : its `graph`, pruned or not.
+    fps : frames a second of its clips.
+
+    Notebook: 05-motion-graph
+    """
+    transitions = [edge["kind"] == "transition" for _, _, edge in graph.edges(data=True)]
+    frames, mean_wait, worst_wait = _waits(graph)
+    return Summary(
+        frames,
+        frames / fps,
+        graph.number_of_nodes(),
+        graph.number_of_edges(),
+        sum(transitions),
+        graph.number_of_edges() / max(graph.number_of_nodes(), 1),
+        mean_wait / fps,
+        worst_wait / fps,
+        _reachable(graph),
+    )
+
+
+def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
+    """Count the frames of clip, and how many frames before a turn-off they are: on average, and at worst."""
+    turn_offs = {node for node, _, kind in graph.edges(data="kind") if kind == "transition"}
+    stretches = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
+    ahead: dict[tuple[int, int], float] = {}  # from a node to the next turn-off
+    frames, total, worst = 0, 0.0, 0.0
+    for start, end in sorted(stretches, reverse=True):  # so that what follows is known
+        after = 0.0 if end in turn_offs else ahead.get(end, np.inf)
+        length = end[1] - start[1]
+        ahead[start] = length + after
+        # The frames wait length + after, … 1 + after; the first not at all where it is a turn-off.
+        skipped = 1 if start in turn_offs else 0
+        frames += length
+        if length > skipped:
+            total += (length - skipped) * (after + (length - skipped + 1) / 2)
+            worst = max(worst, length - skipped + after)
+    return frames, total / max(frames, 1), worst
+
+
+def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
+    """Find for each label set of the clips which others a walk that starts with it can come to."""
+    starts: dict[Labels, set[tuple[int, int]]] = {}
+    for start, _, edge in graph.edges(data=True):
+        if edge["kind"] == "clip":
+            starts.setdefault(edge["labels"], set()).add(start)
+    ways = {here: reached(graph, nodes) for here, nodes in starts.items()}
+    return {
+        here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
+        for here in starts
+    }

@@ -1,0 +1,286 @@
+"""The homework's graph: clips cut into segments, joined where the end of one is like the start of another.
+
+A node is a segment, an edge says what may follow it. Where the homework's program slips, the mended way is
+the default and its own way an option: `weighting="distance"` makes the worse match the likelier one, and
+`drift=True` lays segments on one another in height too, so that a walk slowly rises or sinks. Three more
+slips are not kept, but `homework_slips` shows them: angles that flip on their way through Euler angles,
+segments after a transition that show the last frame of the one before again, and clips changed in place.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap.blending.interpolation import blend
+from mocap.blending.weights import sine_weights
+from mocap.body.motion import Motion, concatenate, require_alike
+from mocap.body.planar import IDENTITY, PlanarTransform, heading
+from mocap.errors import MocapError, NoWalk
+from mocap.matching.distance_grids import check_window
+from mocap.matching.other_metrics import Metric, euler_grid
+
+
+def segments(frames: int, length: int) -> list[slice]:
+    """Cut a clip into slices of one length; what would be too short a last one goes to the one before.
+
+    Raises
+    ------
+    MocapError : for a length below 1.
+
+    Examples
+    --------
+    >>> [(s.start, s.stop) for s in segments(700, 200)]
+    [(0, 200), (200, 400), (400, 700)]
+
+    Notebook: 05-motion-graph
+    """
+    check_window(length, max(frames, length), "A clip")
+    starts = list(range(0, max(frames - length, 0) + 1, length))
+    return [slice(*ends) for ends in zip(starts, [*starts[1:], frames], strict=True)]
+
+
+def segment_distances(
+    clips: Sequence[Motion], *, segment: int = 200, window: int = 50, metric: Metric = euler_grid
+) -> NDArray[np.floating]:
+    """Compare how each segment of some clips ends with how each starts: the homework's matrix.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate, cut by `segments`; these count through all clips.
+    segment : frames in a segment, the last of a clip excepted.
+    window : frames at the end of one segment and at the start of the other that are compared.
+    metric : one of the grids of this module.
+
+    Returns
+    -------
+    Shape (S, S), in the metric's unit: [i, j] lays the head of segment j on the tail of segment i.
+
+    Raises
+    ------
+    MocapError : for no clips, different skeletons, and segments that are shorter than the window.
+
+    Notebook: 05-motion-graph
+    """
+    require_alike(clips)
+    check_window(window, segment, "A segment")
+    pieces = [clip[cut] for clip in clips for cut in segments(len(clip), segment)]
+    for piece in pieces:
+        check_window(window, len(piece), f"'{piece.name}'")
+    tails = concatenate([piece[-window:] for piece in pieces])
+    heads = concatenate([piece[:window] for piece in pieces])
+    return metric(tails, heads, window=window)[::window, ::window]
+
+
+class Segment(NamedTuple):
+    """Frames [start, end) of a clip, which is told by its number."""
+
+    clip: int
+    start: int
+    end: int
+
+
+def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the metric
+    clips: Sequence[Motion],
+    segment: int = 200,
+    window: int = 50,
+    threshold: float = 185,
+    weighting: str = "inverse",
+    *,
+    metric: Metric = euler_grid,
+) -> nx.DiGraph:
+    """Build the homework's graph: each segment is followed by its successor, or by one of another clip.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one rate.
+    segment : frames in a segment.
+    window : frames compared, and later blended.
+    threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
+    weighting : how those share what probability the successor leaves, which is a half where there is one:
+        "inverse", in proportion to 1 / D, or "distance", in proportion to D as the homework has it.
+    metric : the homework's program has `euler_grid`, its report `root_grid`; both are in `matching`.
+
+    Returns
+    -------
+    Nodes 0 … n-1 with `clip`, `start`, `end`; edges with `kind` ("clip" for the successor, "transition"),
+    `probability` and, for a transition, `cost`, which is D. `graph.graph` holds `window`.
+
+    Raises
+    ------
+    MocapError, SkeletonMismatch : for clips that do not go together or are too short, and senseless settings.
+
+    Notebook: 05-motion-graph
+    """
+    if weighting not in ("inverse", "distance"):
+        raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
+    if not threshold > 0:
+        raise MocapError(f"The threshold must be above 0, got {threshold}.")
+    _check_lengths(clips, segment, window)
+    distances = segment_distances(clips, segment=segment, window=window, metric=metric)
+    cuts = enumerate(segments(len(clip), segment) for clip in clips)
+    parts = [Segment(clip, part.start, part.stop) for clip, slices in cuts for part in slices]
+    graph = connect(parts, distances, threshold, weighting)
+    graph.graph["window"] = window
+    return graph
+
+
+def connect(
+    parts: Sequence[Segment], distances: NDArray[np.floating], threshold: float, weighting: str
+) -> nx.DiGraph:
+    """Join segments by edges: to the one that follows in the clip, and to those of other clips that match.
+
+    Parameters
+    ----------
+    parts : the segments of all clips, in order.
+    distances : D, shape (S, S), as `graphs.segment_distances` gives it.
+    threshold, weighting : as for `segment_graph`.
+
+    Notebook: 05-motion-graph
+    """
+    graph = nx.DiGraph()
+    graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
+    for node, part in enumerate(parts):
+        others = [j for j, s in enumerate(parts) if s.clip != part.clip and distances[node, j] < threshold]
+        left = 1.0
+        if node + 1 < len(parts) and parts[node + 1].clip == part.clip:
+            graph.add_edge(node, node + 1, kind="clip", probability=0.5 if others else 1.0)
+            left = 0.5
+        costs = distances[node, others]
+        for other, cost, share in zip(others, costs, shares(costs, weighting), strict=True):
+            graph.add_edge(node, other, kind="transition", probability=float(left * share), cost=float(cost))
+    return graph
+
+
+def shares(costs: NDArray[np.floating], weighting: str) -> Array:
+    """Share 1 among some matches, in proportion to D or to 1 / D.
+
+    Parameters
+    ----------
+    costs : D of each, shape (N,).
+    weighting : "distance" or "inverse".
+
+    Examples
+    --------
+    >>> shares(np.array([100.0, 300.0]), "inverse"), shares(np.array([100.0, 300.0]), "distance")
+    (array([0.75, 0.25]), array([0.25, 0.75]))
+
+    Notebook: 05-motion-graph
+    """
+    odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
+    return np.asarray(odds / odds.sum())
+
+
+def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
+    """Raise unless each segment holds a window to enter by, one to leave by, and something between."""
+    if not clips:
+        raise MocapError("A segment graph needs at least one clip.")
+    if window < 2:
+        raise MocapError(f"A window needs at least two frames, got {window}.")
+    for clip in clips:
+        if (length := min(segment, len(clip))) <= 2 * window:
+            raise MocapError(
+                f"'{clip.name}': a segment of {length} frames is too short for windows of {window} at both "
+                "its ends."
+            )
+
+
+def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | None = None) -> list[int]:
+    """Walk from segment to segment by the edges' probabilities.
+
+    Parameters
+    ----------
+    graph : from `segment_graph`.
+    count : how many segments.
+    seed : the same seed gives the same walk.
+    start : the first segment; by default one drawn at random.
+
+    Raises
+    ------
+    NoWalk : for a start that the graph lacks, and for a walk that reaches a segment nothing follows.
+
+    Notebook: 05-motion-graph
+    """
+    if count < 1:
+        raise MocapError(f"A walk needs at least one segment, got {count}.")
+    random = np.random.default_rng(seed)
+    walk = [int(random.integers(len(graph))) if start is None else start]
+    if walk[0] not in graph:
+        raise NoWalk(f"The graph has no segment {walk[0]}.")
+    while len(walk) < count:
+        following = graph[walk[-1]]
+        if not following:
+            raise NoWalk(f"Nothing follows segment {walk[-1]}, where the walk is after {len(walk)} segments.")
+        odds = [edge["probability"] for edge in following.values()]
+        walk.append(int(random.choice(list(following), p=odds)))
+    return walk
+
+
+def segment_motion(
+    clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int], *, drift: bool = False
+) -> Motion:
+    """Play a walk: successors follow as they are, others are laid on the window that they blend with.
+
+    The first frame of a segment that follows by a transition takes heading and place of the frame `window`
+    before the end. Over the window the pose goes over by `sine_weights`.
+
+    Parameters
+    ----------
+    clips : those the graph was built of.
+    graph : from `segment_graph`.
+    walk : segments, each with an edge to the next.
+    drift : take over the height of the frame too, as the homework does.
+
+    Returns
+    -------
+    All the segments' frames, less a window a transition.
+
+    Raises
+    ------
+    NoWalk : for an empty walk, or one that jumps.
+
+    Notebook: 05-motion-graph
+    """
+    if not walk or walk[0] not in graph:
+        raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")
+    window = graph.graph["window"]
+    place, lift = IDENTITY, 0.0
+    current, pieces = _frames(clips, graph, walk[0]), []
+    for here, there in pairwise(walk):
+        if not graph.has_edge(here, there):
+            raise NoWalk(f"The walk jumps from segment {here} to segment {there}.")
+        following = _frames(clips, graph, there)
+        if graph.edges[here, there]["kind"] == "clip":
+            pieces.append(current)
+            current = _placed(following, place, lift)
+            continue
+        tail = current[-window:]
+        place = _lay(following, tail)
+        lift = tail.root_positions[0, 1] - following.root_positions[0, 1] if drift else 0.0
+        following = _placed(following, place, lift)
+        pieces += [current[:-window], blend(tail, following[:window], sine_weights(window))]
+        current = following[window:]
+    return replace(concatenate([*pieces, current]), name="walk")
+
+
+def _frames(clips: Sequence[Motion], graph: nx.DiGraph, node: int) -> Motion:
+    part = Segment(**graph.nodes[node])
+    return clips[part.clip][part.start : part.end]
+
+
+def _lay(motion: Motion, on: Motion) -> PlanarTransform:
+    """Find the transform that takes the first frame of one motion to that of another."""
+    angle = float(heading(on.rotations[0, 0]) - heading(motion.rotations[0, 0]))
+    x, _, z = on.root_positions[0] - PlanarTransform(angle, 0.0, 0.0).points(motion.root_positions[0])
+    return PlanarTransform(angle, float(x), float(z))
+
+
+def _placed(motion: Motion, place: PlanarTransform, lift: float) -> Motion:
+    """Move a segment; one that has never been moved stays bit for bit."""
+    moved = motion if place is IDENTITY else place.motion(motion)
+    return replace(moved, root_positions=np.add(moved.root_positions, [0.0, lift, 0.0])) if lift else moved

@@ -1,0 +1,221 @@
+"""Pruning: cut away what a walk could not leave, or not come back to [KGP02, 3.4].
+
+A walk that shall go on for ever, anywhere it likes, needs a strongly connected graph: one in which every node
+reaches every other. So the largest strongly connected component is kept. To get every kind of motion that the
+clips are labelled with, it is kept once for each set of labels, of those edges that bear exactly these; then
+whatever leads from one kept node to another stays as well. The paper lets only transitions lead from kept
+component to kept component. Here a stretch of clip that passes from walking to running may, too: nobody
+blends it better than the performer did.
+
+The functions take any `networkx.MultiDiGraph`. Of its edges they read `frames`, `kind` and, where they are
+asked to, `labels`.
+"""
+
+import warnings
+from collections import Counter
+from collections.abc import Hashable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from itertools import permutations
+
+import networkx as nx
+import numpy as np
+
+from mocap._shared.collector import uncollected
+from mocap.errors import MocapWarning, NoWalk
+from mocap.graphs.components import (
+    NO_LABELS,
+    Indices,
+    Labels,
+    Nodes,
+    component_numbers,
+    induced,
+    largest_components,
+    numbered_edges,
+    reached,
+)
+from mocap.graphs.motion_graph import MotionGraph
+
+
+def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: int = 1) -> MotionGraph:
+    """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
+
+    The largest is the one that can play most frames of the clips [KGP02, 3.4]; what is left out are dead
+    ends, and sinks that a walk could never leave again. `graphs.prune_graph` also tells why each edge went.
+
+    Parameters
+    ----------
+    motion_graph : left as it is.
+    by_labels : keep a component for every set of labels, made of edges with just these, and the ways between.
+    least_frames : a warning tells where fewer frames of clip stay.
+
+    Raises
+    ------
+    NoWalk : where no component has an edge, so that every walk ends.
+
+    Warns
+    -----
+    MocapWarning : for components with too few frames, and for those from which no way leads to another.
+
+    Notebook: 00-quickstart
+    """
+    pruning = prune_graph(motion_graph.graph, by_labels=by_labels, least_frames=least_frames)
+    return replace(motion_graph, graph=pruning.graph)
+
+
+Edge = tuple[Hashable, Hashable, int]  # start, end, key
+
+
+class Reason(StrEnum):
+    """Why an edge goes: what is wrong with the node at one of its ends."""
+
+    DEAD_END = "dead end: on no cycle"
+    SINK = "sink: on a cycle, but reaches nothing that stays"
+    UNREACHED = "unreached: on a cycle, but nothing that stays leads there"
+    ASIDE = "aside: on no cycle of one label set, or only on a smaller component's"
+
+
+@dataclass(frozen=True)
+class Pruning:
+    """What pruning left, and what it took.
+
+    Parameters
+    ----------
+    graph : the nodes and edges that stay.
+    components : for each label set the nodes of its kept component, none where it has no cycle; without
+        labels, one entry for the empty set.
+    removed : every edge that went, and why.
+    orphans : the nodes that went with their last edge.
+    """
+
+    graph: nx.MultiDiGraph
+    components: Mapping[Labels, Nodes]
+    removed: Mapping[Edge, Reason]
+    orphans: tuple[Hashable, ...]
+
+    def report(self) -> str:
+        """Tell in a few lines what stays, and how many edges went for which reason."""
+        lines = [f"kept {self.graph.number_of_nodes()} nodes and {self.graph.number_of_edges()} edges"]
+        if len(self.components) > 1:
+            lines += [f"  {len(nodes)} nodes: {name(labels)}" for labels, nodes in self.components.items()]
+        lines.append(f"removed {len(self.orphans)} nodes and {len(self.removed)} edges")
+        counts = Counter(self.removed.values())
+        lines += [f"  {counts[reason]} edges: {reason}" for reason in Reason if counts[reason]]
+        return "\n".join(lines)
+
+
+def name(labels: Labels) -> str:
+    """Write a label set, as in "turn+walk".
+
+    Notebook: 06-pruning
+    """
+    return "+".join(sorted(labels)) or "no label"
+
+
+def notes_example() -> nx.MultiDiGraph:
+    """Give the eight-node graph of the notes, after [KGP02, Fig. 4]: node 5 is a dead end, node 4 a sink.
+
+    Examples
+    --------
+    >>> found = prune_graph(notes_example())
+    >>> sorted(found.graph), sorted(found.orphans)
+    ([1, 2, 3, 6, 7, 8], [4, 5])
+
+    Notebook: 06-pruning
+    """
+    graph = nx.MultiDiGraph()
+    ends = [(1, 2), (2, 3), (2, 6), (3, 1), (3, 4), (4, 4), (6, 5), (6, 7), (7, 5), (7, 8), (8, 3)]
+    graph.add_edges_from(ends, kind="clip", frames=30, labels=NO_LABELS)
+    return graph
+
+
+@uncollected()
+def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames: int = 1) -> Pruning:
+    """Keep the largest strongly connected component, of all edges or of every label set's.
+
+    Largest is the one whose stretches of clip have most frames. The time is linear in the edges; by labels,
+    in the edges times the label sets that stay.
+
+    Parameters
+    ----------
+    graph : left as it is.
+    by_labels : keep a component for each label set, and the edges between these.
+    least_frames : a warning tells of every label set whose component has fewer frames of clip. Sets that are
+        no more than smaller sets put together do not count: they mark the passages from kind to kind.
+
+    Returns
+    -------
+    What stays, a graph of its own, in which no walk ever ends; and what went.
+
+    Raises
+    ------
+    NoWalk : where there is no cycle, or none of one label set, so that every walk ends.
+
+    Warns
+    -----
+    MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
+        component to the second.
+
+    Notebook: 06-pruning
+    """
+    ways = numbered_edges(graph)
+    found = largest_components(graph, ways, by_labels)
+    components = {labels: nodes for labels, (nodes, _) in found.items() if nodes}
+    if not components:
+        one = " of edges with the same labels" if len(found) > 1 else ""
+        raise NoWalk(f"The graph has no cycle{one}, so a walk through it ends: allow costlier transitions.")
+    kept: Nodes = frozenset().union(*components.values())
+    pruned = induced(graph, kept)
+    frames = {labels: count for labels, (_, count) in found.items()}
+    for message in (*_too_short(frames, least_frames), *_missing_ways(pruned, components)):
+        warnings.warn(message, MocapWarning, stacklevel=4)  # whoever called `graphs.prune`
+    reasons = _reasons(graph, ways, kept)
+    removed = {
+        (start, end, key): reasons[start if end in kept else end]
+        for start, end, key in graph.edges(keys=True)
+        if start in reasons or end in reasons
+    }
+    return Pruning(pruned, components, removed, tuple(reasons))
+
+
+def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashable, Reason]:
+    """Say of every node that goes what is wrong with it."""
+    part = component_numbers(ways, len(graph))
+    on_cycle = np.bincount(part)[part] > 1
+    on_cycle[ways[ways[:, 0] == ways[:, 1], 0]] = True
+    after = reached(graph, kept)
+    before = reached(graph.reverse(copy=False), kept)
+    return {
+        node: _reason(cycle, node in before, node in after)
+        for node, cycle in zip(graph, on_cycle.tolist(), strict=True)
+        if node not in kept
+    }
+
+
+def _reason(on_cycle: bool, before: bool, after: bool) -> Reason:
+    """Judge a node by whether it is on a cycle, leads to what is kept, and can be reached from there."""
+    if not on_cycle:
+        return Reason.DEAD_END
+    if not before:
+        return Reason.SINK
+    return Reason.ASIDE if after else Reason.UNREACHED
+
+
+def _too_short(frames: Mapping[Labels, int], least: int) -> Iterator[str]:
+    """Name the label sets of which fewer frames stay than asked for."""
+    for labels, count in frames.items():
+        together = NO_LABELS.union(*(other for other in frames if other < labels))
+        if count < least and (labels != together or not labels):
+            kind = f" with {name(labels)}" if len(frames) > 1 else ""
+            yield f"{count} frames of clip stay{kind}, fewer than the {least} asked for."
+
+
+def _missing_ways(graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]) -> Iterator[str]:
+    """Name the ordered pairs of kept components without a way from the first to the second."""
+    ways = {labels: reached(graph, nodes) for labels, nodes in components.items()}
+    for here, there in permutations(components, 2):
+        if not components[there] & ways[here]:
+            yield (
+                f"No way leads from {name(here)} ({len(components[here])} nodes) to {name(there)} "
+                f"({len(components[there])} nodes): allow costlier transitions between the two."
+            )

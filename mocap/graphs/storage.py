@@ -1,0 +1,288 @@
+"""A motion graph in one file: its records as plain arrays in an `.npz`, the clips by name and fingerprint.
+
+The file holds no frame of any clip, and no code: reading one from a stranger runs nothing.
+"""
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.atomic import replacing
+from mocap._shared.progress import Progress
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.datasets.samples import SAMPLES, sample
+from mocap.errors import FormatError, MocapError
+from mocap.files.conversion import FORMATS
+from mocap.files.load_save import load as load_motion
+from mocap.graphs.motion_graph import MotionGraph
+
+FORMAT = "mocap motion graph"
+VERSION = 1
+
+# Every array of the file: its kind of numbers, and its shape in terms of the clips C, nodes N, edges E,
+# transitions T and labels L.
+ARRAYS = {
+    "fps": ("f", ()),
+    "window": ("i", ()),
+    "names": ("U", ("C",)),
+    "frames": ("i", ("C",)),  # of each clip
+    "fingerprints": ("U", ("C",)),
+    "nodes": ("i", ("N", 2)),  # clip, frame
+    "edges": ("i", ("E", 4)),  # start and end, as rows of nodes; key; frames
+    "is_transition": ("b", ("E",)),
+    "costs": ("f", ("T",)),
+    "transforms": ("f", ("T", 3)),
+    "labels": ("U", ("L",)),
+    "labelled": ("b", ("E", "L")),
+}
+
+
+class GraphFile(NamedTuple):
+    """What a file tells without its clips: their rate, names, lengths and fingerprints, and the graph."""
+
+    fps: float
+    window: int
+    names: tuple[str, ...]
+    frames: tuple[int, ...]
+    fingerprints: tuple[str, ...]
+    graph: nx.MultiDiGraph
+
+
+def fingerprint(motion: Motion) -> str:
+    """Sum up all that a graph depends on in a clip: skeleton, poses, rate and labels (SHA-256)."""
+    skeleton = motion.skeleton
+    digest = hashlib.sha256(repr((skeleton.names, motion.fps, sorted(motion.labels))).encode())
+    marks = [motion.labels[label] for label in sorted(motion.labels)]
+    for array in (skeleton.parents, skeleton.offsets, motion.root_positions, motion.rotations, *marks):
+        digest.update(f"{array.dtype.str}{array.shape}".encode())
+        digest.update(np.ascontiguousarray(array).data)
+    return digest.hexdigest()
+
+
+def require_suffix(path: str | Path, suffix: str) -> None:
+    """Raise unless a file to write has the right suffix; its capital letters are fine."""
+    if Path(path).suffix.lower() != suffix:
+        raise MocapError(f"This graph is written as {suffix}, got '{path}'.")
+
+
+def save(motion_graph: MotionGraph, path: str | Path) -> None:
+    """Write a motion graph to an `.npz` file; a file that exists is replaced once the new one is whole.
+
+    Parameters
+    ----------
+    motion_graph : as from `graphs.build` or `prune`.
+    path : the file.
+
+    Raises
+    ------
+    MocapError : for another suffix, and where the file cannot be written.
+
+    Notebook: 05-motion-graph
+    """
+    require_suffix(path, ".npz")
+    clips, graph = motion_graph.clips, motion_graph.graph
+    number = {node: row for row, node in enumerate(graph)}
+    edges = list(graph.edges(keys=True, data=True))
+    transitions = [edge for *_, edge in edges if edge["kind"] == "transition"]
+    labels = sorted({label for *_, edge in edges for label in edge["labels"]})
+    arrays: dict[str, Any] = {
+        "format": np.array(FORMAT),
+        "version": np.array(VERSION),
+        "fps": np.array(motion_graph.fps),
+        "window": np.array(motion_graph.window),
+        "names": np.array([clip.name for clip in clips]),
+        "frames": np.array([len(clip) for clip in clips]),
+        "fingerprints": np.array([fingerprint(clip) for clip in clips]),
+        "nodes": np.array(list(graph), int).reshape(-1, 2),
+        "edges": np.array([(number[a], number[b], key, e["frames"]) for a, b, key, e in edges], int).reshape(
+            -1, 4
+        ),
+        "is_transition": np.array([edge["kind"] == "transition" for *_, edge in edges], bool),
+        "costs": np.array([edge["cost"] for edge in transitions], float),
+        "transforms": np.array([edge["transform"] for edge in transitions], float).reshape(-1, 3),
+        "labels": np.array(labels, str),
+        "labelled": np.array([[x in edge["labels"] for x in labels] for *_, edge in edges], bool).reshape(
+            len(edges), len(labels)
+        ),
+    }
+    with replacing(path) as beside, beside.open("wb") as file:
+        np.savez_compressed(file, **arrays)
+
+
+def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
+    """Read a motion graph, and give it its clips back.
+
+    Parameters
+    ----------
+    path : a file from `save`.
+    clips : the motions that it was built of, in any order, others among them or not.
+
+    Returns
+    -------
+    The same graph, bit for bit.
+
+    Raises
+    ------
+    FormatError : for a file that is no motion graph, is damaged, or of a newer version.
+    MocapError : for a clip that is missing, or not what it was.
+
+    Notebook: 05-motion-graph
+    """
+    found = read(path)
+    by_name = {clip.name: clip for clip in clips}
+    for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
+        if name not in by_name:
+            raise MocapError(f"{path} needs the clip '{name}'; given are: {', '.join(by_name) or 'none'}.")
+        if fingerprint(by_name[name]) != known:
+            raise MocapError(
+                f"{path} was built of another '{name}' than this: {frames} frames at {found.fps:g} Hz then, "
+                f"{len(by_name[name])} at {by_name[name].fps:g} Hz now. Take the old clip, or build anew."
+            )
+    return MotionGraph(tuple(by_name[name] for name in found.names), found.window, found.graph)
+
+
+def read(path: str | Path) -> GraphFile:
+    """Read what a file tells without its clips.
+
+    Raises
+    ------
+    FormatError, MocapError : as for `load`.
+
+    Notebook: 05-motion-graph
+    """
+    arrays = _arrays(path)
+    _check(path, arrays)
+    nodes = [(clip, frame) for clip, frame in arrays["nodes"].tolist()]
+    labels = np.array(arrays["labels"], object)
+    ways = zip(arrays["costs"].tolist(), arrays["transforms"].tolist(), strict=True)
+    graph = nx.MultiDiGraph()
+    graph.add_nodes_from(nodes)
+    for (start, end, key, length), is_transition, marks in zip(
+        arrays["edges"].tolist(), arrays["is_transition"].tolist(), arrays["labelled"], strict=True
+    ):
+        edge: dict[str, Any] = {"kind": "clip", "frames": length, "labels": frozenset(labels[marks])}
+        if is_transition:
+            cost, transform = next(ways)
+            edge |= {"kind": "transition", "cost": cost, "transform": PlanarTransform(*transform)}
+        graph.add_edge(nodes[start], nodes[end], key, **edge)
+    names, frames, known = (tuple(arrays[key].tolist()) for key in ("names", "frames", "fingerprints"))
+    return GraphFile(float(arrays["fps"]), int(arrays["window"]), names, frames, known, graph)
+
+
+def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Progress = iter) -> list[Motion]:
+    """Find the clips that a saved graph was built of: bundled ones, or files of their names beside it.
+
+    Parameters
+    ----------
+    path : a file from `save`.
+    skeleton : the `.asf` file of `.amc` clips; by default the one beside them that fits.
+    progress : wraps the clips' names while the files are read.
+
+    Returns
+    -------
+    The clips at their own rates: resample them to the graph's before you give them to `load`.
+
+    Raises
+    ------
+    MocapError : where the file of a clip is not beside the graph, or cannot be read.
+    """
+    names = read(path).names
+    if set(names) <= set(SAMPLES):
+        return [sample(name) for name in names]
+    around = sorted(Path(path).parent.iterdir())
+    beside = {file.stem: file for file in around if file.suffix.lower() in FORMATS}
+    if missing := [name for name in names if name not in beside]:
+        raise MocapError(f"Clip '{missing[0]}' is not beside {path}: name the clips by --clips.")
+    return [load_motion(beside[name], skeleton=skeleton) for name in progress(names)]
+
+
+def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
+    """Open the archive, check what it says it is, and take out its arrays."""
+    ours = f"a motion graph saved by mocap, version {VERSION}"
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            kind, version = str(archive["format"]), int(archive["version"])
+            arrays = {key: archive[key] for key in ARRAYS if key in archive}
+    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
+        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
+    except Exception as error:  # whatever NumPy stumbles over, it is no file of ours
+        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
+    if kind != FORMAT:
+        raise FormatError(path, None, ours, "an .npz of another kind")
+    if version > VERSION:
+        raise FormatError(path, None, ours, f"version {version}, which a newer mocap wrote")
+    if missing := [key for key in ARRAYS if key not in arrays]:
+        raise FormatError(path, None, ours, f"one without {', '.join(missing)}")
+    return arrays
+
+
+def _check(path: str | Path, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Raise unless every array has its kind and shape, and no number says what cannot be."""
+    sizes: dict[str, int] = {}
+    for key, (kind, shape) in ARRAYS.items():
+        array = arrays[key]
+        fits = len(shape) == array.ndim and array.dtype.kind == kind
+        for name, size in zip(shape, array.shape, strict=False):
+            fits &= size == (sizes.setdefault(name, size) if isinstance(name, str) else name)
+        if not fits:
+            raise FormatError(path, None, f"'{key}' to fit the other arrays", f"{array.dtype}{array.shape}")
+    for what, holds in _rules(arrays):
+        if not np.all(holds):
+            raise FormatError(path, None, f"that {what}", "a damaged file")
+
+
+def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]]:
+    """Go through what must hold; each rule leans on those before it."""
+    window, lengths, nodes = arrays["window"], arrays["frames"], arrays["nodes"]
+    edges, is_transition = arrays["edges"], arrays["is_transition"]
+    yield "window and rate are above 0", window > 0 and 0 < arrays["fps"] < np.inf
+    yield "there are clips with names of their own", 0 < len(set(arrays["names"].tolist())) == len(lengths)
+    yield "nodes lie in clips", (nodes[:, 0] >= 0) & (nodes[:, 0] < len(lengths))
+    yield "nodes lie in their clips", (nodes[:, 1] >= 0) & (nodes[:, 1] <= lengths[nodes[:, 0]])
+    yield "no node comes twice", len(np.unique(nodes, axis=0)) == len(nodes)
+    yield "edges join nodes", (edges >= 0).all() and (edges[:, :2] < len(nodes)).all()
+    yield "no edge comes twice", len(np.unique(edges[:, :3], axis=0)) == len(edges)
+    (clip, leave), (other, enter) = nodes[edges[:, 0]].T, nodes[edges[:, 1]].T
+    stretch = (clip == other) & (leave < enter) & (edges[:, 3] == enter - leave)
+    inside = (leave + window <= lengths[clip]) & (enter >= window) & (edges[:, 3] == window)
+    yield "edges play what lies between their ends", np.where(is_transition, inside, stretch)
+    yield "each transition has a cost", is_transition.sum() == len(arrays["costs"])
+    yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
+    yield "transforms are finite", np.isfinite(arrays["transforms"])
+
+
+def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
+    """Write a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap does not read it.
+
+    Nodes bear `clip`, `frame` and `seconds`; edges `kind`, `frames`, `labels`, and transitions `cost` (m),
+    `angle` (rad), `x` and `z` (m).
+
+    Raises
+    ------
+    MocapError : for another suffix, a clip's name that XML cannot hold, and a file that cannot be written.
+
+    Notebook: 05-motion-graph
+    """
+    require_suffix(path, ".graphml")
+    plain = nx.MultiDiGraph()
+    names = [clip.name for clip in motion_graph.clips]
+    if unfit := [name for name in names if not name.isprintable()]:
+        raise MocapError(f"GraphML cannot hold the clip's name {unfit[0]!r}.")
+    for clip, frame in motion_graph.graph:
+        plain.add_node(
+            f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=frame / motion_graph.fps
+        )
+    for (a, leave), (b, enter), key, edge in motion_graph.graph.edges(keys=True, data=True):
+        told = {"kind": edge["kind"], "frames": edge["frames"], "labels": "+".join(sorted(edge["labels"]))}
+        if edge["kind"] == "transition":
+            told |= {"cost": float(edge["cost"])}
+            told |= {field: float(number) for field, number in edge["transform"]._asdict().items()}
+        plain.add_edge(f"{names[a]}:{leave}", f"{names[b]}:{enter}", key, **told)
+    with replacing(path) as beside:
+        nx.write_graphml_xml(plain, beside)

@@ -1,0 +1,215 @@
+"""Which threshold? What the motion graph would be at each of many, from one list of transitions."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import velocities
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.errors import MocapError, NoWalk
+from mocap.graphs.components import largest_component
+from mocap.graphs.motion_graph import (
+    MotionGraph,
+    from_transitions,
+)
+from mocap.matching.point_clouds import point_cloud
+from mocap.matching.transitions import Transitions, find_transitions
+
+
+def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
+    """Find the lowest threshold, in metres, at which the motion graph of some clips has a cycle.
+
+    Raises
+    ------
+    NoWalk : where there is none at any threshold.
+
+    Notebook: 05-motion-graph
+    """
+    found = find_transitions(clips, window=window, below=float("inf"))
+    found = found[np.argsort(found.cost, kind="stable")]
+    low, high = 0, len(found)
+    while (
+        low < high
+    ):  # invariant: the first `high` transitions make a cycle, or high is all; the first `low` do not
+        middle = (low + high) // 2
+        if _has_cycle(from_transitions(clips, found[: middle + 1], window=window)):
+            high = middle
+        else:
+            low = middle + 1
+    if low == len(found):
+        raise NoWalk("No two windows of these clips join into a cycle: add clips that start and end alike.")
+    return found[low].cost
+
+
+def _has_cycle(motion_graph: MotionGraph) -> bool:
+    return not nx.is_directed_acyclic_graph(motion_graph.graph)
+
+
+Counts = NDArray[np.intp]
+
+AT_ONCE = 4096  # transitions measured together: bounds the memory
+
+
+class ThresholdCurve(NamedTuple):
+    """What a motion graph would be at each threshold, shape (T,) each.
+
+    threshold : metres.
+    transitions, nodes, edges : how many of each the whole graph would have.
+    frames : frames of the clips that the largest strongly connected component could play.
+    cost : the mean of the transitions' costs, metres; 0 without transitions.
+    jump : the mean of their `velocity_jumps`, metres a second: how much the seams are felt.
+    """
+
+    threshold: Array
+    transitions: Counts
+    nodes: Counts
+    edges: Counts
+    frames: Counts
+    cost: Array
+    jump: Array
+
+    def suggest(self, keep: float = 0.9) -> float:
+        """Give the lowest threshold at which the largest component plays enough of the clips.
+
+        Parameters
+        ----------
+        keep : how much of what it plays at the best of the thresholds.
+
+        Raises
+        ------
+        NoWalk : where no threshold leaves a component that plays anything.
+        """
+        if not 0 < keep <= 1:
+            raise MocapError(f"keep must be a share above 0 and at most 1, got {keep}.")
+        if self.frames.max(initial=0) == 0:
+            raise NoWalk("At none of these thresholds has the graph a cycle: allow costlier transitions.")
+        return float(self.threshold[self.frames >= keep * self.frames.max()].min())
+
+
+def threshold_curve(
+    clips: Sequence[Motion],
+    transitions: Transitions,
+    *,
+    window: int,
+    thresholds: ArrayLike | None = None,
+) -> ThresholdCurve:
+    """Tell for many thresholds how large the motion graph would be, and how much of it would be kept.
+
+    The transitions are sorted by cost once, and those below a threshold are the first ones, so that means are
+    running sums; components take time linear in the edges. So a curve costs no more than as many prunings,
+    and no search.
+
+    Parameters
+    ----------
+    clips : the motions.
+    transitions : found between them with the loosest threshold of interest.
+    window : frames in a transition.
+    thresholds : shape (T,), metres; by default 30, evenly up to just above the dearest transition.
+
+    Returns
+    -------
+    The curve, which can suggest a threshold.
+
+    Raises
+    ------
+    NoWalk : for no transitions at all, unless `thresholds` are given.
+    MocapError : for transitions that the clips do not have, and thresholds that are not numbers.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> from mocap.body.planar import PlanarTransform
+    >>> still = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), np.zeros((90, 3)), [[[1, 0, 0, 0]]] * 90, 30.0)
+    >>> there, back, zero = np.array([20, 60]), np.array([60, 20]), np.zeros(2, int)
+    >>> two = Transitions(zero, there, zero, back, np.array([0.01, 0.03]), PlanarTransform(zero, zero, zero))
+    >>> curve = threshold_curve([still], two, window=10, thresholds=[0.02, 0.04])
+    >>> curve.transitions.tolist(), curve.nodes.tolist(), curve.frames.tolist()
+    ([1, 2], [4, 6], [0, 30])
+
+    Notebook: 05-motion-graph
+    """
+    if thresholds is None and len(transitions) == 0:
+        raise NoWalk("There are no transitions: allow costlier ones.")
+    largest = np.nextafter(transitions.cost.max(initial=0), np.inf)
+    values = np.linspace(0, largest, 31)[1:] if thresholds is None else np.array(thresholds, float).ravel()
+    if np.isnan(values).any():
+        raise MocapError(f"Thresholds must be numbers, got {values.tolist()}.")
+    transitions = transitions[np.argsort(transitions.cost)]
+    counts = np.searchsorted(transitions.cost, values)  # how many are below each
+    places, ends, leave, enter = _places(clips, transitions, window)
+    costs = np.full(len(places), np.inf)  # of the cheapest transition at each place
+    for numbers in (leave, enter):
+        np.minimum.at(costs, numbers, transitions.cost)
+    costs[ends] = -np.inf
+    nodes = np.searchsorted(np.sort(costs), values)
+    frames = np.array([_largest(places, ends, leave[:count], enter[:count]) for count in counts], np.intp)
+    edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
+    jumps = velocity_jumps(clips, transitions, window=window)
+    cost, jump = (
+        np.cumsum([0.0, *column])[counts] / np.maximum(counts, 1) for column in (transitions.cost, jumps)
+    )
+    return ThresholdCurve(values, counts, nodes, edges, frames, cost, jump)
+
+
+def _places(
+    clips: Sequence[Motion], transitions: Transitions, window: int
+) -> tuple[Counts, Counts, Counts, Counts]:
+    """Give numbers to the nodes of the graph with all transitions, in the order of clips and time.
+
+    What comes out: each node's place on a line on which the clips follow each other; and the numbers of the
+    clips' starts and ends, of where each transition leaves, and of where it enters.
+    """
+    lengths = np.array([len(clip) for clip in clips])
+    inside = np.ones(len(transitions), bool)
+    for clip, frame in ((transitions.source, transitions.leave), (transitions.target, transitions.enter)):
+        inside &= (clip < len(clips)) & (frame + window <= lengths[np.minimum(clip, len(clips) - 1)])
+    if not inside.all():
+        raise MocapError(f"These clips do not have the windows of {transitions[int(inside.argmin())][:4]}.")
+    starts = np.cumsum(lengths + 1) - lengths - 1  # one more each: a clip's last node comes after its frames
+    leave = starts[transitions.source] + transitions.leave
+    enter = starts[transitions.target] + transitions.enter + window
+    places, numbers = np.unique(np.concatenate([starts, starts + lengths, leave, enter]), return_inverse=True)
+    ends, leave, enter = np.split(numbers, [2 * len(clips), 2 * len(clips) + len(transitions)])
+    return places, ends, leave, enter
+
+
+def _largest(places: Counts, ends: Counts, leave: Counts, enter: Counts) -> int:
+    """Count the frames that the strongly connected component which plays most of them plays."""
+    before = np.setdiff1d(np.arange(len(places)), ends[len(ends) // 2 :])  # all but the ends of clips go on
+    tails, heads = np.concatenate([before, leave]), np.concatenate([before + 1, enter])
+    frames = np.zeros(len(tails), np.intp)
+    frames[: len(before)] = places[before + 1] - places[before]
+    return largest_component(np.stack([tails, heads], axis=1), frames, len(places))[1]
+
+
+def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
+    """Measure how differently the points move in the clips that a transition blends, mid-window.
+
+    Parameters
+    ----------
+    clips : the motions.
+    transitions : N of them, between these clips.
+    window : frames in a transition.
+
+    Returns
+    -------
+    The RMS over the points of ‖v - T v'‖, shape (N,), metres a second.
+
+    Notebook: 09-discussion
+    """
+    moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
+    middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
+    jumps = np.empty(len(transitions))
+    for first in range(0, len(jumps), AT_ONCE):
+        some = transitions[first : first + AT_ONCE]
+        turn = PlanarTransform(np.asarray(some.transform.angle)[:, None], 0.0, 0.0)
+        gaps = moving[middles[some.source] + some.leave] - turn.points(
+            moving[middles[some.target] + some.enter]
+        )
+        jumps[first : first + AT_ONCE] = np.sqrt((gaps**2).sum(-1).mean(-1))
+    return jumps

@@ -1,0 +1,47 @@
+"""Which moments of two clips are alike? Point clouds, distance grids, and the transitions they allow.
+
+The measure is that of [KGP02, 3.1]: lay one window of frames on the other by the best planar transform, and
+take what is left between the points. Its local minima are where one clip can pass into another. (*Motion
+matching*, as games use it, is another method: it looks for the next frame while the character walks.)
+
+Reading order (notebooks 02, 05)
+--------------------------------
+1. `point_clouds`: the points a motion drives, and how to align two clouds of them
+2. `distance_grids`: all windows against all, by matrix products
+3. `other_metrics`: three metrics that are wrong, and why
+4. `minima`: lower than all eight neighbours
+5. `tiled_search`: minima of a grid too large to hold
+6. `transitions`: where one clip can pass into another
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "point_clouds": [
+            "Surface",
+            "distinct_joints",
+            "point_cloud",
+            "align",
+            "matching_clouds",
+            "unit_weights",
+        ],
+        "distance_grids": ["distance_grid", "cloud", "cloud_distances", "tapered_sum", "diagonal_sum"],
+        "other_metrics": [
+            "Metric",
+            "HOMEWORK_WEIGHTS",
+            "root_grid",
+            "euler_grid",
+            "pose_grid",
+            "file_angles",
+        ],
+        "minima": ["local_minima"],
+        "tiled_search": ["find_minima"],
+        "transitions": ["Transition", "Transitions", "find_transitions"],
+    },
+)

@@ -1,0 +1,188 @@
+"""The points that a motion drives, and the planar transform under which two clouds of them agree best."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import forward_kinematics
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError
+
+FARTHEST = 1e6  # metres; farther away doubles tell no millimetres, and floats overflow when squared
+
+
+class Surface(NamedTuple):
+    """How to cover each bone with points: so many `along` it, `around` it, at a `radius` in metres."""
+
+    along: int = 3
+    around: int = 4
+    radius: float = 0.05
+
+
+def distinct_joints(skeleton: Skeleton) -> list[int]:
+    """List the joints that are different points: of joints that always coincide, only the first.
+
+    Examples
+    --------
+    >>> fork = Skeleton(["a", "b", "c"], [-1, 0, 0], [[0, 0, 0], [0, 1, 0], [0, 1, 0]])
+    >>> distinct_joints(fork)
+    [0, 1]
+
+    Notebook: 02-matching
+    """
+    seen: set[tuple[int, ...]] = set()
+    kept = []
+    for joint, (parent, offset) in enumerate(zip(skeleton.parents, skeleton.offsets, strict=True)):
+        place = (int(parent), *np.round(offset * 1e9).astype(int).tolist())
+        if joint == 0 or (np.any(place[1:]) and place not in seen):
+            kept.append(joint)
+        seen.add(place)
+    return kept
+
+
+def point_cloud(motion: Motion, surface: Surface | None = None) -> Array:
+    """Give the points a motion drives: its distinct joints, or points on the surface of its bones.
+
+    Parameters
+    ----------
+    motion : F frames.
+    surface : how to cover each bone, a cylinder from a joint's parent to the joint; by default the points
+        are the joints. A surface also feels how a bone turns about itself.
+
+    Returns
+    -------
+    Shape (F, P, 3), metres: joints in the order of `distinct_joints`, or bone by bone in that order.
+
+    Raises
+    ------
+    MocapError : for a surface without points or of a radius below 0, and for a skeleton without bones.
+
+    Examples
+    --------
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> still = Motion(bone, [[0, 0, 0]], [[[1, 0, 0, 0], [1, 0, 0, 0]]], 30.0)
+    >>> point_cloud(still).shape, point_cloud(still, Surface(along=2, around=4)).shape
+    ((1, 2, 3), (1, 8, 3))
+
+    Notebook: 02-matching
+    """
+    joints = distinct_joints(motion.skeleton)
+    poses = forward_kinematics(motion)
+    if surface is None:
+        return poses.positions[:, joints]
+    parents = motion.skeleton.parents[joints[1:]]
+    local = _bone_surfaces(motion.skeleton.offsets[joints[1:]], surface)  # (B, N, 3)
+    turned = local @ np.swapaxes(poses.matrices[:, parents], -1, -2)
+    return (poses.positions[:, parents, None] + turned).reshape(len(motion), -1, 3)
+
+
+def _bone_surfaces(bones: Array, surface: Surface) -> Array:
+    """Place points around bones (B, 3) that start at the origin: shape (B, along · around, 3)."""
+    if surface.along < 1 or surface.around < 1 or not surface.radius >= 0:
+        raise MocapError(
+            f"A surface needs points along and around, and a radius of 0 or more, got {surface}."
+        )
+    if len(bones) == 0:
+        raise MocapError("A skeleton of one joint has no bones, and so no surface.")
+    # Any vector that is not along the bone spans, by cross products, the plane across it.
+    across = np.cross(bones, np.eye(3)[np.abs(bones).argmin(-1)])
+    across /= np.linalg.norm(across, axis=-1, keepdims=True)
+    third = np.cross(bones, across) / np.linalg.norm(bones, axis=-1, keepdims=True)
+    amount = (np.arange(surface.along) + 0.5) / surface.along
+    angle = np.arange(surface.around) * (2 * np.pi / surface.around)
+    ring = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * third[:, None]
+    points = bones[:, None, None] * amount[:, None, None] + surface.radius * ring[:, None]
+    return np.asarray(points.reshape(len(bones), -1, 3))
+
+
+def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None) -> PlanarTransform:
+    """Find the planar transform that lays `others` on `points` best, in closed form.
+
+    It minimises Σ w ‖p - T p'‖² [KGP02, Eqs. 2-4]; with bars for sums Σ w ·, and Σ w = 1,
+    θ = atan2(Σ w (x z' - x' z) - (x̄ z̄' - x̄' z̄), Σ w (x x' + z z') - (x̄ x̄' + z̄ z̄')),
+    x₀ = x̄ - x̄' cos θ - z̄' sin θ and z₀ = z̄ + x̄' sin θ - z̄' cos θ.
+
+    Parameters
+    ----------
+    points, others : shape (..., P, 3), metres; the n-th point of one belongs to the n-th of the other.
+    weights : shape (P,), not negative; equal by default. Any scale: they are divided by their sum.
+
+    Returns
+    -------
+    The transform; its fields have the leading shape (...).
+
+    Raises
+    ------
+    MocapError : for clouds of different sizes, points that are not finite, and senseless weights.
+
+    Examples
+    --------
+    >>> corner = np.array([[0.0, 1, 0], [1, 1, 0], [1, 1, 2]])
+    >>> moved = PlanarTransform(0.5, 2.0, -1.0).points(corner)
+    >>> [float(np.round(number, 6)) for number in align(moved, corner)]
+    [0.5, 2.0, -1.0]
+
+    Notebook: 02-matching
+    """
+    a, b = matching_clouds(points, others)
+    w = unit_weights(weights, a.shape[-2])
+    mean_a, mean_b = w @ a, w @ b
+    # Centred on their means, clouds far from the origin lose no digits.
+    xa, _, za = np.moveaxis(a - mean_a[..., None, :], -1, 0)
+    xb, _, zb = np.moveaxis(b - mean_b[..., None, :], -1, 0)
+    angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
+    turned = PlanarTransform(angle, 0.0, 0.0).points(mean_b)
+    return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
+
+
+def matching_clouds(points: ArrayLike, others: ArrayLike) -> tuple[Array, Array]:
+    """Take two clouds as arrays of shape (..., P, 3), metres.
+
+    Raises
+    ------
+    MocapError : for clouds of different sizes, and points that are not finite or too far away.
+
+    Notebook: 02-matching
+    """
+    a, b = np.asarray(points, float), np.asarray(others, float)
+    if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:
+        raise MocapError(f"Clouds of shapes {a.shape} and {b.shape} do not match: both need (..., P, 3).")
+    for cloud in (a, b):
+        require_near(cloud, "the cloud")
+    return a, b
+
+
+def unit_weights(weights: ArrayLike | None, count: int) -> Array:
+    """Scale weights to a sum of one; equal ones by default.
+
+    Raises
+    ------
+    MocapError : unless they are so many numbers, not negative, and not all 0.
+
+    Examples
+    --------
+    >>> unit_weights([1, 3], 2)
+    array([0.25, 0.75])
+
+    Notebook: 02-matching
+    """
+    w = np.ones(count) if weights is None else np.asarray(weights, float)
+    if w.shape != (count,) or not np.isfinite(w).all() or np.any(w < 0) or not np.any(w > 0):
+        shown = w.tolist() if w.size <= 8 else f"an array of shape {w.shape} from {w.min():g} to {w.max():g}"
+        raise MocapError(f"Weights must be {count} numbers, not negative and not all 0, got {shown}.")
+    w = w / w.max()  # so that not even the largest numbers overflow in the sum
+    return np.asarray(w / w.sum())
+
+
+def require_near(points: Array, name: str) -> None:
+    """Raise unless all points are finite, and no farther away than any motion goes."""
+    near = np.abs(points) <= FARTHEST  # NaN is not
+    if not near.all():
+        place = tuple(int(index) for index in np.argwhere(~near)[0])
+        raise MocapError(
+            f"Points must be numbers within {FARTHEST:g} m; {name} holds {points[place]} at {list(place)}."
+        )

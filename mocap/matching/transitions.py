@@ -1,0 +1,224 @@
+"""Where can one clip pass into another? The local minima of the distance grids of all pairs of clips."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any, NamedTuple, overload
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap._shared.progress import Progress
+from mocap.body.motion import Motion, require_alike
+from mocap.body.planar import PlanarTransform
+from mocap.errors import MocapError
+from mocap.matching.distance_grids import Cloud, check_window, cloud
+from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
+from mocap.matching.tiled_search import find_minima
+
+pass
+Indices = NDArray[np.integer[Any]]
+Thresholds = float | Mapping[tuple[str, str], float]
+"""One threshold in metres, or one for each pair of labels."""
+
+FEW = 20_000  # frames up to which the search takes its time and works in 64 bits
+
+
+class Transition(NamedTuple):
+    """A way from one clip into another: two windows alike enough to be blended.
+
+    The window of clip `source` starts at frame `leave`, that of clip `target` at frame `enter`; `transform`
+    lays the second on the first, and `cost` is the RMS distance of the points that is left, in metres.
+    """
+
+    source: int
+    leave: int
+    target: int
+    enter: int
+    cost: float
+    transform: PlanarTransform
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Transitions(Sequence[Transition]):
+    """Many transitions: a sequence of `Transition` records, kept as one array, shape (N,), for each field.
+
+    An index gives a record; a slice, a mask of booleans or an array of indices gives Transitions.
+
+    Examples
+    --------
+    >>> count, zeros = np.arange(3), np.zeros(3)
+    >>> three = Transitions(count, count, count, count, count / 100, PlanarTransform(zeros, zeros, zeros))
+    >>> three[three.cost < 0.015]
+    Transitions(2, from 0.0 to 1.0 cm)
+    >>> [t.leave for t in three], three[2].cost
+    ([0, 1, 2], 0.02)
+    """
+
+    source: Indices
+    leave: Indices
+    target: Indices
+    enter: Indices
+    cost: Array
+    transform: PlanarTransform
+
+    def __len__(self) -> int:
+        return len(self.cost)
+
+    def __repr__(self) -> str:
+        costs = f", from {100 * self.cost.min():.1f} to {100 * self.cost.max():.1f} cm" if len(self) else ""
+        return f"Transitions({len(self)}{costs})"
+
+    @property
+    def columns(self) -> tuple[NDArray[Any], ...]:
+        """The eight arrays: source, leave, target, enter, cost, and the transform's angle, x and z."""
+        ways = (np.asarray(field) for field in self.transform)
+        return (self.source, self.leave, self.target, self.enter, self.cost, *ways)
+
+    @overload
+    def __getitem__(self, index: int) -> Transition: ...
+    @overload
+    def __getitem__(self, index: slice | NDArray[Any]) -> Transitions: ...
+    def __getitem__(self, index: int | slice | NDArray[Any]) -> Transition | Transitions:
+        if isinstance(index, int | np.integer):
+            return _record(*(column[index].item() for column in self.columns))
+        return _transitions([column[index] for column in self.columns])
+
+    def __iter__(self) -> Iterator[Transition]:
+        for start in range(0, len(self), 1024):  # not all at once: as records they take ten times the room
+            part = (column[start : start + 1024].tolist() for column in self.columns)
+            yield from map(_record, *part)
+
+
+def _record(source: int, leave: int, target: int, enter: int, cost: float, *way: float) -> Transition:
+    return Transition(source, leave, target, enter, cost, PlanarTransform(*way))
+
+
+def _transitions(columns: Sequence[NDArray[Any]]) -> Transitions:
+    source, leave, target, enter, cost, *way = columns
+    return Transitions(source, leave, target, enter, cost, PlanarTransform(*way))
+
+
+def find_transitions(
+    clips: Sequence[Motion],
+    *,
+    window: int,
+    below: Thresholds,
+    progress: Progress = iter,
+    executor: Executor | None = None,
+) -> Transitions:
+    """Find where one clip can pass into another: local minima of the distance grids of all pairs.
+
+    The grids are worked through in blocks and never held as a whole: memory grows with the number of
+    frames and of transitions found. A pair of windows is measured once, for both ways between them. Up to
+    20 000 frames these are the minima of `distance_grid` in 64 bits. Above, the search works in 32, twice as
+    fast; where a valley is flat, one minimum in a thousand is then found a frame further, or twice.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate.
+    window : frames in a window; about a third of a second.
+    below : the largest RMS distance of the points, metres. Or one for each pair of labels, as {("walk",
+        "run"): 0.05, ...}: from windows in which the first label is on to windows with the second, or back
+        where that pair is not named itself. Where several pairs apply the strictest counts; where none
+        applies there is no transition.
+    progress : wraps the pairs of blocks as they are worked through, to show a bar.
+    executor : where to work: threads, processes, or a cluster by `dask.distributed`'s
+        `Client.get_executor()`; by default here, one block after the other. On machines of one kind the
+        result is the same, bit for bit. Set OMP_NUM_THREADS=1 before, lest each worker's matrix products
+        ask for all cores as well.
+
+    Returns
+    -------
+    Transitions both ways between all pairs, within a clip too, ordered by clip and frame; costs are right
+    to a micrometre. Left out are those between windows of one clip that overlap, which would lead from a
+    moment to itself.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
+        out of reach, thresholds that are not above 0, and labels that no clip has.
+
+    Notebook: 05-motion-graph
+    """
+    require_alike(clips)
+    for clip in clips:
+        check_window(window, len(clip), f"'{clip.name}'")
+    _check_thresholds(below, clips)
+    if not clips:
+        return _join(np.empty((6, 0)), clips)
+    loosest = max(below.values()) if isinstance(below, Mapping) else below
+    found = find_minima(_prepare(clips, window), loosest, progress=progress, executor=executor)
+    transitions = _join(found, clips)
+    return transitions[transitions.cost < _limits(below, clips, window, transitions)]
+
+
+def _check_thresholds(below: Thresholds, clips: Sequence[Motion]) -> None:
+    each = below if isinstance(below, Mapping) else {("", ""): below}
+    if not each:
+        raise MocapError("There is no threshold: name one for at least one pair of labels.")
+    for pair, metres in each.items():
+        if not metres > 0:
+            raise MocapError(
+                f"The threshold must be above 0 m, got {metres} m{' for ' * bool(pair[0])}{pair}."
+            )
+    known = sorted({label for clip in clips for label in clip.labels})
+    for label in {label for pair in each for label in pair} - {"", *known}:
+        raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
+
+
+def _prepare(clips: Sequence[Motion], window: int) -> Cloud:
+    """Put all clips after each other; windows that would run from one into the next are of infinite size."""
+    clouds, level, taper = [], None, unit_weights(None, window)
+    dtype = np.float64 if sum(map(len, clips)) <= FEW else np.float32
+    for clip in clips:
+        points = point_cloud(clip)
+        require_near(points, f"'{clip.name}'")
+        level = points[..., 1].mean(0) if level is None else level
+        clouds.append(cloud(points, level, unit_weights(None, points.shape[1]), taper, dtype))
+    return Cloud(*(np.concatenate(arrays) for arrays in zip(*clouds, strict=True)))
+
+
+def _join(found: Array, clips: Sequence[Motion]) -> Transitions:
+    """Turn what `find_minima` found into transitions both ways; the way back is the inverse."""
+    first, second = found[:2].astype(np.int64)
+    there = PlanarTransform(*found[3:])
+    i, j = np.concatenate([first, second]), np.concatenate([second, first])
+    order = np.argsort(i * (i.max(initial=0) + 1) + j)  # one number for (i, j): sorts by i, then by j
+    i, j = i[order], j[order]
+    starts = np.cumsum([0, *(len(clip) for clip in clips)])
+    source, target = (np.searchsorted(starts, frame, side="right") - 1 for frame in (i, j))
+    records = [source, i - starts[source], target, j - starts[target]]
+    ways = [np.concatenate(both)[order] for both in zip(there, there.inverse(), strict=True)]
+    return _transitions(
+        [*(column.astype(np.int32) for column in records), np.tile(found[2], 2)[order], *ways]
+    )
+
+
+def _limits(below: Thresholds, clips: Sequence[Motion], window: int, found: Transitions) -> Array:
+    """Give each transition its threshold; NaN, below which nothing is, where no pair of labels applies."""
+    if not isinstance(below, Mapping):
+        return np.full(len(found), below)
+    limits = np.full(len(found), np.nan)
+    for (label, other), metres in ({pair[::-1]: m for pair, m in below.items()} | dict(below)).items():
+        applies = _labelled(label, clips, window, found.source, found.leave)
+        applies &= _labelled(other, clips, window, found.target, found.enter)
+        limits[applies] = np.fmin(limits[applies], metres)
+    return limits
+
+
+def _labelled(
+    label: str, clips: Sequence[Motion], window: int, clip: Indices, start: Indices
+) -> NDArray[np.bool_]:
+    """Tell of windows whether a label is on in any of their frames."""
+    on = np.zeros(len(clip), bool)
+    for number, motion in enumerate(clips):
+        if label in motion.labels:
+            mine = clip == number
+            marks = np.asarray(motion.labels[label])
+            on[mine] = sliding_window_view(marks, window)[start[mine]].any(-1)
+    return on

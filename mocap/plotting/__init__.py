@@ -1,0 +1,44 @@
+"""Pictures, by matplotlib: stick figures, distance images, paths, curves and graphs.
+
+Every function draws on `ax` (new axes by default), computes nothing of its own, and gives back the artists it
+made; `show` puts the picture into a notebook with a sentence for readers who do not see it.
+
+Reading order (notebooks 00 to 10)
+----------------------------------
+1. `style`: one look: colours that colour-blind readers tell apart
+2. `axes`: 3D axes with a ground
+3. `stick_figures`: bodies as lines
+4. `charts`: distance images, paths from above, curves
+5. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+6. `search_tree`: what a search looked at
+7. `picture`: pictures in notebooks
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "style": [
+            "ASKED",
+            "COLOURS",
+            "CURVES",
+            "FLOOR",
+            "MARK",
+            "PATH",
+            "QUIET",
+            "SOURCES",
+            "source_colours",
+        ],
+        "axes": ["ground_axes", "to_picture"],
+        "stick_figures": ["Bones", "StickFigure", "bones", "film_strip", "laid_over", "stick_figure"],
+        "charts": ["asked_and_walked", "distance_image", "footprints", "joint_curve", "path_from_above"],
+        "graph_drawing": ["before_and_after", "node_link", "timeline"],
+        "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
+        "picture": ["Picture", "show"],
+    },
+)

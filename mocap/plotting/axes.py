@@ -1,0 +1,80 @@
+"""The ground and the bodies on it, in matplotlib's 3D axes.
+
+The world's (z, x, y) are the picture's (x, y, z).
+"""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d import Axes3D, proj3d
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.plotting.style import FLOOR
+
+TALL = 1.9  # metres of height that pictures show
+ZOOM = 1.55  # how near one stands
+
+
+def to_picture(points: ArrayLike) -> Array:
+    """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring.
+
+    Notebook: 03-transforms
+    """
+    return np.roll(np.asarray(points, float), 1, axis=-1)
+
+
+def ground_axes(
+    centre: ArrayLike = (0.0, 0.0), reach: float = 1.0, *, tall: float = TALL, ax: Axes3D | None = None
+) -> Axes3D:
+    """Set up a square of ground with lines every half metre.
+
+    Parameters
+    ----------
+    centre : its middle (x, z), metres.
+    reach : metres each way from there.
+    tall : metres of height above it that are seen.
+    ax : 3D axes; by default they fill a new figure.
+
+    Notebook: 01-skeletons-and-clips
+    """
+    ax = ax or filled(plt.figure(figsize=(5, 5)))
+    ax.set_axis_off()
+    ax.computed_zorder = False  # the ground lies below the feet, from wherever one looks
+    ax.view_init(elev=14, azim=-55)
+    ax.set_proj_type("persp", focal_length=0.6)
+    ax.set_box_aspect((2 * reach, 2 * reach, tall), zoom=ZOOM)
+    ax.set_zlim(0, tall)
+    ax.add_collection3d(Line3DCollection(np.zeros((1, 2, 3)), colors=FLOOR, linewidths=0.8, zorder=0))
+    look_at(ax, np.asarray(centre, float), reach)
+    return ax
+
+
+def filled(figure: Figure) -> Axes3D:
+    """Let 3D axes fill a whole figure."""
+    return figure.add_axes((0, 0, 1, 1), projection="3d")
+
+
+def look_at(ax: Axes3D, centre: Array, reach: float) -> None:
+    """Show the ground around a point (x, z); its lines stay where they are in the world."""
+    x, z = centre
+    ax.set(xlim=(z - reach, z + reach), ylim=(x - reach, x + reach))
+    along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
+    lines = [[(x0, 0, z - reach), (x0, 0, z + reach)] for x0 in along]
+    lines += [[(x - reach, 0, z0), (x + reach, 0, z0)] for z0 in across]
+    ax.collections[0].set_segments(to_picture(lines))
+
+
+def keep_inside(ax: Axes3D, points: Array) -> None:
+    """Step back until points, shape (..., 3), metres, are all on the picture; nearer is left as it is."""
+    flat, zoom = to_picture(points).reshape(-1, 3), ZOOM
+    spans = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
+    for _ in range(3):  # perspective makes the first step nearly right, not quite
+        ax.apply_aspect()
+        across, up, _ = proj3d.proj_transform(*flat.T, ax.get_proj())
+        seen = ax.transAxes.inverted().transform(ax.transData.transform(np.stack([across, up], axis=-1)))
+        zoom /= max(1.0, 2 * float(np.abs(seen - 0.5).max()) / 0.92)
+        ax.set_box_aspect(spans, zoom=zoom)

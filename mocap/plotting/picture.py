@@ -1,0 +1,110 @@
+"""Pictures as notebooks keep them: a small PNG, and a sentence for readers who do not see it."""
+
+from __future__ import annotations
+
+import base64
+import html
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+from PIL import Image
+
+from mocap.errors import MocapError
+
+DPI = 110
+COLOURS = 256  # as many as a palette has: hardly seen, and less than half as large
+
+
+def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting function gives)
+    """Show a picture as the last line of a cell, with a sentence that tells it.
+
+    Parameters
+    ----------
+    drawn : what a function of `plotting` gives: artists, axes or a figure; the whole figure is shown.
+    alt : a sentence that says what the picture shows, for readers who do not see it.
+
+    Returns
+    -------
+    The picture. The figure is closed, so that the notebook does not show it once more.
+
+    Raises
+    ------
+    MocapError : for what is on no figure, and without a sentence.
+
+    Examples
+    --------
+    >>> show(plt.figure().add_subplot().plot([1, 4, 9]), alt="A curve that rises.")
+    Still('A curve that rises.')
+
+    Notebook: 00-quickstart
+    """
+    if not alt.strip():
+        raise MocapError("A picture needs a sentence for readers who do not see it: alt='...'.")
+    figure = figure_of(drawn)
+    try:
+        return Picture(small_png(figure), alt)
+    finally:
+        plt.close(figure)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What `show` gives.
+
+    Parameters
+    ----------
+    picture : a PNG.
+    alt : what it shows, in a sentence.
+    """
+
+    picture: bytes = field(repr=False)
+    alt: str
+
+    def __repr__(self) -> str:
+        return f"Still({self.alt!r})"
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
+        data = base64.b64encode(self.picture).decode()
+        tag = f'<img alt="{html.escape(self.alt)}" src="data:image/png;base64,{data}">'
+        # JupyterLab and nbconvert show an image/png without its alt text: only HTML brings it to the reader.
+        return {"text/html": tag, "image/png": data, "text/plain": self.alt}, {"image/png": {"alt": self.alt}}
+
+
+def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
+    """Find the figure that artists, axes, or lists of them are on.
+
+    Raises
+    ------
+    MocapError : where there is none.
+    """
+    for figure in _figures(drawn):
+        return figure
+    raise MocapError(f"A picture must be given as a figure, or artists on one, not as {drawn!r:.99}.")
+
+
+def _figures(drawn: Any) -> Iterator[Figure]:  # noqa: ANN401
+    if isinstance(drawn, list | tuple | np.ndarray):
+        for part in getattr(drawn, "flat", drawn):
+            yield from _figures(part)
+    elif isinstance(figure := getattr(drawn, "figure", None), Figure):
+        yield figure
+
+
+def small_png(figure: Figure) -> bytes:
+    """Draw a figure as a PNG of few colours."""
+    full = io.BytesIO()
+    figure.savefig(full, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
+    return few_colours(Image.open(full))
+
+
+def few_colours(picture: Image.Image) -> bytes:
+    """Encode a picture as a PNG of few colours."""
+    small = io.BytesIO()
+    few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+    few.save(small, "png", optimize=True)
+    return small.getvalue()

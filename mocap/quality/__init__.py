@@ -1,0 +1,20 @@
+"""Numbers that judge: what is wrong with a clip, and how good a seam is.
+
+A seam is compared with the clips' own windows of the same length: a jump that the clips make themselves is
+nothing special.
+
+Reading order (notebooks 01, 04, 10)
+------------------------------------
+1. `clip_flaws`: a clip's length, path and flaws
+2. `seam_measures`: a seam in five numbers
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "clip_flaws": ["Flaw", "Report", "inspect"],
+        "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
+    },
+)

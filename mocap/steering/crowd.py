@@ -1,0 +1,115 @@
+"""Crowds: many characters off one graph, each on a path of its own, kept apart [KGP02, 5.3]."""
+
+import warnings
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body.ground_path import GroundPath
+from mocap.errors import MocapError, MocapWarning
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
+from mocap.graphs.motion_graph import MotionGraph
+from mocap.steering.beam_search import Beam
+from mocap.steering.path_following import Followed, follow_path
+from mocap.steering.path_objective import Prices, Wishes
+
+WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
+
+
+class Crowd(NamedTuple):
+    """Walks that begin together: each stands in its first pose for `waits` seconds, and in its last for ever.
+
+    `nearest` (K, K) tells how near any two come, metres between their roots; inf on the diagonal.
+    """
+
+    walks: list[Followed]
+    waits: list[float]
+    nearest: Array
+
+
+def walk_crowd(
+    graph: MotionGraph | CompiledGraph,
+    paths: Sequence[GroundPath],
+    *,
+    apart: float = 0.8,
+    beam: Beam | None = None,
+    pool: Executor | None = None,
+) -> Crowd:
+    """Send a character along each path, none coming near another.
+
+    First each walks as if alone; these searches run side by side in a `pool`. Then, one after the other,
+    whoever comes too near to one before searches again, with a price on the metres too near in each frame,
+    and where that does not help, lets the others pass before it sets out. So the first keeps to its path
+    best, and the last gives way to all.
+
+    Parameters
+    ----------
+    graph : pruned.
+    paths : one a character.
+    apart : metres between the roots of any two.
+    beam : how thoroughly to search.
+    pool : a `concurrent.futures.ProcessPoolExecutor` for many characters; by default one after the other.
+
+    Raises
+    ------
+    NoWalk, MocapError : as by `steering.follow_path`.
+
+    Warns
+    -----
+    MocapWarning : where two come nearer than asked for, all the same.
+
+    Notebook: 08-path-synthesis
+    """
+    if not (np.isfinite(apart) and apart > 0):
+        raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
+    compiled, beam = compile_graph(graph), beam or Beam()
+    walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam), paths))
+    waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
+    for character, path in enumerate(paths):
+        before = tracks[:character]
+        if _clearance(tracks[character], before) < apart:
+            found = _give_way(compiled, path, before, apart, beam)
+            walks[character], waits[character], tracks[character] = found
+    nearest = np.array([[_nearest(a, b) if a is not b else np.inf for b in tracks] for a in tracks])
+    if nearest.min(initial=np.inf) < apart:
+        a, b = np.unravel_index(nearest.argmin(), nearest.shape)
+        warnings.warn(
+            f"Characters {a} and {b} come as near as {nearest[a, b]:.2f} m, though {apart:.2f} m were asked "
+            "for: their paths leave them no room.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return Crowd(walks, waits, nearest)
+
+
+def _give_way(
+    graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float, beam: Beam
+) -> tuple[Followed, float, Array]:
+    """Walk so as to keep away from some tracks, at the least wait that will do: walk, wait and track."""
+    wide = replace(beam, width=3 * beam.width, rescue=30.0)
+    prices, found = Prices(crowding=60.0, stray=0.0), []
+    for wait in WAITS:
+        frames = round(wait * graph.fps)
+        others = [track[min(frames, len(track) - 1) :] for track in before]
+        walk = follow_path(graph, path, Wishes(others=others, apart=1.1 * apart), beam=wide, prices=prices)
+        track = np.concatenate([np.repeat(walk.track[:1], frames, axis=0), walk.track])
+        found.append((walk, wait, track))
+        if _clearance(track, before) >= apart:
+            return found[-1]
+    return max(found, key=lambda way: _clearance(way[2], before))
+
+
+def _clearance(track: Array, others: Sequence[Array]) -> float:
+    return min((_nearest(track, other) for other in others), default=np.inf)
+
+
+def _nearest(a: Array, b: Array) -> float:
+    """Measure how near two come while both are walking, or one has arrived and stays."""
+    frames = np.arange(max(len(a), len(b)))
+    apart = a[np.minimum(frames, len(a) - 1)] - b[np.minimum(frames, len(b) - 1)]
+    return float(np.hypot(*apart.T).min())

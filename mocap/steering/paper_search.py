@@ -1,0 +1,91 @@
+"""Path synthesis as the paper does it: branch and bound with the cost of Eq. 9 [KGP02, 5.1]."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap.body.ground_path import GroundPath
+from mocap.errors import NoWalk
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
+from mocap.graphs.motion_graph import MotionGraph
+from mocap.steering.beam_search import Found
+from mocap.steering.path_following import Followed, account, start_of
+from mocap.steering.path_objective import Route, Wishes, make_route
+from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_ahead
+
+
+class PathState(NamedTuple):
+    """A walk along a path: its clip is placed by p -> turn · p + move, and so far along the path it is."""
+
+    turn: complex
+    move: complex
+    along: float
+
+
+class PathCost:
+    """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk halts when P' is as long as P."""
+
+    def __init__(self, graph: CompiledGraph, route: Route) -> None:
+        self.graph, self.route = graph, route
+        self.number: dict[SearchEdge, int] = {edge: number for number, edge in enumerate(graph.edges)}
+        self.step = np.maximum(graph.step, route.least / graph.fps)
+
+    def cost(self, state: PathState, edge: SearchEdge) -> tuple[float, PathState]:
+        """Play one edge."""
+        graph, e = self.graph, self.number[edge]
+        rows = slice(graph.track_first[e], graph.track_first[e] + graph.frames[e])
+        along = state.along + np.cumsum(self.step[rows])
+        off = np.abs(state.turn * graph.track[rows] + state.move - self.route.at(along))
+        turn, move = state.turn * graph.turn[e], state.move + state.turn * graph.move[e]
+        return float((off**2).sum()), PathState(turn, move, float(along[-1]))
+
+    def done(self, state: PathState) -> bool:
+        """Tell whether the path is walked to its end."""
+        return state.along >= self.route.length
+
+
+def follow_as_2002(
+    graph: MotionGraph | CompiledGraph,
+    path: GroundPath,
+    wishes: Wishes,
+    *,
+    look: tuple[int, int] = (90, 28),
+    budget: Budget | None = None,
+) -> Followed:
+    """Follow a path by the paper's own search, to compare with `steering.follow_path`.
+
+    Parameters
+    ----------
+    graph, path : as there.
+    wishes : `start` must be given; labels and times are not heeded.
+    look : frames looked ahead and frames kept.
+    budget : for each stretch of the search.
+
+    Raises
+    ------
+    NoWalk, MocapError : as there.
+
+    Notebook: 08-path-synthesis
+    """
+    compiled = compile_graph(graph)
+    route = make_route(compiled, path, wishes)
+    start = start_of(compiled, route, wishes)[0]
+    state = PathState(complex(start["turn"]), complex(start["move"]), 0.0)
+    cost = PathCost(compiled, route)
+    problem = Problem(compiled.source.graph, cost.cost, cost.done)
+    node = compiled.nodes[int(start["node"])]
+    result = search_ahead(problem, node, state, look=look, budget=budget)
+    if not result.walk:
+        raise NoWalk(f"The search was {result.stopped} before its first step.")
+    edges = np.array([cost.number[edge] for edge in result.walk])
+    rows = np.concatenate(
+        [
+            np.arange(f, f + n)
+            for f, n in zip(compiled.track_first[edges], compiled.frames[edges], strict=True)
+        ]
+    )
+    along = np.cumsum(cost.step[rows])
+    found = Found(
+        edges, state.turn, state.move, along, result.cost, result.expanded, result.cut, result.stopped
+    )
+    return account(compiled, path, route, found)

@@ -1,0 +1,238 @@
+"""Walking along a path drawn on the ground [KGP02, 5.1], and how well it went."""
+
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array, Indices, Points
+from mocap.body.ground_path import GroundPath
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
+from mocap.graphs.components import reached
+from mocap.graphs.edge_tables import Edge
+from mocap.graphs.motion_graph import MotionGraph
+from mocap.steering.beam_search import Beam, Found, States, find_walk, start_states
+from mocap.steering.path_objective import Prices, Route, Wishes, make_route
+from mocap.synthesis.walk_to_motion import to_motion
+
+ASTRAY = 0.15  # metres from the path at which a walk has left it
+NEAR = 0.04  # metres off on average,
+SEAMS = 1.0  # and transitions a second, up to which a path is well followed
+AGAIN = 1.25  # times as dear or cheap is a seam in a second and a third search,
+WIDER = (1.5, 2)  # with beams so many times as wide
+
+
+class Departure(NamedTuple):
+    """Where a walk leaves its path: from and to how far along it, and how far at worst, all in metres."""
+
+    start: float
+    end: float
+    worst: float
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A walk along a path, and how well it keeps to it.
+
+    Parameters
+    ----------
+    graph, path : what was walked through, and along.
+    walk : its edges.
+    place : lays the walk's first clip at the start of the path.
+    track : shape (F, 2), where the root is on the ground, (x, z) in metres.
+    along : shape (F,), metres of path by frame.
+    off : shape (F,), metres from the path by frame: the nearest point of it within half a metre of `along`.
+    unlabelled : shape (F,), the frames without the label asked for.
+    found : the search's own account.
+    """
+
+    graph: MotionGraph
+    path: GroundPath
+    walk: list[Edge]
+    place: PlanarTransform
+    track: Array
+    along: Array
+    off: Array
+    unlabelled: NDArray[np.bool_]
+    found: Found
+
+    def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
+        """Play the walk where it follows the path; `clean` as for `synthesis.to_motion`."""
+        return to_motion(self.graph, self.walk, name=name, place=self.place, clean=clean)
+
+    @property
+    def seconds(self) -> float:
+        """How long the motion lasts."""
+        return len(self.off) / self.graph.clips[0].fps
+
+    @property
+    def seams_a_second(self) -> float:
+        """Transitions in a second of motion."""
+        kinds = [self.graph.graph.edges[edge]["kind"] for edge in self.walk]
+        return kinds.count("transition") / self.seconds
+
+    @property
+    def excess(self) -> float:
+        """The largest of its mean and worst distance and its seams a second, over 4 cm, 15 cm and 1."""
+        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_a_second / SEAMS))
+
+    @property
+    def progress(self) -> float:
+        """The share of the path that was walked, 1 for all of it."""
+        return float(min(1.0, self.along[-1] / self.path.length))
+
+    @property
+    def departures(self) -> list[Departure]:
+        """List the stretches more than 15 cm off the path."""
+        astray = np.concatenate([[False], self.off > ASTRAY, [False]])
+        starts, ends = np.flatnonzero(np.diff(astray)).reshape(-1, 2).T
+        return [
+            Departure(float(self.along[a]), float(self.along[b - 1]), float(self.off[a:b].max()))
+            for a, b in zip(starts, ends, strict=True)
+        ]
+
+    def report(self) -> str:
+        """Tell in one line how well the walk keeps to the path."""
+        told = (
+            f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
+            f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst, "
+            f"{self.seams_a_second:.2f} seams a second"
+        )
+        if self.unlabelled.any():
+            told += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
+        return told + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
+
+
+def follow_path(
+    graph: MotionGraph | CompiledGraph,
+    path: GroundPath,
+    wishes: Wishes | None = None,
+    *,
+    beam: Beam | None = None,
+    prices: Prices | None = None,
+) -> Followed:
+    """Find a walk whose root, seen from above, follows a path.
+
+    The search is that of `beam_search`; its time is linear in the path's length. No one price of a seam
+    suits all paths: where, at the usual one, seams come too often or the walk strays too far
+    (`Followed.excess`), a second and a third, wider search with a dearer or a cheaper seam follow, and the
+    best walk is taken. Where no clip turns as the path does, it cuts the corner and comes back; a warning
+    tells where.
+
+    Parameters
+    ----------
+    graph : pruned, so that walks do not end; compile it yourself to follow many paths.
+    path : where to walk.
+    wishes : labels, times and the start.
+    beam : how thoroughly to search; by default half as wide where nothing but the path is wished for.
+    prices : how much seams and wishes count against the distance; at prices of your own there is one search.
+
+    Raises
+    ------
+    NoWalk : for a label that the graph lacks or that cannot be reached, a start outside it, or a dead end.
+    MocapError : for a path longer than these clips walk in an hour, and wishes that make no sense.
+
+    Warns
+    -----
+    MocapWarning : where the walk is more than 15 cm off the path.
+
+    Notebook: 08-path-synthesis
+    """
+    wishes, compiled = wishes or Wishes(), compile_graph(graph)
+    route = make_route(compiled, path, wishes)
+    beam = beam or Beam(width=Beam.width // 2 if route.bare else Beam.width)
+    starts = start_of(compiled, route, wishes)
+    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
+
+    def search(beam: Beam, prices: Prices) -> Followed:
+        return account(compiled, path, route, find_walk(compiled, route, starts, beam, prices))
+
+    followed = search(beam, prices) if prices else _at_best_price(search, beam)
+    if not wishes.others:  # else it gave way
+        _warn(followed.departures)
+    return followed
+
+
+def _at_best_price(search: Callable[[Beam, Prices], Followed], beam: Beam) -> Followed:
+    """Search at the usual price of a seam; while the walk is out of bounds, wider and at a better one."""
+    begun = time.monotonic()
+    best = last = search(beam, Prices())
+    for wider in WIDER:
+        if best.excess <= 1 or last.found.stopped:
+            return best
+        seam = Prices.seam * (AGAIN if best.seams_a_second > SEAMS else 1 / AGAIN)
+        left = beam.seconds - (time.monotonic() - begun)
+        try:
+            last = search(replace(beam, width=round(wider * beam.width), seconds=left), Prices(seam=seam))
+        except NoWalk:  # out of time at once
+            return best
+        best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
+    return best
+
+
+def _warn(departures: Sequence[Departure]) -> None:
+    """Tell where a walk leaves its path."""
+    if departures:
+        worst = max(departures, key=lambda d: d.worst)
+        warnings.warn(
+            f"The walk leaves the path {len(departures)} times, the furthest by {100 * worst.worst:.0f} cm "
+            f"at {worst.start:.1f} to {worst.end:.1f} m: no clips turn as it does there.",
+            MocapWarning,
+            stacklevel=3,
+        )
+
+
+def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
+    """Stand at the start of the route, at every node or the one asked for, about to go the way it leads."""
+    nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
+    first = route.points[: int(0.3 / route.spacing) + 2]
+    heading = float(np.angle(first[-1] - first[0])) if wishes.heading is None else wishes.heading
+    if not np.isfinite(heading):
+        raise MocapError(f"The heading to start in must be a finite number of radians, got {heading}.")
+    return start_states(graph, nodes, complex(first[0]), heading)
+
+
+def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices) -> None:
+    """Raise `NoWalk` unless the labels can be had one after the other."""
+    source = graph.source.graph
+    nodes = {graph.nodes[start] for start in starts}
+    for label in filter(None, labels):
+        edges = list(source.out_edges(reached(source, nodes), data=True))
+        if not (nodes := {end for _, end, edge in edges if label in edge["labels"]}):
+            can = ", ".join(sorted({name for _, _, edge in edges for name in edge["labels"]})) or "none"
+            raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
+
+
+def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) -> Followed:
+    """Measure how far a walk is from its path, and where it lacks its label."""
+    body, rows = walk_track(graph, found.edges, found.turn, found.move)
+    label = route.label[np.minimum(found.along / route.spacing, len(route.points) - 1).astype(np.intp)]
+    bears = graph.bears[label, rows] if graph.labels else np.zeros(len(rows), bool)
+    return Followed(
+        graph.source,
+        path,
+        [graph.edges[edge] for edge in found.edges],
+        PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real),
+        np.stack([body.imag, body.real], axis=1),
+        found.along,
+        _distance(route, body, found.along),
+        (label >= 0) & ~bears,
+        found,
+    )
+
+
+def _distance(route: Route, body: Points, along: Array) -> Array:
+    """Measure how far the body is from the path within half a metre of where it should be."""
+    reach = int(0.5 / route.spacing) + 1
+    near = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
+    start = route.points[np.clip(near, 0, len(route.points) - 2)]  # (F, pieces)
+    piece = route.points[np.clip(near, 0, len(route.points) - 2) + 1] - start
+    share = ((body[:, None] - start) * piece.conj()).real / np.abs(piece) ** 2
+    return np.asarray(np.abs(body[:, None] - start - np.clip(share, 0, 1) * piece).min(axis=1))

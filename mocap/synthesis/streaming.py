@@ -1,0 +1,132 @@
+"""Motion dumping: random walks as long as one likes, written as they are made [KGP02, 5.3]."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from mocap._shared.progress import Progress
+from mocap.body.motion import Motion, concatenate, turning
+from mocap.body.planar import IDENTITY, PlanarTransform
+from mocap.errors import MocapError
+from mocap.feet.footskate import clean_up
+from mocap.files import bvh
+from mocap.graphs.edge_tables import Edge, edge_table
+from mocap.graphs.motion_graph import MotionGraph
+from mocap.synthesis.random_walks import wander
+from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
+
+MARGIN = 3.0  # seconds: no plant of a walk lasts so long, and no correction reaches so far
+
+
+def stream(
+    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0, clean: bool = False
+) -> Iterator[Motion]:
+    """Play a random walk piece by piece, so that memory holds one piece only.
+
+    Parameters
+    ----------
+    motion_graph : pruned, so that the walk never ends.
+    seconds : how long all pieces together shall be at least.
+    seed : the walk is that of `synthesis.random_walk` with this seed.
+    piece : seconds of a piece, at least.
+    clean : whether to make planted feet stand still, as in `synthesis.to_motion`.
+
+    Yields
+    ------
+    Motions, each going on where the one before ends; together they are that walk, frame for frame.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
+    True
+
+    Notebook: 07-walks-and-search
+    """
+    if clean:
+        motion_graph = with_plants(motion_graph)
+    pieces = _motions(motion_graph, _pieces(motion_graph, seconds, seed, piece))
+    yield from _cleaned(pieces) if clean else pieces
+
+
+def _motions(motion_graph: MotionGraph, walks: Iterator[list[Edge]]) -> Iterator[Motion]:
+    """Play walks one after the other."""
+    place = IDENTITY
+    for walk in walks:
+        yield to_motion(motion_graph, walk, place=place)
+        ends = places(edge_table(motion_graph, walk), place)
+        place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
+
+
+def _cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
+    """Clean each piece together with twice `MARGIN` of what came before; hold its last `MARGIN` back.
+
+    So every frame is cleaned with all that it depends on around it, and the cuts cannot be seen.
+    """
+    waiting, done = next(pieces), 0
+    margin = round(MARGIN * waiting.fps)
+    for piece in pieces:
+        if len(waiting) - done > margin:
+            yield clean_up(waiting)[done:-margin]
+            waiting, done = waiting[-2 * margin :], min(len(waiting) - margin, margin)
+        waiting = concatenate([waiting, piece])
+    yield clean_up(waiting)[done:]
+
+
+def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
+    motion_graph: MotionGraph,
+    path: str | Path,
+    *,
+    seconds: float,
+    seed: int = 0,
+    clean: bool = False,
+    progress: Progress = iter,
+) -> int:
+    """Write a random walk as a `.bvh` file while it is made; an hour takes no more memory than a minute.
+
+    Parameters
+    ----------
+    motion_graph, seconds, seed, clean : as for `stream`.
+    path : the file; it appears once it is whole.
+    progress : wraps the pieces, to show a bar.
+
+    Returns
+    -------
+    The number of frames written.
+
+    Raises
+    ------
+    MocapError : for another format, a folder that one cannot write to, or a duration that is none.
+
+    Notebook: 07-walks-and-search
+    """
+    if Path(path).suffix.lower() != ".bvh":
+        raise MocapError(f"A long walk is written as .bvh, got '{path}'.")
+    # The same seed gives the same walk: count its frames first, for they stand at the file's top.
+    edges = motion_graph.graph.edges
+    counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
+    pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
+    turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
+    bvh.write_pieces((next(pieces) for _ in progress(counts)), path, frames=sum(counts), turns=turns)
+    return sum(counts)
+
+
+def _pieces(motion_graph: MotionGraph, seconds: float, seed: int, piece: float) -> Iterator[list[Edge]]:
+    """Cut a random walk into pieces."""
+    for name, value in (("walk", seconds), ("piece", piece)):
+        if not (np.isfinite(value) and value > 0):
+            raise MocapError(f"A {name} must last longer than 0 s, got {value} s.")
+    fps, done, frames = motion_graph.clips[0].fps, 0, 0
+    walk: list[Edge] = []
+    for edge in wander(motion_graph, seed=seed):
+        walk.append(edge)
+        frames += motion_graph.graph.edges[edge]["frames"]
+        over = done + frames >= seconds * fps
+        if over or frames >= piece * fps:
+            yield walk
+            walk, done, frames = [], done + frames, 0
+        if over:
+            return

@@ -1,0 +1,26 @@
+"""What moves in a browser: the player, and experiments with sliders.
+
+The player is one script that runs in JupyterLab and on a page of its own, without a network. An experiment is
+a picture that follows its controls.
+
+Reading order (notebooks 00 to 10)
+----------------------------------
+1. `player`: a motion that plays, on a page or in a notebook
+2. `live_player`: players that report back: linked ones, and a canvas to draw a path on
+3. `experiments`: a picture that follows its controls
+4. `pointing`: an image to point at
+5. `film`: films, strips of pictures and pages as files
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "player": ["Player", "play"],
+        "live_player": ["draw_path", "linked"],
+        "experiments": ["Experiment", "explore", "step_aside"],
+        "pointing": ["Pointed", "pointer"],
+        "film": ["save_animation"],
+    },
+)

@@ -1,0 +1,265 @@
+"""Experiments for notebooks: a picture that follows its controls; and the players, by their short names.
+
+What `explore` shows is one output with three faces: the live controls where Python runs, a PNG where it does
+not (a code host, a printed page), and a sentence where there are no pictures.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import html
+import importlib.util
+import inspect
+import io
+import time
+import traceback
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from PIL import Image
+
+from mocap.errors import MocapError
+from mocap.plotting.picture import Picture, few_colours, figure_of
+from mocap.widgets.pointing import Pointed, pointer
+
+pass
+pass
+pass
+pass
+
+Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
+SLOW = 0.15  # seconds; a callback that takes longer waits until the reader's hand rests
+
+
+def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experiment:  # noqa: ANN401
+    """Show a picture with controls, and draw it anew whenever one of them moves.
+
+    A figure in which little moves is quick when `draw` moves its artists and gives those back: then only they
+    are drawn again, over a picture of the rest that is kept.
+
+    Parameters
+    ----------
+    draw : called with the controls' values by name; gives what it drew, or a list of the artists it moved.
+    alt : a sentence that says what the picture shows, for readers who do not see it.
+    controls : name=(low, high) or (low, high, step) for a slider, a bool for a box, a list or {label: value}
+        for a choice, an image such as a `plotting.distance_image` to click on for its (row, column), or a
+        widget. A default in `draw`'s signature is where the control starts.
+
+    Returns
+    -------
+    The experiment; a notebook shows it as the last line of a cell.
+
+    Raises
+    ------
+    MocapError : where ipywidgets is not installed, and for controls that are none or `draw` lacks.
+    Exception : whatever `draw` raises at first. Later, the notebook shows it in the picture's place.
+
+    Examples
+    --------
+    >>> line, = plt.figure().add_subplot().plot([0, 1], [0, 0])
+    >>> def draw(slope=1.0):
+    ...     line.set_ydata([0, slope])
+    ...     return [line]
+    >>> explore(draw, alt="A line that rises as its slope does.", slope=(-1.0, 1.0))
+    Experiment(draw, slope=1.0)
+
+    Notebook: 00-quickstart
+    """
+    return Experiment(draw, alt, _widgets(draw, controls))
+
+
+def _widgets(draw: Callable[..., Drawn], controls: dict[str, Any]) -> dict[str, Any]:
+    if importlib.util.find_spec("ipywidgets") is None:
+        raise MocapError("Experiments need ipywidgets, which is not here: pip install 'mocap[notebooks]'.")
+    defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
+    made = {}
+    for name, control in controls.items():
+        if name not in defaults:
+            raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
+        made[name] = _widget(control, defaults[name])
+        if made[name] is None:
+            raise MocapError(
+                f"The control {name}={control!r} is no range, choice or widget, such as (0, 10)."
+            )
+        made[name].description = name.replace("_", " ")
+    return made
+
+
+def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore`)
+    """Make a widget of a control, or None."""
+    from ipywidgets import interactive
+
+    if isinstance(control, AxesImage):
+        return pointer(control, (0, 0) if default is inspect.Parameter.empty else default)
+    try:
+        return interactive.widget_from_abbrev(control, default)
+    except (ValueError, TypeError):
+        return None
+
+
+def step_aside(reason: object) -> None:
+    """Say in a sentence why a notebook cannot go on, and let the cells below it do nothing.
+
+    Parameters
+    ----------
+    reason : an error, or a sentence.
+
+    Examples
+    --------
+    >>> step_aside("The clips are not here.")
+    The cells below do nothing until the kernel restarts: The clips are not here.
+
+    Notebook: 10-real-data
+    """
+    from IPython import get_ipython
+
+    print(f"The cells below do nothing until the kernel restarts: {reason}")
+    if (shell := get_ipython()) is not None:
+        shell.input_transformers_cleanup.append(lambda lines: [])  # of what a cell says, nothing is left
+
+
+class Experiment:
+    """What `explore` gives: the controls, the picture, and the last error.
+
+    Parameters
+    ----------
+    draw, alt : as for `explore`.
+    controls : a widget for each name.
+    """
+
+    def __init__(self, draw: Callable[..., Drawn], alt: str, controls: dict[str, Any]) -> None:
+        import ipywidgets
+
+        self.draw, self.alt, self.controls = draw, alt, controls
+        self.error: Exception | None = None
+        self._canvas = BlittedFigure()
+        self._seconds = 0.0
+        self._waiting: asyncio.TimerHandle | None = None
+        shrinking = {"flex": "1 1 320px", "max_width": "max-content"}  # before one goes below the other
+        self.picture = ipywidgets.Image(format="png", layout=shrinking)  # its alt is the sentence below
+        self.message = ipywidgets.HTML(layout={"display": "none"})
+        sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
+        self._images = [control for control in controls.values() if isinstance(control, Pointed)]
+        for image in self._images:
+            image.layout = shrinking
+        above = [control for control in controls.values() if control not in self._images]
+        below = ipywidgets.HBox([*self._images, self.picture, self.message])
+        below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
+        self.box = ipywidgets.VBox([*above, below, sentence], layout={"align_items": "flex-start"})
+        self.refresh()
+        if self.error:
+            raise self.error
+        for control in controls.values():
+            control.observe(self._moved, "value")
+
+    def __repr__(self) -> str:
+        values = "".join(f", {name}={value!r}" for name, value in self.values().items())
+        return f"Experiment({self.draw.__name__}{values})"
+
+    def values(self) -> dict[str, Any]:
+        """Give the controls' values by name."""
+        return {name: control.value for name, control in self.controls.items()}
+
+    def set(self, **values: Any) -> Experiment:  # noqa: ANN401
+        """Move controls as a reader would, draw at once, and raise what `draw` raises: made for tests."""
+        for name, value in values.items():
+            self.controls[name].value = value
+        self.refresh()
+        if self.error:
+            raise self.error
+        return self
+
+    def refresh(self) -> None:
+        """Draw anew; an error takes the picture's place until the next drawing works."""
+        start = time.perf_counter()
+        try:
+            self.picture.value = self._canvas.png(self.draw(**self.values()))
+            self.error = None
+        except Exception as error:  # whatever a student's function raises belongs on the page
+            self.error = error
+            self.message.value = (
+                f"<pre style='color:#A00000; white-space:pre-wrap'>{html.escape(_told(error))}</pre>"
+            )
+        self.picture.layout.display = "none" if self.error else None
+        self.message.layout.display = None if self.error else "none"
+        self._seconds = time.perf_counter() - start
+
+    def _moved(self, _: object) -> None:
+        """Draw at once where that is quick; else when no control has moved for a while."""
+        if self._waiting:
+            self._waiting.cancel()
+        try:
+            loop = asyncio.get_running_loop() if self._seconds > SLOW else None
+        except RuntimeError:  # no kernel: a test, or a script
+            loop = None
+        if loop:
+            self._waiting = loop.call_later(SLOW, self.refresh)
+        else:
+            self.refresh()
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
+        still, metadata = Picture(self._still(), self.alt)._repr_mimebundle_()
+        return {**(self.box._repr_mimebundle_() or {}), **still}, metadata
+
+    def _still(self) -> bytes:
+        """Give the picture, to the right of the images that it depends on."""
+        stills = [image.still() for image in self._images] + [Image.open(io.BytesIO(self.picture.value))]
+        row = Image.new("RGB", (sum(s.width for s in stills), max(s.height for s in stills)), "white")
+        for number, still in enumerate(stills):
+            row.paste(still, (sum(s.width for s in stills[:number]), 0))
+        return few_colours(row)
+
+
+def _told(error: Exception) -> str:
+    """Say what went wrong, and at which line of the reader's function."""
+    (last,) = traceback.format_exception_only(error)[-1:]
+    at = traceback.extract_tb(error.__traceback__)[1:2]
+    return last.strip() + "".join(f"\n({frame.name}, line {frame.lineno}: {frame.line})" for frame in at)
+
+
+class BlittedFigure:
+    """Turns what a `draw` function gave into a PNG, drawing again only what moved.
+
+    Matplotlib leaves `animated` artists out of a full drawing, and their changes do not make a figure stale.
+    So as long as the figure is not stale, the kept background is true, and the moved artists go on top.
+    """
+
+    def __init__(self) -> None:
+        self.figure: Figure | None = None
+
+    def png(self, drawn: Drawn) -> bytes:
+        """Draw a figure, or, of a list of artists, these over the picture of the rest of theirs."""
+        figure = figure_of(drawn)
+        moved = isinstance(drawn, Sequence) and all(isinstance(part, Artist) for part in drawn)
+        artists = sorted(drawn, key=Artist.get_zorder) if moved else []
+        if figure is not self.figure:
+            plt.close(figure)  # nothing of it may appear elsewhere on the page, nor stay behind
+            self.figure, self.canvas = figure, FigureCanvasAgg(figure)
+            figure.stale = True
+        for artist in artists:
+            if not artist.get_animated():
+                artist.set_animated(True)
+                figure.stale = True
+        if figure.stale:
+            self.canvas.draw()
+            self.background = self.canvas.copy_from_bbox(figure.bbox)
+        else:
+            self.canvas.restore_region(self.background)
+        for artist in artists:
+            if hasattr(artist, "do_3d_projection"):
+                artist.do_3d_projection()
+            artist.draw(self.canvas.get_renderer())
+        return encoded(np.asarray(self.canvas.buffer_rgba()))
+
+
+def encoded(pixels: np.ndarray) -> bytes:
+    """Encode pixels, shape (height, width, 4), as a PNG: quickly rather than small."""
+    stream = io.BytesIO()
+    Image.fromarray(pixels).convert("RGB").save(stream, "png", compress_level=1)
+    return stream.getvalue()

@@ -1,0 +1,104 @@
+"""Motions as files to look at: films, strips of pictures, pages that play."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from PIL import Image
+from scipy.ndimage import gaussian_filter1d
+
+from mocap._shared.atomic import replacing
+from mocap._shared.progress import Progress
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.errors import MocapError
+from mocap.plotting.axes import filled, ground_axes, look_at, to_picture
+from mocap.plotting.stick_figures import StickFigure
+from mocap.plotting.style import PATH
+from mocap.widgets.player import play
+
+SUFFIXES = (".gif", ".mp4", ".png", ".html")
+
+
+def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progress: Progress = iter) -> Path:
+    """Write a motion as a file to look at: the stick figure on the ground, its path, the camera beside it.
+
+    Parameters
+    ----------
+    motion : what to show.
+    path : the file to write; nothing is left behind when writing fails. Its ending says what it will be:
+        .gif or .mp4 a film, .png a strip of pictures, .html a page with the player, which needs nothing else.
+    fps : pictures a second of a film; GIFs count in hundredths of a second, so 25, 50 and 20 are exact.
+    progress : wraps the pictures of a film as they are drawn, to show a bar.
+
+    Returns
+    -------
+    The path.
+
+    Raises
+    ------
+    MocapError : for another ending, where the file cannot be written, and for .mp4 without imageio-ffmpeg.
+
+    Notebook: 00-quickstart
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise MocapError(f"An animation is written as {', '.join(SUFFIXES[:-1])} or .html, got '{path}'.")
+    if suffix == ".mp4":
+        _require_ffmpeg()
+    with replacing(path) as beside:
+        if suffix == ".html":
+            beside.write_text(play(motion).page(), "utf-8")
+        elif suffix == ".png":
+            beside.write_bytes(play(motion).picture)
+        elif suffix == ".mp4":
+            _write_mp4(_pictures(motion, fps, progress), beside, fps)
+        else:
+            _write_gif(_pictures(motion, fps, progress), beside, fps)
+    return Path(path)
+
+
+def _pictures(motion: Motion, fps: float, progress: Progress) -> Iterator[NDArray[np.uint8]]:
+    """Draw a film, a picture at a time, shape (500, 500, 3)."""
+    motion = resample(motion, fps)
+    points = joint_positions(motion)
+    centres = gaussian_filter1d(motion.root_positions[:, [0, 2]], fps / 3, axis=0, mode="nearest")
+    figure = Figure(figsize=(5, 5))
+    canvas = FigureCanvasAgg(figure)  # draws whatever pyplot is set to, and needs no screen
+    ax = ground_axes(centres[0], ax=filled(figure))
+    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
+    body = StickFigure(motion.skeleton, ax)
+    for frame in progress(range(len(motion))):
+        look_at(ax, centres[frame], 1.0)
+        body.pose(points[frame])
+        canvas.draw()
+        yield np.array(canvas.buffer_rgba())[..., :3]
+
+
+def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
+    first, *rest = (Image.fromarray(p).quantize(32, dither=Image.Dither.NONE) for p in pictures)
+    first.save(path, save_all=True, append_images=rest, duration=round(1000 / fps), loop=0)
+
+
+def _write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
+    import imageio_ffmpeg
+
+    writer = imageio_ffmpeg.write_frames(str(path), (500, 500), fps=fps, macro_block_size=2)
+    writer.send(None)
+    try:
+        for picture in pictures:
+            writer.send(np.ascontiguousarray(picture))
+    finally:
+        writer.close()
+
+
+def _require_ffmpeg() -> None:
+    try:
+        import imageio_ffmpeg  # noqa: F401
+    except ImportError as error:
+        raise MocapError(
+            "An .mp4 needs imageio-ffmpeg: pip install 'mocap[video]'; .gif and .html need nothing."
+        ) from error

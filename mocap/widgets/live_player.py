@@ -1,0 +1,141 @@
+"""Players that Python and the reader move together, and the canvas on which one draws a path.
+
+The player's scripts in their second shell, `anywidget`: `frame`, `scene` and `path` are traits, which both
+sides may set and observe.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+from mocap.widgets.player import Player, play, script
+
+Follow = Callable[[Array], Motion | Player]
+
+
+class _Shown:
+    """What a live player has beside its traits: the player it shows, and its output in a notebook."""
+
+    player: Player
+
+    def show(self, player: Player, **extra: bool) -> None:
+        """Show another player in the same place, from its first frame on."""
+        self.player = player
+        self.frame = 0  # which every motion has
+        self.scene = player.scene | extra
+
+    def __repr__(self) -> str:
+        return f"LivePlayer({self.player.alt!r})"
+
+    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:  # noqa: ANN401
+        live: Any = super()._repr_mimebundle_(**options)  # type: ignore[misc]  # of the widget
+        still, metadata = self.player._repr_mimebundle_()
+        return {**live[0], **still}, metadata
+
+
+@cache
+def _live_player() -> type[Any]:
+    """Make the class of the widget, which needs anywidget and so is not there without it."""
+    try:
+        import anywidget
+        import traitlets
+    except ImportError as error:
+        raise MocapError("A linked player needs anywidget: pip install 'mocap[notebooks]'.") from error
+
+    class LivePlayer(_Shown, anywidget.AnyWidget):
+        """A player whose `frame` Python may set and observe."""
+
+        _esm = script()
+        scene = traitlets.Dict().tag(sync=True)
+        frame = traitlets.Int(0).tag(sync=True)
+        path: traitlets.List[Any] = traitlets.List().tag(sync=True)
+        message = traitlets.Unicode().tag(sync=True)
+
+        @traitlets.validate("frame")
+        def _in_range(self, proposal: dict[str, Any]) -> int:
+            frame, frames = int(proposal["value"]), self.scene["frames"]
+            if not 0 <= frame < frames:
+                raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
+            return frame
+
+    return LivePlayer
+
+
+def linked(player: Player) -> Any:  # noqa: ANN401
+    """Link a player to Python: set its `frame` to go there, `observe` it to follow the reader.
+
+    Parameters
+    ----------
+    player : as from `play`.
+
+    Returns
+    -------
+    A widget with the trait `frame`; a notebook shows it as the last line of a cell.
+
+    Raises
+    ------
+    MocapError : where anywidget is not installed, and when a frame is set that the player lacks.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = linked(play(datasets.sample("walk_straight")))
+    >>> walk.observe(lambda change: print("now at", change.new), "frame")
+    >>> walk.frame = 12
+    now at 12
+    """
+    widget = _live_player()(scene=player.scene)
+    widget.player = player
+    return widget
+
+
+def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
+    """Let the reader draw a path on the ground, and show a walk along it.
+
+    Parameters
+    ----------
+    follow : from a path, shape (N, 2), points (x, z) in metres, to a motion, or a `play` of one, whose
+        sentence is told below the canvas: how far off the walk is, say.
+    path : what is drawn already when the canvas appears.
+
+    Returns
+    -------
+    A linked player; its `path` is what the reader drew last, `error` what `follow` raised at it, or None.
+
+    Raises
+    ------
+    MocapError : where anywidget is not installed.
+    Exception : whatever `follow` raises at the first path; later, the canvas shows it.
+
+    Notebook: 08-path-synthesis
+    """
+    on_canvas = {"drawable": True, "follow": False}
+    points = np.reshape(np.asarray(path, float), (-1, 2))
+    canvas = linked(_along(follow, points))
+    canvas.scene = canvas.scene | on_canvas
+    canvas.path = points.tolist()
+    canvas.error, canvas.message = None, canvas.player.alt
+
+    def walk(change: dict[str, Any]) -> None:
+        try:
+            canvas.show(_along(follow, np.array(change["new"], float)), **on_canvas, autoplay=True)
+            canvas.error, canvas.message = None, canvas.player.alt
+        except Exception as error:  # whatever a student's function raises belongs on the page
+            canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
+
+    canvas.observe(walk, "path")
+    return canvas
+
+
+def _along(follow: Follow, path: Array) -> Player:
+    made = follow(path)
+    return replace(made if isinstance(made, Player) else play(made), path=path)

@@ -1,0 +1,188 @@
+"""A player for notebooks and pages: stick figures that move, with nothing but a browser needed.
+
+The scripts in `PARTS` draw; this module packs what they draw. Places are sent as 16-bit numbers between the
+lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 pictures a
+second. What is sent are their second differences over time, which are small, and so shrink when deflated.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+from mocap.feet.footprints import find_footprints
+from mocap.plotting.picture import small_png
+from mocap.plotting.stick_figures import bones, film_strip
+from mocap.plotting.style import COLOURS, PATH, SOURCES, source_colours
+
+Sources = Sequence[tuple[int, str]]
+
+SCREEN = 60.0  # pictures a second that a screen shows; a faster clip is thinned
+PARTS = ("player_scene.js", "player_picture.js", "player.js")  # of one module, in this order
+SIDES = ("middle", "left", "right")  # the scripts count them
+
+
+def script() -> str:
+    """Join the scripts to the one module that a page and a widget run."""
+    return "\n".join(Path(__file__).with_name(part).read_text("utf-8") for part in PARTS)
+
+
+def play(
+    *motions: Motion, sources: Sources = (), path: ArrayLike = (), follow: bool = True, alt: str = ""
+) -> Player:
+    """Play motions in the notebook: turn the view, step, slow down, follow.
+
+    Parameters
+    ----------
+    motions : one or more characters; time runs by the first one's frames.
+    sources : where the first motion comes from, as (frame, name of the clip from there on): it is coloured so
+        that the seams are seen.
+    path : a path asked for, shape (N, 2), points (x, z) in metres.
+    follow : whether the camera goes along.
+    alt : a sentence for readers who do not see it; by default one with names and lengths.
+
+    Returns
+    -------
+    The player; a notebook shows it as the last line of a cell, and `page` is a file to share.
+
+    Raises
+    ------
+    MocapError : without a motion.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> play(datasets.sample("walk_straight"))
+    Player('A stick figure plays walk_straight, ...')
+
+    Notebook: 01-skeletons-and-clips
+    """
+    if not motions:
+        raise MocapError("There is no motion to play.")
+    return Player(
+        motions, tuple(sources), np.reshape(np.asarray(path, float), (-1, 2)), follow, alt or _told(motions)
+    )
+
+
+def _told(motions: Sequence[Motion]) -> str:
+    who = "A stick figure plays" if len(motions) == 1 else f"{len(motions)} stick figures play"
+    names = ", ".join(dict.fromkeys(motion.name for motion in motions))
+    return f"{who} {names}, {max(motion.duration for motion in motions):.1f} s."
+
+
+@dataclass(frozen=True, eq=False)
+class Player:
+    """What `play` gives, with the same arguments. It shows itself as part of a page, picture, sentence."""
+
+    motions: Sequence[Motion]
+    sources: Sources
+    path: Array
+    follow: bool
+    alt: str
+
+    def __repr__(self) -> str:
+        return f"Player({self.alt!r})"
+
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """What the scripts draw; `data` holds, deflated, all characters' numbers, each from its `offset`."""
+        characters: list[dict[str, Any]] = []
+        data = b""
+        for number, motion in enumerate(self.motions):
+            character, block = _packed(motion, SOURCES[number % len(SOURCES)])
+            characters.append(character | {"offset": len(data)})
+            data += block
+        if len(self.motions) == 1:
+            characters[0] |= {"colour": COLOURS["middle"], "path_colour": PATH}
+        characters[0]["sources"] = self._coloured_sources()
+        first = self.motions[0]
+        return {
+            "alt": self.alt,
+            "fps": first.fps,
+            "frames": max(1 + round(motion.duration * first.fps) for motion in self.motions),
+            "follow": self.follow,
+            "sides": [COLOURS[side] for side in SIDES],
+            "asked": self.path.round(3).tolist(),
+            "characters": characters,
+            "data": zlib.compress(data),
+        }
+
+    def _coloured_sources(self) -> list[dict[str, Any]]:
+        colours = source_colours([name for _, name in self.sources])
+        fps = self.motions[0].fps
+        return [{"start": frame / fps, "name": name, "colour": colours[name]} for frame, name in self.sources]
+
+    @cached_property
+    def picture(self) -> bytes:
+        """The strip of poses that stands in where nothing can move, as a PNG."""
+        return small_png(film_strip(self.motions))
+
+    def html(self) -> str:
+        """Give the player as part of a page; its picture stays where no script runs."""
+        data = base64.b64encode(self.scene["data"]).decode()
+        scene = json.dumps({**self.scene, "data": data, "autoplay": True}).replace("<", "\\u003c")
+        picture, alt = base64.b64encode(self.picture).decode(), html.escape(self.alt)
+        return (
+            f'<div class="mocap-player"><img alt="{alt}" src="data:image/png;base64,{picture}">'
+            f'<script type="application/json">{scene}</script></div>\n'
+            f'<script type="module">\n{script()}\nstartAll();\n</script>\n'
+        )
+
+    def page(self) -> str:
+        """Give the player as a whole page, with all it needs inside."""
+        return (
+            f'<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
+            f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f'<link rel="icon" href="data:,">\n<title>{html.escape(self.alt)}</title>\n'
+            f"<style>body {{ margin: 1rem auto; max-width: 720px; }}</style>\n{self.html()}</html>\n"
+        )
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
+        picture = base64.b64encode(self.picture).decode()
+        bundle = {"text/html": self.html(), "image/png": picture, "text/plain": self.alt}
+        return bundle, {"image/png": {"alt": self.alt}}
+
+
+def _packed(motion: Motion, colour: str) -> tuple[dict[str, Any], bytes]:
+    """Pack a motion: the numbers of the joints that bones end at, the root first, and what they mean."""
+    starts, ends, sides = bones(motion.skeleton)
+    joints, index = np.unique([0, *starts, *ends], return_inverse=True)
+    index = index[1:].reshape(2, -1)
+    stride = max(1, int(motion.fps / SCREEN))
+    points = joint_positions(motion)[::stride, joints]  # (F, J, 3)
+    low = points.min(axis=(0, 1))
+    step = np.maximum(points.max(axis=(0, 1)) - low, 1e-6) / 65535
+    numbers = np.round((points - low) / step).astype("<u2")
+    changes = np.diff(numbers, 2, axis=0, prepend=np.zeros_like(numbers, shape=(2, *numbers.shape[1:])))
+    heads = [place for place, joint in enumerate(joints) if "head" in motion.skeleton.names[joint].lower()]
+    return {
+        "name": motion.name,
+        "fps": motion.fps / stride,
+        "frames": len(points),
+        "joints": len(joints),
+        "low": low.tolist(),
+        "step": step.tolist(),
+        "bones": [[*pair, SIDES.index(side)] for pair, side in zip(index.T.tolist(), sides, strict=True)],
+        "head": heads[-1] if heads else None,
+        "colour": colour,
+        "path_colour": colour,
+        "sources": [],
+        "prints": [
+            [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
+            for p in find_footprints(motion)
+        ],
+    }, np.moveaxis(changes, 0, -1).tobytes()

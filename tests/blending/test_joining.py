@@ -1,0 +1,140 @@
+"""A join is the clips' own frames around a smooth passage; a cut's offset dies away as the quintic says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.blending.inertialization import inertialize
+from mocap.blending.interpolation import blend
+from mocap.blending.joining import join, lay_window_on
+from mocap.blending.weights import linear_weights
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.matching.distance_grids import distance_grid
+from tests.strategies import planar, random_motion, seeds, wave
+
+A, B = wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)
+GRID = distance_grid(A, B, window=8)[20:90, 20:60]
+LEAVE, ENTER = (20 + int(n) for n in np.unravel_index(GRID.argmin(), GRID.shape))
+both = pytest.mark.parametrize("way", [join, inertialize])
+
+
+@both
+@settings(max_examples=20)
+@given(i=st.integers(0, 100), j=st.integers(0, 70), window=st.integers(1, 20))
+def test_before_the_window_it_is_a_and_after_it_b_laid_on(way, i, j, window):
+    joined = way(A, i, B, j, window)
+    laid = lay_window_on(A, i, B, j, window)
+    assert len(joined) == i + len(B) - j
+    assert np.array_equal(joined.root_positions[:i], A.root_positions[:i])
+    assert np.array_equal(joined.rotations[:i], A.rotations[:i])
+    assert np.array_equal(joined.root_positions[i + window :], laid.root_positions[j + window :])
+    assert np.array_equal(joined.rotations[i + window :], laid.rotations[j + window :])
+
+
+@both
+@settings(max_examples=20)
+@given(transform=planar)
+def test_where_b_was_captured_does_not_matter(way, transform):
+    here, there = (joint_positions(way(A, LEAVE, b, ENTER, 8)) for b in (B, transform.motion(B)))
+    assert here == pytest.approx(there, abs=1e-7)
+
+
+@both
+def test_a_clip_joined_to_itself_where_it_is_goes_on(way):
+    again = way(A, 30, A, 30, 10)
+    assert joint_positions(again) == pytest.approx(joint_positions(A), abs=1e-9)
+
+
+def test_a_join_is_the_blend_of_the_two_windows_and_any_weights_may_be_given():
+    laid = lay_window_on(A, LEAVE, B, ENTER, 8)
+    for weights in (linear_weights, lambda window: np.full(window, 0.3)):
+        joined = join(A, LEAVE, B, ENTER, 8, weights=weights)
+        mixed = blend(A[LEAVE : LEAVE + 8], laid[ENTER : ENTER + 8], weights(8))
+        assert np.array_equal(joined.rotations[LEAVE : LEAVE + 8], mixed.rotations)
+
+
+def test_marks_are_carried_through_by_the_larger_weight():
+    a = replace(A, labels={"walk": True}, contacts={"hand": True})
+    b = replace(B, labels={"run": True}, contacts={"hand": False, "elbow": True})
+    joined = join(a, 30, b, 10, 8)
+    assert joined.labels["walk"].tolist() == [True] * 34 + [False] * 76
+    assert joined.labels["run"].tolist() == [False] * 34 + [True] * 76
+    assert joined.contacts["hand"].tolist() == [True] * 34 + [False] * 76
+    assert inertialize(a, 30, b, 10, 8).contacts["elbow"].tolist() == [False] * 30 + [True] * 80
+
+
+def roughness(motion):
+    """Return the largest jump of any joint's velocity around the seam, m/s."""
+    points = joint_positions(motion)[LEAVE - 3 : LEAVE + 16]
+    return np.linalg.norm(np.diff(points, 2, axis=0), axis=-1).max() * motion.fps
+
+
+@both
+def test_the_seam_is_as_smooth_as_the_clips_and_a_cut_is_not(way):
+    clip = np.linalg.norm(np.diff(joint_positions(A), 2, axis=0), axis=-1).max() * A.fps
+    assert roughness(way(A, LEAVE, B, ENTER + 4, 12)) < 1.5 * clip
+    assert roughness(way(A, LEAVE, B, ENTER + 4, 1)) > 2 * clip
+
+
+def test_an_inertialized_cut_keeps_pose_and_velocity():
+    cut = inertialize(A, 60, B, 20, 16)
+    now, own = joint_positions(cut), joint_positions(A)
+    assert now[60] == pytest.approx(own[60], abs=1e-9)
+    # Frame 61 is a's own, but for half a frame's difference in acceleration.
+    assert now[61] == pytest.approx(own[61], abs=0.03)
+    assert rotations.angle_between(cut.rotations[60], A.rotations[60]) == pytest.approx(0, abs=1e-6)
+
+
+def test_the_offset_dies_away_by_the_quintic():
+    laid = lay_window_on(A, 60, B, 20, 16)
+    gap = A.root_positions[59:62] - laid.root_positions[19:22]
+    x, v = gap[1], (gap[2] - gap[0]) / 2
+    # Six coefficients from six equations: place and speed at u = 0; at u = 1 all zero, up to the jerk.
+    falling = [np.polynomial.Polynomial.basis(n) for n in range(6)]
+    at = [[p.deriv(order)(1.0) for p in falling] for order in range(4)]
+    coefficients = np.linalg.solve(
+        np.array([np.eye(6)[0], np.eye(6)[1], *at]), [x, 16 * v, *np.zeros((4, 3))]
+    )
+    wanted = (np.arange(16)[:, None] / 16) ** np.arange(6) @ coefficients
+    offset = inertialize(A, 60, B, 20, 16).root_positions[60:76] - laid.root_positions[20:36]
+    assert offset == pytest.approx(wanted, abs=1e-9)
+
+
+@settings(max_examples=20)
+@given(seeds, st.integers(1, 5))
+def test_any_two_poses_can_be_cut_without_a_spin(seed, window):
+    a = random_motion(seed, frames=10)
+    b = random_motion(seed + 1, frames=10, skeleton=a.skeleton)
+    cut = inertialize(a, 3, b, 2, window)
+    assert cut.root_positions[3] == pytest.approx(a.root_positions[3], abs=1e-9)
+    assert rotations.angle_between(cut.rotations[3], a.rotations[3]) == pytest.approx(0, abs=1e-6)
+
+
+@both
+@pytest.mark.parametrize(
+    ("i", "j", "window", "name"),
+    [(113, 0, 8, "'a', which has 120"), (0, 83, 8, "'b', which has 90"), (-1, 0, 8, "'a'")],
+)
+def test_a_window_must_not_run_off_a_clip(way, i, j, window, name):
+    with pytest.raises(MocapError, match=f"frames from frame {i or j} runs off {name}"):
+        way(A, i, B, j, window)
+
+
+@both
+def test_motions_must_go_together(way):
+    with pytest.raises(SkeletonMismatch):
+        way(A, 0, random_motion(0, frames=20), 0, 5)
+    with pytest.raises(MocapError, match="resample one first"):
+        way(A, 0, replace(B, fps=60.0), 0, 5)
+    with pytest.raises(MocapError, match="at least one frame, got 0"):
+        way(A, 0, B, 0, 0)
+
+
+def test_weights_must_lie_between_0_and_1():
+    with pytest.raises(MocapError, match=r"lie in \[0, 1\]"):
+        join(A, 0, B, 0, 5, weights=lambda window: np.full(window, 1.5))

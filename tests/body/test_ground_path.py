@@ -1,0 +1,64 @@
+"""Paths have the lengths that geometry says, and refuse what is none."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body import ground_path
+from mocap.body.ground_path import GroundPath, arcs, spline
+from mocap.errors import MocapError
+from tests.strategies import seeds
+
+
+@given(seeds, st.integers(2, 30))
+def test_points_lie_where_their_length_says(seed, count):
+    path = GroundPath(np.random.default_rng(seed).normal(size=(count, 2)))
+    assert path.at(path.along) == pytest.approx(path.points)
+    assert path.at([-1, path.length + 1]) == pytest.approx(path.points[[0, -1]])
+    fine = path.resampled(0.05)
+    steps = np.hypot(*np.diff(fine.points, axis=0).T)
+    assert steps.max() <= 0.05 + 1e-9
+    assert fine.length <= path.length + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("name", "length"), [("circle", 6 * np.pi), ("S-curve", 20), ("square", 12 + 3 * np.pi)]
+)
+def test_shapes_are_as_long_as_they_must_be(name, length):
+    assert ground_path.SHAPES[name]().length == pytest.approx(length, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["circle", "square", "figure of eight"])
+def test_closed_shapes_close(name):
+    points = ground_path.SHAPES[name]().points
+    assert points[-1] == pytest.approx(points[0], abs=0.01)
+
+
+def test_positive_turns_go_left():
+    """Left of a body that faces +z is +x."""
+    assert arcs((0, 0), 0.0, [(np.pi, np.pi / 2)]).points[-1] == pytest.approx([2, 2], abs=0.01)
+
+
+@given(seeds)
+def test_a_spline_passes_its_points_smoothly(seed):
+    points = np.random.default_rng(seed).normal(size=(6, 2)) * 3
+    curve = spline(points)
+    for point in points:
+        assert np.hypot(*(curve.points - point).T).min() < 0.03
+    assert spline(points, closed=True).points[-1] == pytest.approx(points[0], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        ([[1, 2]], "two points"),
+        ([[1, 2], [1, 2]], "zero length"),
+        ([[0, 0], [1, np.nan], [2, 2]], "Point 1 of the path is not finite"),
+        ([[0, 0], [1e9, 0]], "metres"),
+        ([1, 2, 3], "two points"),
+    ],
+)
+def test_what_is_no_path_is_told(points, message):
+    with pytest.raises(MocapError, match=message):
+        GroundPath(points)

@@ -1,0 +1,127 @@
+"""What a motion refuses; slices, rates and sequences of motions."""
+
+import copy
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body import rotations
+from mocap.body.motion import Motion, concatenate, resample
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError, SkeletonMismatch
+from tests.strategies import random_motion, seeds, wave
+
+
+def bad_rotations(motion, value):
+    changed = motion.rotations.copy()
+    changed[3, 2] = value
+    return changed
+
+
+@pytest.mark.parametrize(
+    ("field", "make", "message"),
+    [
+        ("root_positions", lambda m: np.zeros((0, 3)), "has no frames"),
+        ("root_positions", lambda m: m.root_positions[:4], r"got \(4, 3\) and \(5, 6, 4\)"),
+        ("rotations", lambda m: m.rotations[:, :5], r"got \(5, 3\) and \(5, 5, 4\)"),
+        ("rotations", lambda m: bad_rotations(m, np.nan), "not finite in frame 3"),
+        ("rotations", lambda m: bad_rotations(m, 0.9), "frame 3, joint 'joint2'.*length 1"),
+        ("fps", lambda m: 0, "frame rate above 0, got 0"),
+        ("fps", lambda m: np.inf, "frame rate above 0"),
+        ("contacts", lambda m: {"tail": True}, "No joint 'tail'"),
+        ("labels", lambda m: {"walk": [True, False]}, r"'walk' needs 5 booleans, got shape \(2,\)"),
+    ],
+)
+def test_a_bad_motion_is_refused(field, make, message):
+    motion = random_motion(0)
+    with pytest.raises(MocapError, match=message):
+        replace(motion, **{field: make(motion)})
+
+
+def test_a_single_boolean_marks_every_frame():
+    walk = replace(random_motion(0), labels={"walk": True})
+    assert walk.labels["walk"].tolist() == [True] * 5
+
+
+def test_a_motion_can_be_copied_and_sent_to_another_process():
+    motion = random_motion(1)
+    for twin in (copy.deepcopy(motion), pickle.loads(pickle.dumps(motion))):
+        assert np.array_equal(twin.rotations, motion.rotations)
+
+
+def test_slices_keep_marks_and_divide_the_rate():
+    motion = random_motion(2, frames=9)
+    part = motion[2:8:3]
+    assert len(part) == 2
+    assert part.fps == 10
+    assert np.array_equal(part.rotations, motion.rotations[[2, 5]])
+    assert np.array_equal(part.contacts["joint5"], motion.contacts["joint5"][[2, 5]])
+    with pytest.raises(MocapError, match="forwards only; got a step of -1"):
+        motion[::-1]
+    with pytest.raises(MocapError, match="no frames"):
+        motion[4:4]
+
+
+def test_resampling_at_the_same_rate_changes_nothing():
+    motion = random_motion(3)
+    assert resample(motion, motion.fps) is motion
+
+
+@given(seeds, st.integers(2, 5))
+def test_resampling_up_and_back_down_gives_the_motion_back(seed, factor):
+    motion = random_motion(seed)
+    back = resample(resample(motion, motion.fps * factor), motion.fps)
+    assert len(back) == len(motion)
+    assert back.root_positions == pytest.approx(motion.root_positions, abs=1e-9)
+    assert rotations.angle_between(back.rotations, motion.rotations) == pytest.approx(0, abs=1e-6)
+    assert np.array_equal(back.contacts["joint5"], motion.contacts["joint5"])
+
+
+@given(st.floats(1, 500), st.integers(1, 200))
+def test_resampling_keeps_the_duration_to_a_frame(fps, frames):
+    after = resample(wave(frames), fps)
+    assert after.duration <= wave(frames).duration + 1e-6
+    assert after.duration > wave(frames).duration - 1 / fps
+
+
+def test_resampling_a_smooth_motion_stays_on_it():
+    coarse, fine = wave(100), resample(wave(100), 117.0)
+    t = 2 * np.pi * np.arange(len(fine)) / 117 * 30 / 40
+    assert fine.root_positions[:, 1] == pytest.approx(1 + 0.02 * np.sin(2 * t), abs=5e-3)
+    assert fine.name == coarse.name
+
+
+def test_a_rate_must_be_positive():
+    with pytest.raises(MocapError, match="above 0, got -3"):
+        resample(wave(5), -3)
+
+
+def test_concatenation_keeps_frames_and_fills_missing_marks():
+    skeleton = random_motion(0).skeleton
+    a, b = (
+        random_motion(1, 3, skeleton=skeleton),
+        replace(random_motion(2, 2, skeleton=skeleton), contacts={}),
+    )
+    both = concatenate([a, replace(b, labels={"run": True})], "both")
+    assert both.name == "both"
+    assert np.array_equal(both.rotations, np.concatenate([a.rotations, b.rotations]))
+    assert both.labels["run"].tolist() == [False] * 3 + [True] * 2
+    assert both.contacts["joint5"].tolist() == [*a.contacts["joint5"], False, False]
+
+
+def test_only_motions_that_go_together_are_concatenated():
+    with pytest.raises(MocapError, match="nothing to concatenate"):
+        concatenate([])
+    with pytest.raises(SkeletonMismatch, match="'random1' and 'wave': The skeletons differ in"):
+        concatenate([random_motion(1), wave(3)])
+    with pytest.raises(MocapError, match="30 Hz, 'wave' at 60 Hz"):
+        concatenate([wave(3), replace(wave(3), fps=60)])
+
+
+def test_duration_counts_the_steps():
+    dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    assert Motion(dot, np.zeros((31, 3)), np.tile([1.0, 0, 0, 0], (31, 1, 1)), 30).duration == 1.0

@@ -1,0 +1,90 @@
+"""A limb of two bones meets its target, with its bones as long as they are and its knee to the front."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body import rotations
+from mocap.body.two_bone_ik import two_bone
+from mocap.errors import MocapError
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def random_limbs(seed: int, least: float, most: float):
+    """Return hips, targets at `least` to `most` of the limb's reach, lengths and bend directions."""
+    random = np.random.default_rng(seed)
+    lengths = tuple(random.uniform(0.2, 0.6, 2))
+    start, away, bend = random.normal(size=(3, 7, 3))
+    away /= np.linalg.norm(away, axis=-1, keepdims=True)
+    near, far = abs(lengths[0] - lengths[1]), sum(lengths)
+    reach = near + (far - near) * random.uniform(least, most, (7, 1))
+    return start, start + reach * away, lengths, bend
+
+
+@given(seeds)
+def test_the_end_meets_a_target_within_reach(seed):
+    start, target, lengths, bend = random_limbs(seed, 0.02, 0.98)
+    limb = two_bone(start, target, lengths, bend)
+    assert limb.reached.all()
+    assert limb.end == pytest.approx(target, abs=1e-9)
+    assert np.linalg.norm(limb.middle - start, axis=-1) == pytest.approx(lengths[0])
+    assert np.linalg.norm(target - limb.middle, axis=-1) == pytest.approx(lengths[1])
+
+
+@given(seeds)
+def test_the_middle_points_where_it_shall(seed):
+    start, target, lengths, bend = random_limbs(seed, 0.02, 0.98)
+    limb = two_bone(start, target, lengths, bend)
+    outwards = limb.middle - start
+    assert ((outwards * bend).sum(-1) - projected(outwards, bend, target - start) > 0).all()
+    normal = np.cross(target - start, bend)
+    assert (outwards * normal).sum(-1) == pytest.approx(0, abs=1e-9)
+
+
+def projected(vector: np.ndarray, other: np.ndarray, axis: np.ndarray) -> np.ndarray:
+    return (vector * axis).sum(-1) * (other * axis).sum(-1) / (axis * axis).sum(-1)
+
+
+@given(seeds)
+def test_the_rotations_carry_the_rest_pose_there(seed):
+    start, target, lengths, bend = random_limbs(seed, 0.02, 0.98)
+    limb = two_bone(start, target, lengths, bend)
+    middle = start + rotations.rotate(limb.upper, [0, -lengths[0], 0])
+    assert middle == pytest.approx(limb.middle, abs=1e-9)
+    assert middle + rotations.rotate(limb.lower, [0, -lengths[1], 0]) == pytest.approx(target, abs=1e-9)
+
+
+@given(seeds)
+def test_the_knee_is_a_hinge_that_bends_backwards(seed):
+    start, target, lengths, bend = random_limbs(seed, 0.02, 0.98)
+    limb = two_bone(start, target, lengths, bend)
+    knee = rotations.to_rotvec(rotations.multiply(rotations.inverse(limb.upper), limb.lower))
+    assert knee[:, 1:] == pytest.approx(0, abs=1e-6)
+    assert (knee[:, 0] > 0).all()
+
+
+def test_a_target_out_of_reach_is_told_and_pointed_at():
+    limb = two_bone([0, 1, 0], [[0, -1, 0], [0, 0.4, 0]], (0.4, 0.4), [0, 0, 1])
+    assert limb.reached.tolist() == [False, True]
+    assert limb.end[0] == pytest.approx([0, 0.2, 0])
+
+
+def test_a_target_too_near_is_told():
+    limb = two_bone([0, 1, 0], [0, 0.9, 0], (0.5, 0.3), [0, 0, 1])
+    assert not limb.reached
+    assert limb.end == pytest.approx([0, 0.8, 0])
+
+
+@pytest.mark.parametrize(
+    ("target", "lengths", "bend", "message"),
+    [
+        ([0, 0, 0], (0.0, 1.0), [0, 0, 1], "length above 0, got 0.0 and 1.0"),
+        ([0, 1, 0], (1.0, 1.0), [0, 0, 1], "off the start"),
+        ([0, 0, 0], (1.0, 1.0), [0, 2, 0], "along the limb"),
+    ],
+)
+def test_senseless_limbs_are_told(target, lengths, bend, message):
+    with pytest.raises(MocapError, match=message):
+        two_bone([0, 1, 0], target, lengths, bend)

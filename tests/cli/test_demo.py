@@ -1,0 +1,89 @@
+"""The main job, from files to files."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.cli import demo
+from mocap.cli.demo import Settings
+from mocap.datasets import samples
+from mocap.errors import MocapError, NoWalk, SkeletonMismatch
+from mocap.files import load_save
+from tests.strategies import random_motion, wave
+
+CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
+
+
+def test_it_makes_a_walk_and_says_what_it_did():
+    result = demo.run(CLIPS, Settings(seconds=5, threshold=0.05))
+    assert result.walk.duration >= 5 - 1 / 30
+    table = dict(line.split(maxsplit=1) for line in result.table().splitlines() if line[0] != " ")
+    assert table["clips"] == "2: a, b"
+    assert table["frames"] == "210 at 30 Hz, 7.0 s"
+    whole, pruned = map(int, table["nodes"].split())
+    assert whole == result.whole.graph.number_of_nodes() > pruned > 0
+    worst = max(seam.cost for seam in result.seams)
+    assert table["seams"] == f"{len(result.seams)}, the worst {100 * worst:.1f} cm RMS"
+
+
+def test_many_clips_are_named_in_short():
+    clips = [replace(wave(60, phase=k, seed=k), name=f"clip{k}") for k in range(9)]
+    assert (
+        "9: clip0, clip1, clip2, clip3, clip4, clip5, clip6, … clip8"
+        in demo.run(clips, Settings(threshold=0.05)).table()
+    )
+
+
+def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does():
+    with pytest.raises(NoWalk, match=r"at a threshold of 0\.01 cm; these clips need at least") as caught:
+        demo.run(CLIPS, Settings(threshold=1e-4))
+    enough = float(str(caught.value).split()[-2]) / 100
+    assert len(demo.run(CLIPS, Settings(threshold=enough + 1e-9)).walk) > 0
+
+
+def test_clips_of_other_rates_are_resampled():
+    result = demo.run(CLIPS, Settings(fps=20, threshold=0.06, seconds=2))
+    assert result.walk.fps == 20
+
+
+def test_clips_that_do_not_go_together_are_refused():
+    with pytest.raises(SkeletonMismatch):
+        demo.run([CLIPS[0], random_motion(0, 60)], Settings())
+    with pytest.raises(MocapError, match="'short' has 5 frames, too few for a window of 10"):
+        demo.run([CLIPS[0], replace(wave(5), name="short")], Settings())
+
+
+def test_folders_stand_for_the_clips_in_them(tmp_path):
+    for clip in CLIPS:
+        load_save.save(clip, tmp_path / f"{clip.name}.bvh")
+    (tmp_path / "notes.txt").write_text("not a clip")
+    clips = load_save.load_all([tmp_path, tmp_path / "a.bvh"], skeleton=None, scale=None, progress=iter)
+    assert [clip.name for clip in clips] == ["a", "b", "a"]
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(MocapError, match=r"empty holds no \.amc or \.bvh file"):
+        load_save.load_all([tmp_path / "empty"], skeleton=None, scale=None, progress=iter)
+
+
+def test_the_bundled_clips_make_a_long_walk():
+    result = demo.run([samples.sample(name) for name in samples.SAMPLES], Settings(seconds=20))
+    assert result.walk.duration > 19.9
+    assert result.pruned.count("transition") > 50
+    assert all(seam.cost < 0.04 for seam in result.seams)
+    steps = np.linalg.norm(np.diff(result.walk.root_positions[:, [0, 2]], axis=0), axis=1) * 30
+    assert steps.max() < 4.5  # m/s: nobody is teleported
+
+
+@pytest.mark.parametrize("folder", ["hw3", "cmu/16"])
+def test_real_clips_make_a_walk(real_data, folder):
+    names = (
+        ["16_15", "16_17", "16_19", "16_31"] if folder == "cmu/16" else ["walk_fwd_circle", "walk_fwd_curve1"]
+    )
+    paths = [
+        p for p in sorted((real_data / folder).iterdir()) if p.stem in names and p.suffix.lower() == ".amc"
+    ]
+    assert len(paths) == len(names)
+    clips = load_save.load_all(paths, skeleton=None, scale=None, progress=iter)
+    result = demo.run([clip[:1600] for clip in clips], Settings(seconds=10))
+    assert result.walk.duration >= 9.9
+    assert 0 < max(seam.cost for seam in result.seams) < 0.04

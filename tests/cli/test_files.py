@@ -1,0 +1,123 @@
+"""`mocap info`, `mocap convert` and `mocap data`, as a person types them; `mocap.conversion`."""
+
+import os
+
+import numpy as np
+import pytest
+
+from mocap.body.kinematics import joint_positions
+from mocap.cli.main import main
+from mocap.errors import MocapError
+from mocap.files import conversion, load_save
+from tests.strategies import wave
+
+
+@pytest.fixture
+def clips(tmp_path):
+    folder = tmp_path / "clips"
+    (folder / "more").mkdir(parents=True)
+    load_save.save(wave(40, name="a"), folder / "a.bvh")
+    load_save.save(wave(30, name="b"), folder / "more" / "b.BVH")
+    return folder
+
+
+def same(one, other):
+    names = ["root", "elbow", "hand", "side"]
+    a, b = (
+        joint_positions(m)[:, [m.skeleton.index(n) for n in names]] for m in map(load_save.load, (one, other))
+    )
+    return np.abs(a - b).max() < 1e-6
+
+
+def test_info(clips, capsys):
+    assert main(["info", str(clips / "a.bvh"), "--fps", "60"]) == 0
+    told = capsys.readouterr().out
+    assert "40 at 60 Hz, 0.65 s" in told
+    assert "flaws " in told
+    assert main(["info", str(clips / "gone.bvh")]) == 2
+    assert capsys.readouterr().err.startswith("mocap: Cannot read")
+
+
+@pytest.mark.parametrize("first", ["amc", "bvh"])
+@pytest.mark.parametrize("second", ["amc", "bvh"])
+def test_convert_every_pair(clips, tmp_path, first, second, capsys):
+    start, one, other = clips / "a.bvh", tmp_path / f"one.{first}", tmp_path / f"other.{second.upper()}"
+    assert main(["convert", str(start), str(one)]) == 0
+    assert main(["convert", str(one), str(other)]) == 0
+    assert same(start, other)
+    assert load_save.load(other).fps == 30.0
+    assert capsys.readouterr().out.endswith("converted  1 of 1\n")
+
+
+def test_convert_a_folder_and_name_what_failed(clips, tmp_path, capsys):
+    (clips / "broken.bvh").write_text("HIERARCHY\n")
+    (clips / "notes.txt").write_text("no clip")
+    assert main(["convert", str(clips), str(tmp_path / "out"), "--to", "amc"]) == 2
+    told = capsys.readouterr().out
+    assert "converted  2 of 3\n" in told
+    assert f"failed     {clips / 'broken.bvh'}: expected a line 'MOTION'" in told
+    made = sorted(str(p.relative_to(tmp_path / "out")) for p in (tmp_path / "out").rglob("*.*"))
+    assert made == ["a.amc", "a.asf", "more/b.amc", "more/b.asf"]
+    assert same(tmp_path / "out/more/b.amc", clips / "more/b.BVH")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["{clips}/a.bvh", "{clips}/a.fbx"], "mocap writes .amc"),
+        (["{clips}/a.bvh", "{clips}/a.bvh/b.bvh"], "Cannot make the folder"),
+        (["{clips}/gone.bvh", "{clips}/b.bvh"], "Cannot read"),
+    ],
+)
+def test_a_single_failure_is_a_failure(clips, capsys, arguments, message):
+    assert main(["convert", *[argument.format(clips=clips) for argument in arguments]]) == 2
+    assert message in capsys.readouterr().out
+
+
+def test_plans_that_make_no_sense_are_refused(clips, tmp_path, capsys):
+    (tmp_path / "empty").mkdir()
+    assert main(["convert", str(tmp_path / "empty"), str(tmp_path / "out")]) == 2
+    assert "holds no .amc or .bvh file" in capsys.readouterr().err
+    load_save.save(wave(20), clips / "a.amc")
+    with pytest.raises(MocapError, match=r"a.amc and .*a.bvh would both become .*a.bvh"):
+        conversion.plan(clips, tmp_path / "out")
+
+
+def test_an_interruption_ends_the_conversion(clips, tmp_path):
+    def interrupt(items):
+        yield items[0]
+        raise KeyboardInterrupt
+
+    pairs = conversion.plan(clips, tmp_path / "out")
+    with pytest.raises(KeyboardInterrupt):
+        conversion.convert(pairs, conversion.Options(), interrupt)
+
+
+def die(*_):
+    os._exit(1)
+
+
+def test_a_worker_that_dies_is_told(clips, tmp_path, monkeypatch):
+    monkeypatch.setattr(conversion, "_convert", die)
+    with pytest.raises(MocapError, match="ended from outside: is there enough memory"):
+        conversion.convert(conversion.plan(clips, tmp_path / "out"), conversion.Options())
+
+
+def test_real_folders(real_data, tmp_path):
+    pairs = conversion.plan(real_data / "odd", tmp_path, ".bvh")
+    outcomes = conversion.convert(pairs, conversion.Options())
+    assert len(outcomes) == len(pairs) == 10
+    for outcome in outcomes:
+        assert (outcome.problem is None) == outcome.target.exists()
+    good = {outcome.source.name for outcome in outcomes if outcome.problem is None}
+    assert good == {"16_12.amc", "16_15.amc", "11_01_fb_comment.amc"}
+
+
+def test_the_list_of_data(capsys):
+    assert main(["data", "list", "--subject", "127", "--kind", "walk"]) == 0
+    told = capsys.readouterr().out
+    assert "127_04" in told
+    assert "127_03" not in told
+    assert "may not resell" in told.replace("\n", " ")
+    assert main(["data", "list", "--subject", "5"]) == 2
+    assert "No trial of subject 5" in capsys.readouterr().err

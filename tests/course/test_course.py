@@ -1,0 +1,331 @@
+"""The course: what every notebook has, that its code is the package's, and that all in it works."""
+
+import ast
+import contextlib
+import html
+import io
+import itertools
+import re
+from functools import cache
+from operator import attrgetter
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+import requests
+from IPython.core.interactiveshell import InteractiveShell
+
+import mocap
+from mocap.course import checks, notebooks
+from mocap.widgets.experiments import Experiment
+from mocap.widgets.live_player import _live_player
+from mocap.widgets.player import Player
+from mocap.widgets.pointing import Pointed
+
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+NAMES = [path.stem for path in NOTEBOOKS]
+PAGES = sorted(FOLDER.glob("*.md"))
+every_notebook = pytest.mark.parametrize("name", NAMES)
+
+
+@cache
+def read(name):
+    return notebooks.read(FOLDER / f"{name}.ipynb")
+
+
+def markdown(name):
+    return "\n\n".join(cell.source for cell in read(name).cells if cell.cell_type == "markdown")
+
+
+def code(name):
+    return [cell.source for cell in read(name).cells if cell.cell_type == "code"]
+
+
+def prose(text):
+    return re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+
+
+# What every notebook has, in its order
+
+
+def test_the_course_is_whole():
+    assert [name[:2] for name in NAMES] == [f"{n:02}" for n in range(11)]
+
+
+@every_notebook
+def test_a_notebook_opens_with_a_picture_objectives_and_the_time(name):
+    text = markdown(name)
+    first = read(name).cells[0]
+    assert re.match(r"# \S.*\n\n!\[[^\]]{20,}\]\(attachment:(\S+)\)\n\n\S", first.source)
+    for picture, data in first.attachments.items():
+        stored = notebooks.base64.b64decode(data["image/png"])
+        assert stored == (ROOT / "figures" / picture).read_bytes(), f"{picture} is stale"
+    aims = re.search(r"\*\*You will be able to\*\*\n\n((?:- .*\n?)+)", text)
+    assert 3 <= aims.group(1).count("- ") <= 5
+    for wanted in aims.group(1).splitlines():
+        assert re.search(r"\*\w+\*", wanted), f"no verb in {wanted}"
+    marks = [
+        "You will be able to**",
+        "**Before you start**",
+        "**About ",
+        "\n## ",
+        "## What you learnt",
+        "## Read on",
+    ]
+    assert sorted(map(text.index, marks)) == [text.index(mark) for mark in marks]
+    assert re.search(r"\*\*About \d+ minutes", text)
+
+
+@every_notebook
+def test_a_notebook_ends_with_links_to_its_neighbours(name):
+    last, at = read(name).cells[-1].source, NAMES.index(name)
+    for neighbour in (NAMES[at - 1] if at else None, NAMES[at + 1] if at + 1 < len(NAMES) else None):
+        assert neighbour is None or f"]({neighbour}.ipynb)" in last
+
+
+@every_notebook
+def test_cells_are_short_and_told_in_words(name):
+    cells = code(name)
+    assert max(len(cell.splitlines()) for cell in cells) <= 25
+    lines = sum(bool(line.strip()) for cell in cells for line in cell.splitlines())
+    assert 8 <= len(prose(markdown(name)).split()) / lines <= 15
+
+
+@every_notebook
+def test_every_picture_is_told_in_words(name):
+    for cell in read(name).cells:
+        for alt in re.findall(r"!\[(.*?)\]\(", cell.source) if cell.cell_type == "markdown" else ():
+            assert len(alt) >= 20, f"{cell.id}: '{alt}'"
+        for output in cell.get("outputs", ()):
+            for kind in output.get("data", {}):
+                if kind.startswith("image/"):
+                    alt = output.metadata.get(kind, {}).get("alt", "")
+                    assert len(alt) >= 20, cell.id
+                    assert alt in html.unescape(output.data["text/html"])  # where JupyterLab looks for it
+
+
+@every_notebook
+def test_a_notebook_is_stored_with_its_outputs_and_without_what_varies(name):
+    notebook = read(name)
+    assert "widgets" not in notebook.metadata
+    for cell in notebook.cells:
+        if cell.cell_type != "code":
+            continue
+        assert cell.execution_count, f"{cell.id} was not run"
+        for output in cell.outputs:
+            assert output.output_type != "error", cell.id
+            assert output.get("name") != "stderr", cell.id
+            assert notebooks.WIDGET not in output.get("data", {}), cell.id
+    assert any("image/png" in o.get("data", {}) for c in notebook.cells for o in c.get("outputs", ()))
+    text = "\n".join(code(name))
+    for unwanted in ("sys.path", "default_rng()", "np.random.seed", "%", "!pip"):
+        assert not re.search(rf"^{re.escape(unwanted)}|{re.escape(unwanted)}$", text, re.MULTILINE)
+
+
+def slug(heading):
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+@pytest.mark.parametrize("page", [*NAMES, *(path.name for path in PAGES)])
+def test_links_within_the_course_resolve(page):
+    text = markdown(page) if page in NAMES else (FOLDER / page).read_text("utf-8")
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        if re.match(r"https?:|attachment:", link):
+            continue
+        file, _, anchor = link.partition("#")
+        target = FOLDER / file if file else FOLDER / page
+        assert target.exists(), link
+        if anchor and target.suffix == ".md":
+            assert anchor in map(slug, re.findall(r"^#+ (.*)", target.read_text("utf-8"), re.MULTILINE)), link
+
+
+def test_the_instructors_table_tells_the_notebooks_minutes():
+    table = (FOLDER / "README.md").read_text("utf-8")
+    for name in NAMES:
+        minutes = re.search(r"\*\*About (\d+) minutes", markdown(name))[1]
+        assert f"]({name}.ipynb) | {minutes} |" in table
+
+
+# The code that is seen is the code that runs
+
+
+def tree_of(source):
+    return ast.dump(ast.parse(source))
+
+
+@every_notebook
+def test_code_shown_is_the_packages_own(name):
+    shown = list(notebooks.tagged(read(name), "source"))
+    assert shown or name[:2] in ("00", "09", "10")
+    for function, cell in shown:
+        assert ast.dump(ast.parse(cell.source)) == ast.dump(ast.parse(notebooks.shown_source(function))), (
+            function
+        )
+
+
+# Exercises
+
+
+EXERCISES = [
+    pytest.param(name, check, cell, id=f"{name}-{check}")
+    for name in NAMES
+    for check, cell in notebooks.tagged(read(name), "exercise")
+]
+
+
+@every_notebook
+def test_each_exercise_has_its_parts_in_order(name):
+    tags = [tag for cell in read(name).cells for tag in cell.metadata.get("tags", ())]
+    found = [check for check, _ in notebooks.tagged(read(name), "exercise")]
+    assert len(found) >= 3
+    for check in found:
+        at = tags.index(f"exercise:{check}")
+        assert tags[at - 1 : at + 3] == [
+            f"{part}:{check}" for part in ("ask", "exercise", "check", "solution")
+        ]
+        assert check in checks.all_checks()
+
+
+def namespace(name, check):
+    """Run what an exercise may use: the notebook's first code cell."""
+    space = {"__name__": "__main__"}
+    exec(code(name)[0], space)
+    return space
+
+
+@pytest.mark.parametrize(("name", "check", "cell"), EXERCISES)
+def test_the_stub_fails_with_a_hint_and_the_solution_passes(name, check, cell, monkeypatch):
+    monkeypatch.chdir(FOLDER)
+    space = namespace(name, check)
+    exec(cell.source, space)
+    verdict = checks.all_checks()[check].verdict(space[check])
+    assert not verdict.right
+    assert "not there yet" in verdict.message
+    ((_, folded),) = [(n, c) for n, c in notebooks.tagged(read(name), "solution") if n == check]
+    exec(notebooks.solution(folded), space)
+    verdict = checks.all_checks()[check].verdict(space[check])
+    assert verdict.right, verdict.message
+
+
+def test_every_check_belongs_to_an_exercise():
+    used = [check for name in NAMES for check, _ in notebooks.tagged(read(name), "exercise")]
+    assert sorted(used) == sorted(checks.all_checks())
+
+
+# Experiments
+
+
+@every_notebook
+def test_each_experiment_is_opened_by_a_prediction(name):
+    cells = read(name).cells
+    found = list(notebooks.tagged(read(name), "experiment"))
+    assert len(found) >= 2
+    for experiment, cell in found:
+        before = cells[cells.index(cell) - 1]
+        assert "prediction" in before.metadata.get("tags", ()), experiment
+        assert "<details><summary>Answer</summary>\n\n" in before.source
+        data = [output.data for output in cell.outputs if "data" in output]
+        assert any("image/png" in d for d in data), (
+            f"{experiment} has no picture to show where no kernel runs"
+        )
+
+
+def last_value(source, space):
+    """Run a cell, and give the value of its last line, as a notebook shows it."""
+    tree = ast.parse(source)
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, "cell", "exec"), space)
+    return eval(compile(ast.Expression(last.value), "cell", "eval"), space) if last else None
+
+
+@pytest.mark.no_cover  # it takes half as long again; the modules have tests of their own
+@every_notebook
+def test_experiments_work_over_the_whole_range_of_their_controls(name, monkeypatch, request):
+    if name == "10-real-data":
+        request.getfixturevalue("real_data")
+    monkeypatch.chdir(FOLDER)
+    experiments = [cell for _, cell in notebooks.tagged(read(name), "experiment")]
+    space, shown = {"__name__": "__main__"}, []
+    for cell in read(name).cells:
+        if cell.cell_type == "code":
+            with contextlib.redirect_stdout(io.StringIO()):
+                value = last_value(cell.source, space)
+            shown += [value] if any(cell is experiment for experiment in experiments) else []
+    for experiment in shown:  # after all cells, as a reader does who ran them all: names may have been reused
+        drive(experiment)
+    plt.close("all")
+
+
+def drive(shown):
+    if isinstance(shown, Experiment):
+        for values in settings(shown):
+            shown.set(**values)
+    elif isinstance(shown, _live_player()):
+        for frame in (0, shown.scene["frames"] - 1, shown.scene["frames"] // 2):
+            shown.frame = frame
+        if shown.scene.get("drawable"):
+            shown.path = [[0, 0], [1, 0.2], [2, 1], [2.5, 2], [2.5, 3]]
+            assert shown.error is None, shown.message
+    else:
+        assert isinstance(shown, Player)
+        assert shown.scene["frames"] > 1
+
+
+def settings(experiment):
+    """Give every end and middle of each control while the others rest, then all ends at once."""
+    ends = {}
+    for name, control in experiment.controls.items():
+        if hasattr(control, "options"):
+            ends[name] = [value for _, value in control._options_full]
+        elif hasattr(control, "min"):
+            middle = type(control.value)((control.min + control.max) / 2)
+            ends[name] = [control.min, middle, control.max]
+        elif isinstance(control, Pointed):
+            rows, columns = control.shape
+            ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
+        else:
+            ends[name] = [False, True]
+    rest = experiment.values()
+    for name, values in ends.items():
+        for value in values:
+            yield rest | {name: value}
+    for corner in itertools.islice(itertools.product(*([v[0], v[-1]] for v in ends.values())), 8):
+        yield dict(zip(ends, corner, strict=True))
+
+
+def test_without_clips_and_network_real_data_steps_aside_in_one_sentence(monkeypatch, tmp_path, capsys):
+    def unplugged(*_):
+        raise requests.ConnectionError
+
+    monkeypatch.setattr("mocap.datasets.cmu_database._download", unplugged)
+    monkeypatch.setattr("pooch.core.time.sleep", lambda seconds: None)
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path))
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    shell = InteractiveShell.instance()
+    try:
+        assert all(shell.run_cell(cell).success for cell in code("10-real-data"))
+    finally:
+        InteractiveShell.clear_instance()
+    said = capsys.readouterr()
+    assert re.fullmatch(r"The cells below do nothing until .*: .* MOCAP_DATA names\.\n", said.out)
+    assert said.err == ""
+
+
+# Glossary and formulas
+
+
+def test_the_glossary_is_in_order_and_every_word_is_linked_from_a_notebook():
+    words = re.findall(r"^## (.*)", (FOLDER / "GLOSSARY.md").read_text("utf-8"), re.MULTILINE)
+    assert words == sorted(words, key=str.lower)
+    linked = set(re.findall(r"\(GLOSSARY\.md#([\w-]+)\)", "".join(map(markdown, NAMES))))
+    assert {slug(word) for word in words} - linked == set()
+
+
+def test_the_formula_sheet_names_code_that_exists():
+    named = re.findall(r"`(\w+\.[\w.]+)` \|$", (FOLDER / "FORMULAS.md").read_text("utf-8"), re.MULTILINE)
+    assert len(named) > 20
+    for name in named:
+        assert callable(attrgetter(name)(mocap)), name

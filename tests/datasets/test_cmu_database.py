@@ -1,0 +1,186 @@
+"""`mocap.cmu`, against a server of its own that does all the things servers do."""
+
+import hashlib
+import threading
+from collections import Counter
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import numpy as np
+import pytest
+
+from mocap.datasets import cmu_database
+from mocap.errors import MocapError
+
+ASF = """:root
+  order TX TY TZ RX RY RZ
+:bonedata
+  begin
+    name spine
+    direction 0 1 0
+    length 1
+    axis 0 0 0 XYZ
+    dof rx
+  end
+:hierarchy
+  root spine
+"""
+AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n2\nroot 0 0 1 0 0 0\nspine 9\n"
+FILES = {"07/07.asf": ASF, "07/07_01.amc": AMC, "07/07_02.amc": AMC, "08/08.asf": ASF, "08/08_01.amc": AMC}
+
+
+class Server(ThreadingHTTPServer):
+    """Serves FILES; `how` names what goes wrong, `asked` counts the requests."""
+
+    def __init__(self):
+        super().__init__(("127.0.0.1", 0), Handler)
+        self.how, self.asked = {}, Counter()
+
+
+class Handler(BaseHTTPRequestHandler):
+    def do_GET(self):
+        name = self.path.removeprefix("/subjects/")
+        self.server.asked[name] += 1
+        how, body = self.server.how.get(name, "good"), FILES[name].encode()
+        if how == "missing" or (how == "busy at first" and self.server.asked[name] < 3):
+            self.send_error(404 if how == "missing" else 503)
+            return
+        self.send_response(200)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write({"wrong": body.upper(), "half": body[: len(body) // 2]}.get(how, body))
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def server(monkeypatch, tmp_path):
+    server = Server()
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+    thread.start()
+    kinds = ["walk", "Run, walk", "sleepwalking"]
+    rows = {
+        name: {
+            "sha256": hashlib.sha256(text.encode()).hexdigest(),
+            "frames": "2",
+            "description": kinds[index % 3],
+        }
+        for index, (name, text) in enumerate(FILES.items())
+    }
+    monkeypatch.setattr(cmu_database, "_registry", lambda: rows)
+    monkeypatch.setattr(cmu_database, "BASE_URL", f"http://127.0.0.1:{server.server_port}/subjects")
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path / "cache"))
+    monkeypatch.setattr("pooch.core.time.sleep", lambda seconds: None)
+    yield server
+    server.shutdown()
+    server.server_close()
+    thread.join()
+
+
+def kept(tmp_path):
+    return sorted(str(p.relative_to(tmp_path / "cache")) for p in tmp_path.rglob("*") if p.is_file())
+
+
+def test_a_trial_is_fetched_once(server, tmp_path, capsys):
+    cmu_database._show_terms.cache_clear()
+    motion = cmu_database.cmu("07_01")
+    assert (motion.name, len(motion), motion.fps) == ("07_01", 2, 120.0)
+    assert np.allclose(motion.root_positions[1], [0, 0, 0.0254])
+    assert kept(tmp_path) == ["07/07.asf", "07/07_01.amc"]
+    cmu_database.cmu("07_01")
+    assert server.asked == {"07/07.asf": 1, "07/07_01.amc": 1}
+    told = capsys.readouterr()
+    assert told.err.count("may not resell") == 1
+    assert told.out == ""
+
+
+def test_a_subject_and_a_kind(server):
+    assert [motion.name for motion in cmu_database.cmu(subject=7)] == ["07_01", "07_02"]
+    assert [motion.name for motion in cmu_database.cmu(kind="run")] == ["07_01", "08_01"]
+    with pytest.raises(
+        MocapError, match="No trial of subject 8 with 'swim' is listed; the subjects are 07, 08"
+    ):
+        cmu_database.cmu(subject=8, kind="swim")
+    with pytest.raises(MocapError, match="Which trials"):
+        cmu_database.cmu()
+    with pytest.raises(MocapError, match=r"No trial '../../x_1' is listed; `mocap data list`"):
+        cmu_database.cmu("../../x_1")
+
+
+@pytest.mark.parametrize(
+    ("how", "message"),
+    [
+        (
+            "missing",
+            r"07_01.amc answers 404: try again later, or put a copy of .*MOCAP_DATA",
+        ),
+        ("half", r"07_01.amc breaks off or does not answer: try again later, or put a copy"),
+        ("wrong", r"07_01.amc is not the file listed: its checksum differs; put a copy"),
+    ],
+)
+def test_what_goes_wrong_is_said_and_not_kept(server, tmp_path, how, message):
+    server.how["07/07_01.amc"] = how
+    with pytest.raises(MocapError, match=message):
+        cmu_database.cmu("07_01")
+    assert kept(tmp_path) == ["07/07.asf"]
+    assert server.asked["07/07_01.amc"] == 1 + cmu_database.RETRIES
+    server.how.clear()
+    assert len(cmu_database.cmu("07_01")) == 2
+
+
+def test_a_busy_server_is_asked_again(server):
+    server.how["07/07_01.amc"] = "busy at first"
+    assert len(cmu_database.cmu("07_01")) == 2
+    assert server.asked["07/07_01.amc"] == 3
+
+
+def test_a_server_that_is_gone(server, tmp_path, monkeypatch):
+    cmu_database.cmu("07_01")
+    monkeypatch.setattr(cmu_database, "BASE_URL", "http://127.0.0.1:9/subjects")
+    assert len(cmu_database.cmu("07_01")) == 2  # what is in the cache needs no network
+    with pytest.raises(MocapError, match=r"127.0.0.1:9/subjects/07/07_02.amc breaks off or does not answer"):
+        cmu_database.cmu("07_02")
+    assert kept(tmp_path) == ["07/07.asf", "07/07_01.amc"]
+
+
+def test_a_file_that_broke_in_the_cache_is_fetched_again(server, tmp_path):
+    cmu_database.cmu("07_01")
+    (tmp_path / "cache/07/07_01.amc").write_text(AMC[:20])
+    assert len(cmu_database.cmu("07_01")) == 2
+    assert server.asked["07/07_01.amc"] == 2
+
+
+def test_line_ends_make_no_difference(server, tmp_path, monkeypatch):
+    monkeypatch.setitem(FILES, "07/07_01.amc", AMC.replace("\n", "\r\n"))
+    assert len(cmu_database.cmu("07_01")) == 2
+    assert (tmp_path / "cache/07/07_01.amc").read_bytes() == AMC.encode()
+
+
+def test_a_folder_that_is_none(server, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path / "file"))
+    with pytest.raises(MocapError, match=r"Cannot keep 07/07.asf in .*file .*: let MOCAP_DATA name a folder"):
+        cmu_database.cmu("07_01")
+
+
+def test_an_interruption_leaves_nothing(server, tmp_path, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cmu_database.hashlib, "sha256", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        cmu_database.cmu("07_01")
+    assert kept(tmp_path) == []
+
+
+def test_every_listed_file_is_found_without_a_network(real_data, monkeypatch):
+    monkeypatch.setenv("MOCAP_DATA", str(real_data / "cmu"))
+    monkeypatch.setattr(cmu_database, "_download", lambda *_: pytest.fail("no network"))
+    listed = sorted(cmu_database._registry())
+    assert listed == sorted(str(p.relative_to(real_data / "cmu")) for p in (real_data / "cmu").rglob("*.a*"))
+    for name in listed:
+        assert cmu_database.fetch(name) == real_data / "cmu" / name
+    walks = cmu_database.cmu(subject=16, kind="walk")
+    assert len(walks) == 26
+    lengths = {trial.name: trial.frames for trial in cmu_database.trials(16)}
+    assert all(len(walk) == lengths[walk.name] for walk in walks)

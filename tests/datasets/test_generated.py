@@ -1,0 +1,381 @@
+"""The bundled clips, held against real walks by one measure."""
+
+import time
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import find_peaks
+
+import mocap
+from mocap.body import rotations
+from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.motion import Motion
+from mocap.body.planar import heading
+from mocap.datasets import generated
+from mocap.datasets.walking_body import FOOT, SKELETON
+from mocap.errors import MocapError
+from mocap.graphs import motion_graph, pruning
+
+CLIPS = {name: generated.generate(name) for name in generated.NAMES}
+
+
+def parts(motion: Motion, label: str) -> list[Motion]:
+    """Cut out the stretches of a label, without the second at both ends where a style still changes."""
+    edges = np.flatnonzero(np.diff(motion.labels[label].astype(int))) + 1
+    stretches = pairwise([0, *edges.tolist(), len(motion)])
+    return [motion[i + 120 : j - 120] for i, j in stretches if motion.labels[label][i]]
+
+
+def between(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Return the angles between two bones, degrees."""
+    cosine = (start * end).sum(-1) / np.linalg.norm(start, axis=-1) / np.linalg.norm(end, axis=-1)
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+
+
+def spread(values: np.ndarray) -> float:
+    return float(np.subtract(*np.percentile(values, [99, 1])))
+
+
+def measure(motion: Motion) -> dict[str, float]:
+    """Measure a walk: metres a second, steps a minute, metres, cm, degrees, percent of the time."""
+    at = dict(zip(motion.skeleton.names, np.moveaxis(joint_positions(motion), 1, 0), strict=True))
+    root, fps = at["root"], motion.fps
+    left = (at["lfemur"] - at["rfemur"])[:, [0, 2]]
+    left /= np.linalg.norm(left, axis=-1, keepdims=True)
+    ahead = left[:, ::-1] * [-1, 1]  # a quarter turn from left, seen from above
+    bones = {side: [at[side + b] for b in ("femur", "tibia", "foot", "toes")] for side in "lr"}
+    arms = {side: [at[side + b] for b in ("humerus", "radius", "wrist")] for side in "lr"}
+    strikes = [
+        find_peaks(((at[s + "foot"] - root)[:, [0, 2]] * ahead).sum(-1), distance=0.4 * fps, prominence=0.1)[
+            0
+        ]
+        for s in "lr"
+    ]
+    strides = [np.diff(s) / fps for s in strikes]
+    seconds = float(np.mean(np.concatenate(strides)))
+    speed = float(np.linalg.norm(np.diff(root[:, [0, 2]], axis=0), axis=-1).mean() * fps)
+    thighs = [b[1] - b[0] for b in bones.values()]
+    swing = [np.degrees(np.arctan2((t[:, [0, 2]] * ahead).sum(-1), -t[:, 1])) for t in thighs]
+    elbow = np.concatenate([between(a[1] - a[0], a[2] - a[1]) for a in arms.values()])
+    bob = [np.ptp(root[i:j, 1]) for s in strikes for i, j in pairwise(s)]
+    window = np.ones(round(seconds * fps)) / round(seconds * fps)
+    middle = slice((len(window) - 1) // 2, (len(window) - 1) // 2 + len(root) - len(window) + 1)
+    way = np.stack([np.convolve(root[:, axis], window, "valid") for axis in (0, 2)], axis=-1)
+    slow = [
+        np.min([np.linalg.norm(np.gradient(b[k], 1 / fps, axis=0), axis=-1) for k in (2, 3)], axis=0) < 0.35
+        for b in bones.values()
+    ]
+    return {
+        "speed": speed,
+        "cadence": 120 / seconds,
+        "stride": speed * seconds,
+        "bob": 100 * float(np.mean(bob)),
+        "sway": 100 * spread(((root[middle][:, [0, 2]] - way) * left[middle]).sum(-1)),
+        "knee": float(np.mean([spread(between(b[1] - b[0], b[2] - b[1])) for b in bones.values()])),
+        "hip": float(np.mean([spread(s) for s in swing])),
+        "ankle": float(np.mean([spread(between(b[2] - b[1], b[3] - b[2])) for b in bones.values()])),
+        "elbow straightest": float(np.percentile(elbow, 1)),
+        "elbow most bent": float(np.percentile(elbow, 99)),
+        "stance": 100 * float(np.mean(slow)),
+        "double support": 100 * float((slow[0] & slow[1]).mean()),
+    }
+
+
+# The least and the most that `measure` finds in real clips: subject 16 of the CMU Graphics Lab Motion
+# Capture Database, and for the winding walks also the homework's three clips.
+REAL = {
+    "winding": {
+        "speed": (0.61, 1.05),
+        "cadence": (80, 106),
+        "stride": (0.84, 1.22),
+        "bob": (2.1, 2.9),
+        "knee": (52, 66),
+        "hip": (42, 51),
+        "ankle": (32, 39),
+        "elbow straightest": (17, 27),
+        "elbow most bent": (37, 48),
+        "stance": (50, 63),
+        "double support": (4, 26),
+    },
+    "straight": {
+        "speed": (0.93, 1.32),
+        "cadence": (99, 110),
+        "stride": (1.02, 1.47),
+        "bob": (2.9, 3.9),
+        "sway": (4.5, 5.1),
+        "knee": (56, 62),
+        "hip": (46, 56),
+        "ankle": (33, 44),
+        "elbow straightest": (16, 20),
+        "elbow most bent": (36, 43),
+        "stance": (46, 60),
+        "double support": (1, 22),
+    },
+    "running": {
+        "speed": (2.3, 4.2),
+        "cadence": (149, 178),
+        "stride": (1.8, 2.9),
+        "bob": (7.4, 11.6),
+        "knee": (70, 93),
+        "hip": (51, 76),
+        "ankle": (48, 62),
+        "elbow straightest": (87, 106),
+        "elbow most bent": (116, 144),
+        "double support": (0, 0),
+    },
+}
+TRIALS = {
+    "winding": (11, 12, 13, 14, 17, 18, 19, 20),
+    "straight": (15, 16, 31, 32, 47, 58),
+    "running": (35, 36, 37, 38, 39, 40, 45, 46),
+}
+KINDS = {"walk_circle": "winding", "walk_curve_1": "winding", "walk_curve_2": "winding"}
+KINDS |= {"walk_straight": "straight", "jog": "running"}
+
+
+@pytest.mark.parametrize(("name", "kind"), KINDS.items())
+def test_a_clip_moves_as_real_people_do(name, kind):
+    for motion in parts(CLIPS["jog"], "jog") if name == "jog" else [CLIPS[name]]:
+        measured = measure(motion)
+        outside = {
+            key: measured[key] for key, (low, high) in REAL[kind].items() if not low <= measured[key] <= high
+        }
+        assert outside == {}
+
+
+@pytest.mark.parametrize("kind", REAL)
+def test_the_limits_are_those_of_real_clips(kind, real_data: Path):
+    paths = [real_data / "cmu" / "16" / f"16_{trial:02d}.amc" for trial in TRIALS[kind]]
+    if kind == "winding":
+        paths += [real_data / "hw3" / f"walk_fwd_{clip}.AMC" for clip in ("circle", "curve1", "curve2")]
+    real = [measure(mocap.load(path)) for path in paths]
+    for key, (low, high) in REAL[kind].items():
+        values = [measured[key] for measured in real]
+        unit = 10.0 ** -len(str(low).partition(".")[2])
+        assert low == pytest.approx(min(values), abs=unit), key
+        assert high == pytest.approx(max(values), abs=unit), key
+
+
+# The 99th percentile of accelerations in m/s²: the median over CMU's walks 15, 16, 31, 32, 47, 58 and
+# its runs 35, 36, 45. What noise there is in captured data adds to these, so they bound from above only.
+PUSH = {
+    "walk": {"root": 25, "head": 51, "foot": 51, "tibia": 47, "wrist": 71},
+    "run": {"root": 88, "head": 68, "foot": 130, "tibia": 115, "wrist": 184},
+}
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_a_clip_is_as_smooth_as_real_ones(name):
+    motion = CLIPS[name]
+    push = np.linalg.norm(np.diff(joint_positions(motion), 2, axis=0), axis=-1) * motion.fps**2
+    for bone, most in PUSH["run" if name == "jog" else "walk"].items():
+        for joint in {bone, "l" + bone, "r" + bone} & set(SKELETON.names):
+            assert np.percentile(push[:, SKELETON.index(joint)], 99) < most, joint
+
+
+def plants(motion: Motion, joint: str) -> list[slice]:
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], motion.contacts[joint].astype(int), [0]])))
+    return [slice(start, stop) for start, stop in edges.reshape(-1, 2)]
+
+
+@pytest.mark.parametrize("joint", ["lfoot", "rfoot", "ltoes", "rtoes"])
+@pytest.mark.parametrize("name", CLIPS)
+def test_a_planted_joint_stands_still(name, joint):
+    motion = CLIPS[name]
+    track = joint_positions(motion)[:, SKELETON.index(joint)]
+    stretches = plants(motion, joint)
+    assert len(stretches) >= motion.duration / 4
+    for frames in stretches:
+        assert np.ptp(track[frames], axis=0).max() < 1e-9
+        assert track[frames, 1] == pytest.approx(FOOT.ankle if "foot" in joint else FOOT.ball, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_plants_and_the_gaps_between_them_last(name):
+    for joint, mark in CLIPS[name].contacts.items():
+        changes = np.flatnonzero(np.diff(mark.astype(int)))
+        assert np.diff(changes).min() >= 6, joint  # frames: a twentieth of a second
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_nothing_goes_through_the_floor(name):
+    motion = CLIPS[name]
+    positions = joint_positions(motion)
+    assert positions[..., 1].min() > 0
+    turned = SKELETON.index("lfoot"), SKELETON.index("rfoot")
+    matrices = forward_kinematics(motion).matrices
+    for ankle in turned:
+        heel = positions[:, ankle] + matrices[:, ankle] @ [0, -FOOT.ankle, -FOOT.heel]
+        assert heel[:, 1].min() > -1e-3
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_joints_keep_their_limits(name):
+    motion = CLIPS[name]
+    for side in "lr":
+        turn = {
+            bone: np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index(side + bone)]))
+            for bone in ("femur", "tibia", "foot", "toes", "radius", "humerus")
+        }
+        knee = turn["tibia"]
+        assert np.abs(knee[:, 1:]).max() < 1e-6
+        assert knee[:, 0].min() > 4
+        assert knee[:, 0].max() < 125
+        assert turn["femur"][:, 0].min() > -70
+        assert turn["femur"][:, 0].max() < 35
+        assert np.abs(turn["foot"][:, 0]).max() < 45
+        assert turn["toes"][:, 0].min() > -65
+        assert turn["toes"][:, 0].max() < 1e-6
+        elbow = np.linalg.norm(turn["radius"], axis=-1)
+        assert elbow.min() > 10
+        assert elbow.max() < 140
+        axis = turn["radius"] / elbow[:, None]
+        assert np.ptp(axis, axis=0).max() < 0.05  # a hinge
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_feet_keep_apart(name):
+    at = joint_positions(CLIPS[name])
+    left, right = at[:, SKELETON.index("lfoot")], at[:, SKELETON.index("rfoot")]
+    assert np.linalg.norm(left - right, axis=-1).min() > 0.04
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_no_two_frames_are_the_same(name):
+    frames = CLIPS[name].rotations.reshape(len(CLIPS[name]), -1)
+    assert len(np.unique(frames.round(6), axis=0)) == len(frames)
+
+
+@pytest.mark.parametrize("name", ["walk_circle", "walk_curve_1", "walk_curve_2"])
+def test_the_winding_walks_turn_both_ways_in_a_small_place(name):
+    motion = CLIPS[name]
+    turning = np.gradient(np.unwrap(heading(motion.rotations[:, 0]))) * motion.fps
+    smooth = np.convolve(turning, np.ones(150) / 150, "valid")
+    assert (smooth > 0.3).mean() > 0.3
+    assert (smooth < -0.3).mean() > 0.3
+    assert np.ptp(motion.root_positions[:, [0, 2]], axis=0).max() < 3.6
+    assert 37 < motion.duration < 43
+
+
+@pytest.mark.parametrize(("label", "least", "most"), [("jog", 0.5, 0.8), ("walk", 0.0, 0.2)])
+def test_a_jog_flies_and_a_walk_does_not(label, least, most):
+    for motion in parts(CLIPS["jog"], label):
+        planted = np.any(list(motion.contacts.values()), axis=0)
+        assert least < (~planted).mean() < most
+
+
+def test_who_sneaks_crouches_and_is_slow():
+    walking, sneaking = (
+        [measure(motion) | crouch(motion) for motion in parts(CLIPS["sneak"], label)]
+        for label in ("walk", "sneak")
+    )
+    for key, least in (("speed", 0.15), ("height", 0.03), ("straightness", 10)):
+        assert min(w[key] for w in walking) > max(s[key] for s in sneaking) + least
+
+
+def crouch(motion: Motion) -> dict[str, float]:
+    """Measure the mean height of the pelvis, metres, and how straight the knee is, degrees."""
+    knee = np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index("ltibia")]))[:, 0]
+    return {"height": float(motion.root_positions[:, 1].mean()), "straightness": 180 - float(knee.mean())}
+
+
+@pytest.mark.parametrize("name", ["sneak", "jog"])
+def test_a_clip_walks_into_its_style_and_out_again_twice(name):
+    motion = CLIPS[name]
+    assert list(motion.labels) == ["walk", name]
+    assert np.array_equal(motion.labels["walk"], ~motion.labels[name])
+    assert motion.labels["walk"][[0, -1]].all()
+    assert len(parts(motion, name)) == 2
+    assert motion.labels[name].mean() > 0.5
+
+
+def test_at_4_cm_the_graph_leads_into_every_style_and_out_again():
+    clips = [mocap.resample(motion, 30) for motion in CLIPS.values()]
+    graph = pruning.prune(motion_graph.build(clips, window=10, threshold=0.04))
+    kept = [np.zeros(len(clip), bool) for clip in clips]
+    leaving = [0] * len(clips)
+    for (clip, start), (other, end), kind in graph.graph.edges(data="kind"):
+        if kind == "clip":
+            kept[clip][start:end] = True
+        leaving[clip] += kind == "transition" and clip != other
+    assert min(leaving) > 50
+    for clip, frames in zip(clips, kept, strict=True):
+        assert all(frames[mask].mean() > 0.9 for mask in clip.labels.values()), clip.name
+
+
+# The mean of all joints' coordinates, metres: a change to the generator must not move these walks unawares.
+GOLDEN = {
+    "walk_circle": (1.058985, 0.856156, 0.031291),
+    "walk_curve_1": (0.351358, 0.855440, -0.755514),
+    "walk_curve_2": (1.069521, 0.856688, 1.642299),
+    "walk_straight": (0.000530, 0.852552, 5.548321),
+    "stop_and_go": (2.139296, 0.858511, 4.088879),
+}
+
+
+@pytest.mark.parametrize(("name", "mean"), GOLDEN.items())
+def test_a_walk_stays_what_it_was(name, mean):
+    assert joint_positions(CLIPS[name]).mean(axis=(0, 1)) == pytest.approx(mean, abs=1e-6)
+
+
+def test_stop_and_go_stands_four_times_with_both_feet_side_by_side():
+    motion = CLIPS["stop_and_go"]
+    edges = np.flatnonzero(np.diff(motion.labels["stand"].astype(int)))
+    assert len(edges) == 6
+    assert motion.labels["stand"][[0, -1]].all()
+    assert np.array_equal(motion.labels["walk"], ~motion.labels["stand"])
+    at = joint_positions(motion)[motion.labels["stand"]]
+    apart = np.linalg.norm(at[:, SKELETON.index("lfoot")] - at[:, SKELETON.index("rfoot")], axis=-1)
+    assert apart.min() > 0.05
+    assert apart.max() < 0.16
+
+
+@pytest.mark.parametrize("name", CLIPS)
+def test_a_clip_is_the_same_each_time(name):
+    again = generated.generate(name)
+    assert np.array_equal(again.rotations, CLIPS[name].rotations)
+    assert np.array_equal(again.root_positions, CLIPS[name].root_positions)
+    assert again.name == name
+
+
+def test_all_clips_together_take_about_a_second():
+    start = time.process_time()
+    for name in generated.NAMES:
+        generated.generate(name)
+    assert time.process_time() - start < 3  # 0.6 s on an idle machine
+
+
+def test_the_clips_come_in_the_course_s_order():
+    order = "walk_circle walk_curve_1 walk_curve_2 walk_straight sneak jog stop_and_go"
+    assert list(CLIPS) == order.split()
+
+
+@pytest.mark.parametrize("style", generated.GAITS)
+def test_a_walk_follows_its_path(style):
+    motion = generated.generate_walk([[0, 0], [0, 5], [0, 10]], style=style, seed=3)
+    root = motion.root_positions
+    assert np.abs(root[:, 0]).max() < 0.06
+    assert root[0, 2] == pytest.approx(0, abs=0.05)
+    assert root[-1, 2] == pytest.approx(10, rel=0.1)
+    assert np.abs(heading(motion.rotations[:, 0])).max() < 0.15
+    assert motion.labels[style].all()
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: generated.generate("waltz"), "No bundled clip 'waltz'; there are: walk_circle, "),
+        (
+            lambda: generated.generate_walk([[0, 0], [0, 5]], style="hop"),
+            "No style 'hop'; there are: walk, sneak, jog",
+        ),
+        (lambda: generated.generate_walk([[0, 0], [0, 5]], speed=0), "speed above 0, got 0"),
+        (lambda: generated.generate_walk([[0, 0], [0, 50]], speed=6), "longer than the legs"),
+        (lambda: generated.generate_walk([[0, 0]]), "two or more"),
+    ],
+)
+def test_bad_wishes_are_told(call, message):
+    with pytest.raises(MocapError, match=message):
+        call()

@@ -1,0 +1,131 @@
+"""Plants are found where they are: against the bundled clips' true ones, and by what is known of walking."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap._shared.arrays import runs
+from mocap.body.motion import resample
+from mocap.body.planar import PlanarTransform
+from mocap.datasets.samples import SAMPLES, sample
+from mocap.errors import MocapError
+from mocap.feet.footplants import hysteresis, mark_plants, settle
+from mocap.files.load_save import load
+from tests.strategies import random_motion
+
+JOINTS = ("lfoot", "ltoes", "rfoot", "rtoes")
+masks = st.lists(st.booleans(), min_size=1, max_size=80).map(lambda marks: np.array(marks, bool))
+
+
+def f1(found, truth):
+    """Give the harmonic mean of precision and recall over the frames of all four joints."""
+    a, b = (np.concatenate([m.contacts[joint] for joint in JOINTS]) for m in (found, truth))
+    return 2 * (a & b).sum() / (a.sum() + b.sum())
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+@pytest.mark.parametrize("fps", [120.0, 30.0])
+def test_the_plants_of_the_bundled_clips_are_found(name, fps):
+    clip = resample(sample(name), fps)
+    assert f1(mark_plants(replace(clip, contacts={})), clip) > 0.97
+
+
+def test_plants_do_not_depend_on_where_and_which_way():
+    clip = sample("sneak")
+    moved = PlanarTransform(2.0, 300.0, -700.0).motion(clip)
+    assert f1(mark_plants(moved), mark_plants(clip)) > 0.97
+
+
+def test_noise_of_half_a_millimetre_does_not_hide_the_plants():
+    clip = sample("walk_straight")
+    noise = np.random.default_rng(0).normal(size=clip.root_positions.shape) * 5e-4
+    assert f1(mark_plants(replace(clip, root_positions=clip.root_positions + noise)), clip) > 0.85
+
+
+def test_who_stands_still_stands_on_both_feet_all_the_time():
+    frame = sample("stop_and_go")[100:101]
+    noise = np.random.default_rng(1).normal(size=(240, 3)) * 2e-4
+    still = replace(
+        frame,
+        root_positions=frame.root_positions + noise,
+        rotations=np.repeat(frame.rotations, 240, axis=0),
+        labels={},
+        contacts={},
+    )
+    assert all(mark_plants(still).contacts[joint].all() for joint in JOINTS)
+
+
+def test_who_never_touches_the_ground_slowly_has_no_plants():
+    jog = sample("jog")
+    ride = jog.root_positions + np.arange(len(jog))[:, None] / jog.fps * [0.0, 1.5, 3.0]
+    assert not any(mark_plants(replace(jog, root_positions=ride)).contacts[joint].any() for joint in JOINTS)
+
+
+def stance(clip):
+    """Give how much of the time a foot stands, both do, none does; and plants a second."""
+    marks = mark_plants(clip).contacts
+    left, right = (marks[side + "foot"] | marks[side + "toes"] for side in "lr")
+    plants = (len(runs(left)) + len(runs(right))) / clip.duration
+    return (left.mean() + right.mean()) / 2, (left & right).mean(), (~left & ~right).mean(), plants
+
+
+@pytest.mark.parametrize(
+    ("trials", "stands", "flight", "steps"),
+    [
+        (("16_15", "16_16", "16_31", "16_47"), (0.48, 0.66), (0, 0.1), (1.6, 2.1)),  # 99-109 a minute
+        (("16_21", "16_22"), (0.42, 0.6), (0, 0.1), (1.9, 2.4)),  # brisk: 125 a minute
+        (("16_35", "16_45"), (0.2, 0.4), (0.25, 0.6), (2.5, 3.1)),  # runs: 152-176 a minute
+    ],
+)
+def test_people_stand_as_people_do(real_data, trials, stands, flight, steps):
+    for trial in trials:
+        stood, _, none, plants = stance(load(real_data / "cmu" / "16" / f"{trial}.amc"))
+        assert stands[0] < stood < stands[1]
+        assert flight[0] <= none < flight[1]
+        assert steps[0] < plants < steps[1]
+
+
+def test_who_walks_slowly_stands_on_both_feet_for_longer(real_data):
+    slow, brisk, run = (
+        stance(load(real_data / name)[:2000])[1]
+        for name in ("hw3/walk_fwd_circle.AMC", "cmu/16/16_21.amc", "cmu/16/16_35.amc")
+    )
+    assert 0.1 < slow < 0.25
+    assert brisk < 0.05
+    assert run == 0
+
+
+@given(masks)
+def test_runs_put_together_are_the_marks(marks):
+    again = np.zeros(len(marks), bool)
+    for start, stop in runs(marks):
+        assert not again[start:stop].any()
+        again[start:stop] = True
+    assert np.array_equal(again, marks)
+
+
+@given(masks, st.integers(1, 8))
+def test_settled_marks_have_no_short_runs_and_settle_no_further(marks, span):
+    settled = settle(marks, span)
+    for kind in (settled, ~settled):
+        inner = [stop - start for start, stop in runs(kind) if start > 0 and stop < len(marks)]
+        assert all(length >= span for length in inner)
+    assert np.array_equal(settle(settled, span), settled)
+
+
+@given(st.lists(st.floats(0, 4), min_size=1, max_size=50), masks)
+def test_hysteresis_lies_between_its_thresholds(values, allowed):
+    values, allowed = np.array(values), np.resize(allowed, len(values))
+    marks = hysteresis(values, allowed, 1.0, 2.0)
+    assert not np.any(marks & ~(allowed & (values < 2)))
+    assert np.all(marks[allowed & (values < 1)])
+
+
+def test_too_short_a_clip_and_legs_without_names_are_errors():
+    with pytest.raises(MocapError, match="more than 12 frames; 'jog' has 12"):
+        mark_plants(sample("jog")[:12])
+    with pytest.raises(MocapError, match="No legs found"):
+        mark_plants(random_motion(0, frames=40))

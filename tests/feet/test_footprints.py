@@ -1,0 +1,31 @@
+"""Footprints against a count by hand."""
+
+from dataclasses import replace
+from itertools import groupby
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body.kinematics import joint_positions
+from mocap.feet.footprints import find_footprints
+from tests.strategies import wave
+
+
+@given(st.lists(st.booleans(), min_size=1, max_size=40))
+def test_each_run_of_contact_is_one_print(down):
+    motion = replace(wave(len(down)), contacts={"hand": down})
+    runs = [(key, len(list(group))) for key, group in groupby(down)]
+    prints = find_footprints(motion)
+    assert len(prints) == sum(key for key, _ in runs)
+    covered = np.zeros(len(down), bool)
+    for step in prints:
+        covered[step.start : step.end] = True
+        x, _, z = joint_positions(motion)[step.start : step.end, 2].mean(axis=0)
+        assert (step.x, step.z) == pytest.approx((x, z))
+    assert covered.tolist() == down
+
+
+def test_without_contacts_there_are_no_prints():
+    assert find_footprints(replace(wave(5), contacts={})) == []

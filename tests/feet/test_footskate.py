@@ -1,0 +1,220 @@
+"""After a clean-up planted feet stand still, nothing pops, and a clean clip is left alone."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from scipy.ndimage import maximum_filter1d
+
+from mocap._shared.arrays import runs
+from mocap.blending.inertialization import inertialize
+from mocap.blending.joining import join
+from mocap.body import rotations
+from mocap.body.ground_path import figure_eight, s_curve
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion, resample
+from mocap.body.planar import PlanarTransform
+from mocap.datasets.samples import SAMPLES, sample
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
+from mocap.files.load_save import load
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.steering.path_following import follow_path
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.bundled import bundled
+from tests.strategies import planar, random_motion
+
+WALK = sample("walk_straight")
+LEGS = find_legs(WALK.skeleton)
+KNEES = [leg.knee for leg in LEGS]
+SEAM = (500, 233)  # a good one: the same moment of two steps
+JOINED = {way: way(WALK, *(SEAM[0], WALK, SEAM[1]), 40) for way in (join, inertialize)}
+
+
+def slides(motion: Motion) -> np.ndarray:
+    """Return how far each planted joint strays from its place during each plant, metres."""
+    positions = joint_positions(motion)
+    return np.array(
+        [
+            np.linalg.norm(at - at.mean(axis=0), axis=-1).max()
+            for name, marks in motion.contacts.items()
+            for at in (positions[a:b, motion.skeleton.index(name)] for a, b in runs(marks))
+        ]
+    )
+
+
+def furthest(motion: Motion, other: Motion) -> float:
+    """Return how far a joint of one motion ever is from where it is in another, metres."""
+    return float(np.linalg.norm(joint_positions(motion) - joint_positions(other), axis=-1).max())
+
+
+def accelerations(motion: Motion, joints: list[int]) -> np.ndarray:
+    return np.linalg.norm(np.diff(joint_positions(motion)[:, joints], 2, axis=0), axis=-1) * motion.fps**2
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_a_clean_clip_is_left_alone(name):
+    clip = sample(name)
+    cleaned = clean_up(clip)
+    assert furthest(cleaned, clip) < 1e-6
+    assert all(np.array_equal(cleaned.contacts[joint], clip.contacts[joint]) for joint in clip.contacts)
+
+
+@pytest.mark.parametrize("way", [join, inertialize])
+def test_after_a_seam_planted_feet_stand_still_and_nothing_pops(way):
+    skating = JOINED[way]
+    cleaned = clean_up(skating)
+    assert slides(skating).max() > 0.01
+    assert slides(cleaned).max() < 1e-9
+    moved = cleaned.root_positions - skating.root_positions
+    assert 0.002 < np.abs(moved).max() < 0.012
+    assert np.all(moved[:, [0, 2]] == 0)
+    own = np.percentile(accelerations(WALK, KNEES), 99.9)
+    assert accelerations(cleaned, KNEES)[490:550].max() <= own
+    assert furthest(cleaned[:400], WALK[:400]) < 1e-6
+
+
+def test_no_bone_is_stretched_and_knees_bend_forwards():
+    cleaned = clean_up(JOINED[join])
+    positions = joint_positions(cleaned)
+    left = rotations.rotate(cleaned.rotations[:, 0], [1, 0, 0])
+    for leg in LEGS:
+        hip, knee, ankle, ball = (positions[:, joint] for joint in leg)
+        bones = [np.linalg.norm(b - a, axis=-1) for a, b in ((hip, knee), (knee, ankle), (ankle, ball))]
+        assert np.ptp(bones, axis=-1) == pytest.approx(0, abs=1e-9)
+        assert np.mean(bones, axis=-1) == pytest.approx(leg.lengths(WALK.skeleton))
+        assert (np.cross(knee - hip, ankle - knee) * left).sum(-1).min() > 0
+
+
+@pytest.mark.parametrize("height", [0.004, 0.02])
+def test_a_root_pushed_about_is_no_trouble_for_the_feet(height):
+    t = np.arange(len(WALK)) / WALK.fps
+    push = height * np.stack([np.sin(5 * t), np.sin(7 * t), np.sin(3 * t)], axis=-1)
+    pushed = replace(WALK, root_positions=WALK.root_positions + push)
+    assert slides(pushed).max() > height / 4
+    assert slides(clean_up(pushed)).max() < 1e-9
+
+
+@settings(max_examples=8)
+@given(planar)
+def test_where_a_motion_is_does_not_matter(transform):
+    skating = JOINED[join][440:600]
+    assert furthest(clean_up(transform.motion(skating)), transform.motion(clean_up(skating))) < 1e-6
+
+
+def test_far_from_the_origin_it_works_as_well():
+    far = PlanarTransform(1.0, 1e4, -1e4).motion(JOINED[join])
+    assert slides(clean_up(far)).max() < 1e-6
+
+
+def test_cleaning_twice_is_cleaning_once():
+    once = clean_up(JOINED[join])
+    assert furthest(clean_up(once), once) < 1e-6
+
+
+WALKS = (*range(11, 35), 47, 58)
+RUNS = (35, 38, 42, 45, 52, 56)
+
+
+@pytest.mark.filterwarnings("ignore:.*let go")  # told below
+@pytest.mark.parametrize("fps", [120.0, 30.0])
+@pytest.mark.parametrize(("trials", "least"), [(WALKS, 0.97), (RUNS, 0.9)])
+def test_captured_feet_creep_and_afterwards_stand(real_data, trials, least, fps):
+    held, asked = 0, 0
+    for trial in trials:
+        clip = mark_plants(resample(load(real_data / "cmu" / "16" / f"16_{trial}.amc"), fps))
+        cleaned = clean_up(clip)
+        assert slides(clip).max() > 0.01
+        assert slides(cleaned).max() < 1e-9
+        moved = np.abs(cleaned.root_positions - clip.root_positions)
+        assert moved.max() <= 0.02
+        assert np.sqrt((moved**2).sum(-1).mean()) < 0.011
+        after, own = (np.percentile(accelerations(m, KNEES), [99.9, 100]) for m in (cleaned, clip))
+        assert np.all(after <= 1.002 * own)
+        held, asked = (n + sum(map(sum, m.contacts.values())) for n, m in ((held, cleaned), (asked, clip)))
+    assert held >= least * asked
+
+
+def test_a_run_that_lands_skidding_lets_plants_go_and_says_so(real_data):
+    clip = mark_plants(load(real_data / "cmu" / "16" / "16_42.amc"))
+    with pytest.warns(MocapWarning, match=r"'16_42': .* more than 2 cm, .* let go: ltoes \d+-\d+"):
+        cleaned = clean_up(clip)
+    assert sum(map(sum, cleaned.contacts.values())) < sum(map(sum, clip.contacts.values()))
+
+
+def test_a_leg_that_lies_while_it_is_planted_is_held(real_data):
+    clip = mark_plants(load(real_data / "bvh" / "pybvh" / "bvh_test1.bvh"))
+    cleaned = clean_up(clip)
+    assert slides(clip).max() > 0.004
+    assert slides(cleaned).max() < 1e-9
+    assert all(np.array_equal(cleaned.contacts[joint], clip.contacts[joint]) for joint in clip.contacts)
+
+
+def walks_of(graph, paths):
+    """Return walks out of a graph before and after their clean-up: a random one, and along paths."""
+    edges = random_walk(graph, seconds=30, seed=1)
+    yield to_motion(graph, edges), to_motion(graph, edges, clean=True)
+    for path in paths:
+        followed = follow_path(graph, path)
+        yield followed.motion(), followed.motion(clean=True)
+
+
+def check_walks(graph, paths):
+    own = np.percentile(np.concatenate([accelerations(clip, KNEES) for clip in graph.clips]), 99.9)
+    for skating, cleaned in walks_of(graph, paths):
+        assert slides(skating).max() > 0.005
+        assert slides(cleaned).max() < 0.001
+        assert np.abs(cleaned.root_positions - skating.root_positions).max() <= 0.02
+        before, after = (np.percentile(accelerations(m, KNEES), 99.9) for m in (skating, cleaned))
+        assert after <= 1.002 * max(before, own)
+
+
+@pytest.mark.filterwarnings("error:.*let go")
+@pytest.mark.filterwarnings("ignore:The walk leaves the path")
+def test_along_followed_paths_feet_stand_and_knees_keep_calm():
+    graph = bundled("walk_circle", "walk_curve_1")
+    check_walks(graph, [figure_eight(2.5), s_curve(8.0)])
+
+
+@pytest.mark.filterwarnings("error:.*let go")
+@pytest.mark.filterwarnings("ignore:The walk leaves the path")
+def test_along_paths_through_captured_walks_too(real_data):
+    walks = [load(real_data / "cmu" / "16" / f"16_{trial}.amc") for trial in WALKS]
+    graph = prune(build([mark_plants(resample(walk, 30.0)) for walk in walks], window=10, threshold=0.04))
+    check_walks(graph, [figure_eight(2.5), s_curve(8.0)])
+
+
+def test_a_cartwheel_with_its_feet_in_the_air_is_no_trouble(real_data):
+    clip = mark_plants(load(real_data / "cmu" / "49" / "49_08.amc"))
+    assert slides(clean_up(clip)).max() < 1e-9
+
+
+def test_one_frame_and_no_plants_are_no_trouble():
+    assert furthest(clean_up(WALK[7:8]), WALK[7:8]) < 1e-9
+    none = replace(WALK, contacts=dict.fromkeys(WALK.contacts, False))
+    assert furthest(clean_up(none), WALK) < 1e-9
+
+
+def test_missing_marks_and_missing_legs_are_errors():
+    with pytest.raises(MocapError, match="when these joints stand: lfoot, ltoes, rfoot, rtoes; mark_plants"):
+        clean_up(replace(WALK, contacts={}))
+    with pytest.raises(MocapError, match="No legs found among joint0"):
+        clean_up(random_motion(0))
+
+
+def test_a_plant_out_of_reach_is_let_go_and_told():
+    late = {name: maximum_filter1d(marks, 49) for name, marks in WALK.contacts.items()}
+    lingering = replace(WALK, contacts=late)[:360]
+    with pytest.warns(
+        MocapWarning, match=r"so they are let go: (\w+ \d+-\d+, ){3}\w+ \d+-\d+ and \d+ more\.$"
+    ):
+        cleaned = clean_up(lingering)
+    assert slides(cleaned).max() < 1e-9
+    assert np.abs(cleaned.root_positions - lingering.root_positions).max() <= 0.02
+    held, asked = (sum(marks.sum() for marks in m.contacts.values()) for m in (cleaned, lingering))
+    assert 0.3 < held / asked < 1

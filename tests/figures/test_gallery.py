@@ -1,0 +1,50 @@
+"""The pictures in figures/ are those that the package draws now."""
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import gallery
+import matplotlib.pyplot as plt
+import pytest
+
+from mocap.errors import MocapError
+
+FIGURES = Path(__file__).parents[2] / "figures"
+
+
+def test_figures_holds_these_pictures():
+    assert {path.name for path in FIGURES.iterdir()} >= {f"{name}.png" for name in gallery.PICTURES}
+
+
+@pytest.mark.parametrize("name", gallery.PICTURES)
+def test_no_picture_is_stale(name):
+    figure = gallery.PICTURES[name]()
+    kept, now = gallery.drawn_in(FIGURES / f"{name}.png"), gallery.fingerprint(figure)
+    plt.close("all")
+    assert kept.keys() == now.keys(), "draw them anew: python figures/gallery.py"
+    for kind, numbers in now.items():
+        assert kept[kind] == pytest.approx(numbers, rel=1e-3, abs=1e-3), f"{name}: python figures/gallery.py"
+
+
+def test_a_changed_picture_has_another_fingerprint():
+    prints = []
+    for height in (1.0, 1.01):
+        plt.plot([0, 1], [0, height])
+        prints.append(gallery.fingerprint(plt.gcf()))
+        plt.close()
+    assert prints[0]["Line2D"] != pytest.approx(prints[1]["Line2D"], rel=1e-3)
+
+
+def test_all_are_written_with_their_fingerprints(tmp_path, monkeypatch):
+    monkeypatch.setattr(gallery, "PICTURES", {"pruning": gallery.draw_pruning})
+    (path,) = gallery.draw_all(tmp_path)
+    assert gallery.drawn_in(path) == gallery.fingerprint(gallery.draw_pruning())
+    again = path.read_bytes()
+    gallery.draw_all(tmp_path)
+    assert path.read_bytes() == again
+    plt.close("all")
+    with pytest.raises(MocapError, match="is no picture of"):
+        gallery.drawn_in(tmp_path / "nowhere.png")

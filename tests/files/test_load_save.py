@@ -1,0 +1,270 @@
+"""`mocap.files`: the right reader and skeleton for every file, and every real file at hand."""
+
+import contextlib
+import csv
+import random
+import tracemalloc
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body.kinematics import joint_positions
+from mocap.errors import FormatError, MocapError
+from mocap.files import load_save
+from tests.strategies import wave
+
+ASF = """:units
+  length 0.45
+:root
+  order TX TY TZ RX RY RZ
+:bonedata
+  begin
+    name {bone}
+    direction 0 1 0
+    length {length}
+    axis 0 0 0 XYZ
+    dof rx
+  end
+:hierarchy
+  root {bone}
+"""
+AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Write a clip 16_15.amc of one bone, and the skeletons asked for, {name: (bone, length)}."""
+
+    def fill(**skeletons):
+        (tmp_path / "16_15.amc").write_text(AMC)
+        for name, (bone, length) in skeletons.items():
+            (tmp_path / f"{name.strip('_')}.ASF").write_text(ASF.format(bone=bone, length=length))
+        return tmp_path / "16_15.amc"
+
+    return fill
+
+
+@pytest.mark.parametrize(
+    ("skeletons", "length"),
+    [
+        ({"other": ("spine", 1)}, 1),
+        ({"other": ("tail", 1), "another": ("spine", 2)}, 2),
+        ({"other": ("spine", 1), "_16": ("spine", 2)}, 2),
+        ({"other": ("spine", 1), "_16": ("spine", 2), "_16_15": ("spine", 3)}, 3),
+        ({"_16_15": ("tail", 1), "_16": ("spine", 2)}, 2),
+    ],
+)
+def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
+    motion = load_save.load(folder(**skeletons))
+    assert np.allclose(motion.skeleton.offsets[-1], [0, length * 0.0254 / 0.45, 0])
+    assert motion.name == "16_15"
+
+
+@pytest.mark.parametrize(
+    ("skeletons", "message"),
+    [
+        ({}, r"named by skeleton=, got none fits \(no .asf file\)"),
+        ({"a": ("tail", 1), "b": ("tail", 1)}, r"none fits \(a.ASF, b.ASF\)"),
+        ({"a": ("spine", 1), "b": ("spine", 2)}, r"several fit \(a.ASF, b.ASF\)"),
+    ],
+)
+def test_the_candidates_are_named(folder, skeletons, message):
+    with pytest.raises(MocapError, match=message):
+        load_save.load(folder(**skeletons))
+
+
+def test_options(folder):
+    path = folder(a=("spine", 1), b=("spine", 2))
+    motion = load_save.load(path, skeleton=path.with_name("b.ASF"), fps=60, scale=0.5)
+    assert motion.fps == 60.0
+    assert np.allclose(motion.skeleton.offsets[-1], [0, 1, 0])
+    load_save.load_skeleton(path.with_name("b.ASF")).require_same(
+        load_save.load(path, skeleton=path.with_name("b.ASF")).skeleton
+    )
+
+
+@pytest.mark.parametrize("suffix", [".bvh", ".BVH"])
+def test_save_and_load(folder, tmp_path, suffix):
+    motion = load_save.load(folder(a=("spine", 7)))
+    for scale in (None, 1.0):
+        load_save.save(motion, tmp_path / f"b{suffix}", scale=scale)
+        back = load_save.load(tmp_path / f"b{suffix}", scale=scale)
+        assert (back.name, back.fps) == ("b", 120.0)
+        back.skeleton.require_same(motion.skeleton)
+    assert load_save.load(tmp_path / f"b{suffix}", fps=10).fps == 10.0
+
+
+@pytest.mark.parametrize("name", ["gone.amc", "gone.bvh", "folder.bvh", "folder.amc"])
+def test_a_missing_file_or_a_folder_is_refused(tmp_path, name):
+    (tmp_path / "folder.bvh").mkdir()
+    (tmp_path / "folder.amc").mkdir()
+    with pytest.raises(MocapError, match=f"Cannot read .*{name}: (No such file|Is a dir)"):
+        load_save.load(tmp_path / name)
+
+
+def test_other_formats_are_refused(folder, tmp_path):
+    motion = load_save.load(folder(a=("spine", 1)))
+    with pytest.raises(MocapError, match=r"mocap reads .amc .with .asf. and .bvh"):
+        load_save.load("walk.c3d")
+    with pytest.raises(MocapError, match="load_skeleton reads it"):
+        load_save.load("walk.asf")
+    with pytest.raises(MocapError, match=r"mocap writes .amc .with .asf. and .bvh"):
+        load_save.save(motion, tmp_path / "b.fbx")
+    with pytest.raises(MocapError, match=r"give an .asf file"):
+        load_save.load_skeleton("walk.bvh")
+
+
+@pytest.mark.parametrize("option", ["fps", "scale"])
+@pytest.mark.parametrize("value", [0, -1.0, float("nan"), float("inf")])
+def test_options_that_make_no_sense_are_refused(option, value):
+    with pytest.raises(MocapError, match=f"{option} must be a number above 0"):
+        load_save.load("walk.bvh", **{option: value})
+
+
+ODD = [
+    ("blender_export_16_11/16_11.amc", "cmu/16/16.asf", "line 5: expected 0 numbers for 'lhipjoint'"),
+    ("crlf_16/16_12.amc", None, 441),
+    ("crlf_16/16_15.amc", None, 471),
+    ("csci520/131_04-dance.amc", "cmu/16/16.asf", 1086),
+    ("csci520/131_04-dance-lq-N20.amc", "cmu/16/16.asf", "line 7: expected 1 numbers for 'ltibia' .*got 3"),
+    ("encadyma/null.amc", "odd/golf.asf", 1),
+    ("fairmotion/01_01_merge_conflict.amc", "cmu/16/16.asf", "line 1: expected one version of the file"),
+    ("fairmotion/01_01_truncated.amc", "cmu/16/16.asf", "line 46747: .*after 1558 complete frames"),
+    ("fairmotion/11_01_fb_comment.amc", None, 597),
+    (
+        "fairmotion/11_01_fb_comment.amc",
+        "odd/fairmotion/01_merge_conflict.asf",
+        "merge_conflict.asf, line 1: ",
+    ),
+    ("golf_01.amc", None, "line 13313: .*after 443 complete frames"),
+]
+
+
+@pytest.mark.parametrize(("name", "skeleton", "result"), ODD)
+def test_odd_files_load_or_say_why_not(real_data, name, skeleton, result):
+    skeleton = skeleton and real_data / skeleton
+    if isinstance(result, int):
+        assert len(load_save.load(real_data / "odd" / name, skeleton=skeleton)) == result
+    else:
+        with pytest.raises(FormatError, match=result):
+            load_save.load(real_data / "odd" / name, skeleton=skeleton)
+
+
+def test_the_table_of_odd_files_is_whole(real_data):
+    assert {name for name, _, _ in ODD} == {
+        str(path.relative_to(real_data / "odd")) for path in (real_data / "odd").rglob("*.amc")
+    }
+
+
+def test_odd_skeletons(real_data):
+    names = load_save.load_skeleton(real_data / "odd/encadyma/debug.asf").names
+    assert names == ("root", "rwrist", "rhand", "rfingers", "rfingers_end", "rthumb", "rthumb_end")
+    assert len(load_save.load_skeleton(real_data / "odd/golf.asf")) == 38
+    assert len(load_save.load_skeleton(real_data / "odd/fairmotion/11_fb_comment.asf")) == 38
+    with pytest.raises(FormatError, match="line 1: expected one version"):
+        load_save.load_skeleton(real_data / "odd/fairmotion/01_merge_conflict.asf")
+
+
+@pytest.mark.parametrize("name", ["16_12.amc", "16_15.amc"])
+def test_line_ends_make_no_difference(real_data, name):
+    one, other = (load_save.load(real_data / folder / name) for folder in ("cmu/16", "odd/crlf_16"))
+    assert np.array_equal(one.rotations, other.rotations)
+    assert np.array_equal(one.root_positions, other.root_positions)
+    one.skeleton.require_same(other.skeleton)
+
+
+def test_the_same_take_as_another_program_converted_it(real_data):
+    """Our Acclaim reading against a BVH made elsewhere, with other axes and with smoothed limbs."""
+    ours = load_save.load(real_data / "cmu/16/16_15.amc")
+    theirs = load_save.load(real_data / "bvh/imusim/16_15.bvh")
+    names = theirs.skeleton.names
+    assert set(ours.skeleton.names) - set(names) == {"lhipjoint", "rhipjoint"}
+    theirs_at = joint_positions(theirs)
+    ours_at = joint_positions(ours)[:, [ours.skeleton.index(name) for name in names]]
+    gaps = np.linalg.norm(ours_at - theirs_at, axis=-1)  # (F, J)
+    trunk = ["root", "lowerback", "thorax", "head", "head_end", "lhumerus", "rhumerus", "lfemur", "rfemur"]
+    assert gaps[:, [names.index(name) for name in trunk]].max() < 5e-5
+    assert np.median(gaps, axis=0).max() < 0.004
+    assert np.quantile(gaps, 0.95) < 0.01
+
+
+def listed(real_data):
+    """Return all clips that are not odd, and how many frames their list says they have."""
+    with (real_data / "MANIFEST.tsv").open(encoding="utf-8", newline="") as file:
+        rows = csv.DictReader(file, delimiter="\t")
+        clips = {row["path"]: int(row["frames"]) for row in rows if row["frames"]}
+    return {path: frames for path, frames in clips.items() if not path.startswith("odd/")}
+
+
+def test_some_other_real_files_load(real_data):
+    clips = listed(real_data)
+    small = sorted(path for path in clips if (real_data / path).stat().st_size < 600_000)
+    for path in random.Random(3).sample(small, 40):
+        assert len(load_save.load(real_data / path)) == clips[path], path
+
+
+@pytest.mark.exhaustive
+def test_all_other_real_files_load(real_data):
+    clips = listed(real_data)
+    paths = [path for path in real_data.rglob("*.*") if path.suffix.lower() in (".amc", ".bvh")]
+    assert len(clips) + len({name for name, _, _ in ODD}) == len(paths)
+    for path, frames in clips.items():
+        assert len(load_save.load(real_data / path)) == frames, path
+    for path in (real_data / "cmu").rglob("*.asf"):
+        assert len(load_save.load_skeleton(path)) == 38
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["cmu/16/16_17.amc", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", "odd/golf_01.amc"],
+)
+def test_memory_stays_within_twenty_times_the_file(real_data, name):
+    tracemalloc.start()
+    with contextlib.suppress(FormatError):
+        load_save.load(real_data / name)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 20 * (real_data / name).stat().st_size
+
+
+def test_few_numbers_do_not_fill_the_memory(tmp_path):
+    joints = "".join(f"JOINT j{i}\n{{\nOFFSET 0 1 0\nCHANNELS 0\n}}\n" for i in range(1000))
+    head = f"HIERARCHY\nROOT a\n{{\nOFFSET 0 0 0\nCHANNELS 1 Yrotation\n{joints}}}\nMOTION\n"
+    (tmp_path / "a.bvh").write_text(f"{head}Frames: 20000\nFrame Time: 0.1\n" + "1\n" * 20000)
+    with pytest.raises(
+        FormatError, match="numbers for at least a tenth of the joints, got 20000 for 20020000"
+    ):
+        load_save.load(tmp_path / "a.bvh")
+
+
+@pytest.mark.parametrize("count", ["999999999", "1e8"])
+def test_a_huge_count_of_frames_does_not_allocate(tmp_path, count):
+    load_save.save(wave(3), tmp_path / "a.bvh")
+    text = (tmp_path / "a.bvh").read_text().replace("Frames: 3", f"Frames: {count}")
+    (tmp_path / "a.bvh").write_text(text)
+    tracemalloc.start()
+    with pytest.raises(
+        FormatError, match=f"expected 'Frames: 3', as many as follow, got 'Frames: {count}'"
+    ) as e:
+        load_save.load(tmp_path / "a.bvh")
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 1_000_000
+    assert (e.value.path, e.value.line) == (tmp_path / "a.bvh", text[: text.index("Frames")].count("\n") + 1)
+
+
+@given(st.binary(max_size=300), st.sampled_from([".amc", ".bvh"]))
+@settings(max_examples=200, deadline=None)
+def test_garbage_is_refused(tmp_path_factory, data, suffix):
+    path = tmp_path_factory.getbasetemp() / f"garbage{suffix}"
+    path.write_bytes(data)
+    skeleton = path.with_name("garbage.asf")
+    skeleton.write_text(ASF.format(bone="spine", length=1))
+    with pytest.raises(MocapError):
+        load_save.load(path)
+    path.with_name("data.asf").write_bytes(data)
+    with pytest.raises(MocapError):
+        load_save.load_skeleton(path.with_name("data.asf"))
+    path.with_name("data.asf").unlink()

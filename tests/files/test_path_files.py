@@ -1,0 +1,149 @@
+"""Paths from files: tables and pictures, and what is wrong with some of them."""
+
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError
+from mocap.files.path_files import load_path
+
+
+def svg(tmp_path, body):
+    file = tmp_path / "path.svg"
+    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{body}</svg>')
+    return file
+
+
+@pytest.mark.parametrize("text", ["x,z\n0,0\n1,2\n", "0;0\n1;2", "# drawn by hand\n0 0\n\n1\t2\n"])
+def test_tables_are_read(tmp_path, text):
+    file = tmp_path / "path.csv"
+    file.write_text(text)
+    assert load_path(file).points.tolist() == [[0, 0], [1, 2]]
+    assert load_path(file, scale=0.5).points.tolist() == [[0, 0], [0.5, 1]]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<path d="M 0 0 L 100 0 L 100 -200"/>',
+        '<path d="m0,0 100,0 0-200"/>',
+        '<g><path d="M0 0H100V-200"/></g>',
+        '<path d="M0 0h1e2v-2e2M 5 5 L 9 9"/>',
+        '<polyline points="0,0 100,0 100,-200"/>',
+    ],
+)
+def test_the_same_corner_drawn_in_many_ways(tmp_path, body):
+    assert load_path(svg(tmp_path, body)).points == pytest.approx(np.array([[0, 0], [-1, 0], [-1, 2]]))
+
+
+def test_curves_are_the_curves_they_are(tmp_path):
+    """A quadratic curve and the cubic that equals it; a mirrored control point."""
+    quadratic = load_path(svg(tmp_path, '<path d="M0 0 Q 300 0 300 300 T 600 600"/>')).points
+    cubic = load_path(svg(tmp_path, '<path d="M0 0 C 200 0 300 100 300 300 S 400 600 600 600"/>')).points
+    assert quadratic == pytest.approx(cubic)
+    assert quadratic[-1] == pytest.approx([-6, -6])
+    closed = load_path(svg(tmp_path, '<polygon points="0 0 100 0 100 100"/>'))
+    assert closed.points[-1] == pytest.approx(closed.points[0])
+    assert load_path(svg(tmp_path, '<path d="M0 0 L 100 0 L 100 100 z"/>')).length == pytest.approx(
+        closed.length
+    )
+
+
+@pytest.mark.parametrize("sweep", [0, 1])
+@pytest.mark.parametrize("large", [0, 1])
+def test_arcs_are_parts_of_their_circles(tmp_path, large, sweep):
+    """Of the two circles of radius 2 through (0, 0) and (-2, 0), each has a short and a long arc."""
+    path = load_path(svg(tmp_path, f'<path d="M0 0a-200 200 30 {large}{sweep}200 0"/>'))
+    furthest = (2 + np.sqrt(3) * (1 if large else -1)) * (1 if sweep else -1)  # clockwise is first up
+    centre = [-1, furthest - (2 if sweep else -2)]
+    assert np.hypot(*(path.points - centre).T) == pytest.approx(2)
+    assert path.points[len(path.points) // 2] == pytest.approx([-1, furthest])
+    assert path.points[-1].tolist() == [-2, 0]
+    assert path.length == pytest.approx(2 * np.pi / 3 * (5 if large else 1), rel=1e-3)
+
+
+@pytest.mark.parametrize("flags", ["0 0", "0 1", "1 0", "1 1"])
+def test_an_elliptic_arc_is_a_circular_one_tilted_and_squeezed(tmp_path, flags):
+    circular = (
+        f'<g transform="rotate(40)"><path transform="scale(2, .5)" d="M0 0A90 90 0 {flags} 60 80"/></g>'
+    )
+    c, s = np.cos(np.radians(40)), np.sin(np.radians(40))
+    end = [c * 120 - s * 40, s * 120 + c * 40]
+    elliptic = f'<path d="M0 0A180 45 40 {flags} {end[0]} {end[1]}"/>'
+    points = load_path(svg(tmp_path, circular)).points
+    assert load_path(svg(tmp_path, elliptic)).points == pytest.approx(points)
+
+
+def test_arcs_that_cannot_be_are_mended(tmp_path):
+    """Radii too short to reach grow; of radius 0 it is a line; to the same point it is nothing."""
+    half = load_path(svg(tmp_path, '<path d="M0 0A1 1 0 0 1 200 0"/>'))
+    assert half.length == pytest.approx(np.pi, rel=1e-3)
+    straight = load_path(svg(tmp_path, '<path d="M0 0A0 9 0 0 1 200 0A9 9 0 1 1 200 0"/>'))
+    assert straight.points.tolist() == [[0, 0], [-2, 0]]
+
+
+@pytest.mark.parametrize(
+    ("transform", "end"),
+    [
+        ("matrix(1 2 3 4 5 6)", (5 + 1 * 10 + 3 * 20, 6 + 2 * 10 + 4 * 20)),
+        ("translate(5)", (15, 20)),
+        ("translate(5, 6)", (15, 26)),
+        ("scale(2)", (20, 40)),
+        ("scale(2 3)", (20, 60)),
+        ("rotate(90)", (-20, 10)),
+        ("rotate(90, 10, 0)", (-10, 0)),
+        ("skewX(45)", (30, 20)),
+        ("skewY(45)", (10, 30)),
+        ("translate(5) scale(2), rotate(90)", (-35, 20)),  # the last comes first
+    ],
+)
+def test_transforms_move_what_is_drawn(tmp_path, transform, end):
+    body = f'<defs><line x2="1"/></defs><line transform="{transform}" x2="10" y2="20"/>'
+    assert load_path(svg(tmp_path, body), scale=1).points[-1] == pytest.approx(np.negative(end))
+
+
+def test_groups_carry_what_is_in_them(tmp_path):
+    body = (
+        '<g transform="translate(100)"><g transform="scale(2)"><polyline points="0 0 1 1"/></g></g>'
+        '<path d="M0 0L9 9"/>'
+    )
+    assert load_path(svg(tmp_path, body), scale=1).points.tolist() == [[-100, 0], [-102, -2]]
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        ("", "a path, polyline, polygon or line, got none"),
+        ('<path d=""/>', "starts with 'M'"),
+        ('<path d="M 0 0 L 5"/>', "2 numbers for 'L'"),
+        ('<path d="M 0 0 B 5 5"/>', "the commands M L .* A Z, got 'B'"),
+        ('<path d="M 0 0 L 5 5 z 9 9"/>', "the commands .*'9 9'"),
+        ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "7 numbers for 'A', got '5 5 0 2 1 9 9'"),
+        ('<path transform="scale(1, 2, 3)" d="M 0 0 L 5 5"/>', r"a transform, got 'scale\(1, 2, 3\)'"),
+        ('<path transform="perspective(9)" d="M 0 0 L 5 5"/>', "a transform, got 'perspective"),
+        ('<g transform="scale 2"><path d="M 0 0 L 5 5"/></g>', "a transform, got 'scale 2'"),
+        ('<defs><path d="M 0 0 L 5 5"/></defs>', "a path, polyline, polygon or line, got none"),
+        ('<path d="M 0 0 L 0 0"/>', "zero length"),
+        ('<polyline points="0 0"/>', "two points"),
+        ("<path", "SVG picture"),
+    ],
+)
+def test_pictures_without_a_path_are_told(tmp_path, body, message):
+    with pytest.raises(MocapError, match=message):
+        load_path(svg(tmp_path, body))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("path.csv", "0,0\n1,nan", "line 2: expected x and z"),
+        ("path.csv", "x,z\n0,0\n1", "line 3: expected x and z, got 1"),
+        ("path.csv", "1,1", "two points"),
+        ("path.csv", "", "an empty file"),
+        ("path.png", "x", "give a .csv or .svg"),
+    ],
+)
+def test_tables_without_a_path_are_told(tmp_path, name, text, message):
+    file = tmp_path / name
+    file.write_text(text)
+    with pytest.raises(MocapError, match=message):
+        load_path(file)

@@ -1,0 +1,76 @@
+"""A compiled graph says of every edge and hop what the graph itself says."""
+
+import numpy as np
+import pytest
+
+from mocap.body.planar import PlanarTransform, on_ground
+from mocap.errors import NoWalk
+from mocap.graphs.compiled_graph import compile_graph, walk_track
+from mocap.graphs.motion_graph import from_transitions
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.bundled import sneaking, walking
+from tests.strategies import wave
+
+GRAPH = walking()
+
+
+def test_every_edge_is_there_once():
+    source = GRAPH.source.graph
+    assert sorted(GRAPH.edges) == sorted(source.edges(keys=True))
+    for number in range(0, len(GRAPH.edges), 97):
+        edge = source.edges[GRAPH.edges[number]]
+        assert GRAPH.nodes[GRAPH.target[number]] == GRAPH.edges[number][1]
+        assert GRAPH.frames[number] == edge["frames"]
+        assert GRAPH.blended[number] == (edge["kind"] == "transition")
+
+
+def test_the_track_is_the_root_of_the_motion():
+    walk = random_walk(GRAPH.source, seconds=60, seed=1, settle=0.2)
+    number = {edge: n for n, edge in enumerate(GRAPH.edges)}
+    edges = np.array([number[edge] for edge in walk])
+    turn, move = np.exp(0.7j), 3 + 4j
+    track, rows = walk_track(GRAPH, edges, complex(turn), move)
+    motion = to_motion(GRAPH.source, walk, place=PlanarTransform(0.7, 4.0, 3.0))
+    assert track == pytest.approx(on_ground(motion.root_positions), abs=1e-9)
+    assert np.abs(np.diff(track)) == pytest.approx(GRAPH.step[rows][1:], abs=1e-9)
+
+
+def test_labels_are_those_of_the_motion():
+    graph = sneaking()
+    walk = random_walk(graph.source, seconds=60, seed=4)
+    number = {edge: n for n, edge in enumerate(graph.edges)}
+    _, rows = walk_track(graph, np.array([number[edge] for edge in walk]), 1 + 0j, 0j)
+    motion = to_motion(graph.source, walk)
+    for label, bears in zip(graph.labels, graph.bears, strict=True):
+        assert np.array_equal(bears[rows], motion.labels.get(label, np.zeros(len(rows), bool)))
+
+
+def test_hops_are_all_ways_on_from_a_node():
+    """Against rides and transitions followed in the graph itself."""
+    source = GRAPH.source.graph
+    least = np.ceil(GRAPH.fps / 6)
+
+    def ways(node, ridden=0, taken=()):
+        found = [
+            (*taken, e) for e in source.out_edges(node, keys=True) if source.edges[e]["kind"] == "transition"
+        ]
+        for edge in source.out_edges(node, keys=True):
+            if source.edges[edge]["kind"] == "clip":
+                frames, longer = ridden + source.edges[edge]["frames"], (*taken, edge)
+                over = frames >= least or not source.out_degree(edge[1])
+                found += [longer] if over else ways(edge[1], frames, longer)
+        return found
+
+    for n in range(0, len(GRAPH.nodes), 53):
+        hops = range(GRAPH.hop_first[n], GRAPH.hop_first[n + 1])
+        told = [(*range(GRAPH.ride[h], GRAPH.ride[h] + GRAPH.rides[h]), GRAPH.last[h]) for h in hops]
+        assert sorted(tuple(GRAPH.edges[e] for e in hop) for hop in told) == sorted(ways(GRAPH.nodes[n]))
+
+
+def test_it_is_compiled_once_and_never_empty():
+    assert compile_graph(GRAPH) is GRAPH
+    empty = from_transitions([wave(20)], [], window=5)
+    empty.graph.remove_edges_from(list(empty.graph.edges))
+    with pytest.raises(NoWalk, match="no edges"):
+        compile_graph(empty)

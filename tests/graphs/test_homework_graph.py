@@ -1,0 +1,162 @@
+"""The homework's numbers to the last digit told, and its walks without its slips."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import pytest
+
+import mocap
+from mocap.body import rotations
+from mocap.errors import MocapError, NoWalk
+from mocap.graphs.homework_graph import segment_graph, segment_motion, segment_walk
+from mocap.matching.other_metrics import euler_grid, root_grid
+from tests.strategies import wave
+
+CLIPS = [wave(90, name="a"), wave(75, phase=1.0, name="b", seed=1), wave(60, phase=2.0, name="c", seed=2)]
+
+
+def small(**settings):
+    return segment_graph(CLIPS, 20, 6, **{"threshold": 0.5, "metric": root_grid} | settings)
+
+
+@pytest.fixture(scope="module")
+def homework(real_data):
+    names = ["walk_fwd_circle", "walk_fwd_curve1", "walk_fwd_curve2"]
+    return [mocap.load(real_data / f"hw3/{name}.AMC") for name in names]
+
+
+@pytest.fixture(scope="module")
+def homework_graph(homework):
+    return segment_graph(homework, weighting="distance")
+
+
+def test_the_homeworks_graph(homework_graph):
+    assert (homework_graph.number_of_nodes(), homework_graph.number_of_edges()) == (74, 164)
+    assert [node for node in homework_graph if not homework_graph.has_edge(node, node + 1)] == [25, 49, 73]
+    for here, following in homework_graph.adjacency():
+        shared = [e for e in following.values() if e["kind"] == "transition"]
+        half = 0.5 if homework_graph.has_edge(here, here + 1) and shared else 1.0
+        for edge in shared:
+            total = sum(e["cost"] for e in shared)
+            assert edge["probability"] == pytest.approx(half * edge["cost"] / total)
+
+
+def test_the_reports_metric_gives_another_graph(homework):
+    by_root = segment_graph(homework[1:], threshold=1.0, metric=root_grid)
+    costs = nx.get_edge_attributes(by_root, "cost")
+    assert costs
+    for (here, there), cost in costs.items():
+        end, start = by_root.nodes[here], by_root.nodes[there]
+        tail = homework[1:][end["clip"]][end["end"] - 50 : end["end"]]
+        head = homework[1:][start["clip"]][start["start"] : start["start"] + 50]
+        apart = np.linalg.norm(tail.root_positions - head.root_positions, axis=-1)
+        turned = rotations.angle_between(tail.rotations[:, 0], head.rotations[:, 0])
+        assert cost == pytest.approx((apart + turned).mean()) and cost < 1
+
+
+def test_a_long_homework_walk(homework, homework_graph):
+    core = max(nx.strongly_connected_components(homework_graph), key=len)
+    graph = homework_graph.subgraph(core)
+    walk = [min(core), *nx.shortest_path(graph, min(core), max(core))[1:]]
+    motion = segment_motion(homework, homework_graph, walk)
+    steps = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=-1)
+    assert steps.max() < 2 * max(
+        np.linalg.norm(np.diff(clip.root_positions, axis=0), axis=-1).max() for clip in homework
+    )
+
+
+@pytest.mark.parametrize("weighting", ["inverse", "distance"])
+def test_probabilities_add_up(weighting):
+    graph = small(weighting=weighting)
+    assert any(kind == "transition" for _, _, kind in graph.edges(data="kind"))
+    for _, following in graph.adjacency():
+        assert not following or sum(e["probability"] for e in following.values()) == pytest.approx(1)
+
+
+def test_clips_that_are_the_same_have_probabilities_too():
+    twin = replace(CLIPS[0], name="twin")
+    for weighting in ("inverse", "distance"):
+        graph = segment_graph([CLIPS[0], twin], 20, 6, 1e-3, weighting, metric=root_grid)
+        for _, following in graph.adjacency():
+            assert not following or sum(e["probability"] for e in following.values()) == pytest.approx(1)
+
+
+def test_the_better_match_is_the_likelier_unless_one_asks_for_the_slip():
+    for weighting, sign in (("inverse", -1), ("distance", 1)):
+        for _, following in small(weighting=weighting).adjacency():
+            edges = [e for e in following.values() if e["kind"] == "transition"]
+            order = sorted(edges, key=lambda e: sign * e["cost"])
+            assert [e["probability"] for e in order] == sorted(e["probability"] for e in edges)
+
+
+def test_successors_are_the_clip_bit_for_bit():
+    graph = small()
+    motion = segment_motion(CLIPS, graph, [0, 1, 2, 3])
+    np.testing.assert_array_equal(motion.rotations, CLIPS[0].rotations)
+    np.testing.assert_array_equal(motion.root_positions, CLIPS[0].root_positions)
+
+
+def transition_of(graph):
+    return next(
+        (a, b) for a, b, kind in graph.edges(data="kind") if kind == "transition" and b + 1 in graph[b]
+    )
+
+
+@pytest.mark.parametrize("drift", [False, True])
+def test_a_transition_goes_from_one_segment_to_the_other_and_on_without_a_stutter(drift):
+    graph = small()
+    here, there = transition_of(graph)
+    motion = segment_motion(CLIPS, graph, [here, there, there + 1], drift=drift)
+    parts = [
+        CLIPS[n["clip"]][n["start"] : n["end"]] for n in (graph.nodes[i] for i in (here, there, there + 1))
+    ]
+    leave = len(parts[0]) - 6
+    assert len(motion) == sum(map(len, parts)) - 6
+    np.testing.assert_array_equal(motion.rotations[:leave], parts[0].rotations[:leave])
+    np.testing.assert_allclose(motion.rotations[leave], parts[0].rotations[leave], atol=1e-12)
+    np.testing.assert_allclose(motion.root_positions[leave], parts[0].root_positions[leave], atol=1e-12)
+    rest = motion[leave + 6 :]
+    source = np.concatenate([parts[1].root_positions[6:], parts[2].root_positions])
+    np.testing.assert_allclose(
+        np.linalg.norm(np.diff(rest.root_positions, axis=0), axis=-1),
+        np.linalg.norm(np.diff(source, axis=0), axis=-1),
+        atol=1e-12,
+    )
+    lift = parts[0].root_positions[leave, 1] - parts[1].root_positions[0, 1] if drift else 0
+    np.testing.assert_allclose(rest.root_positions[:, 1], source[:, 1] + lift, atol=1e-12)
+
+
+def test_walks_follow_edges_and_repeat_by_seed():
+    graph = small(threshold=2.0)
+    walk = segment_walk(graph, 30, seed=4)
+    assert walk == segment_walk(graph, 30, seed=4) != segment_walk(graph, 30, seed=5)
+    assert all(graph.has_edge(*pair) for pair in pairwise(walk))
+    assert len(segment_motion(CLIPS, graph, walk)) > 30 * 14
+
+
+def test_bad_input_is_named():
+    for settings, words in (
+        ({"metric": euler_grid}, "none of the bones with a weight"),
+        ({"threshold": 0}, "above 0, got 0"),
+        ({"threshold": np.nan}, "above 0, got nan"),
+        ({"weighting": "equal"}, "not 'equal'"),
+        ({"window": 10}, "too short for windows of 10"),
+        ({"window": 1}, "at least two frames"),
+        ({"segment": 0}, "segment of 0 frames"),
+    ):
+        with pytest.raises(MocapError, match=words):
+            segment_graph(CLIPS, **{"segment": 20, "window": 6, "metric": root_grid} | settings)
+    with pytest.raises(MocapError, match="at least one clip"):
+        segment_graph([])
+    lonely = segment_graph(CLIPS[:1], 20, 6, metric=root_grid)
+    with pytest.raises(NoWalk, match="Nothing follows segment 3"):
+        segment_walk(lonely, 9)
+    with pytest.raises(NoWalk, match="no segment 99"):
+        segment_walk(lonely, 9, start=99)
+    with pytest.raises(MocapError, match="at least one segment"):
+        segment_walk(lonely, 0)
+    for walk, words in (([], "no segment"), ([0, 2], "jumps from segment 0 to segment 2")):
+        with pytest.raises(NoWalk, match=words):
+            segment_motion(CLIPS, lonely, walk)

@@ -1,0 +1,201 @@
+"""The graph's frames add up, and pruning leaves what brute force leaves."""
+
+from dataclasses import replace
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body.motion import resample
+from mocap.body.planar import IDENTITY
+from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
+from mocap.files import load_save
+from mocap.graphs.motion_graph import MotionGraph, build, from_transitions
+from mocap.graphs.pruning import prune
+from mocap.graphs.thresholds import smallest_threshold
+from mocap.matching.transitions import Transition
+from tests.strategies import random_motion, wave
+
+CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
+WINDOW = 8
+
+transitions = st.lists(
+    st.builds(
+        Transition,
+        st.integers(0, 1),
+        st.integers(0, 60),
+        st.integers(0, 1),
+        st.integers(0, 60),
+        st.floats(0.01, 1),
+        st.just(IDENTITY),
+    ),
+    max_size=8,
+)
+
+
+def test_an_edge_for_every_transition_and_every_stretch():
+    graph = from_transitions(CLIPS, [Transition(0, 30, 1, 20, 0.02, IDENTITY)], window=WINDOW)
+    assert sorted(graph.graph.edges(data="kind")) == [
+        ((0, 0), (0, 30), "clip"),
+        ((0, 30), (0, 90), "clip"),
+        ((0, 30), (1, 28), "transition"),
+        ((1, 0), (1, 28), "clip"),
+        ((1, 28), (1, 70), "clip"),
+    ]
+    assert graph.frames == 160
+    assert graph.count("transition") == 1
+    assert repr(graph) == "MotionGraph(2 clips, 6 nodes, 5 edges, 1 of them transitions)"
+
+
+@given(transitions)
+def test_the_stretches_of_a_clip_are_the_clip(found):
+    graph = from_transitions(CLIPS, found, window=WINDOW)
+    frames = [0, 0]
+    for (clip, start), (_, end), edge in graph.graph.edges(data=True):
+        if edge["kind"] == "clip":
+            frames[clip] += edge["frames"]
+            assert edge["frames"] == end - start > 0
+        else:
+            assert edge["frames"] == WINDOW
+    assert frames == [90, 70]
+    assert graph.count("transition") == len(found)
+
+
+@pytest.mark.filterwarnings("ignore:0 frames of clip stay")
+@given(transitions)
+def test_pruning_keeps_the_largest_set_of_nodes_that_reach_each_other(found):
+    whole = from_transitions(CLIPS, found, window=WINDOW)
+    reach = nx.floyd_warshall_numpy(nx.DiGraph(whole.graph), weight=None) < np.inf
+    mutual = reach & reach.T
+    nodes = list(whole.graph)
+    parts = [
+        MotionGraph(whole.clips, WINDOW, whole.graph.subgraph(np.array(nodes, "i,i")[row].tolist()))
+        for row in mutual
+    ]
+    most = max(part.frames for part in parts)
+    if all(part.graph.number_of_edges() == 0 for part in parts):
+        with pytest.raises(NoWalk, match="no cycle"):
+            prune(whole)
+        return
+    pruned = prune(whole)
+    assert pruned.frames == most
+    assert nx.is_strongly_connected(pruned.graph)
+    assert min(degree for _, degree in pruned.graph.out_degree()) >= 1
+
+
+def test_building_finds_transitions_below_the_threshold():
+    loose, strict = (build(CLIPS, window=WINDOW, threshold=t) for t in (0.08, 0.02))
+    costs = [cost for _, _, cost in strict.graph.edges(data="cost") if cost is not None]
+    assert 0 < strict.count("transition") < loose.count("transition")
+    assert max(costs) < 0.02
+
+
+def test_pruning_leaves_the_graph_it_was_given_alone():
+    whole = build(CLIPS, window=WINDOW, threshold=0.05)
+    before = set(whole.graph)
+    assert set(prune(whole).graph) < before
+    assert set(whole.graph) == before
+
+
+def test_below_the_smallest_threshold_there_is_no_walk():
+    least = smallest_threshold(CLIPS, window=WINDOW)
+    with pytest.raises(NoWalk):
+        prune(build(CLIPS, window=WINDOW, threshold=least))
+    assert prune(build(CLIPS, window=WINDOW, threshold=least * 1.0001)).graph.number_of_edges() > 0
+
+
+def test_a_clip_that_only_fits_its_window_once_never_has_a_walk():
+    with pytest.raises(NoWalk, match="add clips that start and end alike"):
+        smallest_threshold([wave(WINDOW)], window=WINDOW)
+
+
+def test_clips_need_names_of_their_own():
+    with pytest.raises(MocapError, match="given twice: wave"):
+        build([wave(30), wave(30)], window=WINDOW, threshold=0.1)
+    with pytest.raises(MocapError, match="at least one clip"):
+        build([], window=WINDOW, threshold=0.1)
+
+
+def labelled(frames, switch, **settings):
+    """Walk up to the frame `switch`, then run."""
+    motion = wave(frames, **settings)
+    return replace(motion, labels={"walk": np.arange(frames) < switch, "run": np.arange(frames) >= switch})
+
+
+def test_an_edge_bears_every_label_of_its_frames():
+    clips = [labelled(90, 40, name="a"), labelled(70, 70, name="b")]
+    found = [Transition(0, 30, 1, 20, 0.02, IDENTITY), Transition(0, 60, 1, 30, 0.02, IDENTITY)]
+    graph = from_transitions(clips, found, window=WINDOW).graph
+    labels = {(start, end): "+".join(sorted(both)) for start, end, both in graph.edges(data="labels")}
+    assert labels == {
+        ((0, 0), (0, 30)): "walk",
+        ((0, 30), (0, 60)): "run+walk",
+        ((0, 60), (0, 90)): "run",
+        ((0, 30), (1, 28)): "walk",
+        ((0, 60), (1, 38)): "run+walk",
+        ((1, 0), (1, 28)): "walk",
+        ((1, 28), (1, 38)): "walk",
+        ((1, 38), (1, 70)): "walk",
+    }
+
+
+def test_each_pair_of_labels_has_a_threshold_of_its_own():
+    clips = [labelled(90, 45, name="a"), labelled(70, 30, phase=1.0, name="b", seed=1)]
+    thresholds = {("walk", "walk"): 0.02, ("run", "walk"): 0.05, ("run", "run"): 0.08}
+    graph = build(clips, window=WINDOW, threshold=thresholds)
+    loose = build(clips, window=WINDOW, threshold=0.08)
+    expected = []
+    for start, end, edge in loose.graph.edges(data=True):
+        if edge["kind"] == "transition":
+            here, there = (
+                {label for label, mark in clips[clip].labels.items() if mark[first : first + WINDOW].any()}
+                for clip, first in (start, (end[0], end[1] - WINDOW))
+            )
+            below = [thresholds.get((a, b), thresholds.get((b, a))) for a in here for b in there]
+            expected += [(start, end)] if edge["cost"] < min(below) else []
+    found = [(a, b) for a, b, kind in graph.graph.edges(data="kind") if kind == "transition"]
+    assert sorted(found) == sorted(expected)
+    assert 0 < len(found) < loose.count("transition")
+
+
+def test_pruning_by_labels_keeps_every_kind():
+    clips = [labelled(200, 100, name="a")]
+    whole = build(clips, window=WINDOW, threshold={("walk", "walk"): 0.05, ("run", "run"): 0.05})
+    with pytest.warns(MocapWarning, match="No way leads from (walk|run)"):
+        both = prune(whole, by_labels=True)
+    kinds = set(nx.get_edge_attributes(both.graph, "labels").values())
+    assert kinds >= {frozenset({"walk"}), frozenset({"run"})}
+    assert both.frames > prune(whole).frames
+
+
+def test_rates_are_changed_only_on_demand():
+    other = resample(CLIPS[1], 60.0)
+    with pytest.raises(MocapError, match="'a' runs at 30 Hz, 'b' at 60 Hz"):
+        build([CLIPS[0], other], window=WINDOW, threshold=0.05)
+    graph = build([resample(clip, 30.0) for clip in (CLIPS[0], other)], window=WINDOW, threshold=0.05)
+    assert graph.fps == 30.0
+    assert graph.clips[0] is CLIPS[0]
+
+
+def test_skeletons_must_be_the_same():
+    with pytest.raises(SkeletonMismatch, match="differ in these joints"):
+        build([CLIPS[0], random_motion(1, frames=30)], window=WINDOW, threshold=0.05)
+
+
+def test_a_transition_lies_inside_its_clips():
+    for row in ((0, 83, 1, 20), (0, 30, 1, 63), (0, -1, 1, 20), (2, 30, 1, 20), (0, 30, -1, 20)):
+        with pytest.raises(MocapError, match="lies outside the clips"):
+            from_transitions(CLIPS, [Transition(*row, 0.02, IDENTITY)], window=WINDOW)
+
+
+def test_the_walks_of_cmu_16(real_data):
+    numbers = (*range(11, 35), 47, 58)
+    clips = [resample(load_save.load(real_data / f"cmu/16/16_{n}.amc"), 30.0) for n in numbers]
+    whole = build(clips, window=10, threshold=0.03)
+    kept = prune(whole)
+    assert sum(map(len, clips)) == 2521
+    assert whole.count("transition") == pytest.approx(2176, abs=10)
+    assert len(whole.graph) == pytest.approx(1445, abs=10)
+    assert len(kept.graph) == pytest.approx(963, abs=10)

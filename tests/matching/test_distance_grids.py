@@ -1,0 +1,202 @@
+"""The fast grid against the loop over rows; its error bound; what it must refuse."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body.planar import PlanarTransform
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.matching import distance_grids
+from mocap.matching.distance_grids import diagonal_sum, distance_grid, tiles
+from mocap.matching.point_clouds import align, point_cloud
+from tests.oracles import distance_oracle, squared_distance
+from tests.strategies import planar, random_motion, seeds, wave
+
+
+def sizes(points, window):
+    """S of every window as the docstring of `distance_grid` defines it, above heights of 0."""
+    windows = np.stack([points[i : i + window].reshape(-1, 3) for i in range(len(points) - window + 1)])
+    ground = windows[..., [0, 2]] - windows[..., [0, 2]].mean(1, keepdims=True)
+    return (windows[..., 1] ** 2 + (ground**2).sum(-1)).mean(1)
+
+
+def random_points(seed, frames, points=6, reach=1.0):
+    return np.random.default_rng(seed).normal(size=(frames, points, 3)) * reach
+
+
+def test_the_oracle_is_the_closed_form_window_by_window():
+    a, b = random_points(0, 6), random_points(1, 5)
+    grid = distance_oracle(a, b, 2)
+    for i, j in np.ndindex(*grid.shape):
+        p, q = a[i : i + 2].reshape(-1, 3), b[j : j + 2].reshape(-1, 3)
+        assert grid[i, j] == pytest.approx(squared_distance(align(p, q), p, q, np.full(12, 1 / 12)))
+
+
+@settings(max_examples=40)
+@given(seeds, st.integers(1, 7))
+def test_the_grid_is_the_loop_over_windows(seed, window):
+    a, b = random_points(seed, 9), random_points(seed + 1, 7)
+    assert distance_grid(a, b, window=window) == pytest.approx(distance_oracle(a, b, window), abs=1e-12)
+
+
+@settings(max_examples=40)
+@given(seeds, st.integers(1, 5))
+def test_so_it_is_with_weights_and_taper(seed, window):
+    a, b = random_points(seed, 9), random_points(seed + 1, 7)
+    random = np.random.default_rng(seed)
+    weights, taper = random.random(6) + np.eye(6)[0], random.random(window) + 1e-3
+    grid = distance_grid(a, b, window=window, joint_weights=weights, taper=taper)
+    assert grid == pytest.approx(distance_oracle(a, b, window, weights, taper), abs=1e-12)
+
+
+def test_a_joint_without_weight_does_not_count():
+    a, b = random_points(0, 9), random_points(1, 9)
+    less = distance_grid(a[:, 1:], b[:, 1:], window=3)
+    assert distance_grid(a, b, window=3, joint_weights=[0, 1, 1, 1, 1, 1]) == pytest.approx(less)
+
+
+@settings(max_examples=60)
+@given(seeds, st.integers(1, 12), st.sampled_from([0.0, 1.0, 100.0, 3e4]), planar)
+def test_the_error_bound_holds_wherever_a_clip_is(seed, window, away, transform):
+    """`away` metres from the origin, and walking on from there."""
+    random = np.random.default_rng(seed)
+    way = np.cumsum(random.normal(size=(30, 1, 3)) * [0.05, 0.0, 0.05], axis=0)
+    a = random_points(seed, 30, reach=0.3) + way + [away, 0, -away]
+    b = transform.points(random_points(seed + 1, 25, reach=0.3) + way[5:])
+    b[3:20] = transform.points(a[3:20] - [away, 0, -away])  # some windows are nearly or quite alike
+    truth = distance_oracle(a, b, window)
+    size = sizes(a, window)[:, None] + sizes(b, window)
+    a32, b32 = a.astype(np.float32), b.astype(np.float32)
+    truth32 = distance_oracle(a32.astype(float), b32.astype(float), window)
+    digits = 1e-15 * max(np.abs(a).max(), np.abs(b).max())  # metres that the points themselves are off
+    assert np.all(np.abs(distance_grid(a, b, window=window) - truth) <= 1e-14 * size + digits * size**0.5)
+    single = distance_grid(a32, b32, window=window)
+    assert single.dtype == np.float32
+    assert np.all(np.abs(single - truth32) <= 4e-6 * size)
+
+
+def test_real_clips_in_32_bits_are_as_good_as_in_64(real_data):
+    from mocap import load, resample
+
+    clips = [load(real_data / "cmu" / "16" / f"16_{n}.amc") for n in (15, 35)]
+    a, b = (point_cloud(resample(clip, 30)) for clip in clips)
+    a[..., 0] += 100
+    double = distance_grid(a, b, window=10)
+    assert double == pytest.approx(distance_oracle(a, b, 10), abs=1e-12)
+    single = distance_grid(a.astype(np.float32), b.astype(np.float32), window=10)
+    assert np.abs(single - double).max() < 4e-6
+
+
+def test_the_grid_of_motions_is_that_of_their_points():
+    a, b = wave(20), wave(25, phase=1.0)
+    assert np.array_equal(
+        distance_grid(a, b, window=5), distance_grid(point_cloud(a), point_cloud(b), window=5)
+    )
+
+
+@given(seeds, planar)
+def test_a_clip_is_at_no_distance_from_itself_moved_anywhere(seed, transform):
+    motion = random_motion(seed)
+    grid = distance_grid(motion, transform.motion(motion), window=3)
+    assert np.sqrt(grid.diagonal()) == pytest.approx(0, abs=1e-6)
+    assert grid == pytest.approx(grid.T, abs=1e-9)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("frames", [30, 700])
+def test_the_grid_of_a_clip_and_itself_is_exactly_symmetric(dtype, frames):
+    points = random_points(3, frames, points=2).astype(dtype)
+    grid = distance_grid(points, points.copy(), window=10)
+    assert grid.dtype == dtype
+    assert np.array_equal(grid, grid.T)
+    assert grid.min() >= 0
+    assert grid.diagonal().max() <= 8e-6 * 6 * np.finfo(dtype).eps / np.finfo(np.float32).eps
+    # Whatever one half is a copy of, it is the grid.
+    longer = np.concatenate([points, points[:1]])
+    assert np.abs(grid - distance_grid(points, longer, window=10)[:, : len(grid)]).max() < 1e-5
+
+
+def test_it_does_not_matter_how_the_grid_is_cut_into_tiles(monkeypatch):
+    a, b = random_points(0, 40), random_points(1, 50)
+    whole = distance_grid(a, b, window=4)
+    monkeypatch.setattr(distance_grids, "TILE", (7, 11))
+    assert distance_grid(a, b, window=4) == pytest.approx(whole, abs=1e-13)
+
+
+@given(st.integers(1, 40), st.integers(1, 40), st.booleans())
+def test_tiles_cover_a_grid_once(rows, columns, upper):
+    seen = np.zeros((rows, columns), int)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(distance_grids, "TILE", (7, 11))
+        for tile in tiles(rows, columns, upper=upper):
+            seen[tile] += 1
+    assert seen.max() <= 1
+    assert np.all(seen[np.triu_indices(rows, 0, columns)] == 1)
+    assert upper or seen.min() == 1
+
+
+@given(st.integers(1, 20), st.integers(0, 5), st.integers(0, 5), seeds)
+def test_a_diagonal_sum_adds_along_the_diagonal(window, more_rows, more_columns, seed):
+    products = np.random.default_rng(seed).integers(0, 9, (window + more_rows, window + more_columns))
+    sums = diagonal_sum(products, window)
+    assert sums.shape == (more_rows + 1, more_columns + 1)
+    for i, j in np.ndindex(*sums.shape):
+        assert sums[i, j] == np.trace(products[i : i + window, j : j + window])
+
+
+def test_clips_that_do_not_go_together_are_refused():
+    with pytest.raises(SkeletonMismatch, match="differ in these joints: elbow"):
+        distance_grid(wave(9), random_motion(0), window=2)
+    with pytest.raises(MocapError, match="resample one first"):
+        distance_grid(wave(9), replace(wave(9), fps=60), window=2)
+    with pytest.raises(MocapError, match="'wave' has 9 frames, too few for a window of 10"):
+        distance_grid(wave(20), wave(9), window=10)
+    with pytest.raises(MocapError, match="2 and 3 points do not match"):
+        distance_grid(np.zeros((5, 2, 3)), np.zeros((5, 3, 3)), window=2)
+
+
+@pytest.mark.parametrize("window", [0, -1, 2.5, np.nan, "ten"])
+def test_a_window_is_a_whole_number_of_frames(window):
+    with pytest.raises(MocapError, match=f"at least one frame, got {window}"):
+        distance_grid(wave(9), wave(9), window=window)
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        (np.zeros((5, 3)), r"shape \(F, P, 3\), got \(5, 3\)"),
+        (np.zeros((5, 2, 2)), r"got \(5, 2, 2\)"),
+        (np.zeros((5, 0, 3)), r"got \(5, 0, 3\)"),
+        (np.zeros((0, 2, 3)), "has 0 frames"),
+        (np.full((5, 2, 3), np.nan), r"holds nan at \[0, 0, 0\]"),
+        (np.full((5, 2, 3), -np.inf), "within 1e[+]06 m; the clip holds -inf"),
+        (np.full((5, 2, 3), 1e30), "holds 1e[+]30"),
+    ],
+)
+def test_points_must_be_points(points, message):
+    with pytest.raises(MocapError, match=message):
+        distance_grid(np.zeros((5, 2, 3)), points, window=2)
+
+
+@pytest.mark.parametrize("bad", [[1, 1, 1], [1, -1], [0, 0], [1, np.nan], [np.inf, 1], 3.0])
+@pytest.mark.parametrize("which", ["joint_weights", "taper"])
+def test_weights_must_make_sense(bad, which):
+    with pytest.raises(MocapError, match="Weights must be 2 numbers, not negative and not all 0"):
+        distance_grid(np.ones((5, 2, 3)), np.ones((5, 2, 3)), window=2, **{which: bad})
+
+
+def test_huge_and_tiny_weights_are_as_good_as_any():
+    a, b = random_points(0, 5, 2), random_points(1, 5, 2)
+    plain = distance_grid(a, b, window=2)
+    for size in (1e308, 5e-324):
+        assert distance_grid(a, b, window=2, joint_weights=[size, size]) == pytest.approx(plain)
+
+
+def test_points_that_all_fall_together_are_at_no_distance():
+    grid = distance_grid(
+        np.zeros((5, 2, 3)), PlanarTransform(0, 3.0, 1.0).points(np.zeros((4, 2, 3))), window=2
+    )
+    assert np.array_equal(grid, np.zeros((4, 3)))

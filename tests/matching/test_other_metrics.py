@@ -1,0 +1,208 @@
+"""The four metrics side by side; the homework's numbers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap import load
+from mocap.body import euler, rotations
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.graphs.homework_graph import segment_distances, segments
+from mocap.matching import distance_grids
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, pose_grid, root_grid
+from tests.strategies import random_motion, random_quaternions, seeds, wave
+
+DOFS = ["xyz", "xyz", "zx", "y", "zyx", ""]
+
+
+def body_motion(seed, frames=6):
+    """Random angles of joints with axes and dofs of their own; and these angles in degrees."""
+    random = np.random.default_rng(seed)
+    names = ["root", "lowerback", "lfemur", "ltibia", "rhumerus", "rhumerus_end"]
+    axes = random_quaternions(random, 6)
+    axes[0] = rotations.IDENTITY
+    skeleton = Skeleton(names, np.arange(-1, 5), random.normal(size=(6, 3)), axes, DOFS)
+    turns = np.tile(rotations.IDENTITY, (frames, 6, 1))
+    angles = {}
+    for joint, dofs in enumerate(DOFS):
+        if dofs:
+            limit = [180, 90, 180] if len(dofs) == 3 else [90, 90] if len(dofs) == 2 else [180]
+            angles[joint] = random.uniform(-1, 1, (frames, len(dofs))) * limit
+            own = euler.from_euler(dofs, np.radians(angles[joint]))
+            turns[:, joint] = rotations.multiply(
+                rotations.multiply(axes[joint], own), rotations.inverse(axes[joint])
+            )
+    return Motion(skeleton, random.normal(size=(frames, 3)), turns, 30.0, f"body{seed}"), angles
+
+
+ALL = [root_grid, euler_grid, pose_grid, distance_grid]
+
+
+@pytest.mark.parametrize("metric", ALL)
+def test_all_metrics_have_one_interface(metric):
+    (a, _), (b, _) = body_motion(0, 9), body_motion(0, 7)
+    grid = metric(a, b, window=3)
+    assert grid.shape == (7, 5)
+    assert grid.min() >= 0
+    assert metric(b, a, window=3) == pytest.approx(grid.T)
+    assert metric(a, a, window=3).diagonal() == pytest.approx(0, abs=1e-5)
+    for window, message in ((8, "'body0' has 7 frames, too few for a window of 8"), (0, "got 0")):
+        with pytest.raises(MocapError, match=message):
+            metric(a, b, window=window)
+    with pytest.raises(SkeletonMismatch, match="elbow"):
+        metric(a, wave(9), window=2)
+
+
+@pytest.mark.parametrize("metric", [root_grid, euler_grid, pose_grid])
+def test_tiles_do_not_show(metric, monkeypatch):
+    a, _ = body_motion(0, 20)
+    whole = metric(a, a, window=3)
+    monkeypatch.setattr(distance_grids, "TILE", (4, 6))
+    assert metric(a, a, window=3) == pytest.approx(whole)
+
+
+def test_root_grid_adds_metres_and_radians():
+    a = random_motion(0, frames=6)
+    b = replace(random_motion(1, frames=4, skeleton=a.skeleton), name="b")
+    grid = root_grid(a, b, window=2)
+    for i, j in np.ndindex(*grid.shape):
+        steps = [
+            np.linalg.norm(a.root_positions[i + f] - b.root_positions[j + f])
+            + rotations.angle_between(a.rotations[i + f, 0], b.rotations[j + f, 0])
+            for f in range(2)
+        ]
+        assert grid[i, j] == pytest.approx(np.mean(steps))
+
+
+def test_root_grid_is_misled_by_where_a_clip_was_captured():
+    """The paper's point: the same motion elsewhere is far in the root metric, and at 0 in the right one."""
+    a = wave(20)
+    b = PlanarTransform(2.0, 3.0, 0.0).motion(a)
+    assert root_grid(a, b, window=3).diagonal().min() > 2
+    assert distance_grid(a, b, window=3).diagonal().max() < 1e-12
+
+
+@given(seeds)
+def test_the_files_own_angles_come_back(seed):
+    motion, angles = body_motion(seed)
+    for joint, told in angles.items():
+        gap = file_angles(motion, joint) - told
+        assert (gap + 180) % 360 - 180 == pytest.approx(0, abs=1e-4)
+
+
+def test_the_euler_grid_adds_wrapped_differences_bone_by_bone():
+    (a, angles), (b, others) = body_motion(0, 6), body_motion(0, 6)
+    b, others = replace(a, rotations=a.rotations[::-1]), {j: v[::-1] for j, v in angles.items()}
+    grid = euler_grid(a, b, window=2)
+    for i, j in np.ndindex(*grid.shape):
+        total = 0.0
+        for f in range(2):
+            for joint in (1, 2, 3, 4):
+                gap = (angles[joint][i + f] - others[joint][j + f] + 180) % 360 - 180
+                total += HOMEWORK_WEIGHTS[a.skeleton.names[joint]] * np.linalg.norm(gap)
+        assert grid[i, j] == pytest.approx(total)
+
+
+def test_the_euler_grid_takes_weights_by_name():
+    a, _ = body_motion(0, 9)
+    one = euler_grid(a, a, window=2, weights={"ltibia": 1.0})
+    assert euler_grid(a, a, window=2, weights={"ltibia": 2.0, "unknown": 5.0}) == pytest.approx(2 * one)
+    with pytest.raises(MocapError, match="none of the bones with a weight: lowerback"):
+        euler_grid(wave(9), wave(9), window=2)
+    for bad in (-1.0, np.nan):
+        with pytest.raises(MocapError, match=f"got {{'ltibia': {bad}}}"):
+            euler_grid(a, a, window=2, weights={"ltibia": bad})
+
+
+def test_the_pose_grid_adds_up_joints():
+    a, b = random_motion(0, frames=5), random_motion(1, frames=4)
+    b = replace(b, skeleton=a.skeleton)
+    q, p = a.rotations[:, 1:], b.rotations[:, 1:]
+    for form, vectors in (("log", rotations.to_rotvec), ("quaternion", lambda x: x)):
+        grid = pose_grid(a, b, window=2, form=form)
+        for i, j in np.ndindex(*grid.shape):
+            steps = []
+            for f in range(2):
+                gaps = [
+                    np.linalg.norm(vectors(q[i + f]) - sign * vectors(p[j + f]), axis=-1)
+                    for sign in ((1, -1) if form == "quaternion" else (1,))
+                ]
+                steps.append(np.linalg.norm(np.min(gaps, axis=0)))
+            assert grid[i, j] == pytest.approx(np.mean(steps))
+
+
+def test_a_quaternion_and_its_negative_are_one_pose():
+    a = random_motion(0)
+    assert pose_grid(a, replace(a, rotations=-a.rotations), window=2).diagonal() == pytest.approx(0, abs=1e-6)
+
+
+def test_one_frame_does_not_tell_forwards_from_backwards():
+    """Reason three of 3.1: with velocities the two are told apart."""
+    forwards = wave(21)
+    backwards = replace(forwards, rotations=forwards.rotations[::-1])
+    middle = (10, 10)
+    assert pose_grid(forwards, backwards, window=1)[middle] == pytest.approx(0, abs=1e-6)
+    assert pose_grid(forwards, backwards, window=1, velocities=0.2)[middle] > 0.1
+
+
+def test_pose_grid_refuses_what_it_does_not_know():
+    a = wave(5)
+    with pytest.raises(MocapError, match="got 'matrix'"):
+        pose_grid(a, a, window=2, form="matrix")
+    for bad in (-1, np.nan, np.inf):
+        with pytest.raises(MocapError, match="velocities must be seconds"):
+            pose_grid(a, a, window=2, velocities=bad)
+    with pytest.raises(MocapError, match="one frame, and so no velocities"):
+        pose_grid(a[:1], a[:1], window=1, velocities=1.0)
+
+
+@given(st.integers(1, 3000), st.integers(1, 500))
+def test_segments_take_every_frame_once(frames, length):
+    cuts = segments(frames, length)
+    assert [n for cut in cuts for n in range(cut.start, cut.stop)] == list(range(frames))
+    assert len(cuts) == max(frames // length, 1)
+    assert all(cut.stop - cut.start == length for cut in cuts[:-1])
+
+
+def test_segments_have_a_length():
+    with pytest.raises(MocapError, match="at least one frame, got 0"):
+        segments(10, 0)
+
+
+@pytest.mark.parametrize("metric", ALL)
+def test_segment_distances_lay_heads_on_tails(metric):
+    a, _ = body_motion(0, 25)
+    b = replace(body_motion(0, 20)[0], name="b")
+    grid = segment_distances([a, b], segment=10, window=4, metric=metric)
+    pieces = [a[:10], a[10:], b[:10], b[10:]]
+    assert grid.shape == (4, 4)
+    for i, j in np.ndindex(4, 4):
+        assert grid[i, j] == pytest.approx(metric(pieces[i][-4:], pieces[j][:4], window=4)[0, 0], abs=1e-6)
+
+
+def test_segments_hold_a_window():
+    with pytest.raises(MocapError, match="A segment has 5 frames, too few for a window of 6"):
+        segment_distances([wave(20)], segment=5, window=6)
+    with pytest.raises(MocapError, match="'wave' has 4 frames, too few for a window of 5"):
+        segment_distances([wave(4)], segment=10, window=5)
+    with pytest.raises(MocapError, match="nothing to concatenate"):
+        segment_distances([])
+
+
+def test_the_homeworks_numbers(real_data):
+    clips = [load(real_data / "hw3" / f"walk_fwd_{name}.AMC") for name in ("circle", "curve1", "curve2")]
+    grid = segment_distances(clips)
+    assert grid.shape == (74, 74)
+    assert grid[0, 1:6] == pytest.approx([609.7033, 532.5454, 168.3574, 599.2567, 624.7405], abs=1e-3)
+    off = grid[~np.eye(74, dtype=bool)]
+    assert np.median(off) == pytest.approx(473.735, abs=1e-3)
+    assert grid.max() == pytest.approx(786.775, abs=1e-3)
+    assert off.min() == pytest.approx(87.407, abs=1e-3)
+    assert grid[36, 27] == off.min()

@@ -1,0 +1,129 @@
+"""The closed form against a numerical optimiser; clouds of points where they should be."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from scipy.optimize import minimize
+
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError
+from mocap.matching.point_clouds import Surface, align, distinct_joints, point_cloud
+from tests.oracles import squared_distance
+from tests.strategies import planar, random_motion, seeds, wave
+
+
+@settings(max_examples=25)
+@given(seeds)
+def test_no_optimiser_finds_a_better_alignment(seed):
+    random = np.random.default_rng(seed)
+    points, others = random.normal(size=(2, 12, 3))
+    weights = random.random(12)
+    best = squared_distance(align(points, others, weights), points, others, weights)
+    for start in np.linspace(-np.pi, np.pi, 4, endpoint=False):
+        found = minimize(squared_distance, [start, 0, 0], args=(points, others, weights))
+        assert best <= found.fun + 1e-6
+
+
+@given(seeds, planar)
+def test_alignment_finds_the_transform_that_was_applied(seed, transform):
+    points = np.random.default_rng(seed).normal(size=(8, 3))
+    found = align(transform.points(points), points)
+    assert found.points(points) == pytest.approx(transform.points(points), abs=1e-9)
+
+
+@given(seeds, planar, planar)
+def test_the_distance_does_not_change_when_either_cloud_is_moved(seed, move_a, move_b):
+    a, b = np.random.default_rng(seed).normal(size=(2, 8, 3))
+    weights = np.full(8, 1 / 8)
+    before = squared_distance(align(a, b), a, b, weights)
+    a, b = move_a.points(a), move_b.points(b)
+    assert squared_distance(align(a, b), a, b, weights) == pytest.approx(before, abs=1e-8)
+
+
+def test_alignment_works_on_many_clouds_at_once():
+    a, b = np.random.default_rng(0).normal(size=(2, 3, 4, 9, 3))
+    together = align(a, b)
+    assert np.shape(together.angle) == (3, 4)
+    one = align(a[2, 1], b[2, 1])
+    assert [field[2, 1] for field in together] == pytest.approx(list(one))
+
+
+@pytest.mark.parametrize("weights", [[1, 1], [1, -1, 1], [0, 0, 0], [1, np.nan, 1]])
+def test_weights_must_make_sense(weights):
+    with pytest.raises(MocapError, match="Weights must be 3 numbers, not negative and not all 0"):
+        align(np.eye(3), np.eye(3), weights)
+
+
+@pytest.mark.parametrize(
+    ("points", "others", "message"),
+    [
+        (np.zeros((4, 3)), np.zeros((5, 3)), r"shapes \(4, 3\) and \(5, 3\) do not match"),
+        (np.zeros(3), np.zeros(3), "both need"),
+        (np.zeros((4, 2)), np.zeros((4, 2)), "both need"),
+        (np.full((4, 3), np.nan), np.zeros((4, 3)), r"holds nan at \[0, 0\]"),
+        (np.zeros((4, 3)), np.full((4, 3), np.inf), "holds inf"),
+        (np.zeros((4, 3)), np.full((4, 3), 1e200), "within 1e[+]06 m"),
+    ],
+)
+def test_clouds_that_cannot_be_aligned_are_refused(points, others, message):
+    with pytest.raises(MocapError, match=message):
+        align(points, others)
+
+
+def test_a_cloud_that_is_one_point_is_not_turned():
+    assert align(np.ones((1, 3)), np.zeros((1, 3))) == (0.0, 1.0, 1.0)
+
+
+def test_coincident_joints_are_one_point():
+    hips = Skeleton(
+        ["root", "l", "r", "lknee", "rknee"], [-1, 0, 0, 1, 2], np.array([[0, 0, 0]] * 3 + [[0, -1, 0]] * 2)
+    )
+    assert distinct_joints(hips) == [0, 3, 4]
+
+
+def test_a_cmu_skeleton_has_31_points(real_data):
+    from mocap import load_skeleton
+
+    assert len(distinct_joints(load_skeleton(real_data / "cmu" / "16" / "16.asf"))) == 31
+
+
+def test_a_point_cloud_is_where_the_distinct_joints_are():
+    motion = wave(5)
+    assert np.array_equal(point_cloud(motion), joint_positions(motion)[:, distinct_joints(motion.skeleton)])
+
+
+@given(seeds)
+def test_surface_points_lie_around_their_bones(seed):
+    motion = random_motion(seed, frames=2, joints=3)
+    surface = Surface(along=3, around=4, radius=0.05)
+    cloud = point_cloud(motion, surface).reshape(2, -1, 3, 4, 3)  # frame, bone, along, around
+    joints = joint_positions(motion)
+    for n, joint in enumerate(distinct_joints(motion.skeleton)[1:]):
+        start, end = joints[:, motion.skeleton.parents[joint]], joints[:, joint]
+        for i, amount in enumerate((1 / 6, 3 / 6, 5 / 6)):
+            ring = cloud[:, n, i] - (start + amount * (end - start))[:, None]
+            assert np.linalg.norm(ring, axis=-1) == pytest.approx(0.05)
+            assert ring.sum(1) == pytest.approx(0, abs=1e-12)
+            assert np.einsum("fpc,fc->fp", ring, end - start) == pytest.approx(0, abs=1e-12)
+
+
+def test_a_surface_feels_what_joints_do_not():
+    """A bone that turns about itself moves no joint."""
+    bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
+    turns = rotations.from_rotvec([[[0, 0, 0], [0, 0, 0]], [[0, 0, 1], [0, 0, 0]]])
+    roll = Motion(bone, np.zeros((2, 3)), turns, 30.0)
+    still, turned = point_cloud(roll)
+    assert still == pytest.approx(turned)
+    still, turned = point_cloud(roll, Surface())
+    assert np.abs(still - turned).max() > 0.04
+
+
+def test_a_surface_needs_points_and_bones():
+    for surface in (Surface(along=0), Surface(around=0), Surface(radius=-1.0), Surface(radius=np.nan)):
+        with pytest.raises(MocapError, match="points along and around"):
+            point_cloud(wave(2), surface)
+    with pytest.raises(MocapError, match="no bones"):
+        point_cloud(random_motion(0, joints=1), Surface())

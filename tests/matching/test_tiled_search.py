@@ -1,0 +1,135 @@
+"""Minima against a loop over neighbours, and the search in blocks against the whole grid."""
+
+from concurrent.futures import Future
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from mocap.errors import MocapError
+from mocap.matching import distance_grids, tiled_search
+from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
+from mocap.matching.minima import local_minima
+from mocap.matching.tiled_search import find_minima
+from tests.strategies import seeds
+
+
+def minima_by_loops(grid, below):
+    rows, columns = grid.shape
+    found = []
+    for i, j in np.ndindex(rows, columns):
+        around = [(i + r, j + c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)]
+        inside = [(r, c) for r, c in around if 0 <= r < rows and 0 <= c < columns]
+        lower = all((grid[n], n) > (grid[i, j], (i, j)) for n in inside)
+        if lower and grid[i, j] < below:
+            found.append([i, j])
+    return found
+
+
+@given(
+    arrays.arrays(float, st.tuples(st.integers(1, 6), st.integers(1, 6)), elements=st.integers(0, 4)),
+    st.floats(0, 5),
+)
+def test_minima_are_lower_than_all_neighbours_and_ties_go_to_the_first(grid, below):
+    assert local_minima(grid, below).tolist() == minima_by_loops(grid, below)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, int])
+def test_minima_of_any_kind_of_number(dtype):
+    grid = np.array([[1, 2, 2], [2, 2, 0]], dtype)
+    assert local_minima(grid).tolist() == [[0, 0], [1, 2]]
+
+
+def test_grids_without_minima():
+    assert local_minima(np.full((3, 3), np.inf)).shape == (0, 2)
+    assert local_minima(np.empty((0, 3))).shape == (0, 2)
+    assert local_minima(np.ones((2, 2)), below=1).shape == (0, 2)
+
+
+def test_what_is_no_grid_is_refused():
+    with pytest.raises(MocapError, match=r"two dimensions, got shape \(3,\)"):
+        local_minima(np.ones(3))
+    with pytest.raises(MocapError, match=r"NaN at \[1, 0\]"):
+        local_minima(np.array([[1.0], [np.nan]]))
+
+
+def smooth_points(seed, frames):
+    """Points on waves, with many minima in their grid."""
+    random = np.random.default_rng(seed)
+    t = np.arange(frames)[:, None, None] / random.uniform(2, 6, (1, 4, 3))
+    return np.sin(t + random.uniform(0, 6, (4, 3))) + random.normal(size=(frames, 4, 3)) * 0.01
+
+
+def clouds(lengths, window, seed):
+    taper, weights = np.full(window, 1 / window), np.full(4, 0.25)
+    parts = [
+        cloud(smooth_points(seed + n, length), np.zeros(4), weights, taper, np.float32)
+        for n, length in enumerate(lengths)
+    ]
+    return Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+
+
+@settings(max_examples=40)
+@given(seeds, st.lists(st.integers(4, 30), min_size=1, max_size=4), st.integers(1, 4), st.integers(3, 20))
+def test_blocks_and_tiles_do_not_show(seed, lengths, window, block):
+    """Minima at every border are found once, whichever way the grid is cut."""
+    whole = clouds(lengths, window, seed)
+    count = sum(lengths) - window + 1
+    grid = cloud_distances(*[whole.part(slice(0, count))] * 2, np.full(window, 1 / window))
+    expected = [[i, j] for i, j in local_minima(grid, 0.8**2).tolist() if j - i >= window]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tiled_search, "BLOCK", block)
+        patch.setattr(distance_grids, "TILE", (5, 7))
+        found = find_minima(whole, 0.8)
+    order = np.lexsort(found[1::-1])
+    i, j = found[:2].astype(int)
+    assert np.stack([i, j], 1)[order].tolist() == expected
+    assert found[2] == pytest.approx(np.sqrt(grid[i, j]), abs=2e-3)
+    assert found[2] ** 2 == pytest.approx(grid[i, j], abs=1e-6)
+
+
+class Late:
+    """An executor that does nothing before its results are asked for; it counts what is out."""
+
+    def __init__(self):
+        self.out = self.most = self.done = 0
+
+    def submit(self, work, *arguments):
+        self.out += 1
+        self.most = max(self.most, self.out)
+        future = Future()
+
+        def result(timeout=None):
+            self.out, self.done = self.out - 1, self.done + 1
+            return work(*arguments)
+
+        future.result = result
+        return future
+
+
+def test_only_a_few_blocks_are_out_at_once(monkeypatch):
+    monkeypatch.setattr(tiled_search, "BLOCK", 4)
+    monkeypatch.setattr(tiled_search, "AHEAD", 5)
+    whole, executor = clouds([30], 2, 0), Late()
+    expected = find_minima(whole, 0.8)
+    assert np.array_equal(find_minima(whole, 0.8, executor=executor), expected)
+    assert (executor.most, executor.done, executor.out) == (5, 36, 0)
+
+
+def test_after_an_error_nothing_is_left_waiting(monkeypatch):
+    monkeypatch.setattr(tiled_search, "BLOCK", 4)
+    futures = []
+
+    class Failing:
+        def submit(self, work, *arguments):
+            futures.append(Future())
+            if len(futures) == 1:
+                futures[0].set_exception(KeyboardInterrupt())
+            return futures[-1]
+
+    with pytest.raises(KeyboardInterrupt):
+        find_minima(clouds([30], 2, 0), 0.8, executor=Failing())
+    assert len(futures) == 36
+    assert all(future.cancelled() for future in futures[1:])

@@ -1,0 +1,198 @@
+"""Transitions against what they promise, wherever the work is done."""
+
+import os
+import signal
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.body.planar import PlanarTransform
+from mocap.errors import MocapError
+from mocap.matching import tiled_search, transitions
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.minima import local_minima
+from mocap.matching.point_clouds import point_cloud
+from mocap.matching.transitions import Transitions, find_transitions
+from tests.strategies import wave
+
+CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
+
+
+def test_transitions_are_the_minima_of_every_pair_both_ways():
+    found = find_transitions(CLIPS, window=8, below=0.1)
+    assert {(t.source, t.target) for t in found} == {(0, 0), (0, 1), (1, 0), (1, 1)}
+    grid = distance_grid(*CLIPS, window=8)
+    assert [[t.leave, t.enter] for t in found if (t.source, t.target) == (0, 1)] == (
+        local_minima(grid, 0.01).tolist()
+    )
+    there = {(t.source, t.leave, t.target, t.enter): t for t in found}
+    for (a, i, b, j), t in there.items():
+        assert there[b, j, a, i].cost == t.cost
+
+
+def test_the_transform_leaves_the_cost_that_is_told():
+    for t in find_transitions(CLIPS, window=8, below=0.1):
+        points = point_cloud(CLIPS[t.source])[t.leave : t.leave + 8]
+        others = t.transform.points(point_cloud(CLIPS[t.target])[t.enter : t.enter + 8])
+        assert np.sqrt(((points - others) ** 2).sum(-1).mean()) == pytest.approx(t.cost, abs=1e-6)
+        assert t.cost < 0.1
+
+
+def test_windows_of_one_clip_do_not_overlap():
+    same = [t for t in find_transitions(CLIPS, window=8, below=1.0) if t.source == t.target]
+    assert same
+    assert all(abs(t.leave - t.enter) >= 8 for t in same)
+
+
+def test_the_pairs_of_blocks_are_shown_as_they_are_done(monkeypatch):
+    monkeypatch.setattr(tiled_search, "BLOCK", 60)
+    seen = []
+    find_transitions(CLIPS, window=8, below=0.1, progress=lambda pairs: seen.append(list(pairs)) or pairs)
+    assert seen == [[(0, 0), (0, 60), (60, 60)]]
+
+
+@pytest.mark.parametrize("below", [0, -1, np.nan])
+def test_a_threshold_must_be_positive(below):
+    with pytest.raises(MocapError, match="threshold must be above 0 m"):
+        find_transitions(CLIPS, window=8, below=below)
+
+
+def test_a_clip_shorter_than_the_window_is_named():
+    with pytest.raises(MocapError, match="'c' has 7 frames, too few for a window of 8"):
+        find_transitions([*CLIPS, replace(wave(7), name="c")], window=8, below=0.1)
+
+
+def test_no_clips_have_no_transitions():
+    none = find_transitions([], window=8, below=0.1)
+    assert (len(none), list(none), repr(none)) == (0, [], "Transitions(0)")
+
+
+def test_a_clip_of_one_window_passes_into_others_only():
+    found = find_transitions([wave(8, name="short"), *CLIPS], window=8, below=0.1)
+    assert 0 in found.source and not np.any((found.source == 0) & (found.target == 0))
+    alone = find_transitions([wave(8)], window=8, below=0.1)
+    assert len(alone) == 0
+
+
+def same(found, others):
+    return all(np.array_equal(a, b) for a, b in zip(found.columns, others.columns, strict=True))
+
+
+def test_transitions_are_a_sequence_of_records():
+    found = find_transitions(CLIPS, window=8, below=0.1)
+    records = list(found)
+    assert len(records) == len(found) > 10
+    assert records == [found[n] for n in range(len(found))]
+    assert found[-1] == records[-1]
+    assert found[np.int64(3)] == records[3]
+    assert list(found[3:9]) == records[3:9]
+    cheap = found[found.cost < 0.002]
+    assert list(cheap) == [t for t in records if t.cost < 0.002]
+    assert list(found[[4, 2]]) == [records[4], records[2]]
+    assert all(type(n) is int for n in records[0][:4])
+    assert all(type(n) is float for n in (records[0].cost, *records[0].transform))
+    low, high = 100 * found.cost.min(), 100 * found.cost.max()
+    assert repr(found) == f"Transitions({len(found)}, from {low:.1f} to {high:.1f} cm)"
+    with pytest.raises(IndexError):
+        found[len(found)]
+
+
+def test_many_transitions_come_out_one_by_one():
+    numbers, zeros = np.arange(5000), np.zeros(5000)
+    many = Transitions(numbers, numbers, numbers, numbers, zeros, PlanarTransform(zeros, zeros, zeros))
+    assert [t.leave for t in many] == list(range(5000))
+
+
+def test_transitions_are_ordered_by_clip_and_frame():
+    records = [t[:4] for t in find_transitions(CLIPS, window=8, below=0.1)]
+    assert records == sorted(records)
+
+
+def test_many_frames_are_searched_in_32_bits_with_next_to_the_same_result(monkeypatch):
+    exact = find_transitions(CLIPS, window=8, below=0.1)
+    monkeypatch.setattr(transitions, "FEW", 100)
+    single = find_transitions(CLIPS, window=8, below=0.1)
+    assert np.array_equal(single.leave, exact.leave) and np.array_equal(single.enter, exact.enter)
+    assert single.cost == pytest.approx(exact.cost, abs=1e-6)
+    assert not np.array_equal(single.cost, exact.cost)
+
+
+def test_far_from_the_origin_nothing_changes():
+    far = [PlanarTransform(1.0, 100.0, -100.0).motion(clip) for clip in CLIPS]
+    near, away = (find_transitions(clips, window=8, below=0.1) for clips in (CLIPS, far))
+    assert np.array_equal(near.enter, away.enter) and np.array_equal(near.leave, away.leave)
+    assert near.cost == pytest.approx(away.cost, abs=1e-6)
+
+
+def test_a_threshold_for_every_pair_of_labels():
+    marks = np.arange(70) < 35
+    a = replace(CLIPS[0], labels={"walk": marks, "run": ~marks})
+    clips = [a, replace(CLIPS[1], labels={"walk": True})]
+    below = {("walk", "walk"): 0.1, ("walk", "run"): 0.001, ("run", "walk"): 0.003}
+    found = find_transitions(clips, window=8, below=below)
+    loosest = find_transitions(clips, window=8, below=0.1)
+    kept = []
+    for t in loosest:
+        pairs = [
+            pair
+            for pair in below
+            if clips[t.source][t.leave : t.leave + 8].labels.get(pair[0], np.array(False)).any()
+            and clips[t.target][t.enter : t.enter + 8].labels.get(pair[1], np.array(False)).any()
+        ]
+        if pairs and t.cost < min(below[pair] for pair in pairs):
+            kept.append(t)
+    assert list(found) == kept
+    assert 0 < len(kept) < len(loosest)
+
+
+def test_a_pair_of_labels_stands_for_both_ways_and_others_for_none():
+    clips = [replace(clip, labels={label: True}) for clip, label in zip(CLIPS, ("walk", "run"), strict=True)]
+    found = find_transitions(clips, window=8, below={("walk", "run"): 0.1})
+    plain = find_transitions(clips, window=8, below=0.1)
+    assert same(found, plain[plain.source != plain.target])
+
+
+def test_labels_and_their_thresholds_must_make_sense():
+    clips = [replace(clip, labels={"walk": True}) for clip in CLIPS]
+    with pytest.raises(MocapError, match="No clip has the label 'run'; there are: walk"):
+        find_transitions(clips, window=8, below={("walk", "run"): 0.1})
+    with pytest.raises(MocapError, match=r"above 0 m, got -1 m for \('walk', 'walk'\)"):
+        find_transitions(clips, window=8, below={("walk", "walk"): -1})
+    with pytest.raises(MocapError, match="no threshold"):
+        find_transitions(clips, window=8, below={})
+
+
+@pytest.mark.parametrize("executor", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_the_work_can_be_done_elsewhere(executor, monkeypatch):
+    monkeypatch.setattr(tiled_search, "BLOCK", 40)
+    with executor(2) as pool:
+        assert same(
+            find_transitions(CLIPS, window=8, below=0.1, executor=pool),
+            find_transitions(CLIPS, window=8, below=0.1),
+        )
+
+
+def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(tiled_search, "BLOCK", 40)
+    monkeypatch.setattr(tiled_search, "AHEAD", 2)
+    expected = find_transitions(CLIPS, window=8, below=0.1)
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with cluster, distributed.Client(cluster) as client:
+        pids = list(client.run(os.getpid).values())
+        assert len(set(pids)) == 2
+        assert same(find_transitions(CLIPS, window=8, below=0.1, executor=client.get_executor()), expected)
+
+        def killing(pairs):
+            for number, pair in enumerate(pairs):
+                if number == 3:  # in the middle of the work
+                    os.kill(pids[0], signal.SIGKILL)
+                yield pair
+
+        found = find_transitions(
+            CLIPS, window=8, below=0.1, progress=killing, executor=client.get_executor(retries=3)
+        )
+        assert same(found, expected)
+        assert pids[0] not in client.run(os.getpid).values()

@@ -1,0 +1,87 @@
+"""Pictures of graphs, read back from their artists."""
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import networkx as nx
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.plotting import graph_drawing
+from mocap.plotting.style import COLOURS
+from tests.strategies import wave
+
+
+@pytest.fixture(autouse=True)
+def no_figure_stays_open():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def graph():
+    return build([wave(90, name="a"), wave(70, phase=1, name="b", seed=1)], window=8, threshold=0.05)
+
+
+def test_the_timeline_has_an_arc_a_transition(graph):
+    arcs = graph_drawing.timeline(graph)
+    edges = [edge for edge in graph.graph.edges(data="kind") if edge[2] == "transition"]
+    expected = {(start[1] / 30, -start[0], end[1] / 30, -end[0]) for start, end, _ in edges}
+    assert {(*arc[0].round(9), *arc[-1].round(9)) for arc in arcs.get_segments()} == {
+        tuple(np.round(ends, 9)) for ends in expected
+    }
+    assert [label.get_text() for label in arcs.axes.get_yticklabels()] == ["a", "b"]
+
+
+def test_only_what_stays_in_its_clip_is_bent(graph):
+    lines = graph_drawing.timeline(graph).get_segments()
+    within = [line[0, 1] == line[-1, 1] for line in lines]
+    assert any(within) and not all(within)
+    for line, same in zip(lines, within, strict=True):
+        straight = np.linspace(line[0], line[-1], len(line))
+        assert np.abs(line - straight).max() == pytest.approx(0.45 if same else 0.0)
+
+
+def test_the_timeline_has_a_bar_a_stretch_of_clip(graph):
+    bars = graph_drawing.timeline(graph).axes.collections[1].get_segments()
+    assert len(bars) == graph.count("clip")
+    assert sum(bar[1, 0] - bar[0, 0] for bar in bars) * 30 == pytest.approx(graph.frames)
+
+
+def test_where_arcs_are_many_the_cheapest_are_shown(graph):
+    arcs = graph_drawing.timeline(graph, most=3)
+    edges = [e for e in graph.graph.edges(data=True) if e[2]["kind"] == "transition"]
+    cheapest = sorted(edges, key=lambda edge: edge[2]["cost"])[:3]
+    expected = sorted((start[1] / 30, -start[0]) for start, _, _ in cheapest)
+    assert np.array(sorted(tuple(arc[0]) for arc in arcs.get_segments())) == pytest.approx(np.array(expected))
+
+
+def test_before_and_after_pruning_share_their_axes(graph):
+    pruned = prune(graph)
+    before, after = graph_drawing.before_and_after(graph, pruned)
+    assert len(before.get_segments()) == graph.count("transition")
+    assert len(after.get_segments()) == pruned.count("transition")
+    assert f"{graph.graph.number_of_nodes()} nodes" in before.axes.get_title()
+
+
+def test_a_small_graph_has_a_disc_a_node_and_an_arrow_an_edge():
+    graph = nx.DiGraph([(1, 2), (2, 1), (2, 3), (3, 3)])
+    places = {1: (0, 0), 2: (1, 0), 3: (1, 1)}
+    discs, arrows = graph_drawing.node_link(graph, places=places, kept=graph.subgraph([1, 2]))
+    assert discs.get_offsets().tolist() == [[0, 0], [1, 0], [1, 1]]
+    assert [text.get_text() for text in discs.axes.texts] == ["1", "2", "3"]
+    assert len(arrows) == 4
+    assert [arrow.get_linestyle() for arrow in arrows] == ["-", "-", "--", "--"]
+    solid = matplotlib.colors.to_rgba(COLOURS["left"])
+    assert [tuple(face) == solid for face in discs.get_facecolors()] == [True, True, False]
+
+
+@pytest.mark.parametrize("nodes", [0, 101])
+def test_node_link_says_where_large_graphs_are_drawn(nodes):
+    with pytest.raises(MocapError, match=r"1 to 100 nodes, this one has \d+: `plotting.timeline`"):
+        graph_drawing.node_link(nx.empty_graph(nodes, create_using=nx.DiGraph))

@@ -1,0 +1,116 @@
+"""Pictures with their sentences, as notebooks keep them."""
+
+import base64
+import io
+from html.parser import HTMLParser
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from nbconvert import HTMLExporter
+from nbformat.v4 import new_code_cell, new_notebook, new_output
+from PIL import Image
+
+from mocap.errors import MocapError
+from mocap.plotting import charts, stick_figures
+from mocap.plotting.picture import DPI, show
+from tests.strategies import wave
+
+
+@pytest.fixture(autouse=True)
+def no_figure_stays_open():
+    plt.close("all")  # those of other tests
+    yield
+    assert plt.get_fignums() == []
+
+
+def image(still):
+    return Image.open(io.BytesIO(still.picture))
+
+
+def axes():
+    return Figure(figsize=(2, 1)).add_subplot()
+
+
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        lambda: axes().figure,
+        axes,
+        lambda: axes().plot([0, 1]),
+        lambda: axes().hist([1, 2, 2]),
+        lambda: Figure(figsize=(2, 1)).subplots(1, 2),
+    ],
+)
+def test_whatever_was_drawn_its_whole_figure_is_shown(drawn):
+    assert image(show(drawn(), alt="A drawing.")).size == (2 * DPI, DPI)
+
+
+def test_the_figure_is_closed_and_its_picture_stays():
+    plt.figure(figsize=(2, 2)).add_subplot().plot([0, 1])
+    still = show(plt.gca(), alt="A line.")
+    assert plt.get_fignums() == []
+    assert np.ptp(np.asarray(image(still).convert("L")).astype(int)) > 200
+
+
+@pytest.mark.parametrize("nothing", [None, [], (), "a line", np.array(3.0), 3])
+def test_what_is_on_no_figure_is_refused(nothing):
+    with pytest.raises(MocapError, match="must be given as a figure"):
+        show(nothing, alt="Nothing.")
+
+
+def test_a_picture_without_a_sentence_is_refused():
+    with pytest.raises(MocapError, match="needs a sentence"):
+        show(axes(), alt=" ")
+
+
+@pytest.mark.parametrize(
+    "draw",
+    [
+        lambda: stick_figures.stick_figure(wave(90), range(0, 90, 9)),
+        lambda: stick_figures.laid_over(wave(30), wave(30, phase=1)),
+        lambda: charts.distance_image(np.random.default_rng(0).random((300, 300)).cumsum(0), fps=30),
+        lambda: charts.path_from_above(wave(90)),
+    ],
+)
+def test_pictures_are_small(draw):
+    assert len(show(draw(), alt="A picture.").picture) < 60_000
+
+
+def test_few_colours_change_nothing_that_is_seen():
+    figure = Figure(figsize=(3, 3))
+    charts.distance_image(np.hypot(*np.mgrid[-40:40, -40:40]), fps=30, ax=figure.add_subplot())
+    still = image(show(figure, alt="A valley.")).convert("RGB")
+    stream = io.BytesIO()
+    figure.savefig(stream, dpi=DPI)
+    apart = np.abs(np.asarray(still, int) - np.asarray(Image.open(stream).convert("RGB"), int))
+    assert apart.mean() < 1.5  # of 255
+    assert apart.max() < 16
+
+
+class Alts(HTMLParser):
+    """Collects the alt texts of a page's pictures."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.found = []
+        self.feed(page)
+
+    def handle_starttag(self, tag, attributes):
+        if tag == "img":
+            self.found.append(dict(attributes)["alt"])
+
+
+def test_pages_made_of_a_notebook_carry_the_sentence():
+    data, metadata = show(axes(), alt='A "line" < a curve.')._repr_mimebundle_()
+    assert base64.b64decode(data["image/png"])[:4] == b"\x89PNG"
+    assert data["text/plain"] == metadata["image/png"]["alt"] == 'A "line" < a curve.'
+    output = new_output("execute_result", data, metadata=metadata)
+    notebook = new_notebook(cells=[new_code_cell("show(...)", outputs=[output])])
+    page, _ = HTMLExporter(template_name="lab").from_notebook_node(notebook)
+    assert Alts(page).found == ['A "line" < a curve.']

@@ -1,0 +1,205 @@
+"""Walks keep to their paths, do what is asked for, and tell what they could not do."""
+
+import warnings
+from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+import mocap
+from mocap.body import ground_path
+from mocap.body.ground_path import GroundPath, s_curve
+from mocap.body.planar import on_ground
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.steering import path_following
+from mocap.steering.beam_search import Beam, find_walk
+from mocap.steering.path_following import account, follow_path
+from mocap.steering.path_objective import Prices, Wishes
+from tests.bundled import sneaking, walking
+
+GRAPH = walking()
+STRAIGHT = GroundPath([[2, 1], [2, 9]])
+
+
+@pytest.mark.parametrize(
+    "shape", sorted(set(ground_path.SHAPES) - {"letter S"})
+)  # two clips turn only so far
+def test_walks_stay_on_their_paths(shape):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        followed = follow_path(GRAPH, ground_path.SHAPES[shape]())
+    assert followed.off.mean() < 0.06
+    assert followed.off.max() < 0.3
+    assert followed.progress == 1.0
+    assert followed.seams_a_second < 1.6
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_what_it_tells_is_what_the_motion_does():
+    followed = follow_path(GRAPH, s_curve())
+    motion = followed.motion(name="s")
+    body = on_ground(motion.root_positions)
+    assert followed.track == pytest.approx(np.stack([body.imag, body.real], axis=1), abs=1e-9)
+    fine = followed.path.resampled(0.001).points
+    assert followed.off == pytest.approx(cKDTree(fine).query(followed.track)[0], abs=2e-3)
+    assert len(motion) == len(followed.off) == len(followed.along)
+    assert (np.diff(followed.along) > -0.3).all()
+    assert f"{100 * followed.off.mean():.1f} cm off on average" in followed.report()
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_dear_seams_are_few():
+    cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam)) for seam in (0.01, 2.0))
+    assert dear.seams_a_second < 0.8 * cheap.seams_a_second
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
+    """By a second and a third, wider search, at another price; the best walk is taken."""
+    tried, walks = [], []
+
+    def search(graph, route, starts, beam, prices):
+        tried.append((beam, prices))
+        return find_walk(graph, route, starts, beam, prices)
+
+    def measure(*args):
+        walks.append(account(*args))
+        return walks[-1]
+
+    def widths():
+        found = [beam.width for beam, _ in tried]
+        tried.clear()
+        return found
+
+    monkeypatch.setattr(path_following, "find_walk", search)
+    monkeypatch.setattr(path_following, "account", measure)
+    once = follow_path(GRAPH, s_curve(), prices=Prices())
+    assert once.excess > 1
+    assert widths() == [50]
+    better = follow_path(GRAPH, s_curve())
+    assert better.excess == min(walk.excess for walk in walks)
+    assert (tried[1][1].seam > Prices.seam) == (once.seams_a_second > 1)
+    assert widths() in ([50, 75], [50, 75, 100])
+    with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
+        slow.setattr("mocap.steering.beam_search.time", SimpleNamespace(monotonic=count().__next__))
+        stopped = follow_path(GRAPH, s_curve(), beam=Beam(seconds=30))
+    assert stopped.found.stopped == "out of time"
+    assert widths() == [100]
+    for bound in ("NEAR", "ASTRAY", "SEAMS"):
+        monkeypatch.setattr(path_following, bound, getattr(path_following, bound) / 9)
+    assert follow_path(GRAPH, s_curve()).excess > 1
+    assert widths() == [50, 75, 100]
+    for bound in ("NEAR", "ASTRAY", "SEAMS"):
+        monkeypatch.setattr(path_following, bound, 9.0)
+    assert follow_path(GRAPH, s_curve()).walk == once.walk
+    assert widths() == [50]
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+@pytest.mark.parametrize("left", [-1.0, 30.0])
+def test_a_second_search_that_is_stopped_is_the_last(monkeypatch, left):
+    searches = []
+
+    def search(graph, route, starts, beam, prices):
+        searches.append(beam)
+        late = replace(beam, seconds=left) if len(searches) == 2 else beam
+        return find_walk(graph, route, starts, late, prices)
+
+    monkeypatch.setattr("mocap.steering.beam_search.time", SimpleNamespace(monotonic=count().__next__))
+    monkeypatch.setattr(path_following, "find_walk", search)
+    assert follow_path(GRAPH, s_curve()).progress == 1.0
+    assert len(searches) == 2
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_it_starts_where_and_as_asked():
+    node = GRAPH.nodes[300]
+    followed = follow_path(GRAPH, STRAIGHT, Wishes(start=node, heading=0.3))
+    assert followed.walk[0][0] == node
+    assert followed.track[0] == pytest.approx([2, 1], abs=0.06)
+    way = followed.track[10] - followed.track[0]
+    assert np.arctan2(*way) == pytest.approx(0.3, abs=0.25)
+
+
+def test_labels_are_had_where_they_are_asked_for():
+    graph = sneaking()
+    wishes = Wishes(labels=[(0, "walk"), (4, "sneak"), (7, "walk")])
+    followed = follow_path(graph, GroundPath([[0, 0], [0, 10]]), wishes)
+    motion = followed.motion()
+    middle = (followed.along > 4.5) & (followed.along < 6.5)
+    assert motion.labels["sneak"][middle].mean() > 0.9
+    assert motion.labels["walk"][followed.along < 3.5].mean() > 0.9
+    assert followed.unlabelled.mean() < 0.15
+    assert "without the label asked for" in followed.report() or not followed.unlabelled.any()
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_times_are_kept_where_they_can_be():
+    for seconds in (9.5, 11.5):
+        followed = follow_path(GRAPH, STRAIGHT, Wishes(times=[(0, 0), (8, seconds)]))
+        assert followed.seconds == pytest.approx(seconds, abs=0.8)
+
+
+def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
+    zigzag = GroundPath([[0, 0], [0, 4], [0.5, 0], [1, 4], [1, 8]])
+    with pytest.warns(MocapWarning, match=r"leaves the path \d+ times, the furthest by \d+ cm at"):
+        followed = follow_path(GRAPH, zigzag)
+    assert followed.progress == 1.0
+    assert followed.departures
+    assert max(d.worst for d in followed.departures) == pytest.approx(followed.off.max())
+    assert np.isfinite(followed.track).all()
+
+
+@pytest.mark.parametrize(
+    ("path", "wishes", "error", "message"),
+    [
+        (STRAIGHT, Wishes(labels=[(0, "fly")]), NoWalk, "bears the label 'fly'; there are: walk"),
+        (
+            STRAIGHT,
+            Wishes(labels=[(99, "walk")]),
+            MocapError,
+            "'walk' is asked for 99 m along",
+        ),
+        (STRAIGHT, Wishes(start=(0, 99999)), NoWalk, r"no node \(0, 99999\); the nearest"),
+        (STRAIGHT, Wishes(least=0.0), MocapError, "above 0 m/s"),
+        (STRAIGHT, Wishes(heading=np.nan), MocapError, "finite number of radians"),
+        (STRAIGHT, Wishes(times=[(4, 3), (8, 2)]), MocapError, "must grow along the path"),
+        (STRAIGHT, Wishes(times=[(4, 3), (4, 5)]), MocapError, "in one place"),
+        (GroundPath([[0, 0], [0, 8000]]), Wishes(), MocapError, "in an hour .*: is it in metres?"),
+    ],
+)
+def test_bad_wishes_are_told(path, wishes, error, message):
+    with pytest.raises(error, match=message):
+        follow_path(GRAPH, path, wishes)
+
+
+def test_a_label_out_of_reach_is_told_with_those_in_reach():
+    graph = sneaking()
+    source = graph.source.graph.copy()
+    source.remove_edges_from([(a, b, k) for a, b, k in source.edges(keys=True) if b[0] == 2 != a[0]])
+    cut = type(graph.source)(graph.source.clips, graph.source.window, source)
+    start = next(node for node in sorted(source) if node[0] == 0)
+    with pytest.raises(NoWalk, match="No walk comes to the label 'sneak' from there; it can reach: walk"):
+        follow_path(cut, STRAIGHT, Wishes(labels=[(0, "sneak")], start=start))
+
+
+@pytest.fixture(scope="module")
+def cmu(real_data):
+    """Return the graph of CMU 16's walks."""
+    files = [real_data / "cmu" / "16" / f"16_{n:02}.amc" for n in (*range(11, 35), 47, 58)]
+    clips = [mocap.resample(mocap.load(file), 30) for file in files]
+    return compile_graph(prune(build(clips, window=10, threshold=0.04)))
+
+
+@pytest.mark.parametrize("shape", ground_path.SHAPES)
+def test_real_walks_stay_on_their_paths(cmu, shape):
+    followed = follow_path(cmu, ground_path.SHAPES[shape]())
+    assert followed.off.mean() <= 0.04
+    assert followed.off.max() <= 0.15
+    assert followed.seams_a_second <= 1.0

@@ -1,0 +1,131 @@
+"""Branch and bound finds what trying everything finds, and says what it did."""
+
+import math
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.errors import MocapError, NoWalk
+from mocap.synthesis.bounded_search import Budget, Problem, branch_and_bound, search_ahead
+from tests.strategies import seeds
+
+
+def random_graph(seed, nodes=5, edges=11):
+    """Return a small graph, strongly connected by a ring, with random lengths and costs."""
+    random = np.random.default_rng(seed)
+    graph = nx.MultiDiGraph()
+    ends = [(n, (n + 1) % nodes) for n in range(nodes)]
+    ends += [tuple(random.integers(nodes, size=2).tolist()) for _ in range(edges - nodes)]
+    for start, end in ends:
+        graph.add_edge(start, end, frames=int(random.integers(1, 4)), cost=float(random.random()))
+    return graph
+
+
+def problem_on(graph, length=7):
+    """Return a problem whose g depends on the whole walk: an edge taken before costs double."""
+
+    def step(walk, edge):
+        cost = graph.edges[edge]["cost"] * (2 if edge in walk else 1)
+        return cost, (*walk, edge)
+
+    return Problem(graph, step, lambda walk: len(walk) >= length)
+
+
+def every_walk(problem, node, walk=(), cost=0.0):
+    """Give all complete walks with their costs: the oracle."""
+    if problem.done(walk):
+        yield cost, list(walk)
+        return
+    for edge in problem.graph.out_edges(node, keys=True):
+        more, longer = problem.step(walk, edge)
+        yield from every_walk(problem, edge[1], longer, cost + more)
+
+
+@settings(max_examples=40)
+@given(seeds, st.integers(1, 6))
+def test_it_finds_the_best_of_all_walks(seed, length):
+    problem = problem_on(random_graph(seed), length)
+    found = branch_and_bound(problem, 0, ())
+    costs = [cost for cost, _ in every_walk(problem, 0)]
+    assert found.cost == pytest.approx(min(costs))
+    assert found.complete
+    assert found.stopped == ""
+    assert math.isclose(sum(problem.step(found.walk[:i], e)[0] for i, e in enumerate(found.walk)), found.cost)
+
+
+@settings(max_examples=20)
+@given(seeds, st.integers(3, 8))
+def test_it_finds_the_best_walk_within_the_horizon(seed, horizon):
+    graph = random_graph(seed)
+    frames = nx.get_edge_attributes(graph, "frames")
+    problem = problem_on(graph, length=99)
+    capped = Problem(graph, problem.step, lambda walk: sum(frames[e] for e in walk) >= horizon)
+    found = branch_and_bound(problem, 0, (), horizon=horizon)
+    assert found.cost == pytest.approx(min(cost for cost, _ in every_walk(capped, 0)))
+
+
+def test_the_bound_saves_work_and_says_how_much():
+    problem = problem_on(random_graph(1, edges=16), 8)
+    found = branch_and_bound(problem, 0, ())
+    everything = sum(1 for _ in every_walk(problem, 0))
+    assert found.cut > 0
+    assert found.expanded < everything / 3
+
+
+def test_a_budget_gives_the_best_so_far_and_says_so():
+    problem = problem_on(random_graph(2, edges=16), 9)
+    best = branch_and_bound(problem, 0, ())
+    for budget, reason in ((Budget(nodes=20), "out of nodes"), (Budget(seconds=-1.0), "out of time")):
+        found = branch_and_bound(problem, 0, (), budget=budget)
+        assert found.stopped == reason
+        assert found.expanded <= 20
+        assert found.cost >= best.cost or not found.complete
+    assert branch_and_bound(problem, 0, (), budget=Budget(nodes=20)).complete
+
+
+def test_an_interruption_gives_the_best_so_far():
+    problem, calls = problem_on(random_graph(2, edges=16), 9), iter(range(60))
+
+    def step(walk, edge):
+        if next(calls, None) is None:
+            raise KeyboardInterrupt
+        return problem.step(walk, edge)
+
+    found = branch_and_bound(Problem(problem.graph, step, problem.done), 0, ())
+    assert found.stopped == "interrupted"
+    assert found.complete
+    assert len(found.walk) == 9
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_stretch_by_stretch_it_comes_to_the_end(seed):
+    problem = problem_on(random_graph(seed), 12)
+    found = search_ahead(problem, 0, (), look=(8, 3))
+    assert found.complete
+    assert len(found.walk) == 12
+    assert all(a[1] == b[0] for a, b in zip(found.walk, found.walk[1:], strict=False))
+    costs = [problem.step(tuple(found.walk[:i]), edge)[0] for i, edge in enumerate(found.walk)]
+    assert found.cost == pytest.approx(sum(costs))
+
+
+def test_looking_far_enough_is_optimal():
+    problem = problem_on(random_graph(4), 6)
+    assert search_ahead(problem, 0, (), look=(99, 99)).cost == branch_and_bound(problem, 0, ()).cost
+
+
+def test_what_cannot_be_searched_is_told():
+    problem = problem_on(random_graph(0))
+    with pytest.raises(NoWalk, match="no node 77"):
+        branch_and_bound(problem, 77, ())
+    with pytest.raises(MocapError, match="some must be kept"):
+        search_ahead(problem, 0, (), look=(5, 9))
+    with pytest.raises(MocapError, match="0 or more, got -1"):
+        branch_and_bound(Problem(problem.graph, lambda w, e: (-1.0, w), lambda w: False), 0, ())
+    line = nx.MultiDiGraph()
+    line.add_edge(0, 1, frames=1, cost=1.0)
+    with pytest.raises(NoWalk, match="ends too early"):
+        branch_and_bound(problem_on(line, 3), 0, ())

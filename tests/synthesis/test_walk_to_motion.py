@@ -1,0 +1,243 @@
+"""A walk's frames are the clips' own, and its seams are as smooth as the blend promises."""
+
+from dataclasses import replace
+from decimal import Decimal, localcontext
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.blending.interpolation import blend
+from mocap.blending.weights import cubic_weights
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import concatenate
+from mocap.body.planar import IDENTITY, PlanarTransform, heading
+from mocap.datasets.samples import sample
+from mocap.errors import MocapError, NoWalk
+from mocap.feet.footplants import mark_plants
+from mocap.graphs.edge_tables import edge_table
+from mocap.graphs.motion_graph import build, from_transitions
+from mocap.graphs.pruning import prune
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.transitions import Transition
+from mocap.synthesis.random_walks import random_walk, wander
+from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
+from mocap.synthesis.walks import seams, sources
+from tests.bundled import bundled
+from tests.strategies import planar, seeds, wave
+
+CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
+WINDOW = 8
+GRAPH = prune(build(CLIPS, window=WINDOW, threshold=0.05))
+
+
+def test_a_walk_along_natural_successors_is_the_clip_bit_for_bit():
+    whole = build(CLIPS, window=WINDOW, threshold=0.05)
+    nodes = sorted(node for node in whole.graph if node[0] == 0)
+    kinds = nx.get_edge_attributes(whole.graph, "kind")
+    walk = [e for s, t in pairwise(nodes) for e, k in kinds.items() if e[:2] == (s, t) and k == "clip"]
+    motion = to_motion(whole, walk)
+    assert len(walk) > 3
+    assert np.array_equal(motion.rotations, CLIPS[0].rotations)
+    assert np.array_equal(motion.root_positions, CLIPS[0].root_positions)
+    assert np.array_equal(motion.contacts["hand"], CLIPS[0].contacts["hand"])
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_a_random_walk_is_a_walk_as_long_as_asked_and_the_same_again(seed):
+    walk = random_walk(GRAPH, seconds=4, seed=seed)
+    assert all(GRAPH.graph.has_edge(*edge) for edge in walk)
+    assert all(a[1] == b[0] for a, b in pairwise(walk))
+    motion = to_motion(GRAPH, walk)
+    lengths = [GRAPH.graph.edges[edge]["frames"] for edge in walk]
+    assert len(motion) == sum(lengths) >= 4 * 30 > sum(lengths[:-1])
+    assert walk == random_walk(GRAPH, seconds=4, seed=seed)
+
+
+def test_another_seed_another_walk():
+    assert len({tuple(random_walk(GRAPH, seconds=6, seed=seed)) for seed in range(8)}) > 4
+
+
+def test_a_walk_settles_between_transitions_where_it_can():
+    patient = seams(GRAPH, random_walk(GRAPH, seconds=60, seed=3, settle=1.0))
+    hasty = seams(GRAPH, random_walk(GRAPH, seconds=60, seed=3, settle=0.0))
+    assert 0 < len(patient) < len(hasty)
+
+
+def test_cheap_transitions_are_taken_more_often():
+    walk = random_walk(GRAPH, seconds=900, seed=0, settle=0.0)
+    costs = [cost for _, _, cost in GRAPH.graph.edges(data="cost") if cost is not None]
+    assert np.mean([seam.cost for seam in seams(GRAPH, walk)]) < np.mean(costs)
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 60), st.integers(0, 60), st.floats(-3, 3), st.floats(-5, 5))
+def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave, enter, angle, x):
+    """Against the same written down by hand for one transition [KGP02, 3.3]."""
+    transform = PlanarTransform(angle, x, 1.0)
+    whole = from_transitions(CLIPS, [Transition(0, leave, 1, enter, 0.1, transform)], window=WINDOW)
+    walk = [((0, leave), (1, enter + WINDOW), 0), ((1, enter + WINDOW), (1, 90), 0)]
+    motion = to_motion(whole, walk)
+    moved = transform.motion(CLIPS[1])
+    mixed = blend(CLIPS[0][leave : leave + WINDOW], moved[enter : enter + WINDOW], cubic_weights(WINDOW))
+    expected = np.concatenate([joint_positions(mixed), joint_positions(moved)[enter + WINDOW :]])
+    assert joint_positions(motion) == pytest.approx(expected, abs=1e-9)
+
+
+def test_transforms_add_up_along_a_walk():
+    """After every transition the frames are their clip's own, moved as a whole."""
+    walk = random_walk(GRAPH, seconds=20, seed=5)
+    motion, frame = to_motion(GRAPH, walk), 0
+    for edge in walk:
+        (clip, start), (_, end), _ = edge
+        data = GRAPH.graph.edges[edge]
+        if data["kind"] == "clip":
+            piece, source = motion[frame : frame + data["frames"]], CLIPS[clip][start:end]
+            assert distance_grid(piece, source, window=len(source))[0, 0] < 1e-12
+            assert piece.root_positions[:, 1] == pytest.approx(source.root_positions[:, 1])
+        frame += data["frames"]
+    assert frame == len(motion)
+
+
+def test_seams_are_no_rougher_than_the_clips():
+    walk = random_walk(GRAPH, seconds=30, seed=1)
+    speed = np.linalg.norm(np.diff(joint_positions(to_motion(GRAPH, walk)), 2, axis=0), axis=-1)
+    own = [np.linalg.norm(np.diff(joint_positions(clip), 2, axis=0), axis=-1) for clip in CLIPS]
+    assert speed.max() < 2.5 * max(s.max() for s in own)
+
+
+def test_headings_go_on_smoothly():
+    motion = to_motion(GRAPH, random_walk(GRAPH, seconds=30, seed=2))
+    turns = np.abs(np.diff(np.unwrap(heading(motion.rotations[:, 0]))))
+    assert turns.max() < 0.15
+    steps = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])
+    assert steps.max() < 0.3
+
+
+def test_seams_tell_where_and_how_much():
+    walk = random_walk(GRAPH, seconds=10, seed=1)
+    motion = to_motion(GRAPH, walk)
+    found = seams(GRAPH, walk)
+    assert len(found) == sum(GRAPH.graph.edges[e]["kind"] == "transition" for e in walk)
+    assert all(0 <= seam.frame <= len(motion) - WINDOW and 0 < seam.cost < 0.05 for seam in found)
+
+
+def test_a_start_node_is_kept():
+    node = sorted(GRAPH.graph)[3]
+    assert random_walk(GRAPH, seconds=1, start=node)[0][0] == node
+
+
+def test_bad_walks_are_refused():
+    first, second = random_walk(GRAPH, seconds=4)[:2]
+    for walk, message in (
+        ([], "no edges"),
+        ([((7, 7), (8, 8), 0)], "no edge"),
+        ([second, first], "jumps from node"),
+    ):
+        with pytest.raises(NoWalk, match=message):
+            to_motion(GRAPH, walk)
+    with pytest.raises(NoWalk, match=r"no node \(7, 7\)"):
+        random_walk(GRAPH, seconds=1, start=(7, 7))
+    with pytest.raises(MocapError, match="longer than 0 s, got 0 s"):
+        random_walk(GRAPH, seconds=0)
+
+
+def test_a_graph_that_was_not_pruned_ends_the_walk():
+    whole = from_transitions(CLIPS, [], window=WINDOW)
+    with pytest.raises(NoWalk, match=r"ends at node \(0, 120\) after 4.0 s: prune"):
+        random_walk(whole, seconds=60, start=(0, 0))
+
+
+def one_by_one(graph, walk, place=IDENTITY):
+    """Play a walk edge by edge, as the definition says: the slow way."""
+    pieces = []
+    for start, end, key in walk:
+        edge = graph.graph.edges[start, end, key]
+        leaving = graph.clips[start[0]][start[1] : start[1] + edge["frames"]]
+        if edge["kind"] == "transition":
+            entering = edge["transform"].motion(graph.clips[end[0]][end[1] - graph.window : end[1]])
+            pieces.append(place.motion(blend(leaving, entering, cubic_weights(graph.window))))
+            place = place.after(edge["transform"])
+        else:
+            pieces.append(place.motion(leaving))
+    return concatenate(pieces)
+
+
+@settings(max_examples=20)
+@given(seeds, planar)
+def test_all_at_once_is_what_edge_by_edge_is(seed, place):
+    walk = random_walk(GRAPH, seconds=8, seed=seed, settle=0.0)
+    motion, expected = to_motion(GRAPH, walk, place=place), one_by_one(GRAPH, walk, place)
+    assert motion.root_positions == pytest.approx(expected.root_positions, abs=1e-9)
+    assert rotations.angle_between(motion.rotations, expected.rotations).max() < 1e-7
+    for joint, mark in expected.contacts.items():
+        assert np.array_equal(motion.contacts[joint], mark)
+
+
+def test_ten_thousand_edges_do_not_drift():
+    """Against places multiplied up one by one in 50 digits."""
+    walk = [edge for edge, _ in zip(wander(GRAPH, settle=0.0), range(10_000), strict=False)]
+    place = places(edge_table(GRAPH, walk))
+    with localcontext(prec=50):
+        x = z = angle = Decimal(0)
+        for edge in walk:
+            step = GRAPH.graph.edges[edge].get("transform", IDENTITY)
+            cos, sin = (Decimal(f(float(angle))) for f in (np.cos, np.sin))
+            x, z = (
+                x + Decimal(step.x) * cos + Decimal(step.z) * sin,
+                z + Decimal(step.z) * cos - Decimal(step.x) * sin,
+            )
+            angle += Decimal(step.angle)
+    assert place.angle[-1] == pytest.approx(float(angle), abs=1e-9)
+    assert [place.x[-1], place.z[-1]] == pytest.approx([float(x), float(z)], abs=1e-7)
+
+
+def test_labels_come_from_the_clip_with_the_larger_weight():
+    here, there = (replace(clip, labels={name: True}) for clip, name in zip(CLIPS, "ab", strict=True))
+    whole = from_transitions([here, there], [Transition(0, 40, 1, 10, 0.1, IDENTITY)], window=WINDOW)
+    motion = to_motion(whole, [((0, 0), (0, 40), 0), ((0, 40), (1, 18), 0), ((1, 18), (1, 90), 0)])
+    expected = np.arange(len(motion)) < 40 + WINDOW // 2
+    assert np.array_equal(motion.labels["a"], expected)
+    assert np.array_equal(motion.labels["b"], ~expected)
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_sources_name_the_clip_that_each_frame_bears_the_label_of(seed):
+    named = [replace(clip, labels={clip.name: True}) for clip in CLIPS]
+    graph = prune(build(named, window=WINDOW, threshold=0.05))
+    walk = random_walk(graph, seconds=8, seed=seed, settle=0.0)
+    motion, told = to_motion(graph, walk), sources(graph, walk)
+    starts, names = zip(*told, strict=True)
+    of = np.searchsorted(starts, np.arange(len(motion)), side="right") - 1
+    for name in "ab":
+        assert np.array_equal(motion.labels[name], np.array(names)[of] == name)
+
+
+def test_plants_are_found_only_where_no_clip_tells():
+    assert with_plants(GRAPH) is GRAPH
+    walk = replace(sample("walk_straight")[:240], contacts={})
+    unmarked = from_transitions([walk], [], window=WINDOW)
+    (found,) = with_plants(unmarked).clips
+    assert found.contacts.keys() == mark_plants(walk).contacts.keys() != set()
+    assert with_plants(unmarked).graph is unmarked.graph
+
+
+def test_cleaned_feet_stand_still():
+    graph = bundled("walk_circle")
+    walk = random_walk(graph, seconds=20, seed=2, settle=0.3)
+    plain, clean = (to_motion(graph, walk, clean=c) for c in (False, True))
+
+    def slide(motion):
+        """Return how far the ball of the left foot moves at most in a frame in which it stands."""
+        joint = next(name for name in clean.contacts if "oe" in name or "ball" in name.lower())
+        marks = clean.contacts[joint]
+        at = joint_positions(motion)[:, motion.skeleton.index(joint)]
+        return np.linalg.norm(np.diff(at, axis=0), axis=-1)[marks[1:] & marks[:-1]].max()
+
+    assert slide(clean) < 1e-3 < slide(plain)

@@ -1,0 +1,77 @@
+"""Motions as files, read back."""
+
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from PIL import Image
+
+from mocap.errors import MocapError
+from mocap.widgets import film
+from mocap.widgets.player import play
+from tests.strategies import wave
+
+
+def test_an_animation_has_a_picture_every_time_step(tmp_path):
+    motion = wave(31)  # one second
+    path = film.save_animation(motion, tmp_path / "wave.gif", fps=20)
+    with Image.open(path) as gif:
+        assert gif.n_frames == 21
+        assert gif.info["duration"] == 50
+        first = np.asarray(gif.convert("RGB"))
+        gif.seek(10)
+        assert np.any(np.asarray(gif.convert("RGB")) != first)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_nothing_is_written_and_no_figure_left_when_drawing_is_interrupted(tmp_path):
+    def interrupted(items):
+        yield items[0]
+        raise KeyboardInterrupt
+
+    plt.close("all")
+    with pytest.raises(KeyboardInterrupt):
+        film.save_animation(wave(30), tmp_path / "wave.gif", progress=interrupted)
+    assert list(tmp_path.iterdir()) == []
+    assert plt.get_fignums() == []
+
+
+def test_a_film_is_read_back_as_mp4(tmp_path):
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+    path = film.save_animation(wave(31), tmp_path / "wave.mp4", fps=20)
+    frames, seconds = ffmpeg.count_frames_and_secs(str(path))
+    assert frames == 21
+    assert seconds == pytest.approx(21 / 20, abs=0.06)
+
+
+def test_an_interrupted_film_leaves_nothing(tmp_path):
+    pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+
+    def interrupted(items):
+        yield items[0]
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        film.save_animation(wave(30), tmp_path / "wave.mp4", progress=interrupted)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_imageio_ffmpeg_one_sentence_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(MocapError, match=r"pip install 'mocap\[video\]'"):
+        film.save_animation(wave(9), tmp_path / "wave.mp4")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_strip_and_a_page_are_the_players(tmp_path):
+    motion = wave(30)
+    strip = film.save_animation(motion, tmp_path / "wave.png")
+    page = film.save_animation(motion, tmp_path / "wave.HTML")
+    assert strip.read_bytes() == play(motion).picture
+    assert page.read_text("utf-8") == play(motion).page()
+
+
+def test_another_ending_is_refused(tmp_path):
+    with pytest.raises(MocapError, match=r"written as \.gif, \.mp4, \.png or \.html, got"):
+        film.save_animation(wave(9), tmp_path / "wave.mov")

@@ -1,0 +1,85 @@
+"""Linked players without a browser: Python's side of the traits."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError
+from mocap.widgets import live_player
+from mocap.widgets.live_player import draw_path, linked
+from mocap.widgets.player import play
+from tests.strategies import wave
+
+pytest.importorskip("anywidget")
+
+
+def test_a_frame_that_is_set_is_heard():
+    player, heard = linked(play(wave(30))), []
+    player.observe(lambda change: heard.append(change["new"]), "frame")
+    player.frame = 29
+    assert heard == [29]
+    assert repr(player) == "LivePlayer('A stick figure plays wave, 1.0 s.')"
+
+
+@pytest.mark.parametrize("frame", [-1, 30])
+def test_a_frame_that_is_not_there_is_refused(frame):
+    player = linked(play(wave(30)))
+    with pytest.raises(MocapError, match="frames 0 to 29"):
+        player.frame = frame
+    assert player.frame == 0
+
+
+def test_the_output_is_one_bundle_with_the_page_and_the_picture():
+    data, metadata = linked(play(wave(30)))._repr_mimebundle_()
+    assert set(data) == {"application/vnd.jupyter.widget-view+json", "text/html", "image/png", "text/plain"}
+    assert data["text/plain"] == metadata["image/png"]["alt"]
+
+
+def test_a_drawn_path_becomes_a_walk():
+    asked = []
+
+    def follow(path):
+        asked.append(path)
+        return wave(20 * len(path))
+
+    canvas = draw_path(follow, [[0, 0], [0, 1]])
+    assert canvas.scene["frames"] == 40
+    assert canvas.scene["drawable"]
+    canvas.frame = 39
+    canvas.path = [[0.0, 0.0], [0.0, 2.0], [1.0, 2.0]]
+    assert [path.shape for path in asked] == [(2, 2), (3, 2)]
+    assert canvas.scene["frames"] == 60
+    assert canvas.scene["asked"] == [[0, 0], [0, 2], [1, 2]]
+    assert (canvas.frame, canvas.error, canvas.message) == (0, None, canvas.player.alt)
+
+
+def test_a_shorter_walk_may_come_after_a_longer_one():
+    canvas = draw_path(lambda path: play(wave(90 // len(path)), sources=[(0, "wave")]), np.zeros((1, 2)))
+    canvas.frame = 80
+    canvas.path = [[0, 0], [0, 1], [0, 2]]
+    assert (canvas.frame, canvas.scene["frames"]) == (0, 30)
+    assert canvas.scene["characters"][0]["sources"]
+
+
+def test_an_error_is_said_and_goes_with_the_next_path():
+    def follow(path):
+        if len(path) > 2:
+            raise MocapError("No walk goes there.")
+        return wave(30)
+
+    canvas = draw_path(follow, [[0, 0], [0, 1]])
+    canvas.path = [[0, 0], [0, 1], [0, 2]]
+    assert canvas.message == "MocapError: No walk goes there."
+    assert isinstance(canvas.error, MocapError)
+    canvas.path = [[0, 0], [0, 2]]
+    assert (canvas.error, canvas.message) == (None, "A stick figure plays wave, 1.0 s.")
+    with pytest.raises(MocapError, match="No walk"):
+        draw_path(follow, [[0, 0], [0, 1], [0, 2]])
+
+
+def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    live_player._live_player.cache_clear()
+    with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
+        linked(play(wave(9)))

@@ -1,0 +1,104 @@
+"""What the player sends, unpacked again; what it shows is tested in tests/browser."""
+
+import base64
+import html
+import io
+import json
+import re
+import zlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PIL import Image
+
+from mocap.body.kinematics import joint_positions
+from mocap.errors import MocapError
+from mocap.plotting.stick_figures import bones
+from mocap.widgets.player import play
+from tests.strategies import random_motion, seeds, wave
+
+
+def unpacked(player, number=0):
+    """Give a character of a scene, and where its joints are, shape (F, J, 3)."""
+    scene = player.scene
+    character = scene["characters"][number]
+    shape = (character["joints"], 3, character["frames"])
+    data = zlib.decompress(scene["data"])
+    changes = np.frombuffer(data, "<u2", int(np.prod(shape)), character["offset"]).reshape(shape)
+    numbers = np.moveaxis(changes.cumsum(-1).cumsum(-1) % 2**16, -1, 0)
+    return character, np.array(character["low"]) + np.array(character["step"]) * numbers
+
+
+@given(seeds, st.floats(-1e4, 1e4))
+def test_places_are_sent_to_a_65535th_of_the_clip(seed, away):
+    motion = random_motion(seed, frames=7, joints=9)
+    motion = replace(motion, root_positions=motion.root_positions + np.array([away, 0, 0]))
+    character, places = unpacked(play(motion))
+    starts, ends, _ = bones(motion.skeleton)
+    true = joint_positions(motion)
+    for (a, b, _), start, end in zip(character["bones"], starts, ends, strict=True):
+        assert places[:, a] == pytest.approx(true[:, start], abs=0.51 * max(character["step"]))
+        assert places[:, b] == pytest.approx(true[:, end], abs=0.51 * max(character["step"]))
+    assert places[:, 0] == pytest.approx(true[:, 0], abs=0.51 * max(character["step"]))
+
+
+def test_a_fast_clip_is_thinned_and_keeps_its_frames_count():
+    fast = replace(wave(241), fps=120.0)
+    player = play(fast)
+    character, places = unpacked(player)
+    assert (character["fps"], character["frames"]) == (60.0, 121)
+    assert (player.scene["fps"], player.scene["frames"]) == (120.0, 241)
+    assert places[:, 0] == pytest.approx(joint_positions(fast)[::2, 0], abs=1e-4)
+
+
+def test_several_characters_share_the_numbers():
+    first, second = wave(30, name="a"), wave(50, phase=1, name="b")
+    player = play(first, second)
+    for number, motion in enumerate((first, second)):
+        character, places = unpacked(player, number)
+        assert character["name"] == motion.name
+        assert places[:, 0] == pytest.approx(joint_positions(motion)[:, 0], abs=1e-4)
+    assert player.scene["frames"] == 50
+    assert len({c["colour"] for c in player.scene["characters"]}) == 2
+
+
+def test_sources_and_prints_are_in_seconds():
+    scene = play(wave(80), sources=[(0, "walk"), (30, "turn"), (60, "walk")]).scene
+    sources = scene["characters"][0]["sources"]
+    assert [(s["start"], s["name"]) for s in sources] == [(0, "walk"), (1, "turn"), (2, "walk")]
+    assert sources[0]["colour"] == sources[2]["colour"] != sources[1]["colour"]
+    assert all(0 <= start < end <= 80 / 30 for start, end, *_ in scene["characters"][0]["prints"])
+
+
+def test_the_page_holds_all_it_needs():
+    page = play(wave(30), alt='Who <waves> & "moves"?').page()
+    assert not re.search(r"""(src|href)=["'](?!data:)|https?://|@import|fetch\(|import\(""", page)
+    scene = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page, re.S)[1])
+    assert base64.b64decode(scene["data"]) == play(wave(30)).scene["data"]
+    assert scene["alt"] == 'Who <waves> & "moves"?'
+    assert html.escape(scene["alt"]) in page
+
+
+def test_a_name_cannot_break_out_of_its_script():
+    page = play(wave(9, name="</script><script>alert(1)</script>")).page()
+    assert "<script>alert" not in page
+
+
+def test_page_picture_and_sentence_are_one_bundle():
+    player = play(wave(30))
+    data, metadata = player._repr_mimebundle_()
+    assert list(data) == ["text/html", "image/png", "text/plain"]
+    assert data["text/plain"] == "A stick figure plays wave, 1.0 s." == metadata["image/png"]["alt"]
+    strip = Image.open(io.BytesIO(base64.b64decode(data["image/png"])))
+    assert strip.width > 3 * strip.height
+    assert play(wave(30))._repr_mimebundle_()[0] == data  # the same each time
+
+
+def test_there_must_be_a_motion():
+    with pytest.raises(MocapError, match="no motion to play"):
+        play()
+    with pytest.raises(MocapError, match="'wave' has no frames"):
+        play(wave(5)[3:3])
