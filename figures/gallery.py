@@ -177,7 +177,7 @@ def draw_match() -> Figure:
     found = [edge for edge in graph.graph.edges(data=True) if edge[2]["kind"] == "transition"]
     start, end, edge = min((e for e in found if e[0][0] != e[1][0]), key=lambda e: e[2]["cost"])
     first = graph.clips[start[0]][start[1] : start[1] + WINDOW]
-    second = edge["transform"].motion(graph.clips[end[0]][end[1] - WINDOW : end[1]])
+    second = edge["transform"].apply_motion(graph.clips[end[0]][end[1] - WINDOW : end[1]])
     stick_figures.laid_over(first, second, every=WINDOW - 1)
     return plt.gcf()
 

@@ -9,7 +9,7 @@ from mocap.matching.point_clouds import unit_weights
 
 def squared_distance(transform, points, others, weights):
     """Σ w ‖p - T p'‖² as it is written."""
-    return float(weights @ ((points - PlanarTransform(*transform).points(others)) ** 2).sum(-1))
+    return float(weights @ ((points - PlanarTransform(*transform).apply_points(others)) ** 2).sum(-1))
 
 
 def _windows(points, window, weights):

@@ -75,7 +75,7 @@ def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
                 f"which has {len(clip)}."
             )
     clouds = (point_cloud(clip[start : start + window]).reshape(-1, 3) for clip, start in ((a, i), (b, j)))
-    return align(*clouds).motion(b)
+    return align(*clouds).apply_motion(b)
 
 
 def _spliced(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:

@@ -29,7 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "skeleton": ["Skeleton"],
         "motion": ["Motion", "resample", "concatenate", "require_alike", "turning"],
         "kinematics": ["GlobalPoses", "forward_kinematics", "joint_positions", "velocities"],
-        "planar": ["PlanarTransform", "heading", "place", "on_ground"],
+        "planar": ["PlanarTransform", "from_ground", "heading", "lay_on", "on_ground", "place"],
         "ground_path": [
             "GroundPath",
             "spline",

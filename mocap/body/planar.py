@@ -1,7 +1,10 @@
-"""Planar rigid transforms: turn about the vertical, then move over the ground.
+"""Planar transforms: turn about the vertical, then move over the ground.
 
-A captured motion means the same wherever on the ground it happens and whichever way it faces, so
-these three numbers are all that may be changed to lay one clip on another [KGP02, 3.1].
+A captured motion means the same wherever on the ground it happens and whichever way it faces. So these three
+numbers are all that may be changed to lay one clip on another [KGP02, 3.1].
+
+A point (x, z) on the ground is also the complex number z + ix. To turn it about +y by θ is then to multiply
+it by exp(iθ), and a planar transform is p ↦ turn · p + move. Only this module knows which part is which.
 """
 
 from __future__ import annotations
@@ -19,27 +22,40 @@ from mocap.errors import MocapError
 
 
 def on_ground(points: ArrayLike) -> Points:
-    """Turn points (..., 3) into complex numbers z + ix.
+    """Write points (..., 3), or ground points (x, z) of shape (..., 2), as complex numbers z + ix.
 
     Examples
     --------
-    >>> complex(on_ground([3.0, 1.0, 2.0]))
-    (2+3j)
+    >>> complex(on_ground([3.0, 1.0, 2.0])), complex(on_ground([3.0, 2.0]))
+    ((2+3j), (2+3j))
     """
     points = np.asarray(points, float)
-    return np.asarray(points[..., 2] + 1j * points[..., 0])
+    return np.asarray(points[..., -1] + 1j * points[..., 0])
+
+
+def from_ground(points: Points) -> Array:
+    """Write complex numbers z + ix as ground points (x, z), shape (..., 2): the inverse of `on_ground`.
+
+    Examples
+    --------
+    >>> from_ground(2 + 3j)
+    array([3., 2.])
+    """
+    return np.stack([np.imag(points), np.real(points)], axis=-1)
 
 
 class PlanarTransform(NamedTuple):
     """Turn by `angle` (radians) about +y, then move by `x` and `z` (metres).
 
-    The fields are numbers, or arrays of one shape for many transforms at once.
+    The fields are numbers, or arrays of one shape for many transforms at once. `a @ b` does b first.
 
     Examples
     --------
     >>> quarter = PlanarTransform(np.pi / 2, 1.0, 0.0)
-    >>> quarter.points([0.0, 0.5, 1.0]).round(6) + 0.0
+    >>> quarter.apply_points([0.0, 0.5, 1.0]).round(6) + 0.0
     array([2. , 0.5, 0. ])
+    >>> complex(np.round(quarter.turn * on_ground([0.0, 0.5, 1.0]) + quarter.move, 6))
+    2j
 
     Notebook: 03-transforms
     """
@@ -48,32 +64,47 @@ class PlanarTransform(NamedTuple):
     x: float | Array
     z: float | Array
 
-    def points(self, points: ArrayLike) -> Array:
+    @classmethod
+    def from_complex(cls, turn: complex | Points, move: complex | Points) -> PlanarTransform:
+        """Build the transform p ↦ turn · p + move of ground points z + ix; |turn| is 1."""
+        return cls(np.angle(turn), move.imag, move.real)
+
+    @property
+    def turn(self) -> Points:
+        """The turn as a complex number, exp(i · angle)."""
+        return np.exp(1j * np.asarray(self.angle))
+
+    @property
+    def move(self) -> Points:
+        """The move as a complex number, z + ix."""
+        return np.asarray(self.z) + 1j * np.asarray(self.x)
+
+    def apply_points(self, points: ArrayLike) -> Array:
         """Move points, shape (..., 3): x' = x cos θ + z sin θ + x₀, z' = z cos θ - x sin θ + z₀."""
         x, y, z = np.moveaxis(np.asarray(points, float), -1, 0)
         cos, sin = np.cos(self.angle), np.sin(self.angle)
         return np.stack(np.broadcast_arrays(x * cos + z * sin + self.x, y, z * cos - x * sin + self.z), -1)
 
-    def orientations(self, quaternions: ArrayLike) -> Array:
+    def apply_orientations(self, quaternions: ArrayLike) -> Array:
         """Turn global orientations, quaternions of shape (..., 4)."""
         return rotations.multiply(rotations.about_y(self.angle), quaternions)
 
-    def motion(self, motion: Motion) -> Motion:
+    def apply_motion(self, motion: Motion) -> Motion:
         """Move a whole motion; only its root changes."""
         turned = motion.rotations.copy()
-        turned[:, 0] = self.orientations(turned[:, 0])
-        return replace(motion, root_positions=self.points(motion.root_positions), rotations=turned)
+        turned[:, 0] = self.apply_orientations(turned[:, 0])
+        return replace(motion, root_positions=self.apply_points(motion.root_positions), rotations=turned)
 
-    def after(self, first: PlanarTransform) -> PlanarTransform:
+    def __matmul__(self, first: PlanarTransform) -> PlanarTransform:
         """Compose: do `first`, then this one; angles add up, wrapped to [-π, π)."""
-        moved = self.points(np.stack(np.broadcast_arrays(first.x, 0.0, first.z), -1))
+        moved = self.apply_points(np.stack(np.broadcast_arrays(first.x, 0.0, first.z), -1))
         total = np.add(self.angle, first.angle)
         return PlanarTransform((total + np.pi) % (2 * np.pi) - np.pi, moved[..., 0], moved[..., 2])
 
     def inverse(self) -> PlanarTransform:
         """Undo it."""
         back = PlanarTransform(np.negative(self.angle), 0.0, 0.0)
-        moved = back.points(np.stack(np.broadcast_arrays(self.x, 0.0, self.z), -1))
+        moved = back.apply_points(np.stack(np.broadcast_arrays(self.x, 0.0, self.z), -1))
         return PlanarTransform(back.angle, -moved[..., 0], -moved[..., 2])
 
 
@@ -81,36 +112,12 @@ IDENTITY = PlanarTransform(0.0, 0.0, 0.0)
 
 
 def heading(quaternions: ArrayLike) -> Array:
-    """Read the direction a body faces off its root: θ = atan2(-R₂₀, R₀₀), the homework's formula.
-
-    It looks where the body's left points, and is lost where that is straight up or down; `facing` is not.
-
-    Parameters
-    ----------
-    quaternions : root orientations, shape (..., 4).
-
-    Returns
-    -------
-    Angles about +y, shape (...), radians in [-π, π]: 0 faces +z, π/2 faces +x.
-
-    Examples
-    --------
-    >>> float(heading(rotations.about_y(0.7)).round(6))
-    0.7
-
-    Notebook: 03-transforms
-    """
-    matrices = rotations.to_matrix(quaternions)
-    return np.arctan2(-matrices[..., 2, 0], matrices[..., 0, 0])
-
-
-def facing(quaternions: ArrayLike) -> Array:
     """Read the direction a body faces as its twist about the vertical: θ = 2 atan2(q_y, q_w).
 
-    Every rotation is a turn about +y after a swing about a level axis; θ is that turn. Where a body only
-    turns and leans it agrees with `heading`, but it stays defined when the body lies down or looks
-    straight up, and turning the body by α adds α exactly. Undefined is it only for a swing by half a turn
-    (upside down, q_w = q_y = 0): there it is 0.
+    Every rotation is a turn about +y after a swing about a level axis; θ is that turn. It stays defined when
+    the body lies down or looks straight up, and turning the body by α adds α exactly. The one exception is
+    a swing by half a turn (upside down, q_w = q_y = 0), where it is 0. The homework read the heading off
+    the rotation matrix instead; `course.homework_slips.homework_heading` shows where that fails.
 
     Parameters
     ----------
@@ -123,7 +130,7 @@ def facing(quaternions: ArrayLike) -> Array:
     Examples
     --------
     >>> on_the_back = rotations.multiply(rotations.about_y(0.7), rotations.from_rotvec([-np.pi / 2, 0, 0]))
-    >>> float(facing(on_the_back).round(6))
+    >>> float(heading(on_the_back).round(6))
     0.7
 
     Notebook: 03-transforms
@@ -133,18 +140,46 @@ def facing(quaternions: ArrayLike) -> Array:
     return np.asarray(np.arctan2(2 * w * y, w * w - y * y))
 
 
-def place(motion: Motion, heading: float, position: ArrayLike) -> Motion:
-    """Move a whole motion so that its first frame faces `heading` and stands over `position`.
+def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
+    """Find the transform that lays a motion's first frame on a frame of another.
+
+    It turns by the difference of the two headings, then moves the root over the ground to the other root.
+
+    Parameters
+    ----------
+    motion : what is to be moved.
+    target, frame : where its first frame is to lie.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    >>> here = Motion(dot, [[5, 1, 5]], [[[1, 0, 0, 0]]], 30.0)
+    >>> there = Motion(dot, [[2, 2, 3]], [rotations.about_y([0.5])], 30.0)
+    >>> lay_on(here, there).apply_motion(here).root_positions.round(6)
+    array([[2., 1., 3.]])
+
+    Notebook: 03-transforms
+    """
+    angle = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
+    x, _, z = target.root_positions[frame] - PlanarTransform(angle, 0.0, 0.0).apply_points(
+        motion.root_positions[0]
+    )
+    return PlanarTransform(angle, float(x), float(z))
+
+
+def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
+    """Move a whole motion so that its first frame faces `direction` and stands over `position`.
 
     Parameters
     ----------
     motion : any; heights stay.
-    heading : radians about +y, as `facing` reads it.
+    direction : radians about +y, as `heading` reads it.
     position : (x, z), metres.
 
     Raises
     ------
-    MocapError : for a heading or a position that is no finite number, or not two of them.
+    MocapError : for a direction or a position that is no finite number, or not two of them.
 
     Examples
     --------
@@ -156,10 +191,10 @@ def place(motion: Motion, heading: float, position: ArrayLike) -> Motion:
     Notebook: 03-transforms
     """
     target = np.asarray(position, float)
-    if target.shape != (2,) or not np.isfinite([heading, *target]).all():
+    if target.shape != (2,) or not np.isfinite([direction, *target]).all():
         raise MocapError(
-            f"A place is a finite heading and position (x, z), got {heading} and {target.tolist()}."
+            f"A place is a finite direction and position (x, z), got {direction} and {target.tolist()}."
         )
-    turn = PlanarTransform(heading - float(facing(motion.rotations[0, 0])), 0.0, 0.0)
-    x, _, z = turn.points(motion.root_positions[0])
-    return turn._replace(x=target[0] - x, z=target[1] - z).motion(motion)
+    turn = PlanarTransform(direction - float(heading(motion.rotations[0, 0])), 0.0, 0.0)
+    x, _, z = turn.apply_points(motion.root_positions[0])
+    return turn._replace(x=target[0] - x, z=target[1] - z).apply_motion(motion)

@@ -7,7 +7,7 @@ Reading order
 -------------
 1. `check`: how an exercise is checked
 2. `checks`: the checks, a file for each notebook
-3. `homework_slips`: four slips of the homework, and what fixes them
+3. `homework_slips`: five slips of the homework, and what fixes them
 4. `notebooks`: cells by their tags; running them
 5. `handout`: hand out and mark
 6. `site`: the course as HTML pages
@@ -25,8 +25,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "homework_slips": [
             "chain_on_last",
             "euler_from_zero_to_pi",
+            "homework_heading",
             "lay_in_full",
-            "lay_on_ground",
             "turn_in_place",
         ],
         "notebooks": ["read", "run", "shown_source", "tagged"],

@@ -1,4 +1,4 @@
-"""Four slips of the homework that this package grew out of, to see what they do, and what mends them.
+"""Five slips of the homework that this package grew out of, to see what they do, and what mends them.
 
 Nothing else here uses them. Each function does a sensible thing in a way that looks right and is not; its
 docstring names the slip and the mend.
@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.body import euler
+from mocap.body import euler, rotations
 from mocap.body.motion import Motion, concatenate
-from mocap.body.planar import PlanarTransform, heading
+from mocap.body.planar import PlanarTransform, lay_on
 
 
 def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
@@ -21,7 +21,7 @@ def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
 
     The slip: heights are no matter of choice. Each time the clip is laid on a frame that is a little
     higher or lower in its stride, the difference stays for good, and the body drifts up or down.
-    The mend: move over the ground only, `PlanarTransform`.
+    The mend: move over the ground only, `body.lay_on`.
 
     Parameters
     ----------
@@ -30,26 +30,35 @@ def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
 
     Notebook: 03-transforms
     """
-    planar = lay_on_ground(motion, target, frame)
+    planar = lay_on(motion, target, frame).apply_motion(motion)
     roots = planar.root_positions
     lifted = roots + (target.root_positions[frame] - roots[0])
     return replace(planar, root_positions=lifted)
 
 
-def lay_on_ground(motion: Motion, target: Motion, frame: int) -> Motion:
-    """Lay a motion's first frame on a frame of another, turning and moving it over the ground: the mend.
+def homework_heading(quaternions: ArrayLike) -> Array:
+    """Read the direction a body faces off its root's rotation matrix: θ = atan2(-R₂₀, R₀₀).
+
+    The slip: this is where the body's left points, and that is lost when the left points straight up or down,
+    as in a cartwheel. The fix: read the turn about the vertical off the quaternion, `body.heading`.
 
     Parameters
     ----------
-    motion : what is moved.
-    target, frame : where its first frame comes to lie.
+    quaternions : root orientations, shape (..., 4).
+
+    Returns
+    -------
+    Angles about +y, shape (...), radians in [-π, π]: 0 faces +z, π/2 faces +x.
+
+    Examples
+    --------
+    >>> float(homework_heading(rotations.about_y(0.7)).round(6))
+    0.7
 
     Notebook: 03-transforms
     """
-    turn = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
-    about = PlanarTransform(turn, 0.0, 0.0)
-    x, _, z = target.root_positions[frame] - about.points(motion.root_positions[0])
-    return about._replace(x=float(x), z=float(z)).motion(motion)
+    matrices = rotations.to_matrix(quaternions)
+    return np.asarray(np.arctan2(-matrices[..., 2, 0], matrices[..., 0, 0]))
 
 
 def euler_from_zero_to_pi(quaternions: ArrayLike) -> Array:
@@ -96,7 +105,7 @@ def chain_on_last(slices: Sequence[Motion]) -> Motion:
     """
     chain = [slices[0]]
     for following in slices[1:]:
-        chain.append(lay_on_ground(following, chain[-1], -1))
+        chain.append(lay_on(following, chain[-1], -1).apply_motion(following))
     return concatenate(chain)
 
 
@@ -115,5 +124,7 @@ def turn_in_place(root_positions: Array, angle: float) -> Array:
     Notebook: 03-transforms
     """
     first = root_positions[0].copy()
-    root_positions[:] = PlanarTransform(angle, first[0], first[2]).points(root_positions - first * [1, 0, 1])
+    root_positions[:] = PlanarTransform(angle, first[0], first[2]).apply_points(
+        root_positions - first * [1, 0, 1]
+    )
     return root_positions

@@ -99,7 +99,7 @@ def _measured(
             for starts in ([a for a, _ in part], [(clip, frame - window) for _, (clip, frame) in part])
         )  # (N, window · P, 3)
         there = np.stack(align(points, others), axis=-1)  # (N, 3)
-        laid = PlanarTransform(*there.T[..., None]).points(others)
+        laid = PlanarTransform(*there.T[..., None]).apply_points(others)
         costs = np.sqrt(((points - laid) ** 2).sum(-1).mean(-1))
         for (a, b), cost, numbers in zip(part, costs.tolist(), there.tolist(), strict=True):
             yield (a, b), Transition(a[0], a[1], b[0], b[1] - window, cost, PlanarTransform(*numbers))

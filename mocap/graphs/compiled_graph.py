@@ -123,8 +123,7 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
 
 def _tracks(edges: EdgeTable, frames: FrameTable, roots: _Roots) -> dict[str, Any]:
     """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]."""
-    angle, x, z = map(np.asarray, edges.transform)
-    turn, move = np.exp(1j * angle), z + 1j * x
+    turn, move = edges.transform.turn, edges.transform.move
     first = np.cumsum(edges.frames) - edges.frames
     track = frames.alpha * roots[frames.here]
     track += (1 - frames.alpha) * (turn[frames.edge] * roots[frames.there] + move[frames.edge])

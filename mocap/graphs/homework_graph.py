@@ -20,7 +20,7 @@ from mocap._shared.arrays import Array
 from mocap.blending.interpolation import blend
 from mocap.blending.weights import sine_weights
 from mocap.body.motion import Motion, concatenate, require_alike
-from mocap.body.planar import IDENTITY, PlanarTransform, heading
+from mocap.body.planar import IDENTITY, PlanarTransform, lay_on
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
@@ -260,7 +260,7 @@ def segment_motion(
             current = _placed(following, place, lift)
             continue
         tail = current[-window:]
-        place = _lay(following, tail)
+        place = lay_on(following, tail)
         lift = tail.root_positions[0, 1] - following.root_positions[0, 1] if drift else 0.0
         following = _placed(following, place, lift)
         pieces += [current[:-window], blend(tail, following[:window], sine_weights(window))]
@@ -273,14 +273,7 @@ def _frames(clips: Sequence[Motion], graph: nx.DiGraph, node: int) -> Motion:
     return clips[part.clip][part.start : part.end]
 
 
-def _lay(motion: Motion, on: Motion) -> PlanarTransform:
-    """Find the transform that takes the first frame of one motion to that of another."""
-    angle = float(heading(on.rotations[0, 0]) - heading(motion.rotations[0, 0]))
-    x, _, z = on.root_positions[0] - PlanarTransform(angle, 0.0, 0.0).points(motion.root_positions[0])
-    return PlanarTransform(angle, float(x), float(z))
-
-
 def _placed(motion: Motion, place: PlanarTransform, lift: float) -> Motion:
     """Move a segment; one that has never been moved stays bit for bit."""
-    moved = motion if place is IDENTITY else place.motion(motion)
+    moved = motion if place is IDENTITY else place.apply_motion(motion)
     return replace(moved, root_positions=np.add(moved.root_positions, [0.0, lift, 0.0])) if lift else moved

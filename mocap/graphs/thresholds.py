@@ -208,7 +208,7 @@ def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window:
     for first in range(0, len(jumps), AT_ONCE):
         some = transitions[first : first + AT_ONCE]
         turn = PlanarTransform(np.asarray(some.transform.angle)[:, None], 0.0, 0.0)
-        gaps = moving[middles[some.source] + some.leave] - turn.points(
+        gaps = moving[middles[some.source] + some.leave] - turn.apply_points(
             moving[middles[some.target] + some.enter]
         )
         jumps[first : first + AT_ONCE] = np.sqrt((gaps**2).sum(-1).mean(-1))

@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion, require_alike
+from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
 
@@ -79,7 +80,7 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
     """
     window = len(taper)
     root = np.sqrt(weights)
-    ground = points[..., 2] + 1j * points[..., 0]
+    ground = on_ground(points)
     centroids = ground @ weights  # (F,)
     heights, ground = (points[..., 1] - level) * root, (ground - centroids[:, None]) * root
     frame_sizes = (heights**2).sum(-1) + (np.abs(ground) ** 2).sum(-1)

@@ -122,7 +122,7 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     Examples
     --------
     >>> corner = np.array([[0.0, 1, 0], [1, 1, 0], [1, 1, 2]])
-    >>> moved = PlanarTransform(0.5, 2.0, -1.0).points(corner)
+    >>> moved = PlanarTransform(0.5, 2.0, -1.0).apply_points(corner)
     >>> [float(np.round(number, 6)) for number in align(moved, corner)]
     [0.5, 2.0, -1.0]
 
@@ -135,7 +135,7 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     xa, _, za = np.moveaxis(a - mean_a[..., None, :], -1, 0)
     xb, _, zb = np.moveaxis(b - mean_b[..., None, :], -1, 0)
     angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
-    turned = PlanarTransform(angle, 0.0, 0.0).points(mean_b)
+    turned = PlanarTransform(angle, 0.0, 0.0).apply_points(mean_b)
     return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
 
 

@@ -212,10 +212,10 @@ class Controller:
 
     def _placed(self, clip: int, frame: int, turn: complex, move: complex) -> tuple[Array, Array]:
         motion = self.graph.source.clips[clip]
-        place = PlanarTransform(float(np.angle(turn)), move.imag, move.real)
+        place = PlanarTransform.from_complex(turn, move)
         turns = motion.rotations[frame].copy()
-        turns[0] = place.orientations(turns[0])
-        return place.points(motion.root_positions[frame]), turns
+        turns[0] = place.apply_orientations(turns[0])
+        return place.apply_points(motion.root_positions[frame]), turns
 
 
 def _best(walks: Walks, width: int) -> Walks:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
+from mocap.body.planar import PlanarTransform, from_ground
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
@@ -219,8 +219,8 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
         graph.source,
         path,
         [graph.edges[edge] for edge in found.edges],
-        PlanarTransform(float(np.angle(found.turn)), found.move.imag, found.move.real),
-        np.stack([body.imag, body.real], axis=1),
+        PlanarTransform.from_complex(found.turn, found.move),
+        from_ground(body),
         found.along,
         _distance(route, body, found.along),
         (label >= 0) & ~bears,

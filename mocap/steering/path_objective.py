@@ -8,6 +8,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
+from mocap.body.planar import on_ground
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
@@ -140,7 +141,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     label = np.full(len(points), -1)
     for start, name in sorted(wishes.labels):
         label[along >= start - 1e-9] = _label(graph, name)
-    ground = np.asarray(points[:, 1] + 1j * points[:, 0])
+    ground = on_ground(points)
     clock, others = _clock(along, wishes), _together(wishes.others)
     return Route(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
 
@@ -149,7 +150,7 @@ def _together(tracks: Sequence[Array]) -> Points:
     """Put the tracks of others into one array (K, T), as long as the longest: who has arrived, stays."""
     frames = np.arange(max(map(len, tracks), default=1))
     stay = [track[np.minimum(frames, len(track) - 1)] for track in tracks]
-    return np.array([track[:, 1] + 1j * track[:, 0] for track in stay], complex).reshape(-1, len(frames))
+    return np.array([on_ground(track) for track in stay], complex).reshape(-1, len(frames))
 
 
 def _check_length(graph: CompiledGraph, path: GroundPath) -> None:

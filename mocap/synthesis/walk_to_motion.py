@@ -86,8 +86,8 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     Notebook: 07-walks-and-search
     """
     angle = np.cumsum(np.concatenate([[place.angle], np.asarray(edges.transform.angle)]))
-    steps = (edges.transform.z + 1j * np.asarray(edges.transform.x)) * np.exp(1j * angle[:-1])
-    moved = np.cumsum([place.z + 1j * place.x, *steps])
+    steps = edges.transform.move * np.exp(1j * angle[:-1])
+    moved = np.cumsum([place.move, *steps])
     return PlanarTransform(angle, moved.imag, moved.real)
 
 
@@ -104,7 +104,7 @@ def _placed(
     place = PlanarTransform(*(np.asarray(numbers)[chosen] for numbers in places))
     turned = place.angle != 0  # what is not turned keeps its last digits
     turns[turned, 0] = rotations.multiply(rotations.about_y(place.angle)[turned], turns[turned, 0])
-    return place.points(roots), turns
+    return place.apply_points(roots), turns
 
 
 def _marks(motion_graph: MotionGraph, table: FrameTable, kind: str) -> dict[str, NDArray[np.bool_]]:

@@ -77,8 +77,8 @@ def test_the_ends_are_the_motions_themselves(seed):
 def test_moving_then_blending_is_blending_then_moving(seed, transform):
     a, b = pair(seed)
     weights = np.linspace(1, 0, 5)
-    first = blend(transform.motion(a), transform.motion(b), weights)
-    last = transform.motion(blend(a, b, weights))
+    first = blend(transform.apply_motion(a), transform.apply_motion(b), weights)
+    last = transform.apply_motion(blend(a, b, weights))
     assert first.root_positions == pytest.approx(last.root_positions, abs=1e-9)
     assert rotations.angle_between(first.rotations, last.rotations) == pytest.approx(0, abs=1e-6)
 

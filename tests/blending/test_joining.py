@@ -40,7 +40,7 @@ def test_before_the_window_it_is_a_and_after_it_b_laid_on(way, i, j, window):
 @settings(max_examples=20)
 @given(transform=planar)
 def test_where_b_was_captured_does_not_matter(way, transform):
-    here, there = (joint_positions(way(A, LEAVE, b, ENTER, 8)) for b in (B, transform.motion(B)))
+    here, there = (joint_positions(way(A, LEAVE, b, ENTER, 8)) for b in (B, transform.apply_motion(B)))
     assert here == pytest.approx(there, abs=1e-7)
 
 

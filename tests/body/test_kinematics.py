@@ -42,8 +42,8 @@ def test_bones_keep_their_length(seed):
 @given(seeds, planar)
 def test_moving_the_motion_moves_every_joint(seed, transform):
     motion = random_motion(seed)
-    assert joint_positions(transform.motion(motion)) == (
-        pytest.approx(transform.points(joint_positions(motion)), abs=1e-9)
+    assert joint_positions(transform.apply_motion(motion)) == (
+        pytest.approx(transform.apply_points(joint_positions(motion)), abs=1e-9)
     )
 
 

@@ -7,12 +7,11 @@ import pytest
 
 from mocap.body import euler, rotations
 from mocap.body.motion import concatenate
-from mocap.body.planar import PlanarTransform
+from mocap.body.planar import PlanarTransform, lay_on
 from mocap.course.homework_slips import (
     chain_on_last,
     euler_from_zero_to_pi,
     lay_in_full,
-    lay_on_ground,
     turn_in_place,
 )
 from mocap.datasets.samples import sample
@@ -20,6 +19,10 @@ from mocap.datasets.samples import sample
 CLIP = sample("walk_straight")
 LOW = int(CLIP.root_positions[:600, 1].argmin())
 SLICE = CLIP[LOW : LOW + 200]  # starts low in the stride
+
+
+def lay_on_ground(motion, target, frame):
+    return lay_on(motion, target, frame).apply_motion(motion)
 
 
 def test_laid_in_full_a_clip_drifts_up_and_on_the_ground_it_does_not():
@@ -69,7 +72,7 @@ def test_turned_in_place_the_clip_is_another_one_at_the_second_visit():
     first, second = (turn_in_place(stored, 0.5).copy() for _ in range(2))
     assert np.abs(first - second).max() > 1
     turn = PlanarTransform(0.5, 0.0, 0.0)
-    visits = [turn.motion(CLIP).root_positions for _ in range(2)]
+    visits = [turn.apply_motion(CLIP).root_positions for _ in range(2)]
     assert all(np.array_equal(a, b) for a, b in pairwise(visits))
     with pytest.raises(ValueError, match="read-only"):
         turn_in_place(CLIP.root_positions, 0.5)

@@ -35,7 +35,7 @@ def test_the_plants_of_the_bundled_clips_are_found(name, fps):
 
 def test_plants_do_not_depend_on_where_and_which_way():
     clip = sample("sneak")
-    moved = PlanarTransform(2.0, 300.0, -700.0).motion(clip)
+    moved = PlanarTransform(2.0, 300.0, -700.0).apply_motion(clip)
     assert f1(mark_plants(moved), mark_plants(clip)) > 0.97
 
 

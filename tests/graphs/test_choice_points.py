@@ -54,7 +54,7 @@ def test_costs_are_measured_anew(graphs):
         b = clouds[target][enter - WINDOW : enter].reshape(-1, 3)
         best = align(a, b)
         np.testing.assert_allclose(edge["transform"], best, atol=1e-5)
-        rms = np.sqrt(((a - PlanarTransform(*best).points(b)) ** 2).sum(-1).mean())
+        rms = np.sqrt(((a - PlanarTransform(*best).apply_points(b)) ** 2).sum(-1).mean())
         assert edge["cost"] == pytest.approx(rms, abs=2e-6)
         assert edge["cost"] < 0.06
 

@@ -95,7 +95,7 @@ def jumps_of(clips, ways):
 def test_a_copy_moves_as_the_original(transform):
     back = transform.inverse()
     turned = back._replace(angle=back.angle + np.pi)
-    right, wrong = jumps_of([CLIPS[0], transform.motion(CLIPS[0])], [back, turned])
+    right, wrong = jumps_of([CLIPS[0], transform.apply_motion(CLIPS[0])], [back, turned])
     assert right == pytest.approx(0, abs=1e-9)
     assert wrong > 0.5
 

@@ -65,8 +65,8 @@ def test_the_error_bound_holds_wherever_a_clip_is(seed, window, away, transform)
     random = np.random.default_rng(seed)
     way = np.cumsum(random.normal(size=(30, 1, 3)) * [0.05, 0.0, 0.05], axis=0)
     a = random_points(seed, 30, reach=0.3) + way + [away, 0, -away]
-    b = transform.points(random_points(seed + 1, 25, reach=0.3) + way[5:])
-    b[3:20] = transform.points(a[3:20] - [away, 0, -away])  # some windows are nearly or quite alike
+    b = transform.apply_points(random_points(seed + 1, 25, reach=0.3) + way[5:])
+    b[3:20] = transform.apply_points(a[3:20] - [away, 0, -away])  # some windows are nearly or quite alike
     truth = distance_oracle(a, b, window)
     size = sizes(a, window)[:, None] + sizes(b, window)
     a32, b32 = a.astype(np.float32), b.astype(np.float32)
@@ -100,7 +100,7 @@ def test_the_grid_of_motions_is_that_of_their_points():
 @given(seeds, planar)
 def test_a_clip_is_at_no_distance_from_itself_moved_anywhere(seed, transform):
     motion = random_motion(seed)
-    grid = distance_grid(motion, transform.motion(motion), window=3)
+    grid = distance_grid(motion, transform.apply_motion(motion), window=3)
     assert np.sqrt(grid.diagonal()) == pytest.approx(0, abs=1e-6)
     assert grid == pytest.approx(grid.T, abs=1e-9)
 
@@ -197,6 +197,6 @@ def test_huge_and_tiny_weights_are_as_good_as_any():
 
 def test_points_that_all_fall_together_are_at_no_distance():
     grid = distance_grid(
-        np.zeros((5, 2, 3)), PlanarTransform(0, 3.0, 1.0).points(np.zeros((4, 2, 3))), window=2
+        np.zeros((5, 2, 3)), PlanarTransform(0, 3.0, 1.0).apply_points(np.zeros((4, 2, 3))), window=2
     )
     assert np.array_equal(grid, np.zeros((4, 3)))

@@ -30,8 +30,8 @@ def test_no_optimiser_finds_a_better_alignment(seed):
 @given(seeds, planar)
 def test_alignment_finds_the_transform_that_was_applied(seed, transform):
     points = np.random.default_rng(seed).normal(size=(8, 3))
-    found = align(transform.points(points), points)
-    assert found.points(points) == pytest.approx(transform.points(points), abs=1e-9)
+    found = align(transform.apply_points(points), points)
+    assert found.apply_points(points) == pytest.approx(transform.apply_points(points), abs=1e-9)
 
 
 @given(seeds, planar, planar)
@@ -39,7 +39,7 @@ def test_the_distance_does_not_change_when_either_cloud_is_moved(seed, move_a, m
     a, b = np.random.default_rng(seed).normal(size=(2, 8, 3))
     weights = np.full(8, 1 / 8)
     before = squared_distance(align(a, b), a, b, weights)
-    a, b = move_a.points(a), move_b.points(b)
+    a, b = move_a.apply_points(a), move_b.apply_points(b)
     assert squared_distance(align(a, b), a, b, weights) == pytest.approx(before, abs=1e-8)
 
 

@@ -35,7 +35,7 @@ def test_transitions_are_the_minima_of_every_pair_both_ways():
 def test_the_transform_leaves_the_cost_that_is_told():
     for t in find_transitions(CLIPS, window=8, below=0.1):
         points = point_cloud(CLIPS[t.source])[t.leave : t.leave + 8]
-        others = t.transform.points(point_cloud(CLIPS[t.target])[t.enter : t.enter + 8])
+        others = t.transform.apply_points(point_cloud(CLIPS[t.target])[t.enter : t.enter + 8])
         assert np.sqrt(((points - others) ** 2).sum(-1).mean()) == pytest.approx(t.cost, abs=1e-6)
         assert t.cost < 0.1
 
@@ -120,7 +120,7 @@ def test_many_frames_are_searched_in_32_bits_with_next_to_the_same_result(monkey
 
 
 def test_far_from_the_origin_nothing_changes():
-    far = [PlanarTransform(1.0, 100.0, -100.0).motion(clip) for clip in CLIPS]
+    far = [PlanarTransform(1.0, 100.0, -100.0).apply_motion(clip) for clip in CLIPS]
     near, away = (find_transitions(clips, window=8, below=0.1) for clips in (CLIPS, far))
     assert np.array_equal(near.enter, away.enter) and np.array_equal(near.leave, away.leave)
     assert near.cost == pytest.approx(away.cost, abs=1e-6)

@@ -83,7 +83,7 @@ def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave,
     whole = from_transitions(CLIPS, [Transition(0, leave, 1, enter, 0.1, transform)], window=WINDOW)
     walk = [((0, leave), (1, enter + WINDOW), 0), ((1, enter + WINDOW), (1, 90), 0)]
     motion = to_motion(whole, walk)
-    moved = transform.motion(CLIPS[1])
+    moved = transform.apply_motion(CLIPS[1])
     mixed = blend(CLIPS[0][leave : leave + WINDOW], moved[enter : enter + WINDOW], cubic_weights(WINDOW))
     expected = np.concatenate([joint_positions(mixed), joint_positions(moved)[enter + WINDOW :]])
     assert joint_positions(motion) == pytest.approx(expected, abs=1e-9)
@@ -160,11 +160,11 @@ def one_by_one(graph, walk, place=IDENTITY):
         edge = graph.graph.edges[start, end, key]
         leaving = graph.clips[start[0]][start[1] : start[1] + edge["frames"]]
         if edge["kind"] == "transition":
-            entering = edge["transform"].motion(graph.clips[end[0]][end[1] - graph.window : end[1]])
-            pieces.append(place.motion(blend(leaving, entering, cubic_weights(graph.window))))
-            place = place.after(edge["transform"])
+            entering = edge["transform"].apply_motion(graph.clips[end[0]][end[1] - graph.window : end[1]])
+            pieces.append(place.apply_motion(blend(leaving, entering, cubic_weights(graph.window))))
+            place = place @ edge["transform"]
         else:
-            pieces.append(place.motion(leaving))
+            pieces.append(place.apply_motion(leaving))
     return concatenate(pieces)
 
 

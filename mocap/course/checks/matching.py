@@ -36,11 +36,11 @@ def _clouds(rng: np.random.Generator) -> tuple[Array, Array]:
     """Make a cloud, and the same turned and moved at random, not quite the same any more."""
     points = rng.normal(size=(int(rng.integers(5, 12)), 3)) + rng.normal(size=3) * 3
     way = PlanarTransform(rng.uniform(-np.pi, np.pi), *rng.normal(size=2))
-    return points, way.points(points) + rng.normal(size=points.shape) * 0.1
+    return points, way.apply_points(points) + rng.normal(size=points.shape) * 0.1
 
 
 def _turned(points: Array, angle: float) -> Array:
-    return PlanarTransform(angle, 0.0, 0.0).points(points)
+    return PlanarTransform(angle, 0.0, 0.0).apply_points(points)
 
 
 def _gap(points: Array, others: Array) -> Array:

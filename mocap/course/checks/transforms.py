@@ -24,7 +24,7 @@ def _points(rng: np.random.Generator) -> tuple[Array, float, float, float]:
 
 
 def _moved_first(points: Array, angle: float, x: float, z: float) -> Array:
-    return PlanarTransform(angle, 0.0, 0.0).points(points + np.array([x, 0, z]))
+    return PlanarTransform(angle, 0.0, 0.0).apply_points(points + np.array([x, 0, z]))
 
 
 move_points = Check(
@@ -32,10 +32,10 @@ move_points = Check(
     asks="the moved points, shape (N, 3)",
     start="take the columns x, y, z; write the two lines of the formula; put them together with np.stack.",
     draw=_points,
-    truth=lambda points, angle, x, z: PlanarTransform(angle, x, z).points(points),
+    truth=lambda points, angle, x, z: PlanarTransform(angle, x, z).apply_points(points),
     mistakes=[
         Mistake(
-            lambda points, angle, x, z: PlanarTransform(-angle, x, z).points(points),
+            lambda points, angle, x, z: PlanarTransform(-angle, x, z).apply_points(points),
             "the sign of θ: a turn by a positive angle about +y brings z towards x, not x towards z.",
         ),
         Mistake(
@@ -43,11 +43,13 @@ move_points = Check(
             "you move first and turn then, so the turn carries the move along; turn first.",
         ),
         Mistake(
-            lambda points, angle, x, z: PlanarTransform(angle, 0, 0).points(points) + np.array([x, z, 0]),
+            lambda points, angle, x, z: (
+                PlanarTransform(angle, 0, 0).apply_points(points) + np.array([x, z, 0])
+            ),
             "the second column is y, the height: the ground is columns 0 and 2.",
         ),
         Mistake(
-            lambda points, angle, x, z: PlanarTransform(angle, 0, 0).points(points),
+            lambda points, angle, x, z: PlanarTransform(angle, 0, 0).apply_points(points),
             "turned, but not moved.",
         ),
     ],
@@ -83,7 +85,7 @@ undo = Check(
 
 
 def _turned(angle: float, x: float, z: float) -> tuple[float, float]:
-    moved = PlanarTransform(angle, 0.0, 0.0).points([x, 0, z])
+    moved = PlanarTransform(angle, 0.0, 0.0).apply_points([x, 0, z])
     return float(moved[0]), float(moved[2])
 
 
