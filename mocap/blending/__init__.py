@@ -22,7 +22,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "quintic_weights", "sine_weights", "window_steps"],
-        "interpolation": ["blend", "checked_weights", "chosen_marks"],
+        "interpolation": ["blend", "checked_weights"],
         "joining": ["join", "lay_window_on"],
         "inertialization": ["inertialize"],
     },

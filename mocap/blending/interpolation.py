@@ -1,14 +1,13 @@
 """Two motions into one: weights over a window, and the pose between two poses."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.motion import Marks, Motion, require_alike
+from mocap.body.motion import Motion, gather_marks, require_alike
 from mocap.errors import MocapError
 
 
@@ -42,14 +41,14 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     """
     require_alike([a, b])
     alpha = checked_weights(weights, len(a), len(b))
-    of_a = alpha >= 0.5
+    owner = np.stack([alpha < 0.5, np.arange(len(a))], axis=1)  # a or b, and which frame
     alpha = alpha[:, None]  # (F, 1)
     return replace(
         a,
         root_positions=alpha * a.root_positions + (1 - alpha) * b.root_positions,
         rotations=rotations.slerp(b.rotations, a.rotations, alpha),
-        labels=chosen_marks(a.labels, b.labels, of_a),
-        contacts=chosen_marks(a.contacts, b.contacts, of_a),
+        labels=gather_marks([a.labels, b.labels], owner),
+        contacts=gather_marks([a.contacts, b.contacts], owner),
     )
 
 
@@ -70,14 +69,3 @@ def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
     if not ((alpha >= 0) & (alpha <= 1)).all():
         raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
     return alpha
-
-
-def chosen_marks(a: Marks, b: Marks, of_a: NDArray[np.bool_]) -> Mapping[str, NDArray[np.bool_]]:
-    """Take each mark from the motion that a frame is `of`; one that a motion lacks is off there.
-
-    Notebook: 04-blending
-    """
-    absent = np.zeros(len(of_a), bool)
-    return {
-        name: np.where(of_a, a.get(name, absent), b.get(name, absent)) for name in dict.fromkeys([*a, *b])
-    }

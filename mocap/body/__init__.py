@@ -27,7 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submodules=["rotations", "euler", "kinematics"],
     submod_attrs={
         "skeleton": ["Skeleton"],
-        "motion": ["Motion", "resample", "concatenate", "require_alike", "turning"],
+        "motion": ["Motion", "gather_marks", "resample", "concatenate", "require_alike", "turning"],
         "kinematics": ["GlobalPoses", "forward_kinematics", "joint_positions", "velocities"],
         "planar": ["PlanarTransform", "from_ground", "heading", "lay_on", "on_ground", "place"],
         "ground_path": [

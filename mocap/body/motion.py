@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, frozen
+from mocap._shared.arrays import Array, Indices, Mask, frozen, ranges
 from mocap.body import rotations
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
@@ -196,13 +196,15 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
         raise MocapError("There is nothing to concatenate.")
     first = motions[0]
     require_alike(motions)
+    counts = np.array([len(motion) for motion in motions])
+    frames = np.stack([np.repeat(np.arange(len(motions)), counts), ranges(0 * counts, counts)], axis=1)
     return replace(
         first,
         root_positions=np.concatenate([m.root_positions for m in motions]),
         rotations=np.concatenate([m.rotations for m in motions]),
         name=name or first.name,
-        labels=_joined_marks([(m.labels, len(m)) for m in motions]),
-        contacts=_joined_marks([(m.contacts, len(m)) for m in motions]),
+        labels=gather_marks([m.labels for m in motions], frames),
+        contacts=gather_marks([m.contacts for m in motions], frames),
     )
 
 
@@ -223,9 +225,29 @@ def require_alike(motions: Sequence[Motion]) -> None:
             )
 
 
-def _joined_marks(parts: Sequence[tuple[Marks, int]]) -> dict[str, NDArray[np.bool_]]:
-    names = list(dict.fromkeys(name for marks, _ in parts for name in marks))
-    return {
-        name: np.concatenate([marks.get(name, np.zeros(frames, bool)) for marks, frames in parts])
-        for name in names
-    }
+def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
+    """Gather marks frame by frame from several motions; a mark that a motion lacks is off there.
+
+    Parameters
+    ----------
+    sources : the labels, or the contacts, of each motion.
+    frames : shape (F, 2); the number of the motion and the frame in it that each new frame takes over.
+
+    Returns
+    -------
+    Every name that one of the sources has, each with shape (F,).
+
+    Examples
+    --------
+    >>> walk, jog = {"walk": np.array([True, True])}, {"jog": np.array([True])}
+    >>> gather_marks([walk, jog], np.array([[0, 1], [1, 0]]))
+    {'walk': array([ True, False]), 'jog': array([False,  True])}
+
+    Notebook: 04-blending
+    """
+    gathered: dict[str, Mask] = {}
+    for source, marks in enumerate(sources):
+        mine = frames[:, 0] == source
+        for name, mark in marks.items():
+            gathered.setdefault(name, np.zeros(len(frames), bool))[mine] = mark[frames[mine, 1]]
+    return gathered

@@ -34,6 +34,11 @@ class FrameTable(NamedTuple):
     there: Indices  # (F, 2): the same as here on a stretch of clip
     alpha: Array  # (F,)
 
+    @property
+    def owner(self) -> Indices:
+        """Whose labels and contacts each frame bears: the frame with the larger weight, (F, 2)."""
+        return np.where(self.alpha[:, None] >= 0.5, self.here, self.there)
+
 
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
     """Raise `NoWalk` for a node that the graph lacks.

@@ -4,15 +4,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body import rotations
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, gather_marks
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
-from mocap.graphs.edge_tables import Edge, EdgeTable, FrameTable, edge_table, frame_table
+from mocap.graphs.edge_tables import Edge, EdgeTable, edge_table, frame_table
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.synthesis.walks import require_walk
 
@@ -64,7 +63,7 @@ def to_motion(
     alpha = table.alpha[mixed, None]
     roots[mixed] = alpha * roots[mixed] + (1 - alpha) * there
     turns[mixed] = rotations.slerp(turned, turns[mixed], alpha)
-    labels, contacts = (_marks(motion_graph, table, kind) for kind in ("labels", "contacts"))
+    labels, contacts = (_marks(motion_graph, table.owner, kind) for kind in ("labels", "contacts"))
     clip = motion_graph.clips[0]
     motion = Motion(clip.skeleton, roots, turns, clip.fps, name, labels, contacts)
     return clean_up(motion) if clean else motion
@@ -107,12 +106,8 @@ def _placed(
     return place.apply_points(roots), turns
 
 
-def _marks(motion_graph: MotionGraph, table: FrameTable, kind: str) -> dict[str, NDArray[np.bool_]]:
-    """Carry the labels or contacts over, of the frame with the larger weight."""
-    owner = np.where(table.alpha[:, None] >= 0.5, table.here, table.there)
-    marks: dict[str, NDArray[np.bool_]] = {}
-    for clip in np.unique(owner[:, 0]):
-        of_clip = owner[:, 0] == clip
-        for name, mark in getattr(motion_graph.clips[clip], kind).items():
-            marks.setdefault(name, np.zeros(len(owner), bool))[of_clip] = mark[owner[of_clip, 1]]
-    return marks
+def _marks(motion_graph: MotionGraph, owner: Indices, kind: str) -> dict[str, Mask]:
+    """Take over the labels or the contacts of the clips that the frames (F, 2) come from."""
+    visited, number = np.unique(owner[:, 0], return_inverse=True)
+    sources = [getattr(motion_graph.clips[clip], kind) for clip in visited]
+    return gather_marks(sources, np.stack([number, owner[:, 1]], axis=1))
