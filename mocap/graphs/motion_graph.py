@@ -17,7 +17,7 @@ from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
-from mocap.matching.transitions import Thresholds, Transition, find_transitions
+from mocap.matching.transitions import Precision, Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
 
@@ -61,11 +61,12 @@ class MotionGraph:
         return sum(e["frames"] for _, _, e in self.graph.edges(data=True) if e["kind"] == "clip")
 
 
-def build(
+def build(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     clips: Sequence[Motion],
     *,
     window: int,
     threshold: Thresholds,
+    precision: Precision = "auto",
     progress: Progress = iter,
     executor: Executor | None = None,
 ) -> MotionGraph:
@@ -77,7 +78,8 @@ def build(
     window : frames in a transition, about a third of a second.
     threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
         pair of labels, as for `find_transitions`.
-    progress, executor : to show a bar while the clips are compared, and where to do that.
+    precision, progress, executor : how exactly the clips are compared, how that is shown, and where it is
+        done, as for `find_transitions`.
 
     Raises
     ------
@@ -87,7 +89,9 @@ def build(
     Notebook: 00-quickstart
     """
     _require_names(clips)
-    found = find_transitions(clips, window=window, below=threshold, progress=progress, executor=executor)
+    found = find_transitions(
+        clips, window=window, below=threshold, precision=precision, progress=progress, executor=executor
+    )
     return from_transitions(clips, found, window=window)
 
 

@@ -92,6 +92,15 @@ def test_building_finds_transitions_below_the_threshold():
     assert max(costs) < 0.02
 
 
+def test_building_passes_on_the_precision():
+    single, double = (build(CLIPS, window=WINDOW, threshold=0.05, precision=p) for p in ("single", "double"))
+    costs = [[cost for _, _, cost in whole.graph.edges(data="cost")] for whole in (single, double)]
+    assert costs[0] != costs[1]
+    assert costs[1] == [
+        cost for _, _, cost in build(CLIPS, window=WINDOW, threshold=0.05).graph.edges(data="cost")
+    ]
+
+
 def test_pruning_leaves_the_graph_it_was_given_alone():
     whole = build(CLIPS, window=WINDOW, threshold=0.05)
     before = set(whole.graph)

@@ -110,13 +110,36 @@ def test_transitions_are_ordered_by_clip_and_frame():
     assert records == sorted(records)
 
 
-def test_many_frames_are_searched_in_32_bits_with_next_to_the_same_result(monkeypatch):
-    exact = find_transitions(CLIPS, window=8, below=0.1)
-    monkeypatch.setattr(transitions, "FEW", 100)
-    single = find_transitions(CLIPS, window=8, below=0.1)
-    assert np.array_equal(single.leave, exact.leave) and np.array_equal(single.enter, exact.enter)
-    assert single.cost == pytest.approx(exact.cost, abs=1e-6)
-    assert not np.array_equal(single.cost, exact.cost)
+def test_by_default_the_precision_is_double_up_to_a_number_of_frames_and_single_above(monkeypatch):
+    exact, rough = (find_transitions(CLIPS, window=8, below=0.1, precision=p) for p in ("double", "single"))
+    monkeypatch.setattr(transitions, "FEW", 120)  # as many as the clips have
+    assert same(find_transitions(CLIPS, window=8, below=0.1), exact)
+    monkeypatch.setattr(transitions, "FEW", 119)
+    assert same(find_transitions(CLIPS, window=8, below=0.1), rough)
+
+
+def test_double_finds_the_minima_of_the_grid_in_64_bits_however_many_frames_there_are(monkeypatch):
+    monkeypatch.setattr(transitions, "FEW", 1)
+    clips = [wave(200, name="a"), wave(180, phase=0.02, name="b", seed=1)]  # with flat valleys
+    minima = local_minima(distance_grid(*clips, window=8), 0.01).tolist()
+    for precision, alike in (("double", True), ("single", False), ("auto", False)):
+        found = find_transitions(clips, window=8, below=0.1, precision=precision)
+        across = (found.source == 0) & (found.target == 1)
+        assert (np.stack([found.leave, found.enter], 1)[across].tolist() == minima) == alike
+
+
+def test_single_precision_gives_next_to_the_same_result():
+    exact, rough = (find_transitions(CLIPS, window=8, below=0.1, precision=p) for p in ("double", "single"))
+    assert np.array_equal(rough.leave, exact.leave) and np.array_equal(rough.enter, exact.enter)
+    assert rough.cost == pytest.approx(exact.cost, abs=1e-6)
+    assert not np.array_equal(rough.cost, exact.cost)
+
+
+@pytest.mark.parametrize("precision", ["half", "", None, np.float32])
+def test_another_precision_is_refused(precision):
+    for clips in (CLIPS, []):
+        with pytest.raises(MocapError, match='A precision is "auto", "single" or "double", got'):
+            find_transitions(clips, window=8, below=0.1, precision=precision)
 
 
 def test_far_from_the_origin_nothing_changes():
