@@ -7,8 +7,9 @@ Reading order (notebook 04)
 ---------------------------
 1. `weights`: how much of the first motion each frame holds
 2. `interpolation`: two motions into one, frame by frame
-3. `joining`: from clip into clip, by a blend
-4. `inertialization`: a cut whose offset dies away
+3. `splicing`: what the two ways have in common
+4. `joining`: from clip into clip, by a blend
+5. `inertialization`: a cut whose offset dies away
 
 References
 ----------
@@ -23,7 +24,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "quintic_weights", "sine_weights", "window_steps"],
         "interpolation": ["blend", "checked_weights"],
-        "joining": ["join", "lay_window_on"],
+        "splicing": ["lay_window_on", "splice"],
+        "joining": ["join"],
         "inertialization": ["inertialize"],
     },
 )

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.blending.joining import _spliced, lay_window_on
+from mocap.blending.splicing import lay_window_on, splice
 from mocap.body import rotations
 from mocap.body.motion import Motion
 
@@ -57,7 +57,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
         root_positions=onward.root_positions + shift,
         rotations=rotations.multiply(onward.rotations, rotations.from_rotvec(turn)),
     )
-    return _spliced(a, i, faded, b, j + window)
+    return splice(a, i, faded, b, j + window)
 
 
 def _steady(turns: Array, cut: int) -> Array:

@@ -1,17 +1,12 @@
-"""From one clip into another: by a blend over a window, or by a cut whose offset dies away.
-
-Both ways take a pair of windows as `matching` counts them: frame i of one clip and frame j of another start
-windows that look alike, and the second clip is laid on the first so that the windows agree best.
-"""
+"""Join two clips by a blend over a window [KGP02, 3.3]."""
 
 from collections.abc import Callable
 
 from mocap._shared.arrays import Array
 from mocap.blending.interpolation import blend
+from mocap.blending.splicing import lay_window_on, splice
 from mocap.blending.weights import cubic_weights
-from mocap.body.motion import Motion, concatenate, require_alike
-from mocap.errors import MocapError
-from mocap.matching.point_clouds import align, point_cloud
+from mocap.body.motion import Motion
 
 
 def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
@@ -53,33 +48,4 @@ def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
     """
     b = lay_window_on(a, i, b, j, window)
     mixed = blend(a[i : i + window], b[j : j + window], weights(window))
-    return _spliced(a, i, mixed, b, j + window)
-
-
-def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Lay b on a so that the windows from j and from i agree best [KGP02, Eqs. 2-4].
-
-    Raises
-    ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, and windows that run off a clip.
-
-    Notebook: 04-blending
-    """
-    require_alike([a, b])
-    if window < 1:
-        raise MocapError(f"A window needs at least one frame, got {window}.")
-    for clip, start in ((a, i), (b, j)):
-        if start < 0 or start + window > len(clip):
-            raise MocapError(
-                f"The window of {window} frames from frame {start} runs off '{clip.name}', "
-                f"which has {len(clip)}."
-            )
-    clouds = (point_cloud(clip[start : start + window]).reshape(-1, 3) for clip, start in ((a, i), (b, j)))
-    return align(*clouds).apply_motion(b)
-
-
-def _spliced(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
-    """Put the frames a[:i], the middle ones and b[j:] in a row."""
-    parts = [a[:i]] if i > 0 else []
-    parts += [middle] + ([b[j:]] if j < len(b) else [])
-    return concatenate(parts, name=f"{a.name} to {b.name}")
+    return splice(a, i, mixed, b, j + window)

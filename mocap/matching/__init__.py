@@ -1,16 +1,16 @@
 """Which moments of two clips are alike? Point clouds, distance grids, and the transitions they allow.
 
-The measure is that of [KGP02, 3.1]: lay one window of frames on the other by the best planar transform, and
-take what is left between the points. Its local minima are where one clip can pass into another. (*Motion
+The metric is that of [KGP02, 3.1]: lay one window of frames on the other by the best planar transform, and
+measure how far apart the points still are. At its local minima one clip can pass into another. (*Motion
 matching*, as games use it, is another method: it looks for the next frame while the character walks.)
 
 Reading order (notebooks 02, 05)
 --------------------------------
 1. `point_clouds`: the points a motion drives, and how to align two clouds of them
 2. `distance_grids`: all windows against all, by matrix products
-3. `other_metrics`: three metrics that are wrong, and why
-4. `minima`: lower than all eight neighbours
-5. `tiled_search`: minima of a grid too large to hold
+3. `other_metrics`: three metrics that fail, and why
+4. `minima`: the entries of a grid that are lower than all eight neighbours
+5. `tiled_search`: the minima of a grid that is too large to hold
 6. `transitions`: where one clip can pass into another
 
 References

@@ -1,8 +1,8 @@
 """The point cloud distance between all windows of two clips, at the speed of matrix products.
 
-A point on the ground is written as the complex number g = z + ix: to turn it about +y by θ is to multiply
-it by exp(iθ). With g measured from the centroid of its window, and weights that add up to one, the best
-turn of Eq. 1 of [KGP02] brings Σ w g ḡ' to the real axis, and leaves the distance
+A point on the ground is the complex number g = z + ix: to turn it about +y by θ is to multiply it by
+exp(iθ). When g is measured from the centroid of its window, and the weights add up to one, the best turn
+of Eq. 1 of [KGP02] brings Σ w g ḡ' to the real axis, and leaves the distance
 
     D = S + S' - 2 Σ w y y' - 2 |Σ w g ḡ'|,    S = Σ w (y² + |g|²).
 
@@ -11,12 +11,12 @@ Both sums run over the k frames of a window and the P points of a frame. For all
 1. The sums over points, for all pairs of *frames*, are two matrix products.
 2. The sums over frames run along the diagonals of these products: [i, j] + [i + 1, j + 1] + ... Sums over
    k/2 frames make sums over k, so it takes not k additions but about log₂ k.
-3. Step 1 must not know the window's centroid, so it measures g from the *frame's* centroid c. What that
-   leaves out is how c moves within the window, Σ (c - mean of c) · (the same of b)‾: a third product, this
-   time of windows.
+3. Step 1 works on frames and cannot know a window's centroid, so it measures g from the *frame's* centroid
+   c. This leaves out how c moves within the window, Σ (c - mean of c) · (the same of b)‾: a third matrix
+   product, this time of windows.
 
-No step adds up numbers larger than a body and its way within a window, so none depends on where on the
-ground, or how far, a clip goes, and 32 bits are enough.
+No step adds up numbers larger than a body and its path within a window. So the errors do not depend on where
+a clip is or how far it goes, and 32 bits are enough.
 """
 
 from collections.abc import Iterator
@@ -38,14 +38,13 @@ TILE = 256, 640  # rows and columns worked on at a time: few enough to stay in a
 
 
 class Cloud(NamedTuple):
-    """A clip ready for matching; its arrays hold square roots of the weights as factors.
+    """A clip ready for matching; its arrays are already multiplied by square roots of the weights.
 
     heights : (F, P), each above the mean height of the same point.
     ground : (F, P), complex; z + ix from the frame's centroid.
-    paths : (F, k), complex; the way of the frames' centroids in the window that starts at a frame, from
-        their mean.
+    paths : (F, k), complex; the frames' centroids in the window that starts at a frame, from their mean.
     sizes : (F,), S of that window; infinite where it would run off the clip's end.
-    centres : (F,), complex, 128 bits; where the centroid of that window is.
+    centres : (F,), complex, 128 bits; the centroid of that window.
     """
 
     heights: Floats
@@ -55,7 +54,7 @@ class Cloud(NamedTuple):
     centres: NDArray[np.complex128]
 
     def part(self, windows: slice) -> "Cloud":
-        """Take the windows that start at these frames, with all frames they reach."""
+        """Take the windows that start at these frames, with all frames that they cover."""
         frames = slice(windows.start, windows.stop + self.paths.shape[1] - 1)
         return Cloud(
             self.heights[frames],
@@ -72,9 +71,9 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
     Parameters
     ----------
     points : shape (F, P, 3), metres.
-    level : shape (P,), metres: heights to measure from, the same for all clips that are to be matched.
+    level : shape (P,), metres: heights to measure from, the same for all clips to be compared.
     weights, taper : shapes (P,) and (k,), of the points and of the window's frames; each adds up to one.
-    dtype : the precision of what comes out; the work is done in 64 bits.
+    dtype : the precision of the result; the work is done in 64 bits.
 
     Notebook: 02-matching
     """
@@ -99,7 +98,7 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
 
 
 def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
-    """Measure D between all windows of two clouds: the three steps above, for one tile.
+    """Measure D between all windows of two clouds, by the three steps at the head of this module.
 
     Parameters
     ----------
@@ -109,6 +108,14 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
     Returns
     -------
     Shape (n, m), m², never negative; infinite where a window runs off its clip.
+
+    Examples
+    --------
+    >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])  # two frames of two points
+    >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), np.ones(1), np.float64)
+    >>> cloud_distances(ready, ready, np.ones(1)).round(6)
+    array([[0. , 0.5],
+           [0.5, 0. ]])
 
     Notebook: 02-matching
     """
@@ -125,6 +132,12 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
 def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
     """Add up taper[f] · products[i + f, j + f] over the frames f of a window.
 
+    Examples
+    --------
+    >>> tapered_sum(np.array([[1.0, 2, 0], [0, 3, 4], [0, 0, 5]]), np.array([0.25, 0.75]))
+    array([[2.5, 3.5],
+           [0. , 4.5]])
+
     Notebook: 02-matching
     """
     weights = taper.astype(products.real.dtype)
@@ -138,7 +151,7 @@ def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
 
 
 def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
-    """Add up products[i + f, j + f] over the frames f < window, from sums over half as many.
+    """Add up products[i + f, j + f] over the frames f < window, from sums over half as many frames.
 
     Examples
     --------
@@ -174,7 +187,7 @@ def distance_grid(
 
     Parameters
     ----------
-    a, b : motions, or their points of shape (F, P, 3), metres. Two arrays of 32-bit points are matched in
+    a, b : motions, or their points of shape (F, P, 3), metres. Two arrays of 32-bit points are compared in
         32 bits, twice as fast; everything else in 64.
     window : frames k in a window.
     joint_weights : shape (P,), not negative, one for each point in the order of `distinct_joints`.
@@ -183,15 +196,22 @@ def distance_grid(
     Returns
     -------
     D, shape (F_a - k + 1, F_b - k + 1), m². Never negative, and exactly symmetric where a and b are the
-    same points. It is off by less than 4e-6 · (S + S') in 32 bits and 1e-14 · (S + S') in 64, with S as at
-    the head of this module, y from the ground; and by what digits the points themselves lack, far from the
-    origin: 1e-15 · √(S + S') times that distance. On real walks 32 bits
-    are off by 4e-7 m² at most: by 7 µm where √D is 3 cm.
+    same points. The error is below 4e-6 · (S + S') in 32 bits and 1e-14 · (S + S') in 64, with S as at the
+    head of this module and y from the ground. Far from the origin the points themselves have fewer digits:
+    this adds 1e-15 · √(S + S') times that distance. On real walks the error in 32 bits is at most 4e-7 m²:
+    7 µm where √D is 3 cm.
 
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
         that are not finite or do not match, and weights that are negative, all 0 or of the wrong shape.
+
+    Examples
+    --------
+    >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])  # two frames of two points
+    >>> distance_grid(stick, stick + [5, 0, 3], window=1)
+    array([[0. , 0.5],
+           [0.5, 0. ]])
 
     Notebook: 02-matching
     """
@@ -210,7 +230,7 @@ def distance_grid(
 
 
 def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[slice, slice]]:
-    """Cut a grid into tiles; `upper`: only those that hold entries on or above the diagonal.
+    """Cut a grid into tiles; with `upper`, only those with entries on or above the diagonal.
 
     Examples
     --------
@@ -223,7 +243,7 @@ def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[sli
 
 
 def _mirror(grid: Floats) -> None:
-    """Copy what is above the diagonal below it, a few rows at a time."""
+    """Copy the entries above the diagonal to below it, a few rows at a time."""
     for start in range(0, len(grid), TILE[0]):
         stop = start + TILE[0]
         corner = np.triu(grid[start:stop, start:stop])
@@ -250,7 +270,7 @@ def _matching_points(a: Motion | ArrayLike, b: Motion | ArrayLike, window: int) 
 
 
 def check_window(window: int, frames: int, name: str) -> None:
-    """Raise unless a clip of so many frames holds at least one window."""
+    """Raise unless a clip of this many frames holds at least one window."""
     if not isinstance(window, int | np.integer) or window < 1:
         raise MocapError(f"A window needs a whole number of frames, at least one frame, got {window}.")
     if frames < window:

@@ -1,4 +1,4 @@
-"""Local minima of a distance grid: windows more alike than all their neighbours."""
+"""The local minima of a distance grid: pairs of windows that are more alike than all their neighbours."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,8 +9,8 @@ from mocap.errors import MocapError
 def local_minima(grid: ArrayLike, below: float = np.inf) -> NDArray[np.intp]:
     """Find the entries under a threshold that are lower than all eight neighbours [KGP02, 3.2].
 
-    Beyond the border there is nothing lower; of neighbours that are exactly equal, the first in reading
-    order counts as the lower. So a plateau has one minimum or more, none of them side by side.
+    Entries beyond the border count as infinite. Of neighbours that are exactly equal, the first in reading
+    order counts as the lower one. So a plateau has one minimum or more, and no two of them side by side.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> NDArray[np.intp]:
         raise MocapError(f"The grid holds NaN at {np.argwhere(np.isnan(values))[0].tolist()}.")
     padded = np.pad(values.astype(np.result_type(values, np.float32), copy=False), 1, constant_values=np.inf)
     rows, columns = np.divmod(np.flatnonzero(values < below), max(values.shape[1], 1))
-    # Most candidates fall at the first neighbour, so each step looks only at those that are left.
+    # Most candidates are out after the first neighbour, so each step looks only at those that are left.
     for row, column in ((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)):
         value, neighbour = values[rows, columns], padded[rows + 1 + row, columns + 1 + column]
         lowest = value < neighbour if (row, column) < (0, 0) else value <= neighbour

@@ -1,8 +1,9 @@
-"""How alike are two moments of motion? Four metrics, one interface.
+"""Three other metrics for how alike two moments of motion are, and why each of them fails.
 
-Each takes two motions and a `window`, and gives a grid: entry [i, j] lays the `window` frames of b that
-start at j on those of a that start at i. Which one is right? `root_grid` sees only the root, `euler_grid`
-and `pose_grid` only the pose; 3.1 of [KGP02] says what goes wrong. `distance_grid` sees the body's points.
+Each takes two motions and a `window`, and gives a grid as `distance_grid` does: entry [i, j] compares the
+`window` frames of b that start at j with those of a that start at i. `root_grid` sees only the root,
+`euler_grid` and `pose_grid` see only the pose; 3.1 of [KGP02] says what goes wrong. `distance_grid` sees the
+points of the whole body. All four are a `Metric`, so where one is asked for you can try the others.
 """
 
 from collections.abc import Callable, Mapping
@@ -17,33 +18,27 @@ from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import check_window, diagonal_sum, tiles
 
-pass
-pass
-pass
-pass
-pass
-
 _SIDED = {"femur": 50, "tibia": 30, "foot": 15, "toes": 5, "clavicle": 30, "humerus": 15, "radius": 5}
 _MIDDLE = {"lowerback": 50, "upperback": 40, "thorax": 30, "lowerneck": 20, "upperneck": 15, "head": 5}
 HOMEWORK_WEIGHTS: Mapping[str, float] = {
     name: weight / 480
     for name, weight in (_MIDDLE | {side + bone: w for bone, w in _SIDED.items() for side in "lr"}).items()
 }
-"""How much each bone counts in the homework's metric; the others do not."""
+"""How much each bone counts in the homework's metric; the other bones do not count."""
 
 
 class Metric(Protocol):
-    """What all four have in common; the keywords of their own have defaults."""
+    """What all four metrics have in common: their other keywords have defaults."""
 
     def __call__(self, a: Motion, b: Motion, *, window: int) -> NDArray[np.floating]:
         """Compare all windows of a with all of b."""
 
 
 def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
-    """Measure the homework report's distance: how far apart the roots are, and how differently turned.
+    """Measure the distance in the homework's report: the roots' distance plus the angle between them.
 
-    The mean over the window of ‖p - p'‖ + angle(q, q'), a metre counting as much as a radian. It knows
-    neither limbs nor that a motion may be moved over the ground: 3.1 of [KGP02] says why that is wrong.
+    It is the mean over the window of ‖p - p'‖ + angle(q, q'): a metre counts as much as a radian. It ignores
+    the limbs, and it does not know that a motion can be moved over the ground [KGP02, 3.1].
 
     Parameters
     ----------
@@ -54,12 +49,24 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     -------
     Shape (F_a - window + 1, F_b - window + 1), metres plus radians.
 
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for different skeletons or rates, and clips shorter than the window.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    >>> here, there = (Motion(dot, [[x, 1, 0]], [[[1, 0, 0, 0]]], 30.0) for x in (0, 3))
+    >>> root_grid(here, there, window=1)
+    array([[3.]])
+
     Notebook: 02-matching
     """
     _require_windows(a, b, window)
 
     def apart(p: Array, q: Array) -> Array:
-        cosines = np.abs(p[:, 3:] @ q[:, 3:].T)  # of half the angle, the short way round
+        cosines = np.abs(p[:, 3:] @ q[:, 3:].T)  # of half the angle; q and -q are the same turn
         moved = np.linalg.norm(p[:, None, :3] - q[:, :3], axis=-1)
         return np.asarray(moved + 2 * np.arccos(np.minimum(cosines, 1.0)))
 
@@ -70,10 +77,10 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
 def euler_grid(
     a: Motion, b: Motion, *, window: int, weights: Mapping[str, float] = HOMEWORK_WEIGHTS
 ) -> Array:
-    """Measure the homework code's distance: how far the bones' Euler angles are apart.
+    """Measure the distance in the homework's program: how far apart the bones' Euler angles are.
 
-    The sum over the window, and over the bones, of w ‖Δ‖, where Δ are the differences in degrees of the
-    angles that the file tells for the bone, each wrapped to [-180, 180). The root is left out.
+    It is the sum over the window, and over the bones, of w ‖Δ‖. Δ are the differences in degrees of the
+    angles that the file gives for the bone, each wrapped to [-180, 180]. The root is left out.
 
     Parameters
     ----------
@@ -87,12 +94,23 @@ def euler_grid(
 
     Raises
     ------
-    MocapError : where the skeleton has none of the weighted bones.
+    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, weights
+        that are negative or not finite, and a skeleton with none of the weighted bones.
 
     Notes
     -----
-    A motion holds quaternions. The skeleton remembers in which axes C and about which `dofs` its file
-    tells a bone's angles, so they can be read off M = C⁻¹ L C: one truth, not two kept side by side.
+    A motion holds quaternions, not the angles of its file. The skeleton remembers in which axes C and about
+    which `dofs` the file gives a bone's angles, so they can be read off M = C⁻¹ L C.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> offsets = [[0, 0, 0], [0, -1, 0], [0, -1, 0]]
+    >>> leg = Skeleton(["hip", "knee", "foot"], [-1, 0, 1], offsets, dofs=["", "x", ""])
+    >>> one, bent = rotations.from_rotvec([[0, 0, 0], [np.radians(30), 0, 0]])
+    >>> a, b = (Motion(leg, [[0, 1, 0]], [[one, knee, one]], 30.0) for knee in (one, bent))
+    >>> euler_grid(a, b, window=1, weights={"knee": 2.0}).round(6)
+    array([[60.]])
 
     Notebook: 02-matching
     """
@@ -117,11 +135,11 @@ def euler_grid(
 
 
 def file_angles(motion: Motion, joint: int) -> Array:
-    """Read the angles that a motion's file tells for a joint, in degrees: shape (F, D) for D dofs.
+    """Read the angles that a motion's file gives for a joint, in degrees: shape (F, D) for D dofs.
 
     The joint's rotation is L = C M C⁻¹ with C the skeleton's `axes`; these are the angles of M about the
-    joint's `dofs`, in their order. Of the triples that mean the same M the one with the middle angle
-    within ±90°.
+    joint's `dofs`, in their order. Several triples of angles mean the same M: this is the one whose middle
+    angle is within ±90°.
 
     Examples
     --------
@@ -136,12 +154,12 @@ def file_angles(motion: Motion, joint: int) -> Array:
     """
     axis, dofs = motion.skeleton.axes[joint], motion.skeleton.dofs[joint]
     own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
-    every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # about those it lacks it does not turn
+    every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # it does not turn about the axes that it lacks
     return np.degrees(euler.to_euler(every, own)[:, : len(dofs)])
 
 
 def _angle_gaps(a: Array, b: Array) -> Array:
-    """Measure ‖Δ‖ for all pairs of frames of angles (F, D) in degrees; Δ wrapped to half a turn."""
+    """Measure ‖Δ‖ for all pairs of frames of angles (F, D) in degrees, each Δ wrapped to [-180, 180]."""
     square = np.zeros((len(a), len(b)))
     for column_a, column_b in zip(a.T / 360, b.T / 360, strict=True):
         turns = column_a[:, None] - column_b
@@ -154,17 +172,17 @@ def _angle_gaps(a: Array, b: Array) -> Array:
 def pose_grid(
     a: Motion, b: Motion, *, window: int, form: str = "quaternion", velocities: float = 0.0
 ) -> Array:
-    """Measure the norm of the difference of pose vectors: what 3.1 of [KGP02] starts from, and drops.
+    """Measure the norm of the difference of pose vectors, which 3.1 of [KGP02] discusses and rejects.
 
-    The mean over the window of √(Σ over joints of ‖Δq‖² + (velocities · ‖Δω‖)²). The root is left out.
+    It is the mean over the window of √(Σ over joints of ‖Δq‖² + (velocities · ‖Δω‖)²), without the root.
 
     Parameters
     ----------
     a, b : motions.
     window : frames in a window.
     form : "quaternion", where q and -q are the same; or "log", the rotation vectors in radians.
-    velocities : how many seconds of a difference in angular velocity ω count as the same difference in
-        pose; 0 leaves velocities out.
+    velocities : seconds by which a difference in angular velocity ω is multiplied, so that it counts as a
+        difference in pose; 0 leaves velocities out.
 
     Returns
     -------
@@ -172,13 +190,23 @@ def pose_grid(
 
     Raises
     ------
-    MocapError : for another form, and for velocities that are negative or asked of a single frame.
+    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, another
+        form, and velocities that are negative, not finite, or asked of a clip of one frame.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> one, bent = rotations.from_rotvec([[0, 0, 0], [0.5, 0, 0]])
+    >>> a, b = (Motion(bone, [[0, 1, 0]], [[one, tip]], 30.0) for tip in (one, bent))
+    >>> pose_grid(a, b, window=1, form="log").round(6)
+    array([[0.5]])
 
     Notebook: 02-matching
     """
     _require_windows(a, b, window)
     if form not in ("quaternion", "log"):
-        raise MocapError(f'A pose is told by form="quaternion" or "log", got {form!r}.')
+        raise MocapError(f'The form of a pose is "quaternion" or "log", got {form!r}.')
     if not (np.isfinite(velocities) and velocities >= 0):
         raise MocapError(f"velocities must be seconds, 0 or more, got {velocities}.")
     if form == "log":
@@ -206,7 +234,7 @@ def _square_gaps(a: Array, b: Array) -> Array:
 
 
 def _angular_velocities(motion: Motion) -> Array:
-    """Turn from each frame to the next, radians a second; the last frame goes on as the one before it."""
+    """Measure the turn from each frame to the next, radians per second; the last value stands twice."""
     if len(motion) < 2:
         raise MocapError(f"'{motion.name}' has one frame, and so no velocities.")
     steps = rotations.multiply(rotations.inverse(motion.rotations[:-1]), motion.rotations[1:])

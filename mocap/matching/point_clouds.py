@@ -1,4 +1,4 @@
-"""The points that a motion drives, and the planar transform under which two clouds of them agree best."""
+"""The points that a motion drives, and the planar transform that lays one cloud of points on another best."""
 
 from typing import NamedTuple
 
@@ -12,11 +12,11 @@ from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
-FARTHEST = 1e6  # metres; farther away doubles tell no millimetres, and floats overflow when squared
+FARTHEST = 1e6  # metres: farther than any motion goes; squares of such numbers are still finite in 32 bits
 
 
 class Surface(NamedTuple):
-    """How to cover each bone with points: so many `along` it, `around` it, at a `radius` in metres."""
+    """How to cover each bone with points: how many `along` it and `around` it, at what `radius` in metres."""
 
     along: int = 3
     around: int = 4
@@ -24,7 +24,7 @@ class Surface(NamedTuple):
 
 
 def distinct_joints(skeleton: Skeleton) -> list[int]:
-    """List the joints that are different points: of joints that always coincide, only the first.
+    """List the joints that are different points: of joints that always coincide, only the first one.
 
     Examples
     --------
@@ -50,8 +50,8 @@ def point_cloud(motion: Motion, surface: Surface | None = None) -> Array:
     Parameters
     ----------
     motion : F frames.
-    surface : how to cover each bone, a cylinder from a joint's parent to the joint; by default the points
-        are the joints. A surface also feels how a bone turns about itself.
+    surface : how to cover each bone, a cylinder from a joint's parent to the joint. By default the points
+        are the joints. Points on a surface also show how a bone turns about itself.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def point_cloud(motion: Motion, surface: Surface | None = None) -> Array:
 
     Raises
     ------
-    MocapError : for a surface without points or of a radius below 0, and for a skeleton without bones.
+    MocapError : for a surface without points, a radius below 0, and a skeleton without bones.
 
     Examples
     --------
@@ -88,7 +88,7 @@ def _bone_surfaces(bones: Array, surface: Surface) -> Array:
         )
     if len(bones) == 0:
         raise MocapError("A skeleton of one joint has no bones, and so no surface.")
-    # Any vector that is not along the bone spans, by cross products, the plane across it.
+    # Two cross products give two directions across the bone, from any vector that is not along it.
     across = np.cross(bones, np.eye(3)[np.abs(bones).argmin(-1)])
     across /= np.linalg.norm(across, axis=-1, keepdims=True)
     third = np.cross(bones, across) / np.linalg.norm(bones, axis=-1, keepdims=True)
@@ -117,7 +117,8 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
 
     Raises
     ------
-    MocapError : for clouds of different sizes, points that are not finite, and senseless weights.
+    MocapError : for clouds of different sizes, points that are not finite, and weights that are negative,
+        all 0 or not as many as the points.
 
     Examples
     --------
@@ -131,7 +132,7 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     a, b = matching_clouds(points, others)
     w = unit_weights(weights, a.shape[-2])
     mean_a, mean_b = w @ a, w @ b
-    # Centred on their means, clouds far from the origin lose no digits.
+    # Clouds far from the origin lose no digits when they are measured from their means.
     xa, _, za = np.moveaxis(a - mean_a[..., None, :], -1, 0)
     xb, _, zb = np.moveaxis(b - mean_b[..., None, :], -1, 0)
     angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
@@ -161,7 +162,7 @@ def unit_weights(weights: ArrayLike | None, count: int) -> Array:
 
     Raises
     ------
-    MocapError : unless they are so many numbers, not negative, and not all 0.
+    MocapError : unless they are `count` numbers, not negative, and not all 0.
 
     Examples
     --------
@@ -179,7 +180,7 @@ def unit_weights(weights: ArrayLike | None, count: int) -> Array:
 
 
 def require_near(points: Array, name: str) -> None:
-    """Raise unless all points are finite, and no farther away than any motion goes."""
+    """Raise unless all coordinates are finite, and at most FARTHEST metres."""
     near = np.abs(points) <= FARTHEST  # NaN is not
     if not near.all():
         place = tuple(int(index) for index in np.argwhere(~near)[0])

@@ -1,4 +1,4 @@
-"""The local minima of a grid, and of a grid too large to hold: tiles in, minima out."""
+"""The local minima of a grid that is too large to hold: it is made and searched tile by tile."""
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -13,14 +13,15 @@ from mocap._shared.progress import Progress
 from mocap.matching.distance_grids import Cloud, cloud_distances, tiles
 from mocap.matching.minima import local_minima
 
-BLOCK = 1280  # windows on each side of what a worker gets at a time
-AHEAD = 64  # pairs of blocks that are out with workers at once
+BLOCK = 1280  # windows on each side of the part of the grid that a worker gets at a time
+AHEAD = 64  # pairs of blocks that workers have at once
 
 
 class Block(NamedTuple):
-    """Windows `start` to `stop` of a cloud, and one more on each side where there is one.
+    """The windows [start, stop) of a cloud, and one more on each side where there is one.
 
-    The neighbours that decide about a minimum at a block's border are then in the block itself.
+    So the block itself holds the neighbours that decide about a minimum at its border. `cloud` starts at
+    the window `first`.
     """
 
     start: int
@@ -29,7 +30,7 @@ class Block(NamedTuple):
     cloud: Cloud
 
     def part(self, windows: slice) -> tuple[int, Cloud]:
-        """Take some windows, counted from `start`, with their neighbours; and tell the first's number."""
+        """Take some windows, counted from `start`, with their neighbours; and the number of the first one."""
         low = max(self.start + windows.start - 1, self.first)
         high = min(self.start + windows.stop + 1, self.first + len(self.cloud.sizes))
         return low, self.cloud.part(slice(low - self.first, high - self.first))
@@ -43,13 +44,27 @@ def find_minima(
     Parameters
     ----------
     cloud : all clips one after the other.
-    below : only minima of an RMS distance under this one, metres.
+    below : only minima whose RMS distance is under this one, metres.
     progress, executor : as for `find_transitions`.
 
     Returns
     -------
     Shape (6, N): the first window and the second, at least a window's length later; the RMS distance in
     metres; and the angle, x and z of the transform that lays the second on the first.
+
+    Examples
+    --------
+    A point rises and falls back; its last frame is 1 cm from its first.
+
+    >>> from mocap.matching.distance_grids import cloud as prepare
+    >>> points = np.array([[[0, height, 0]] for height in (1.0, 1.3, 1.6, 1.9, 1.01)])
+    >>> ready = prepare(points, np.zeros(1), np.ones(1), np.ones(1), np.float64)
+    >>> find_minima(ready, 0.05)[:3].round(6)
+    array([[0.  ],
+           [4.  ],
+           [0.01]])
+
+    Notebook: 05-motion-graph
     """
     window = cloud.paths.shape[1]
     count = len(cloud.sizes) - window + 1
@@ -67,7 +82,7 @@ def find_minima(
 def _run(
     work: Callable[..., Array], tasks: Iterable[tuple[Any, ...]], executor: Executor | None
 ) -> Iterator[Array]:
-    """Work through tasks in their order; only a few are out at once, since each carries its data along."""
+    """Work through tasks in their order; only AHEAD are out at once, since each carries its data along."""
     if executor is None:
         yield from (work(*task) for task in tasks)
         return
@@ -79,7 +94,7 @@ def _run(
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
-    finally:  # after an error or Ctrl-C, leave nothing behind that works on
+    finally:  # after an error or Ctrl-C, no task is left that still waits
         for future in waiting:
             future.cancel()
 
@@ -103,7 +118,7 @@ def _block_minima(a: Block, b: Block, below: float) -> Array:
 def _fit(a: Cloud, b: Cloud, i: NDArray[np.intp], j: NDArray[np.intp]) -> tuple[Array, ...]:
     """Lay windows j on windows i: the RMS distance that is left, and the transform's angle, x and z.
 
-    The grid has D as a difference of larger numbers; measured point by point it is right down to 0.
+    In the grid D is a difference of larger numbers. Measured point by point, as here, it is right down to 0.
     """
     frames = np.arange(a.paths.shape[1])
     scale = a.heights.dtype.type(len(frames) ** -0.5)  # the square root of a frame's weight

@@ -45,7 +45,7 @@ class Transition(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Transitions(Sequence[Transition]):
-    """Many transitions: a sequence of `Transition` records, kept as one array, shape (N,), for each field.
+    """Many transitions: a sequence of `Transition` records, kept as one array of shape (N,) per field.
 
     An index gives a record; a slice, a mask of booleans or an array of indices gives Transitions.
 
@@ -89,7 +89,7 @@ class Transitions(Sequence[Transition]):
         return _transitions([column[index] for column in self.columns])
 
     def __iter__(self) -> Iterator[Transition]:
-        for start in range(0, len(self), 1024):  # not all at once: as records they take ten times the room
+        for start in range(0, len(self), 1024):  # in parts: as records they take ten times the memory
             part = (column[start : start + 1024].tolist() for column in self.columns)
             yield from map(_record, *part)
 
@@ -194,7 +194,7 @@ def _dtype(precision: Precision, frames: int) -> type[np.floating[Any]]:
 
 
 def _prepare(clips: Sequence[Motion], window: int, dtype: type[np.floating[Any]]) -> Cloud:
-    """Put all clips after each other; windows that would run from one into the next are of infinite size."""
+    """Put all clips one after the other; windows that would run from one into the next have infinite size."""
     clouds, level, taper = [], None, unit_weights(None, window)
     for clip in clips:
         points = point_cloud(clip)
@@ -209,7 +209,7 @@ def _join(found: Array, clips: Sequence[Motion]) -> Transitions:
     first, second = found[:2].astype(np.int64)
     there = PlanarTransform(*found[3:])
     i, j = np.concatenate([first, second]), np.concatenate([second, first])
-    order = np.argsort(i * (i.max(initial=0) + 1) + j)  # one number for (i, j): sorts by i, then by j
+    order = np.argsort(i * (i.max(initial=0) + 1) + j)  # one number for (i, j): sort by i, then by j
     i, j = i[order], j[order]
     starts = np.cumsum([0, *(len(clip) for clip in clips)])
     source, target = (np.searchsorted(starts, frame, side="right") - 1 for frame in (i, j))
@@ -221,7 +221,7 @@ def _join(found: Array, clips: Sequence[Motion]) -> Transitions:
 
 
 def _limits(below: Thresholds, clips: Sequence[Motion], window: int, found: Transitions) -> Array:
-    """Give each transition its threshold; NaN, below which nothing is, where no pair of labels applies."""
+    """Give each transition its threshold: NaN, which no cost is below, where no pair of labels applies."""
     if not isinstance(below, Mapping):
         return np.full(len(found), below)
     limits = np.full(len(found), np.nan)
@@ -235,7 +235,7 @@ def _limits(below: Thresholds, clips: Sequence[Motion], window: int, found: Tran
 def _labelled(
     label: str, clips: Sequence[Motion], window: int, clip: Integers, start: Integers
 ) -> NDArray[np.bool_]:
-    """Tell of windows whether a label is on in any of their frames."""
+    """Mark the windows in which a label is on in any of their frames."""
     on = np.zeros(len(clip), bool)
     for number, motion in enumerate(clips):
         if label in motion.labels:
