@@ -7,11 +7,12 @@ Reading order (notebook 04)
 ---------------------------
 1. `footplants`: when does a foot stand?
 2. `footprints`: where did it stand?
-3. `leg_ik`: bring an ankle to another place (step 4)
+3. `leg_track`: one leg over a clip: its joints, and how far its knee lets it reach
 4. `ankle_targets`: where ankles must be, and how they come there and leave (steps 1, 2 and 5)
 5. `root_height`: how far the root rises or falls (step 3)
-6. `knee_smoothing`: no knee jolts more than it did
-7. `footskate`: the five steps in one function
+6. `leg_ik`: bring an ankle to another place (step 4)
+7. `knee_smoothing`: no knee jolts more than it did
+8. `footskate`: the five steps in one function
 
 References
 ----------

@@ -1,4 +1,4 @@
-"""Where feet shall stand, and how they come there and leave: steps 1, 2 and 5 of [KSG02].
+"""Where ankles must be, and how they come there and leave: steps 1, 2 and 5 of [KSG02].
 
 Step 5 is taken with step 2, as one curve that bends least, instead of by fades. While only the ball stands,
 the foot may turn about it, so that the ankle need not follow.
@@ -11,16 +11,15 @@ from scipy import sparse
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
-from mocap.body.kinematics import GlobalPoses
-from mocap.body.limbs import Leg
-from mocap.body.motion import Motion
-from mocap.feet.leg_ik import knee_hinge
+from mocap.feet.leg_track import LegTrack
 
-FADE = 0.04  # seconds in which a correction dies away, where no other plant is near
+FADE = 0.04
+PULLS = 8
+ROUNDING = 1e-9
 
 
 class FootTarget(NamedTuple):
-    """Where an ankle shall be, `ankle` (F, 3) in metres, and how its foot turns, `turn` (F, 3) in radians.
+    """Where an ankle must be, `ankle` (F, 3) in metres, and how its foot turns, `turn` (F, 3) in radians.
 
     Turns are rotation vectors in the world's frame; `planted` (F,) says when the ankle or the ball stands.
     """
@@ -30,31 +29,28 @@ class FootTarget(NamedTuple):
     planted: Mask
 
 
-def foot_target(motion: Motion, leg: Leg, poses: GlobalPoses) -> FootTarget:
-    """Place a foot's plants, and carry its ankle from one to the next: steps 1, 2 and 5 of [KSG02].
+def foot_target(track: LegTrack, marks: Mask) -> FootTarget:
+    """Place a foot's plants, and carry its ankle from one to the next.
 
     Parameters
     ----------
-    motion : with contacts for the leg's ankle and ball.
-    leg : whose foot.
-    poses : the motion's.
+    track : the leg in F frames.
+    marks : shape (2, F): when its ankle and its ball stand.
     """
-    hip, _, ankle, ball = (poses.positions[:, joint] for joint in leg)
-    flat, down = (motion.contacts[motion.skeleton.names[joint]] for joint in (leg.ankle, leg.ball))
-    length = float(leg.lengths(motion.skeleton)[2])
-    hinge = knee_hinge(leg, poses, motion.skeleton.names[leg.knee])
-    reach = hinge.limit(np.linalg.norm(ankle - hip, axis=-1))
-    places = _draw_near(place_plants((ankle, ball), (flat, down), length), (flat, down), hip, reach)
-    # Where only the ball stands, the ankle stays as near as the foot's length allows to where it is on its
-    # way from and to its own plants: that the foot must turn a little is seen less than a leg that stretches.
-    near = ankle + smooth_fill(places[0] - ankle, flat, motion.fps)
+    ankle, ball, fps = track.ankle, track.ball, track.motion.fps
+    flat, down = marks
+    length = float(track.leg.lengths(track.motion.skeleton)[2])
+    places = _pull_in(place_plants((ankle, ball), (flat, down), length), marks, track)
+    # Where only the ball stands, the foot's length holds the ankle. It stays as near as that allows to its
+    # own way from plant to plant: a foot that turns a little is seen less than a leg that stretches.
+    near = ankle + smooth_fill(places[0] - ankle, flat, fps)
     away = near - places[1]
     behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
     turn = np.zeros_like(ankle)
     turn[down] = rotations.to_rotvec(rotations.between((ball - ankle)[down], (places[1] - goal)[down]))
-    moved = smooth_fill(goal - ankle, flat | down, motion.fps)
-    return FootTarget(ankle + moved, smooth_fill(turn, down, motion.fps), flat | down)
+    moved = smooth_fill(goal - ankle, flat | down, fps)
+    return FootTarget(ankle + moved, smooth_fill(turn, down, fps), flat | down)
 
 
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
@@ -89,19 +85,23 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     return places
 
 
-def _draw_near(places: Array, marks: tuple[Mask, Mask], hip: Array, reach: Array) -> Array:
-    """Draw plants to the hip until a leg that lies more than it stands reaches them: no rise would help."""
+def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
+    """Pull plants towards the hip until a leg that lies more than it stands reaches them.
+
+    To raise or lower the root would not help such a leg.
+    """
     flat, down = marks
     for start, stop in runs(flat | down):
-        for _ in range(8):  # the furthest frame first; where hips move, then what is the furthest now
-            apart = (places[0] - hip)[start:stop]
+        # A pull for the frame that is furthest out of reach may leave another one: the hip moves.
+        for _ in range(PULLS):
+            apart = (places[0] - track.hip)[start:stop]
             distance = np.linalg.norm(apart, axis=-1)
             lies = flat[start:stop] & (np.abs(apart[:, 1]) < np.hypot(apart[:, 0], apart[:, 2]))
-            excess = np.where(lies, distance - reach[start:stop], 0.0)
+            excess = np.where(lies, distance - track.limit[start:stop], 0.0)
             worst = excess.argmax()
             if excess[worst] <= 0:
                 break
-            places[:, start:stop] -= (excess + 1e-9)[worst] * apart[worst] / distance[worst]
+            places[:, start:stop] -= (excess + ROUNDING)[worst] * apart[worst] / distance[worst]
     return places
 
 

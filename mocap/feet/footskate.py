@@ -10,8 +10,9 @@ plant that would move it further than 2 cm, or still jolt a knee, is let go ther
 """
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
@@ -24,12 +25,19 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.knee_smoothing import smooth_knees
-from mocap.feet.leg_ik import knee_hinge, pose_leg
+from mocap.feet.leg_ik import pose_leg
+from mocap.feet.leg_track import UP, LegTrack
 from mocap.feet.root_height import MOST, root_rise
 
-Costs = list[tuple[Sequence[Leg], Array]]  # by legs: what their plants cost in each frame, if above 0
+JOLT = 0.001
+ROUNDING = 1e-9
 
-JOLT = 0.001  # by how much more than a knee ever jolts it may jolt afterwards
+
+class Excess(NamedTuple):
+    """By how much plants go beyond a bound, `amount` (F,), where it is above 0; and whose plants, `legs`."""
+
+    legs: slice
+    amount: Array
 
 
 def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
@@ -68,93 +76,117 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Notebook: 04-blending
     """
     legs = legs_of(motion.skeleton, legs)
-    motion = replace(motion, contacts={**motion.contacts, **_settled_contacts(motion, legs)})
+    marks = asked = _settled_marks(motion, legs)
     poses = forward_kinematics(motion)
-    motion, targets, rise = _affordable(motion, legs, poses)
-    poses = GlobalPoses(poses.positions + rise[:, None, None] * [0.0, 1.0, 0.0], poses.matrices)
+    tracks = [LegTrack(motion, leg, poses) for leg in legs]
+    while True:
+        # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
+        targets = [foot_target(track, own) for track, own in zip(tracks, marks, strict=True)]
+        # Step 3: the root rises or falls.
+        rise = root_rise(tracks, targets)
+        targets, rise, excesses = _within_bounds(tracks, targets, rise)
+        if not excesses or not marks.any():
+            break
+        # Each round unmarks at least one planted frame, so the rounds end: at the latest when none is left.
+        marks = let_go(marks, excesses, least_frames(motion.fps))
+    contacts = _by_name(tracks, marks)
+    _warn_of_gaps(motion, _by_name(tracks, asked), contacts)
+    # Step 4: the legs bend.
+    poses = GlobalPoses(poses.positions + rise[:, None, None] * UP, poses.matrices)
     pose = motion.rotations.copy()
     for leg, target in zip(legs, targets, strict=True):
-        ankle = _within_reach(motion, leg, poses, target)
-        pose[:, leg[:3]] = pose_leg(motion, leg, poses, ankle, target.turn)
-    roots = motion.root_positions + rise[:, None] * [0.0, 1.0, 0.0]
-    return replace(motion, root_positions=roots, rotations=pose)
+        track = LegTrack(motion, leg, poses)
+        pose[:, leg[:3]] = pose_leg(track, _within_reach(track, target), target.turn)
+    roots = motion.root_positions + rise[:, None] * UP
+    return replace(motion, root_positions=roots, rotations=pose, contacts={**motion.contacts, **contacts})
 
 
-def _settled_contacts(motion: Motion, legs: Sequence[Leg]) -> dict[str, Mask]:
-    joints = [motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)]
-    if missing := [joint for joint in joints if joint not in motion.contacts]:
+def _settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
+    """Read when each leg's ankle and ball stand, (L, 2, F), short plants and gaps settled."""
+    names = [[motion.skeleton.names[joint] for joint in (leg.ankle, leg.ball)] for leg in legs]
+    if missing := [name for pair in names for name in pair if name not in motion.contacts]:
         raise MocapError(
             f"'{motion.name}' does not say when these joints stand: {', '.join(missing)}; "
             "mark_plants finds out."
         )
-    return {joint: settle(motion.contacts[joint], least_frames(motion.fps)) for joint in joints}
+    span = least_frames(motion.fps)
+    return np.array([[settle(motion.contacts[name], span) for name in pair] for pair in names])
 
 
-def _affordable(
-    motion: Motion, legs: Sequence[Leg], poses: GlobalPoses
-) -> tuple[Motion, list[FootTarget], Array]:
-    """Let plants go until the rest jolts no knee and moves the root by `MOST` at most.
+def _by_name(tracks: Sequence[LegTrack], marks: Mask) -> dict[str, Mask]:
+    """Give marks (L, 2, F) the names of their joints."""
+    pairs = zip(tracks, marks, strict=True)
+    return {name: row for track, own in pairs for name, row in zip(track.names[2:], own, strict=True)}
 
-    Returns the motion with contacts anew, the targets, and the root's rise, (F,) metres.
+
+def _within_bounds(
+    tracks: Sequence[LegTrack], targets: Sequence[FootTarget], rise: Array
+) -> tuple[list[FootTarget], Array, list[Excess]]:
+    """Smooth the knees where all plants are within reach, and list what still goes beyond its bound.
+
+    Returns the targets and the root's rise, (F,) metres, and the excesses.
     """
-    start = motion
-    while True:
-        targets = [foot_target(motion, leg, poses) for leg in legs]
-        rise = root_rise(motion, legs, poses, targets)
-        costs: Costs = [(legs, np.abs(rise) - MOST), *_lacks(motion, legs, poses, targets, rise)]
-        if all(cost.max() <= 0 for _, cost in costs):
-            rise, targets, jolts = smooth_knees(motion, legs, poses, targets, rise)
-            costs = [(legs, np.abs(rise) - MOST), (legs, jolts - JOLT)]
-        if all(cost.max() <= 0 for _, cost in costs) or not any(target.planted.any() for target in targets):
-            break
-        motion = _let_go(motion, costs)
-    gone = {name: runs(marks & ~motion.contacts[name]) for name, marks in start.contacts.items()}
-    told = [f"{name} {a}-{b - 1}" for name, rows in gone.items() for a, b in rows]
-    if told:
+    every, targets = slice(None), list(targets)
+    excesses = [Excess(every, np.abs(rise) - MOST), *_beyond_reach(tracks, targets, rise)]
+    if not any((excess.amount > 0).any() for excess in excesses):
+        targets, rise, jolts = smooth_knees(tracks, targets, rise)
+        excesses = [Excess(every, np.abs(rise) - MOST), Excess(every, jolts - JOLT)]
+    return targets, rise, [excess for excess in excesses if (excess.amount > 0).any()]
+
+
+def _beyond_reach(tracks: Sequence[LegTrack], targets: Sequence[FootTarget], rise: Array) -> list[Excess]:
+    """Measure by how much each leg is too short where it is planted, metres."""
+    excesses = []
+    for number, (track, target) in enumerate(zip(tracks, targets, strict=True)):
+        wanted = target.ankle - track.hip - rise[:, None] * UP
+        lack = np.linalg.norm(wanted, axis=-1) - track.hinge.reach - ROUNDING
+        excesses.append(Excess(slice(number, number + 1), np.where(target.planted, lack, -1.0)))
+    return excesses
+
+
+def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
+    """Unmark the plants nearest to where they go furthest beyond their bounds.
+
+    Parameters
+    ----------
+    marks : shape (L, 2, F): when each leg's ankle and ball stand; settled for `span`.
+    excesses : of legs with a plant each, above 0 somewhere.
+    span : how many frames to unmark before and after, and how many a plant or a gap lasts at least.
+
+    Returns
+    -------
+    Settled marks, a proper part of those given: a gap made here is as long as `span` or touches an end of the
+    clip, so `settle` does not close it, and the frame nearest to the worst one is in it.
+    """
+    kept, frames = marks.copy(), np.arange(marks.shape[-1])
+    for legs, amount in excesses:
+        # The worst frames: those that no other within `span` exceeds.
+        for worst in np.flatnonzero((amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))):
+            away = np.where(marks[legs], np.abs(frames - worst), len(frames)).reshape(-1, len(frames))
+            for row, gaps in zip(kept[legs].reshape(away.shape), away, strict=True):
+                if gaps.min() == away.min():
+                    near = int(gaps.argmin())
+                    row[max(near - span, 0) : near + span + 1] = False
+                    row[:] = settle(row, span)
+    return kept
+
+
+def _warn_of_gaps(motion: Motion, asked: Mapping[str, Mask], held: Mapping[str, Mask]) -> None:
+    """List the plants that were let go, in the order of the motion's contacts."""
+    names = [name for name in motion.contacts if name in asked]
+    gone = [f"{name} {a}-{b - 1}" for name in names for a, b in runs(asked[name] & ~held[name])]
+    if gone:
         warnings.warn(
             f"'{motion.name}': to hold these plants would move the root by more than {100 * MOST:.0f} cm, "
-            f"stretch a leg or jolt a knee, so they are let go: {', '.join(told[:4])}"
-            + (f" and {len(told) - 4} more." if len(told) > 4 else "."),
+            f"stretch a leg or jolt a knee, so they are let go: {', '.join(gone[:4])}"
+            + (f" and {len(gone) - 4} more." if len(gone) > 4 else "."),
             MocapWarning,
             stacklevel=3,
         )
-    return motion, targets, rise
 
 
-def _lacks(
-    motion: Motion, legs: Sequence[Leg], poses: GlobalPoses, targets: Sequence[FootTarget], rise: Array
-) -> Costs:
-    """Measure for each leg how much it is too short where it is planted, (F,), metres."""
-    lacks: Costs = []
-    for leg, target in zip(legs, targets, strict=True):
-        reach = knee_hinge(leg, poses, motion.skeleton.names[leg.knee]).reach
-        wanted = target.ankle - poses.positions[:, leg.hip] - rise[:, None] * [0.0, 1.0, 0.0]
-        lack = np.linalg.norm(wanted, axis=-1) - reach - 1e-9
-        lacks.append(([leg], np.where(target.planted, lack, -1.0)))
-    return lacks
-
-
-def _let_go(motion: Motion, costs: Costs) -> Motion:
-    """Unmark the plants nearest to where the costs are worst, for `SPAN` before and after."""
-    contacts = {name: marks.copy() for name, marks in motion.contacts.items()}
-    span = least_frames(motion.fps)
-    for legs, cost in costs:
-        names = [motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)]
-        for worst in np.flatnonzero((cost > 0) & (cost == maximum_filter1d(cost, 2 * span + 1))):
-            marked = np.array([motion.contacts[name] for name in names])
-            away = np.where(marked, np.abs(np.arange(len(motion)) - worst), len(motion))
-            for name, gaps in zip(names, away, strict=True):
-                if gaps.min() == away.min():
-                    near = int(gaps.argmin())
-                    contacts[name][max(near - span, 0) : near + span + 1] = False
-                    contacts[name] = settle(contacts[name], span)
-    return replace(motion, contacts=contacts)
-
-
-def _within_reach(motion: Motion, leg: Leg, poses: GlobalPoses, target: FootTarget) -> Array:
+def _within_reach(track: LegTrack, target: FootTarget) -> Array:
     """Let a foot in the air go only as far as its leg; a planted one must be reached."""
-    hip = poses.positions[:, leg.hip]
-    reach = knee_hinge(leg, poses, motion.skeleton.names[leg.knee]).reach
-    apart = target.ankle - hip
-    share = np.minimum(reach / np.linalg.norm(apart, axis=-1), 1.0)
-    return np.asarray(hip + np.where(target.planted, 1.0, share)[:, None] * apart)
+    apart = target.ankle - track.hip
+    share = np.minimum(track.hinge.reach / np.linalg.norm(apart, axis=-1), 1.0)
+    return np.asarray(track.hip + np.where(target.planted, 1.0, share)[:, None] * apart)

@@ -1,7 +1,5 @@
 """Plants get places that their foot and their leg can keep, and the way from one to the next bends least."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -13,23 +11,24 @@ from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet.ankle_targets import FADE, foot_target, place_plants, smooth_fill
+from mocap.feet.leg_track import LegTrack
 from tests.strategies import seeds
 
 WALK = sample("walk_straight")[200:400]
 LEFT = find_legs(WALK.skeleton)[0]
 POSES = forward_kinematics(WALK)
+MARKS = np.array([WALK.contacts[joint] for joint in ("lfoot", "ltoes")])
 
 
 def test_a_foot_that_stands_still_is_asked_for_nothing():
-    target = foot_target(WALK, LEFT, POSES)
+    target = foot_target(LegTrack(WALK, LEFT, POSES), MARKS)
     assert target.ankle == pytest.approx(POSES.positions[:, LEFT.ankle], abs=1e-7)
     assert target.turn == pytest.approx(0, abs=1e-6)
-    assert np.array_equal(target.planted, WALK.contacts["lfoot"] | WALK.contacts["ltoes"])
+    assert np.array_equal(target.planted, MARKS.any(axis=0))
 
 
 def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():
     # On the back, the leg stretched out level; the hip creeps away from the foot by a centimetre.
-    lying = replace(WALK, contacts=dict.fromkeys(WALK.contacts, True))
     positions = POSES.positions[:1].repeat(len(WALK), axis=0).copy()
     thigh, shank, foot = LEFT.lengths(WALK.skeleton)
     creep = np.linspace(0, 0.01, len(WALK))[:, None] * [1.0, 0, 0]
@@ -38,7 +37,8 @@ def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():
     positions[:, LEFT.knee] = positions[:, LEFT.hip] + thigh * np.array([-np.cos(0.05), np.sin(0.05), 0])
     positions[:, LEFT.ankle] = positions[:, LEFT.knee] + shank * np.array([-np.cos(0.05), -np.sin(0.05), 0])
     positions[:, LEFT.ball] = positions[:, LEFT.ankle] + [0, foot, 0]
-    target = foot_target(lying, LEFT, GlobalPoses(positions, matrices))
+    lying = LegTrack(WALK, LEFT, GlobalPoses(positions, matrices))
+    target = foot_target(lying, np.ones_like(MARKS))
     before = np.linalg.norm(positions[:, LEFT.ankle] - positions[:, LEFT.hip], axis=-1)
     assert np.ptp(target.ankle, axis=0) == pytest.approx(0, abs=1e-12)
     assert np.linalg.norm(target.ankle - positions[:, LEFT.hip], axis=-1).max() <= before.max() + 1e-9

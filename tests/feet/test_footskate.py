@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.ndimage import maximum_filter1d
 
 from mocap._shared.arrays import runs
@@ -18,8 +19,8 @@ from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError, MocapWarning
-from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
+from mocap.feet.footplants import mark_plants, settle
+from mocap.feet.footskate import Excess, clean_up, let_go
 from mocap.files.load_save import load
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
@@ -27,7 +28,7 @@ from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import bundled
-from tests.strategies import planar, random_motion
+from tests.strategies import planar, random_motion, seeds
 
 WALK = sample("walk_straight")
 LEGS = find_legs(WALK.skeleton)
@@ -219,3 +220,30 @@ def test_a_plant_out_of_reach_is_let_go_and_told():
     assert np.abs(cleaned.root_positions - lingering.root_positions).max() <= 0.02
     held, asked = (sum(marks.sum() for marks in m.contacts.values()) for m in (cleaned, lingering))
     assert 0.3 < held / asked < 1
+
+
+@given(seeds, st.integers(1, 9), st.floats(0, 1))
+def test_each_round_unmarks_a_planted_frame_so_the_rounds_end(seed, span, share):
+    random = np.random.default_rng(seed)
+    noise = random.random((2, 2, random.integers(1, 60))) < share
+    marks = np.array([[settle(row, span) for row in leg] for leg in noise])
+    while marks.any():
+        amount = random.normal(size=marks.shape[-1])
+        amount[random.integers(len(amount))] = 1.0  # something goes beyond its bound, or there is no round
+        planted = [slice(None), *(slice(n, n + 1) for n in range(2) if marks[n].any())]
+        legs = planted[random.integers(len(planted))]
+        fewer = let_go(marks, [Excess(legs, amount)], span)
+        assert not np.any(fewer & ~marks)
+        assert fewer[legs].sum() < marks[legs].sum()
+        assert all(np.array_equal(settle(row, span), row) for leg in fewer for row in leg)
+        marks = fewer
+
+
+def test_the_plant_nearest_to_the_worst_frame_is_let_go_around_it():
+    marks = np.zeros((1, 2, 40), bool)
+    marks[0, 0, 2:10], marks[0, 1, 20:36] = True, True
+    amount = np.zeros(40)
+    amount[15], amount[16] = 1.0, 2.0  # the second is within the span of the first, and worse
+    fewer = let_go(marks, [Excess(slice(None), amount)], 3)
+    assert runs(fewer[0, 0]).tolist() == [[2, 10]]
+    assert runs(fewer[0, 1]).tolist() == [[24, 36]]

@@ -12,19 +12,21 @@ from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
-from mocap.feet.leg_ik import knee_hinge, pose_leg
+from mocap.feet.leg_ik import pose_leg
+from mocap.feet.leg_track import LegTrack
 from tests.strategies import seeds
 
 CLIP = sample("walk_straight")[300:420]
 LEFT, RIGHT = find_legs(CLIP.skeleton)
 POSES = forward_kinematics(CLIP)
-ANKLE, HIP = (POSES.positions[:, joint] for joint in (LEFT.ankle, LEFT.hip))
+TRACK = LegTrack(CLIP, LEFT, POSES)
+ANKLE, HIP = TRACK.ankle, TRACK.hip
 
 
 def posed(ankle, turn):
     """Return the positions and matrices of the clip with its left leg posed anew."""
     pose = CLIP.rotations.copy()
-    pose[:, LEFT[:3]] = pose_leg(CLIP, LEFT, POSES, ankle, turn)
+    pose[:, LEFT[:3]] = pose_leg(TRACK, ankle, turn)
     return forward_kinematics(replace(CLIP, rotations=pose))
 
 
@@ -33,7 +35,7 @@ def posed(ankle, turn):
 def test_the_ankle_comes_to_its_target_and_the_foot_turns_as_asked(seed, far):
     random = np.random.default_rng(seed)
     target = ANKLE + far * random.uniform(-1, 1, (len(CLIP), 3)) * [1, 0, 1] + [0, 0.1, 0]
-    stretch = np.linalg.norm(target - HIP, axis=-1) / knee_hinge(LEFT, POSES, "knee").reach
+    stretch = np.linalg.norm(target - HIP, axis=-1) / TRACK.hinge.reach
     target = HIP + (target - HIP) / np.maximum(1, 1.001 * stretch)[:, None]  # within reach
     turn = random.normal(size=(len(CLIP), 3)) * 0.3
     after = posed(target, turn)
@@ -58,7 +60,7 @@ def test_the_ankle_comes_to_its_target_and_the_foot_turns_as_asked(seed, far):
 
 
 def test_asked_for_what_is_there_already_nothing_changes():
-    same = pose_leg(CLIP, LEFT, POSES, ANKLE, np.zeros((len(CLIP), 3)))
+    same = pose_leg(TRACK, ANKLE, np.zeros((len(CLIP), 3)))
     assert same == pytest.approx(CLIP.rotations[:, LEFT[:3]], abs=1e-9)
 
 
@@ -68,24 +70,8 @@ def test_the_other_leg_and_the_trunk_stay():
     assert after.positions[:, others] == pytest.approx(POSES.positions[:, others])
 
 
-def test_the_hinge_says_how_far_a_leg_reaches():
-    hinge = knee_hinge(LEFT, POSES, "knee")
-    thigh, shank, _ = LEFT.lengths(CLIP.skeleton)
-    assert hinge.reach == pytest.approx(np.full(len(CLIP), thigh + shank))
-    assert hinge.turn(np.linalg.norm(ANKLE - HIP, axis=-1)) == pytest.approx(0, abs=1e-6)
-    assert np.all(hinge.straight < 0)  # to stretch a bent knee is to turn it back
-
-
 def test_a_target_out_of_reach_names_frame_and_distance():
     target = ANKLE.copy()
     target[7] = HIP[7] + [0, -1.0, 0]
     with pytest.raises(MocapError, match="frame 7: 'lfoot' would have to be 14 cm out of its leg's reach"):
-        pose_leg(CLIP, LEFT, POSES, target, np.zeros((len(CLIP), 3)))
-
-
-def test_a_knee_that_never_bends_hides_its_hinge():
-    straight = CLIP.rotations.copy()
-    straight[:, LEFT.knee] = rotations.IDENTITY
-    stiff = replace(CLIP, rotations=straight)
-    with pytest.raises(MocapError, match="'ltibia' is straight in every frame"):
-        knee_hinge(LEFT, forward_kinematics(stiff), "ltibia")
+        pose_leg(TRACK, target, np.zeros((len(CLIP), 3)))
