@@ -1,7 +1,8 @@
 """Small things that all rooms need; not what to read first.
 
 1. `arrays`: names for kinds of arrays, and three small things to do with them
-2. `atomic`: a file is written whole or not at all
-3. `progress`: what functions take as `progress=`
-4. `collector`: pause Python's garbage collector while a graph grows
+2. `easing`: the curve that eases from 0 to 1
+3. `atomic`: a file is written whole or not at all
+4. `progress`: what functions take as `progress=`
+5. `collector`: pause Python's garbage collector while a graph grows
 """

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap._shared.easing import quintic_step
 from mocap.errors import MocapError
 
 
@@ -57,8 +58,7 @@ def quintic_weights(window: int) -> Array:
 
     Notebook: 04-blending
     """
-    t = window_steps(window)
-    return np.asarray(1 - t**3 * (10 - 15 * t + 6 * t**2))
+    return 1 - quintic_step(window_steps(window))
 
 
 def sine_weights(window: int) -> Array:

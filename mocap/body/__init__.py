@@ -32,6 +32,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "planar": ["PlanarTransform", "from_ground", "heading", "lay_on", "on_ground", "place"],
         "ground_path": [
             "GroundPath",
+            "SmoothPath",
             "spline",
             "arcs",
             "circle",

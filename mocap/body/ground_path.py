@@ -1,8 +1,8 @@
-"""Lines on the ground to walk along: polylines, splines, and a few shapes."""
+"""Lines on the ground to walk along: polylines, smooth curves, and a few shapes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,7 @@ from mocap._shared.arrays import Array, frozen
 from mocap.errors import MocapError
 
 FINE = 0.02  # metres between the points of a curve
+CLOSEST = 1e-9  # metres between two points that count as two
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,18 +39,7 @@ class GroundPath:
     points: Array
 
     def __post_init__(self) -> None:
-        points = np.asarray(self.points, float)
-        if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
-            raise MocapError(f"A path needs two points (x, z) or more, got an array {points.shape}.")
-        if not np.isfinite(points).all():
-            point = int(np.isfinite(points).all(axis=1).argmin())
-            raise MocapError(f"Point {point} of the path is not finite: {points[point].tolist()}.")
-        if np.abs(points).max() > 1e6:
-            raise MocapError(f"The path lies {np.abs(points).max():.3g} m away: is it in metres?")
-        moved = np.concatenate([[True], (np.diff(points, axis=0) != 0).any(axis=1)])
-        if moved.sum() < 2:
-            raise MocapError("The path has zero length: all its points are one.")
-        object.__setattr__(self, "points", frozen(points[moved], np.float64))
+        object.__setattr__(self, "points", _checked(self.points))
 
     def __repr__(self) -> str:
         return f"GroundPath({len(self.points)} points, {self.length:.1f} m)"
@@ -74,6 +64,79 @@ class GroundPath:
         if not (np.isfinite(spacing) and spacing > 0):
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
         return GroundPath(self.at(np.linspace(0, self.length, int(np.ceil(self.length / spacing)) + 1)))
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothPath:
+    """A smooth curve on the ground: like `GroundPath`, but without corners, and with a heading.
+
+    A natural cubic spline c(u) passes through the points, C²; its parameter u is the length of the chords.
+    A second spline fits points of the first one at even arc lengths s(u) = ∫ |c'| du, so `at(s)` moves one
+    metre per metre of s: to 1 % where neighbouring chords turn by less than 35°, but not around sharp
+    corners. Beyond both ends the curve goes straight on. `spline` is better for points at very uneven
+    distances.
+
+    Parameters
+    ----------
+    points : shape (N, 2), (x, z) in metres; of points that repeat the one before, only the first is kept.
+
+    Raises
+    ------
+    MocapError : for fewer than two points, a length of zero, or a number that is not finite.
+
+    Examples
+    --------
+    >>> ahead = SmoothPath([[0, 0], [0, 2], [0, 4]])
+    >>> ahead, ahead.at([1.0, 5.0]).round(6).tolist(), float(ahead.heading(1.0).round(6))
+    (SmoothPath(3 points, 4.0 m), [[0.0, 1.0], [0.0, 5.0]], 0.0)
+    """
+
+    points: Array
+    length: float = field(init=False)
+    _curve: CubicSpline = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        points = _checked(self.points)
+        knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=-1))])
+        curve = CubicSpline(knots, points, bc_type="natural")
+        fine = np.linspace(0, knots[-1], 20 * len(points) + 1)
+        speed = np.linalg.norm(curve(fine, 1), axis=-1)
+        lengths = np.concatenate([[0.0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(fine))])
+        even = np.linspace(0, float(lengths[-1]), len(fine))
+        by_length = CubicSpline(even, curve(np.interp(even, lengths, fine)), bc_type="natural")
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "length", float(lengths[-1]))
+        object.__setattr__(self, "_curve", by_length)
+
+    def __repr__(self) -> str:
+        return f"SmoothPath({len(self.points)} points, {self.length:.1f} m)"
+
+    def at(self, along: ArrayLike) -> Array:
+        """Give the points (..., 2) that lie `along` metres from the start; past either end, straight on."""
+        along = np.asarray(along, float)
+        inside = np.clip(along, 0, self.length)
+        return np.asarray(self._curve(inside) + (along - inside)[..., None] * self._curve(inside, 1))
+
+    def heading(self, along: ArrayLike) -> Array:
+        """Give the directions of the curve, radians about +y from +z; within an array they do not jump."""
+        x, z = np.moveaxis(self._curve(np.clip(along, 0, self.length), 1), -1, 0)
+        return np.asarray(np.unwrap(np.arctan2(x, z))) if np.ndim(along) else np.arctan2(x, z)
+
+
+def _checked(points: ArrayLike) -> Array:
+    """Check the points of a path, and drop those that repeat the one before."""
+    points = np.asarray(points, float)
+    if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
+        raise MocapError(f"A path needs two points (x, z) or more, got an array {points.shape}.")
+    if not np.isfinite(points).all():
+        point = int(np.isfinite(points).all(axis=1).argmin())
+        raise MocapError(f"Point {point} of the path is not finite: {points[point].tolist()}.")
+    if np.abs(points).max() > 1e6:
+        raise MocapError(f"The path lies {np.abs(points).max():.3g} m away: is it in metres?")
+    moved = np.concatenate([[True], (np.abs(np.diff(points, axis=0)) > CLOSEST).any(axis=1)])
+    if moved.sum() < 2:
+        raise MocapError("The path has zero length: all its points are one.")
+    return frozen(points[moved], np.float64)
 
 
 def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:

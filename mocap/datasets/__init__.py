@@ -1,15 +1,15 @@
 """Clips to begin with: seven that come with the package, and those of the CMU database.
 
 The bundled clips are generated: footsteps planned along a path, a few harmonics for each joint, and inverse
-kinematics for the legs. Nobody needs to read how before the rest of the course.
+kinematics for the legs. The course does not need to know how: files 3 to 7 can be read last.
 
 Reading order (notebooks 01, 10)
 --------------------------------
 1. `samples`: the bundled clips by name
 2. `cmu_database`: trials of the CMU database, fetched once
-3. `generated`: walks made from figures alone
+3. `generated`: walks generated from tables of figures
 4. `gait`: what a body does in one cycle, as tables
-5. `gait_timing`: how far, how fast, in which gait, frame by frame
+5. `gait_timing`: how far, in which phase and gait, frame by frame
 6. `footsteps`: where the feet go
 7. `walking_body`: the body that walks, and its legs
 """

@@ -1,14 +1,14 @@
 """What a body does within one cycle of walking, sneaking or jogging, as tables of figures.
 
-The cycle's phase counts strides: the left heel strikes at 0, the right one at 1/2. The harmonics are
-fitted to average cycles of real people, made symmetric: the right arm does at phase p + 1/2 what the left
-one does at p, mirrored, and what sits in the middle is its own mirror image half a cycle later. So
-a middle joint nods (x) twice a stride, but turns (y) and leans (z) once.
+The phase of the cycle counts strides: the left heel strikes at 0, the right one at 1/2. The harmonics are
+fitted to average cycles of real people and made symmetric: the right arm does at phase p + 1/2 what the left
+arm does at p, mirrored, and a joint in the middle is its own mirror image half a cycle later. So
+a middle joint nods (x) twice per stride, but turns (y) and leans (z) once.
 
 Source of the figures: subject 16 of the CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), trials
-15, 16, 31, 32, 47, 58 for walking and 35, 45 for jogging. Trunk, arms and pelvis are fits; the elbows swing a
-quarter more, for averaging over trials had damped them; feet and knees were then adjusted by a few degrees to
-this body. Sneaking has no trial there: it is the walk, crouched, by eye.
+15, 16, 31, 32, 47, 58 for walking and 35, 45 for jogging. Trunk, arms and pelvis are fits. The elbows swing a
+quarter more, because the average over trials damps them. Feet and knees are adjusted to this body by a few
+degrees. The database has no trial of sneaking: it is the walk, crouched, adjusted by eye.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ class Gait:
     ----------
     name : the label its frames carry.
     roll : how the feet roll and swing.
-    knee : degrees of flexion of a standing leg, at steps of 0.05 cycle from its strike on.
-    stride, cadence : metres and steps a minute of the walks the figures come from.
+    knee : degrees of flexion of a standing leg, every 0.05 cycles from its strike on.
+    stride, cadence : metres per stride and steps per minute of the walks that the figures come from.
     under : the phase after a strike at which the pelvis passes over the foot.
-    step_width, toe_out : metres between the lines the two ankles follow; degrees a foot points outwards.
-    sway, surge : metres of the pelvis, to the left (cos, sin, once a stride) and forwards (twice a stride).
-    height : metres of the pelvis (mean; cos, sin twice a stride).
-    height_weight : how much these count beside what the loaded legs ask for.
-    trunk : degrees of the middle joints: x (mean; cos, sin twice a stride), y and z (cos, sin once a stride).
-    arm : degrees of the left arm's joints: x, y, z (mean; cos, sin once; cos, sin twice a stride).
+    step_width, toe_out : metres between the tracks of the two ankles; degrees a foot points outwards.
+    sway, surge : metres of the pelvis, to the left (cos, sin, once per stride), forwards (twice per stride).
+    height : metres of the pelvis (mean; cos, sin twice per stride).
+    height_weight : the weight of this height; a leg that carries the body has weight 1.
+    trunk : degrees of the middle joints: x (mean; cos, sin twice per stride), y, z (cos, sin once).
+    arm : degrees of the left arm's joints: x, y, z (mean; cos, sin once; cos, sin twice per stride).
     """
 
     name: str
@@ -63,7 +63,7 @@ class Gait:
 
     @property
     def speed(self) -> float:
-        """Metres a second."""
+        """Metres per second."""
         return self.stride * self.cadence / 120
 
 
@@ -178,12 +178,12 @@ SNEAK = replace(
 
 
 def mix(figures: Sequence[ArrayLike], weights: Array) -> Array:
-    """Mix what several gaits say: Σ w f.
+    """Mix the figures of several gaits: Σ w f.
 
     Parameters
     ----------
-    figures : one a gait: a number, or an array of shape (F,) or (F, 3).
-    weights : shape (gaits, F): how much of each gait there is; they add up to one.
+    figures : for each gait a number, or an array of shape (F,) or (F, 3).
+    weights : shape (gaits, F); those of a frame add up to one.
 
     Returns
     -------
@@ -198,8 +198,8 @@ def mix(figures: Sequence[ArrayLike], weights: Array) -> Array:
 
 
 def mix_rolls(rolls: Sequence[Roll], weights: Array) -> Roll:
-    """Mix how a foot rolls and swings in several gaits; `weights` (gaits,) add up to one."""
-    if weights.max() > 1 - 1e-9:  # but for rounding, one gait alone
+    """Mix the rolls of several gaits; `weights` (gaits,) add up to one."""
+    if weights.max() > 1 - 1e-9:  # one gait alone, up to rounding
         return rolls[int(weights.argmax())]
     flat, heel_off, lift = (weights @ [roll[:3] for roll in rolls]).tolist()
     knots = [np.linspace(roll.heel_off, 1 + roll.flat, 20) for roll in rolls]
@@ -215,7 +215,7 @@ def knee_flexion(gait: Gait, phase: ArrayLike) -> Array:
 
 
 def pelvis_drift(gait: Gait, phase: ArrayLike, amplitude: ArrayLike) -> Array:
-    """Sum up how the pelvis sways to its left, rises and surges forwards, shape (F, 3), metres."""
+    """Sum the harmonics of the pelvis: to its left, up, forwards, shape (F, 3), metres."""
     once, twice = (2 * np.pi * n * np.asarray(phase, float) for n in (1, 2))
     mean, *rise = gait.height
     waves = [_wave(gait.sway, once), _wave(rise, twice), _wave(gait.surge, twice)]
@@ -223,12 +223,12 @@ def pelvis_drift(gait: Gait, phase: ArrayLike, amplitude: ArrayLike) -> Array:
 
 
 def joint_angles(gait: Gait, phase: ArrayLike, amplitude: ArrayLike) -> dict[str, Array]:
-    """Sum up the harmonics of the trunk and both arms.
+    """Sum the harmonics of the trunk and both arms.
 
     Parameters
     ----------
     phase : shape (F,), cycles.
-    amplitude : shape (F,); 1 for the walk of the tables, 0 for their mean pose.
+    amplitude : shape (F,); 1 for the walk of the tables, 0 for its mean pose.
 
     Returns
     -------

@@ -1,7 +1,7 @@
-"""A walker's course: how far along, where in the cycle, how briskly, and in which gait, frame by frame.
+"""The timing of a walk: how far, in which phase, how vigorously, and in which gait, frame by frame.
 
-Three ways to go: steadily; with halts; and changing from one gait into another. A change is a mix: at each
-moment so much of the one gait's figures and so much of the other's.
+There are three: steady, with halts, and changing from one gait into another. A change mixes the figures of
+both gaits by weights that add up to one.
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
-from mocap.datasets.footsteps import smoothstep
+from mocap._shared.easing import quintic_step
 from mocap.datasets.gait import Gait, mix
 from mocap.datasets.walking_body import FPS
 
 Stage = tuple[float, float, float]
 
-PAD = 4.0  # seconds planned before the first frame and after the last, so that every foot has a next step
+PAD = 4.0  # seconds planned before the first frame and after the last: every foot needs a next step
 
 
 class Timing(NamedTuple):
-    """The walker's way, for all frames and `PAD` seconds before and after them.
+    """The timing of all frames, and of `PAD` seconds before and after them.
 
-    `times` in seconds, `phase` in cycles, `distance` along the route in metres, `vigour` of the movements
-    (1 as in the gait's tables, 0 standing), all of one length; `weights` (gaits, F) of the `gaits` add up to
-    one; `skipped` are the steps left out at halts.
+    `times` (F,) in seconds, `phase` (F,) in cycles, `distance` (F,) along the path in metres. `vigour` (F,)
+    scales the movements: 1 as in the gait's tables, 0 while standing. `weights` (gaits, F) of the `gaits` add
+    up to one. `skipped` lists the strikes (phases) that a halt leaves out.
     """
 
     times: Array
@@ -41,17 +41,17 @@ class Timing(NamedTuple):
 
     @property
     def inside(self) -> slice:
-        """The frames without the seconds before and after."""
+        """The frames without the `PAD` seconds before and after."""
         return slice(round(PAD * FPS), len(self.times) - round(PAD * FPS))
 
     def cut(self) -> Timing:
-        """Cut off the seconds before and after."""
+        """Cut off the `PAD` seconds before and after."""
         times, phase, distance, vigour, weights = (values[..., self.inside] for values in self[:5])
         return Timing(times, phase, distance, vigour, weights, self.gaits, self.skipped)
 
 
 def steady(gait: Gait, speed: float, seconds: float, rng: np.random.Generator) -> Timing:
-    """Walk on in one gait at one speed."""
+    """Walk in one gait at one speed, metres per second."""
     times = _times(seconds)
     return _walking(times, np.full_like(times, speed), (gait,), np.ones((1, len(times))), rng)
 
@@ -62,8 +62,8 @@ def changing(gaits: tuple[Gait, Gait], stages: Sequence[Stage], rng: np.random.G
     Parameters
     ----------
     gaits : the two.
-    stages : (seconds, speed, weight), in the order of time: when the walker has reached which speed, in
-        metres a second, and how much of the second gait there is. In between all eases over.
+    stages : (second, metres per second, weight of the second gait), in the order of time; values between two
+        stages are interpolated and smoothed.
     rng : draws the small differences.
     """
     moments, speeds, weights = np.array(stages).T
@@ -79,13 +79,13 @@ def _times(seconds: float) -> Array:
 def _walking(
     times: Array, speed: Array, gaits: tuple[Gait, ...], weights: Array, rng: np.random.Generator
 ) -> Timing:
-    """Walk at a speed that wanders by a few percent; who walks slower takes shorter and fewer steps."""
+    """Walk at a speed that varies by a few percent; a slower walk has shorter and fewer steps."""
     usual, cadence, stride = (
         mix([getattr(gait, name) for gait in gaits], weights) for name in ("speed", "cadence", "stride")
     )
     wander = drift(rng, times, 2)
     pace = np.maximum(speed + 0.06 * wander[:, 0], speed / 2)
-    strides = cadence / 120 * (pace / usual) ** 0.2 * (1 + 0.03 * wander[:, 1])  # a second
+    strides = cadence / 120 * (pace / usual) ** 0.2 * (1 + 0.03 * wander[:, 1])  # per second
     phase, distance = (np.cumsum(rate) / FPS for rate in (strides, pace))
     vigour = (pace / strides / stride) ** 0.25
     start = round(PAD * FPS)
@@ -94,11 +94,12 @@ def _walking(
 
 
 def halting(gait: Gait, strides: Sequence[float], rests: Sequence[float]) -> Timing:
-    """Stand, walk, stand, and so on: where both feet stand the phase rests, and then a step is left out.
+    """Stand, walk, stand, and so on. During a halt the phase rests; after it one step is left out.
 
-    `strides` are their numbers between the halts, multiples of 1/2; `rests` the seconds, one more of them.
+    `strides` counts the strides between the halts, multiples of 1/2; `rests` gives the seconds of each halt,
+    one number more.
     """
-    closing = np.concatenate([[0.0], np.cumsum(strides)])  # the strikes that bring the feet together
+    closing = np.concatenate([[0.0], np.cumsum(strides)])  # the strikes that put the feet side by side
     hold = closing + 0.3
     rate = gait.cadence / 120
     arrive = (hold - hold[0]) / rate + np.concatenate([[0.0], np.cumsum(rests[:-1])])
@@ -106,8 +107,8 @@ def halting(gait: Gait, strides: Sequence[float], rests: Sequence[float]) -> Tim
     knots = np.stack([arrive, arrive + np.asarray(rests)], axis=-1).ravel()
     phase = gaussian_filter1d(np.interp(times, knots, np.repeat(hold, 2)), 0.15 * FPS)
     moving = np.zeros_like(phase)
-    for start, stop in pairwise(closing):  # the pelvis arrives with the last step but one
-        moving += smoothstep((phase - start - 0.4) / 0.9) * smoothstep(
+    for start, stop in pairwise(closing):  # the pelvis arrives one step earlier
+        moving += quintic_step((phase - start - 0.4) / 0.9) * quintic_step(
             (stop - 0.5 + gait.under - phase) / 0.9
         )
     distance = 0.88 * gait.stride * np.cumsum(moving * np.gradient(phase))
@@ -116,7 +117,7 @@ def halting(gait: Gait, strides: Sequence[float], rests: Sequence[float]) -> Tim
 
 
 def drift(rng: np.random.Generator, times: Array, count: int) -> Array:
-    """Draw `count` smooth noises of unit size, shape (F, count), from sines of 2 to 11 seconds."""
+    """Draw `count` smooth noises of unit size, shape (F, count), from sines with periods of 2 to 11 s."""
     periods = rng.uniform(2.0, 11.0, (6, count))
     starts = rng.uniform(0.0, 2 * np.pi, (6, count))
     waves = np.sin(2 * np.pi * times[:, None, None] / periods + starts)

@@ -1,18 +1,17 @@
-"""Clips to work with: the bundled ones, which need no network, and those of the CMU database."""
+"""The bundled clips by name; they need no network."""
 
 from functools import cache
 
 from mocap.body.motion import Motion
 from mocap.datasets import generated
 
-pass
 SAMPLES: tuple[str, ...] = generated.NAMES
 """The names of the bundled clips."""
 
 
 @cache
 def sample(name: str = "walk_circle") -> Motion:
-    """Give a bundled clip: generated, the same each time, at 120 Hz, with its foot plants as contacts.
+    """Give a bundled clip, generated at 120 Hz, with its footplants as contacts; the same at each call.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""The body that walks, and its legs: from planted feet up to the pelvis, and down again.
+"""The body that walks, and its legs: from the planted feet up to the pelvis, and down again.
 
-Given the way of the pelvis over the ground and the paths of both feet, the pelvis rides as high as lets
-the loaded knees bend as they should; then `two_bone_ik` bends both legs down to the feet.
+The path of the pelvis over the ground and the paths of both feet are given. The pelvis gets the height at
+which the loaded knees bend as their gait says; then `two_bone_ik` bends both legs down to the feet.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from mocap.errors import MocapError
 
 STATURE = 1.75  # metres
 FPS = 120.0
-LEAST_KNEE = np.radians(6.0)  # no knee ever locks
+LEAST_KNEE = np.radians(6.0)  # a knee never straightens further
 
 # Each joint's parent and place (left, up, ahead) in it, as shares of stature. The lengths of the limbs follow
 # D. A. Winter, Biomechanics and Motor Control of Human Movement, 4th ed. (2009), Fig. 4.1, after Drillis and
@@ -58,7 +58,7 @@ _ARM = {
 
 
 def _skeleton() -> Skeleton:
-    """Build a body of CMU's 31 bones, upright, its arms hanging, its feet pointing ahead."""
+    """Build a body with the 31 bones of CMU's, upright, its arms hanging, its feet pointing ahead."""
     rows: dict[str, tuple[str, tuple[float, ...]]] = {"root": ("", (0, 0, 0))}
     for side, limb in (("l", _LEG), ("r", _LEG), ("", _TRUNK), ("l", _ARM), ("r", _ARM)):
         for joint, (parent, (left, up, ahead)) in limb.items():
@@ -82,22 +82,22 @@ def pelvis_height(
     bends: Mapping[str, Array],
     weight: ArrayLike,
 ) -> Array:
-    """Let the pelvis ride on the legs: as high as makes each loaded knee bend as it should.
+    """Find the height of the pelvis at which each loaded knee bends as it should.
 
-    With knee angle κ a leg is ℓ long, ℓ² = a² + b² + 2 a b cos κ, and lifts its hip √(ℓ² - d²) above the
-    ankle that stands d away on the level. The legs' wishes are averaged by load.
+    With knee angle κ a leg is ℓ long, ℓ² = a² + b² + 2 a b cos κ, and its hip is √(ℓ² - d²) above the ankle,
+    where d is their horizontal distance. The heights for both legs are averaged, weighted by load.
 
     Parameters
     ----------
     root : shape (F, 3), metres: the pelvis at its usual height.
-    hips : {side: (F, 3)}: the hip joints seen from the root, metres.
+    hips : {side: (F, 3)}: from the root to the hip joints, metres.
     feet : {side: the foot's path}.
     bends : {side: (F,)}: how far each knee should bend, radians.
-    weight : number or shape (F,): how much the usual height counts beside a leg that carries the body (1).
+    weight : number or shape (F,): the weight of the usual height; a leg that carries the body has weight 1.
 
     Returns
     -------
-    Shape (F,), metres; smooth, and never so high that a leg could not reach its foot with a bent knee.
+    Shape (F,), metres; smooth, and low enough for both legs to reach their feet with bent knees.
     """
     wishes, weights = np.multiply(weight, root[:, 1]), np.full(len(root), weight)
     limit = np.full(len(root), np.inf)
@@ -108,14 +108,14 @@ def pelvis_height(
         weights = weights + foot.load
         limit = np.minimum(limit, floor + _rise(apart, LEAST_KNEE))
     height = gaussian_filter1d(wishes / weights, 0.03 * FPS)
-    # The drop to within reach is widened as far as the bell that smooths it: nowhere is it too small.
+    # The drop is widened by the radius of the filter that smooths it, so it is large enough everywhere.
     around = round(0.1 * FPS)
     drop = maximum_filter1d(np.maximum(height - limit, 0), 1 + 2 * around)
     return np.asarray(height - gaussian_filter1d(drop, 0.04 * FPS, radius=around))
 
 
 def _rise(apart: Array, knee: ArrayLike) -> Array:
-    """Tell how far a hip stands above its ankle when the knee is bent and they lie so far apart."""
+    """Find how far a hip is above its ankle, from the vector between them and the angle of the knee."""
     length2 = THIGH**2 + SHANK**2 + 2 * THIGH * SHANK * np.cos(knee)
     return np.asarray(np.sqrt(np.maximum(length2 - apart[:, 0] ** 2 - apart[:, 2] ** 2, 0)))
 
@@ -128,12 +128,12 @@ def leg(side: str, pelvis: Array, root: Array, foot: FootPath, ahead: Array) -> 
     side : "l" or "r".
     pelvis : shape (F, 4), the root's orientation.
     root : shape (F, 3), its place, metres.
-    foot : where the foot is.
-    ahead : shape (F, 3), the unit vectors the pelvis faces along.
+    foot : the foot's path.
+    ahead : shape (F, 3), unit vectors: where the pelvis faces.
 
     Returns
     -------
-    {joint: rotations (F, 4) relative to the parent} of the hip, the knee, the ankle and the toes.
+    {joint: rotations (F, 4) relative to the parent}, for hip, knee, ankle and toes.
 
     Raises
     ------
@@ -143,7 +143,7 @@ def leg(side: str, pelvis: Array, root: Array, foot: FootPath, ahead: Array) -> 
     hip = root + rotations.rotate(pelvis, HIPS[side])
     limb = two_bone(hip, foot.ankle, (THIGH, SHANK), ahead + toes)
     if not limb.reached.all():
-        raise MocapError("The steps are longer than the legs: walk slower, or round a wider turn.")
+        raise MocapError("The steps are longer than the legs: walk slower, or take a wider turn.")
     sole = rotations.multiply(rotations.about_y(foot.yaw), euler.from_euler("x", -foot.pitch[:, None]))
     turns = [pelvis, limb.upper, limb.lower, sole]
     local = {

@@ -1,14 +1,11 @@
-"""Routes on the ground, and a foot's way from plant to plant."""
+"""A foot's way from footplant to footplant."""
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from mocap.datasets.footsteps import Roll, Route, Steps, foot_path, foot_pitch, smoothstep, winding
+from mocap.datasets.footsteps import Roll, Steps, foot_path, foot_pitch, winding
 from mocap.datasets.gait import JOG, SNEAK, WALK, mix_rolls
 from mocap.datasets.walking_body import FOOT
-from mocap.errors import MocapError
 
 HALF = np.array([0.5, 0.5])
 ROLLS = pytest.mark.parametrize(
@@ -31,42 +28,12 @@ def steps_on(roll: Roll, stride: float, turn: float = 0.0) -> Steps:
     return Steps(np.arange(9.0), np.cumsum(strides, axis=0), yaws, np.ones(8), [roll] * 8)
 
 
-def test_a_route_on_a_circle_is_as_long_and_turns_as_much():
-    angle = np.linspace(0, np.pi, 60)
-    route = Route(2 * np.stack([1 - np.cos(angle), np.sin(angle)], axis=-1))
-    assert route.length == pytest.approx(2 * np.pi, rel=1e-3)
-    assert np.ptp(route.heading(np.linspace(0, route.length, 50))) == pytest.approx(np.pi, rel=0.02)
-    steps = np.linalg.norm(np.diff(route.place(np.linspace(0, route.length, 200)), axis=0), axis=-1)
-    assert np.ptp(steps) < 1e-4
-
-
-@given(st.floats(-5, 15))
-def test_a_straight_route_goes_straight_on(distance):
-    route = Route([[1, 0], [1, 4], [1, 10]])
-    assert route.place(distance) == pytest.approx([1, distance], abs=1e-9)
-    assert route.heading(distance) == pytest.approx(0, abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("points", "message"),
-    [([[0, 0]], "two or more"), ([[0, 0, 0], [1, 1, 1]], "two or more"), ([[0, 0], [0, 0]], "the same")],
-)
-def test_no_route_is_told(points, message):
-    with pytest.raises(MocapError, match=message):
-        Route(points)
-
-
-def test_winding_turns_as_told():
+def test_a_winding_path_turns_as_its_stretches_say():
     points = winding([(2.0, 0), (3.0, 180), (2.0, 0)])
     assert points[0].tolist() == [0, 0]
     assert np.linalg.norm(np.diff(points, axis=0), axis=-1) == pytest.approx(0.05)
     assert points[-1, 0] == pytest.approx(2 * 3.0 / np.pi, abs=0.1)  # back beside the start, to its left
     assert points[-1, 1] == pytest.approx(0, abs=0.1)
-
-
-def test_smoothstep_starts_and_ends_at_rest():
-    u = np.array([0.0, 1e-4, 1 - 1e-4, 1.0])
-    assert np.diff(smoothstep(u))[[0, 2]] == pytest.approx(0, abs=1e-10)
 
 
 @ROLLS

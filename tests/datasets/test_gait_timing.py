@@ -1,4 +1,4 @@
-"""A walker's course: steady, with halts, and changing."""
+"""The timing of walks: steady, with halts, and changing."""
 
 import numpy as np
 import pytest
@@ -15,58 +15,58 @@ def rng() -> np.random.Generator:
 
 
 @pytest.mark.parametrize(("gait", "speed"), [(WALK, 0.8), (WALK, 1.3), (JOG, 2.8), (SNEAK, 0.5)])
-def test_a_steady_course_goes_on_as_fast_as_told(gait, speed):
-    course = steady(gait, speed, 40.0, rng()).cut()
-    assert len(course.times) == 40 * FPS + 1
-    assert course.times[[0, -1]].tolist() == [0, 40]
-    assert course.phase[0] == course.distance[0] == 0
-    assert np.diff(course.phase).min() > 0
-    assert course.distance[-1] == pytest.approx(40 * speed, rel=0.05)
-    assert course.weights.shape == (1, len(course.times))
-    assert (course.weights == 1).all()
+def test_a_steady_walk_is_as_fast_as_asked(gait, speed):
+    timing = steady(gait, speed, 40.0, rng()).cut()
+    assert len(timing.times) == 40 * FPS + 1
+    assert timing.times[[0, -1]].tolist() == [0, 40]
+    assert timing.phase[0] == timing.distance[0] == 0
+    assert np.diff(timing.phase).min() > 0
+    assert timing.distance[-1] == pytest.approx(40 * speed, rel=0.05)
+    assert timing.weights.shape == (1, len(timing.times))
+    assert (timing.weights == 1).all()
 
 
 def test_vigour_is_one_where_the_stride_is_the_table_s():
-    course = steady(WALK, WALK.speed, 40.0, rng())
-    assert course.vigour.mean() == pytest.approx(1, abs=0.02)
+    timing = steady(WALK, WALK.speed, 40.0, rng())
+    assert timing.vigour.mean() == pytest.approx(1, abs=0.02)
     assert steady(WALK, 0.6, 40.0, rng()).vigour.mean() < 0.9
 
 
-def test_a_changing_course_is_each_gait_in_its_time():
-    course = changing((WALK, JOG), STAGES, rng()).cut()
+def test_a_changing_walk_is_in_each_gait_at_its_time():
+    timing = changing((WALK, JOG), STAGES, rng()).cut()
     at = (np.array([2, 10, 18]) * FPS).astype(int)
-    assert course.weights.sum(axis=0) == pytest.approx(1)
-    assert course.weights[:, at] == pytest.approx(np.array([[1, 0, 1], [0, 1, 0]]))
-    assert course.weights[1, 6 * int(FPS)] == pytest.approx(0.5)
-    pace = np.gradient(course.distance) * FPS
+    assert timing.weights.sum(axis=0) == pytest.approx(1)
+    assert timing.weights[:, at] == pytest.approx(np.array([[1, 0, 1], [0, 1, 0]]))
+    assert timing.weights[1, 6 * int(FPS)] == pytest.approx(0.5)
+    pace = np.gradient(timing.distance) * FPS
     assert pace[at] == pytest.approx([1.0, 2.8, 1.0], abs=0.2)
-    cadence = 120 * np.gradient(course.phase) * FPS
+    cadence = 120 * np.gradient(timing.phase) * FPS
     assert cadence[at[1]] == pytest.approx(JOG.cadence, rel=0.1)
     assert cadence[at[[0, 2]]] == pytest.approx(WALK.cadence, rel=0.1)
 
 
 def test_a_change_comes_smoothly():
-    course = changing((WALK, JOG), STAGES, rng())
-    for rate in (np.diff(course.phase), np.diff(course.distance), course.vigour, *course.weights):
+    timing = changing((WALK, JOG), STAGES, rng())
+    for rate in (np.diff(timing.phase), np.diff(timing.distance), timing.vigour, *timing.weights):
         assert np.abs(np.diff(rate)).max() < 0.01
         assert np.abs(np.diff(rate, 2)).max() * FPS**2 < 10
 
 
-def test_before_and_after_a_course_goes_on_as_it_began_and_ended():
-    course = changing((WALK, JOG), STAGES, rng())
-    assert course.times[0] == -PAD
-    assert course.times[-1] == 20 + PAD
-    assert (course.weights[0, [0, -1]] == 1).all()
+def test_before_and_after_a_walk_goes_on_as_it_began_and_ended():
+    timing = changing((WALK, JOG), STAGES, rng())
+    assert timing.times[0] == -PAD
+    assert timing.times[-1] == 20 + PAD
+    assert (timing.weights[0, [0, -1]] == 1).all()
 
 
 def test_a_halt_holds_the_phase_and_the_place():
-    course = halting(WALK, (3, 2.5), (2, 1.5, 2)).cut()
-    assert np.diff(course.phase).min() >= 0
-    assert course.vigour.min() == pytest.approx(0, abs=1e-6)
-    still = np.diff(course.phase) < 1e-9
+    timing = halting(WALK, (3, 2.5), (2, 1.5, 2)).cut()
+    assert np.diff(timing.phase).min() >= 0
+    assert timing.vigour.min() == pytest.approx(0, abs=1e-6)
+    still = np.diff(timing.phase) < 1e-9
     assert np.count_nonzero(np.diff(still.astype(int)) == 1) == 2  # the first stand has begun before
-    assert np.diff(course.distance)[still].max() < 1e-6
-    assert np.mod(course.skipped, 0.5) == pytest.approx(0)
+    assert np.diff(timing.distance)[still].max() < 1e-6
+    assert np.mod(timing.skipped, 0.5) == pytest.approx(0)
 
 
 def test_drift_is_of_unit_size_and_smooth():
