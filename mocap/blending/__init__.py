@@ -1,13 +1,13 @@
 """From one motion into another: by a blend over a window, or by a cut whose offset dies away.
 
-Both ways start with two windows that look alike; the second clip is laid on the first, then the poses are
-mixed or the offset fades.
+Both ways start with two windows that look alike. The second clip is laid on the first; then the poses are
+mixed, or the second clip plays with an offset that fades.
 
 Reading order (notebook 04)
 ---------------------------
 1. `weights`: how much of the first motion each frame holds
 2. `interpolation`: two motions into one, frame by frame
-3. `splicing`: what the two ways have in common
+3. `splicing`: lay a clip on another, and put the frames of both in a row
 4. `joining`: from clip into clip, by a blend
 5. `inertialization`: a cut whose offset dies away
 

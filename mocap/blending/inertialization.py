@@ -11,13 +11,13 @@ from mocap.body.motion import Motion
 
 
 def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
-    """Cut from one motion to another, and let what differs at the cut die away [Bol18].
+    """Cut from one motion to another, and let their difference at the cut fade to zero [Bol18].
 
-    The pose that a would have had is b's pose plus an offset. From the cut on, b plays alone, and the
-    offset x, as it is at the cut with its velocity v, fades over T = k / fps by the quintic
-    x(u) = (1 - u)⁴ (x + (4 x + v T) u), u = t / T, which ends at rest, unaccelerated and without jerk. Roots
-    are offset by vectors, rotations by rotation vectors. Unlike a blend it needs no more frames of a, so
-    games can cut at any moment; but it knows nothing of where a was going.
+    At the cut a's pose is b's pose plus an offset x that changes with the velocity v. From there on only b
+    plays, plus this offset, which fades over T = k / fps by the quintic
+    x(u) = (1 - u)⁴ (x + (4 x + v T) u), u = t / T. It ends at rest, without acceleration and without jerk.
+    Roots are offset by vectors, rotations by rotation vectors. Unlike a blend it plays no frames of a after
+    the cut, so games can use it at any moment; but it does not know where a was going.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
 
 def _steady(turns: Array, cut: int) -> Array:
-    """Of the two rotation vectors that mean each turn, take the one nearer to the turn at index `cut`."""
+    """Two rotation vectors mean each turn: take the one that is nearer to the vector at index `cut`."""
     length = np.maximum(np.linalg.norm(turns, axis=-1, keepdims=True), 1e-12)
     others = turns * (1 - 2 * np.pi / length)
     gaps = (np.linalg.norm(way - turns[cut], axis=-1, keepdims=True) for way in (turns, others))

@@ -14,7 +14,7 @@ from mocap.errors import MocapError
 def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     """Mix two motions frame by frame: roots on a line, rotations by slerp [KGP02, Eqs. 5 and 6].
 
-    Nothing is aligned here: lay b on a first.
+    It does not align the motions: lay b on a first.
 
     Parameters
     ----------
@@ -53,11 +53,16 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
 
 
 def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
-    """Take blend weights as an array, one for each frame of two motions that are as long.
+    """Check blend weights, and give them as an array: one for each frame of two motions.
 
     Raises
     ------
-    MocapError : for other lengths, and for weights outside [0, 1].
+    MocapError : for motions of different lengths, another number of weights, and weights outside [0, 1].
+
+    Examples
+    --------
+    >>> checked_weights([1, 0.5, 0], 3, 3)
+    array([1. , 0.5, 0. ])
 
     Notebook: 04-blending
     """

@@ -23,7 +23,7 @@ def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
     a, i : the motion to leave, and the first frame of the window in it.
     b, j : the motion to enter, and the first frame of the window in it.
     window : frames k of the transition.
-    weights : gives for k the weights of `a`, shape (k,): one of `blending`'s, or your own.
+    weights : a function that gives for k the weights of `a`, shape (k,): one of this room's, or your own.
 
     Returns
     -------

@@ -10,8 +10,8 @@ from mocap.errors import MocapError
 def cubic_weights(window: int) -> Array:
     """Give the weights α of the first motion over a transition, C¹ at both ends [KGP02, Eq. 7].
 
-    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1: it falls from nearly 1 to 0,
-    and is level where it would reach 1 (at p = -1) and 0.
+    α(p) = 2 ((p+1)/k)³ - 3 ((p+1)/k)² + 1 for the frames p = 0 … k-1. It falls from nearly 1 to 0, and its
+    slope is 0 where it would reach 1 (at p = -1) and where it reaches 0.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def linear_weights(window: int) -> Array:
 def quintic_weights(window: int) -> Array:
     """Give weights that are C² at both ends, so that accelerations do not jump either.
 
-    α(p) = 1 - 10 t³ + 15 t⁴ - 6 t⁵ with t = (p+1)/k, the lowest polynomial that is level and not curved
-    where it reaches 1 and 0.
+    α(p) = 1 - 10 t³ + 15 t⁴ - 6 t⁵ with t = (p+1)/k: the polynomial of the lowest degree whose slope and
+    curvature are 0 where it reaches 1 and 0.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def quintic_weights(window: int) -> Array:
 def sine_weights(window: int) -> Array:
     """Give the homework's weights, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, where k was 50.
 
-    Unlike the others they hold 1 in the first frame of the window: a frame is spent at either end.
+    Unlike the other weights they are 1 in the first frame of the window: that frame is the first motion's own.
 
     Examples
     --------
@@ -79,7 +79,12 @@ def sine_weights(window: int) -> Array:
 
 
 def window_steps(window: int) -> Array:
-    """Count (p+1)/k over a window's frames: 0 would be the frame before it, and 1 is its last.
+    """Give (p+1)/k for the frames p of a window: 0 would be the frame before it, and 1 is its last frame.
+
+    Examples
+    --------
+    >>> window_steps(4)
+    array([0.25, 0.5 , 0.75, 1.  ])
 
     Notebook: 04-blending
     """

@@ -1,4 +1,4 @@
-"""A join is the clips' own frames around a smooth passage; a cut's offset dies away as the quintic says."""
+"""Both ways from clip into clip: own frames around a smooth passage; and what only a join does."""
 
 from dataclasses import replace
 
@@ -12,11 +12,10 @@ from mocap.blending.interpolation import blend
 from mocap.blending.joining import join
 from mocap.blending.splicing import lay_window_on
 from mocap.blending.weights import linear_weights
-from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
-from tests.strategies import planar, random_motion, seeds, wave
+from tests.strategies import planar, random_motion, wave
 
 A, B = wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)
 GRID = distance_grid(A, B, window=8)[20:90, 20:60]
@@ -80,40 +79,6 @@ def test_the_seam_is_as_smooth_as_the_clips_and_a_cut_is_not(way):
     clip = np.linalg.norm(np.diff(joint_positions(A), 2, axis=0), axis=-1).max() * A.fps
     assert roughness(way(A, LEAVE, B, ENTER + 4, 12)) < 1.5 * clip
     assert roughness(way(A, LEAVE, B, ENTER + 4, 1)) > 2 * clip
-
-
-def test_an_inertialized_cut_keeps_pose_and_velocity():
-    cut = inertialize(A, 60, B, 20, 16)
-    now, own = joint_positions(cut), joint_positions(A)
-    assert now[60] == pytest.approx(own[60], abs=1e-9)
-    # Frame 61 is a's own, but for half a frame's difference in acceleration.
-    assert now[61] == pytest.approx(own[61], abs=0.03)
-    assert rotations.angle_between(cut.rotations[60], A.rotations[60]) == pytest.approx(0, abs=1e-6)
-
-
-def test_the_offset_dies_away_by_the_quintic():
-    laid = lay_window_on(A, 60, B, 20, 16)
-    gap = A.root_positions[59:62] - laid.root_positions[19:22]
-    x, v = gap[1], (gap[2] - gap[0]) / 2
-    # Six coefficients from six equations: place and speed at u = 0; at u = 1 all zero, up to the jerk.
-    falling = [np.polynomial.Polynomial.basis(n) for n in range(6)]
-    at = [[p.deriv(order)(1.0) for p in falling] for order in range(4)]
-    coefficients = np.linalg.solve(
-        np.array([np.eye(6)[0], np.eye(6)[1], *at]), [x, 16 * v, *np.zeros((4, 3))]
-    )
-    wanted = (np.arange(16)[:, None] / 16) ** np.arange(6) @ coefficients
-    offset = inertialize(A, 60, B, 20, 16).root_positions[60:76] - laid.root_positions[20:36]
-    assert offset == pytest.approx(wanted, abs=1e-9)
-
-
-@settings(max_examples=20)
-@given(seeds, st.integers(1, 5))
-def test_any_two_poses_can_be_cut_without_a_spin(seed, window):
-    a = random_motion(seed, frames=10)
-    b = random_motion(seed + 1, frames=10, skeleton=a.skeleton)
-    cut = inertialize(a, 3, b, 2, window)
-    assert cut.root_positions[3] == pytest.approx(a.root_positions[3], abs=1e-9)
-    assert rotations.angle_between(cut.rotations[3], a.rotations[3]) == pytest.approx(0, abs=1e-6)
 
 
 @both

@@ -1,4 +1,4 @@
-"""Minima against a loop over neighbours, and the search in blocks against the whole grid."""
+"""The search in blocks against the minima of the whole grid."""
 
 from concurrent.futures import Future
 
@@ -6,53 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from hypothesis.extra import numpy as arrays
 
-from mocap.errors import MocapError
 from mocap.matching import distance_grids, tiled_search
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
 from mocap.matching.minima import local_minima
 from mocap.matching.tiled_search import find_minima
 from tests.strategies import seeds
-
-
-def minima_by_loops(grid, below):
-    rows, columns = grid.shape
-    found = []
-    for i, j in np.ndindex(rows, columns):
-        around = [(i + r, j + c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)]
-        inside = [(r, c) for r, c in around if 0 <= r < rows and 0 <= c < columns]
-        lower = all((grid[n], n) > (grid[i, j], (i, j)) for n in inside)
-        if lower and grid[i, j] < below:
-            found.append([i, j])
-    return found
-
-
-@given(
-    arrays.arrays(float, st.tuples(st.integers(1, 6), st.integers(1, 6)), elements=st.integers(0, 4)),
-    st.floats(0, 5),
-)
-def test_minima_are_lower_than_all_neighbours_and_ties_go_to_the_first(grid, below):
-    assert local_minima(grid, below).tolist() == minima_by_loops(grid, below)
-
-
-@pytest.mark.parametrize("dtype", [np.float32, np.float64, int])
-def test_minima_of_any_kind_of_number(dtype):
-    grid = np.array([[1, 2, 2], [2, 2, 0]], dtype)
-    assert local_minima(grid).tolist() == [[0, 0], [1, 2]]
-
-
-def test_grids_without_minima():
-    assert local_minima(np.full((3, 3), np.inf)).shape == (0, 2)
-    assert local_minima(np.empty((0, 3))).shape == (0, 2)
-    assert local_minima(np.ones((2, 2)), below=1).shape == (0, 2)
-
-
-def test_what_is_no_grid_is_refused():
-    with pytest.raises(MocapError, match=r"two dimensions, got shape \(3,\)"):
-        local_minima(np.ones(3))
-    with pytest.raises(MocapError, match=r"NaN at \[1, 0\]"):
-        local_minima(np.array([[1.0], [np.nan]]))
 
 
 def smooth_points(seed, frames):
