@@ -64,7 +64,7 @@ def quintic_weights(window: int) -> Array:
 def sine_weights(window: int) -> Array:
     """Give the homework's weights, α_i = 1 - (1 + sin(π i / (k-1) - π/2)) / 2, where k was 50.
 
-    Unlike the other weights they are 1 in the first frame of the window: that frame is the first motion's own.
+    Unlike the other weights they are 1 in the first frame of the window, which is the first motion's own.
 
     Examples
     --------
