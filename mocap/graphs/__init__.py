@@ -12,7 +12,7 @@ Reading order (notebooks 05, 06)
  5. `choice_points`: fewer, fuller choice points
  6. `graph_summary`: what a graph can play
  7. `storage`: one file for a graph: .npz; GraphML for other tools
- 8. `edge_tables`: what each edge plays, as arrays
+ 8. `edge_tables`: what each edge plays, and each hop, as arrays
  9. `compiled_graph`: a whole graph as arrays, for searches
 10. `homework_graph`: the homework's simpler graph
 
@@ -40,7 +40,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "choice_points": ["merge_choice_points"],
         "graph_summary": ["Summary", "summary"],
         "storage": ["find_clips", "load", "read", "require_suffix", "save", "write_graphml"],
-        "edge_tables": ["EdgeTable", "FrameTable", "edge_table", "frame_table", "require_node"],
+        "edge_tables": ["EdgeTable", "FrameTable", "Hops", "edge_table", "frame_table", "require_node"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
         "homework_graph": [
             "Segment",

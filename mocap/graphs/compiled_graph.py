@@ -1,33 +1,60 @@
 """A motion graph as arrays, for searches that look at thousands of edges at once.
 
-A point (x, z) on the ground is the complex number z + ix: a turn by θ about +y is then a product with
-exp(iθ), and a planar transform is p ↦ turn · p + move.
+Ground points are complex numbers z + ix and planar transforms p ↦ turn · p + move, as `body.planar` says.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Indices, Points, ranges
+from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap.body.motion import gather_marks
 from mocap.body.planar import heading, on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.edge_tables import Edge, EdgeTable, FrameTable, edge_table, frame_table, require_node
+from mocap.graphs.edge_tables import (
+    Edge,
+    EdgeTable,
+    FrameTable,
+    Hops,
+    edge_table,
+    find_hops,
+    frame_table,
+    require_node,
+)
 from mocap.graphs.motion_graph import MotionGraph, Node
 
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
-HOP = 1 / 6  # seconds
+
+
+@dataclass(frozen=True, eq=False)
+class Tracks:
+    """Where the root is in the T frames of all edges, one edge after the other.
+
+    Parameters
+    ----------
+    first : shape (E,), the row at which each edge's frames start.
+    ground : shape (T,), the root on the ground, in the coordinates of the clip that the edge leaves.
+    step : shape (T,), metres from the frame before.
+    """
+
+    first: Indices
+    ground: Points
+    step: Array
+
+
+@dataclass(frozen=True, eq=False)
+class LabelTable:
+    """Which of the T frames of all edges bear which of L labels: `bears` (L, T), in the order of `names`."""
+
+    names: list[str]
+    bears: Mask
 
 
 @dataclass(frozen=True, eq=False)
 class CompiledGraph:
-    """N nodes, E edges with T frames, and H hops.
-
-    A hop is what a search steps by: a ride along the clip that ends in a transition, or has lasted `HOP`
-    seconds. Stepping by edges, of a frame or two each, would come to the same walks.
+    """A motion graph with N nodes, E edges of T frames together, and H hops.
 
     Parameters
     ----------
@@ -36,17 +63,10 @@ class CompiledGraph:
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
     target, frames, cost, blended : shape (E,), as in the graph; `blended` are the transitions.
     turn, move : shape (E,), the transform of a transition, else 1 and 0.
-    track_first : shape (E,), where an edge's frames start among those of all edges.
-    track : shape (T,), where the root is, in the coordinates of the clip that the edge leaves.
-    step : shape (T,), metres from the frame before.
     at : shape (N,), where the root is at a node, in the coordinates of its clip.
     ahead : shape (N, 3), where it is after `AHEAD` seconds if the clip goes on (past its end, as before).
     going : shape (N,), the direction it moves in, or where it stands, faces (radians).
-    hop_first : shape (N + 1,), hops `hop_first[n]` to `hop_first[n + 1]` leave node n.
-    ride, rides : shape (H,), the first stretch of clip that a hop rides along, and how many.
-    last : shape (H,), the edge that ends it: a transition, or the last stretch of the ride.
-    labels : the names of the labels.
-    bears : shape (L, T), which frames bear them.
+    tracks, hops, labels : what the edges' frames do, what leaves each node, and which frames bear a label.
     """
 
     source: MotionGraph
@@ -55,31 +75,32 @@ class CompiledGraph:
     target: Indices
     frames: Indices
     cost: Array
-    blended: NDArray[np.bool_]
+    blended: Mask
     turn: Points
     move: Points
-    track_first: Indices
-    track: Points
-    step: Array
     at: Points
     ahead: Points
     going: Array
-    hop_first: Indices
-    ride: Indices
-    rides: Indices
-    last: Indices
-    labels: list[str]
-    bears: NDArray[np.bool_]
+    tracks: Tracks
+    hops: Hops
+    labels: LabelTable
 
     @property
     def fps(self) -> float:
-        """Frames a second."""
-        return self.source.clips[0].fps
+        """Frames per second."""
+        return self.source.fps
 
     def index(self, node: Node) -> int:
         """Find a node's number, or raise `NoWalk`."""
         require_node(self.source, node)
         return self.nodes.index(node)
+
+    def label_number(self, name: str) -> int:
+        """Find a label's number, -1 for "", or raise `NoWalk`."""
+        if name and name not in self.labels.names:
+            have = ", ".join(self.labels.names) or "none"
+            raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {have}.")
+        return self.labels.names.index(name) if name else -1
 
 
 def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
@@ -88,6 +109,14 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     Raises
     ------
     NoWalk : for a graph without edges.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(), 30)]
+    >>> compiled = compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> len(compiled.edges) == len(compiled.target), compile_graph(compiled) is compiled
+    (True, True)
 
     Notebook: 08-path-synthesis
     """
@@ -112,73 +141,53 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
         frames=table.frames,
         cost=table.cost,
         blended=table.blended,
-        **_tracks(table, frames, roots),
+        turn=table.transform.turn,
+        move=table.transform.move,
         at=roots[standing],
-        ahead=roots.ahead(standing, graph.clips[0].fps),
-        going=roots.going(standing, graph.clips[0].fps),
-        **_hops(table, leaves, len(nodes), graph.clips[0].fps),
-        **_bearing(graph, frames),
+        ahead=roots.ahead(standing, graph.fps),
+        going=roots.going(standing, graph.fps),
+        tracks=_tracks(table, frames, roots),
+        hops=find_hops(table, leaves, len(nodes), graph.fps),
+        labels=_labels(graph, frames),
     )
 
 
-def _tracks(edges: EdgeTable, frames: FrameTable, roots: _Roots) -> dict[str, Any]:
+def _tracks(edges: EdgeTable, frames: FrameTable, roots: _Roots) -> Tracks:
     """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]."""
-    turn, move = edges.transform.turn, edges.transform.move
+    turn, move = edges.transform.turn[frames.edge], edges.transform.move[frames.edge]
     first = np.cumsum(edges.frames) - edges.frames
-    track = frames.alpha * roots[frames.here]
-    track += (1 - frames.alpha) * (turn[frames.edge] * roots[frames.there] + move[frames.edge])
-    step = np.abs(np.diff(track, prepend=0))
-    step[first] = np.abs(track[first] - roots[edges.leaves - np.array([0, 1])])
-    return {"turn": turn, "move": move, "track_first": first, "track": track, "step": step}
+    ground = frames.alpha * roots[frames.here]
+    ground += (1 - frames.alpha) * (turn * roots[frames.there] + move)
+    step = np.abs(np.diff(ground, prepend=0))
+    step[first] = np.abs(ground[first] - roots[edges.leaves - np.array([0, 1])])
+    return Tracks(first, ground, step)
 
 
-def _hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> dict[str, Any]:
-    """List the hops: from every node ride on, stretch by stretch, and leave by each transition on the way.
-
-    A stretch of clip leads from node n to node n + 1, for the nodes are sorted.
-    """
-    rides = np.flatnonzero(~edges.blended)
-    onward = np.full(nodes + 1, -1)  # the stretch that leaves each node
-    onward[leaves[rides]] = rides
-    first = np.searchsorted(leaves[len(rides) :], np.arange(nodes + 1)) + len(rides)
-    # Of those still riding: where they are, and for how many frames they have been.
-    here, ridden = np.arange(nodes), np.zeros(nodes, np.intp)
-    origin, count, found = np.arange(nodes), 0, []
-    while len(here):
-        ways = first[here + 1] - first[here]
-        leaving = np.repeat(origin, ways)
-        found.append((leaving, np.full(len(leaving), count), ranges(first[here], ways)))
-        riding = onward[here] >= 0
-        origin, here, stretch = origin[riding], here[riding] + 1, onward[here[riding]]
-        ridden, count = ridden[riding] + edges.frames[stretch], count + 1
-        # A ride ends when it has lasted long enough, or its clip goes no further.
-        over = (ridden >= HOP * fps) | ((onward[here] < 0) & (first[here] == first[here + 1]))
-        found.append((origin[over], np.full(over.sum(), count - 1), stretch[over]))
-        here, origin, ridden = here[~over], origin[~over], ridden[~over]
-    start, rides, last = (np.concatenate(column) for column in zip(*found, strict=True))
-    order = np.argsort(start, kind="stable")
-    return {
-        "hop_first": np.searchsorted(start[order], np.arange(nodes + 1)),
-        "ride": onward[start[order]],
-        "rides": rides[order],
-        "last": last[order],
-    }
+def _labels(graph: MotionGraph, frames: FrameTable) -> LabelTable:
+    """List which frames bear which label; in a transition, those of the clip with the larger weight."""
+    marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
+    names = sorted(marks)
+    return LabelTable(names, np.array([marks[name] for name in names], bool).reshape(-1, len(frames.edge)))
 
 
 def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
-    """Place the root on the ground in every frame of a walk, and tell which of the graph's frames these are.
+    """Place the root on the ground in every frame of a walk, and give these frames' rows among all.
 
     Parameters
     ----------
-    graph : N nodes, E edges.
+    graph : the compiled graph.
     edges : numbers of edges, each starting where the one before ends.
-    turn, move : place the first edge's clip: p -> turn · p + move.
+    turn, move : place the first edge's clip: p ↦ turn · p + move.
+
+    Returns
+    -------
+    The root, shape (F,), and the rows in `graph.tracks`, shape (F,).
     """
     turns = np.cumprod([turn, *graph.turn[edges]])[:-1]
     moves = move + np.concatenate([[0], np.cumsum(turns * graph.move[edges])[:-1]])
     frames = graph.frames[edges]
-    rows = ranges(graph.track_first[edges], frames)
-    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.track[rows], rows
+    rows = ranges(graph.tracks.first[edges], frames)
+    return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.tracks.ground[rows], rows
 
 
 class _Roots:
@@ -205,22 +214,10 @@ class _Roots:
         return np.stack(found, axis=1)
 
     def going(self, frames: Indices, fps: float) -> Array:
-        """Tell the direction of the next moments, or how the root is turned where they lead nowhere."""
+        """Give the direction of the next moments, or the root's heading where it stands."""
         way = self.ahead(frames, fps)[:, -1] - self[frames]
         return np.where(np.abs(way) > 0.1, np.angle(way), heading(self.turns[self._rows(frames)]))
 
     def _rows(self, frames: Indices) -> Indices:
         clip, frame = frames.T
         return np.asarray(self.first[clip] + np.clip(frame, 0, self.last[clip]))
-
-
-def _bearing(graph: MotionGraph, frames: FrameTable) -> dict[str, Any]:
-    """Tell which frames bear which label, in a transition that of the clip with the larger weight."""
-    labels = sorted({label for clip in graph.clips for label in clip.labels})
-    owner = np.where(frames.alpha[:, None] >= 0.5, frames.here, frames.there)
-    bears = np.zeros((len(labels), len(owner)), bool)
-    for number, clip in enumerate(graph.clips):
-        of_clip = owner[:, 0] == number
-        for label, mark in clip.labels.items():
-            bears[labels.index(label), of_clip] = mark[owner[of_clip, 1]]
-    return {"labels": labels, "bears": bears}

@@ -1,6 +1,10 @@
-"""What each edge of a motion graph plays, as arrays: one row per edge, one row per frame."""
+"""What each edge of a motion graph plays, and each hop, as arrays: one row per edge, per frame, per hop."""
+
+from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +17,8 @@ from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import MotionGraph, Node
 
 Edge = tuple[Node, Node, int]
+
+HOP = 1 / 6  # seconds
 
 
 class EdgeTable(NamedTuple):
@@ -86,3 +92,94 @@ def frame_table(edges: EdgeTable, window: int) -> FrameTable:
     blended = edges.blended[edge]
     alpha[blended] = cubic_weights(window)[step[blended]]
     return FrameTable(edge, here, there, alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class Hops:
+    """All H hops of a compiled graph, sorted by the node that they leave.
+
+    A hop rides along the clip until it takes a transition, or has lasted `HOP` seconds. To step by edges, of
+    a frame or two each, would come to the same walks.
+
+    Parameters
+    ----------
+    first : shape (N + 1,), hops `first[n]` to `first[n + 1]` leave node n.
+    ride, rides : shape (H,), the first stretch of clip that a hop rides along, and how many stretches.
+    last : shape (H,), the edge that ends it: a transition, or the last stretch of the ride.
+    starts, counts : shape (H, 2), the rows of frames that it plays, among those of all edges one after the
+        other: first those of the ride before its last edge, then those of the last edge.
+    """
+
+    first: Indices
+    ride: Indices
+    rides: Indices
+    last: Indices
+    starts: Indices
+    counts: Indices
+
+    @cached_property
+    def frames(self) -> Indices:
+        """How many frames each hop plays, shape (H,)."""
+        return np.asarray(self.counts.sum(axis=1))
+
+    def leaving(self, nodes: Indices) -> tuple[Indices, Indices]:
+        """List every hop from some nodes: which of the nodes it leaves, and its number."""
+        first = self.first[nodes]
+        count = self.first[nodes + 1] - first
+        return np.repeat(np.arange(len(nodes)), count), ranges(first, count)
+
+    def rows(self, hops: Indices) -> tuple[Indices, Indices]:
+        """List the rows of all frames that some hops play, and which of the hops each belongs to."""
+        rows = ranges(self.starts[hops].ravel(), self.counts[hops].ravel())
+        return rows, np.repeat(np.arange(len(hops)), self.counts[hops].sum(axis=1))
+
+    def edges(self, hops: Indices) -> Indices:
+        """List the edges of some hops, in order."""
+        rides = self.rides[hops]
+        first = np.stack([self.ride[hops], self.last[hops]], axis=1)
+        return ranges(first.ravel(), np.stack([rides, np.ones_like(rides)], axis=1).ravel())
+
+
+def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops:
+    """Find the hops: from every node ride on, stretch by stretch, and leave by each transition on the way.
+
+    A stretch of clip leads from node n to node n + 1, because the nodes are sorted.
+
+    Parameters
+    ----------
+    edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
+    leaves : shape (E,), the number of the node that each edge leaves.
+    nodes : how many there are.
+    fps : frames per second.
+    """
+    rides = np.flatnonzero(~edges.blended)
+    onward = np.full(nodes + 1, -1)  # the stretch that leaves each node
+    onward[leaves[rides]] = rides
+    first = np.searchsorted(leaves[len(rides) :], np.arange(nodes + 1)) + len(rides)
+    # Of those still riding: where they are, and for how many frames they have been.
+    here, ridden = np.arange(nodes), np.zeros(nodes, np.intp)
+    origin, count, found = np.arange(nodes), 0, []
+    while len(here):
+        ways = first[here + 1] - first[here]
+        origins = np.repeat(origin, ways)
+        found.append((origins, np.full(len(origins), count), ranges(first[here], ways)))
+        riding = onward[here] >= 0
+        origin, here, stretch = origin[riding], here[riding] + 1, onward[here[riding]]
+        ridden, count = ridden[riding] + edges.frames[stretch], count + 1
+        # A ride ends when it has lasted long enough, or its clip goes no further.
+        over = (ridden >= HOP * fps) | ((onward[here] < 0) & (first[here] == first[here + 1]))
+        found.append((origin[over], np.full(over.sum(), count - 1), stretch[over]))
+        here, origin, ridden = here[~over], origin[~over], ridden[~over]
+    start, rides, last = (np.concatenate(column) for column in zip(*found, strict=True))
+    order = np.argsort(start, kind="stable")
+    ride, rides, last = onward[start[order]], rides[order], last[order]
+    leaving = np.searchsorted(start[order], np.arange(nodes + 1))
+    return Hops(leaving, ride, rides, last, *_played(edges, ride, rides, last))
+
+
+def _played(edges: EdgeTable, ride: Indices, rides: Indices, last: Indices) -> tuple[Indices, Indices]:
+    """Find the rows of frames that hops play; the stretches of a ride follow one another."""
+    ends = np.cumsum(edges.frames)
+    starts = np.stack([ends[ride] - edges.frames[ride], ends[last] - edges.frames[last]], axis=1)
+    ridden = np.where(rides > 0, ends[ride + rides - 1] - starts[:, 0], 0)
+    return starts, np.stack([ridden, edges.frames[last]], axis=1)

@@ -6,12 +6,13 @@ walk; the other files ask for it in different ways.
 Reading order (notebook 08)
 ---------------------------
 1. `path_objective`: what is wished for along a path, and what it costs to go without
-2. `beam_search`: all walks advance together
-3. `path_following`: a walk along a path, and how well it keeps to it
-4. `paper_search`: the same by the search of 2002
-5. `waypoints`: what kind of motion, where, and when
-6. `crowd`: many characters, kept apart
-7. `control`: a character that is told where to go while it walks
+2. `search_states`: walks under way as arrays: expand, score, prune
+3. `beam_search`: all walks advance together
+4. `path_following`: a walk along a path, and how well it keeps to it
+5. `paper_search`: the same by the search of 2002
+6. `waypoints`: what kind of motion, where, and when
+7. `crowd`: many characters, kept apart
+8. `control`: a character that is told where to go while it walks
 
 References
 ----------
@@ -24,7 +25,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "path_objective": ["Prices", "Route", "Wishes", "make_route"],
-        "beam_search": ["Beam", "Found", "find_walk", "start_states"],
+        "search_states": ["States", "start_states"],
+        "beam_search": ["Beam", "Found", "find_walk"],
         "path_following": ["Departure", "Followed", "follow_path"],
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
         "waypoints": ["Arrival", "Waypoint", "WaypointWalk", "through_waypoints"],

@@ -4,9 +4,8 @@ import time
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Indices, ranges
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
@@ -35,7 +34,7 @@ class Walks(NamedTuple):
 
     first: Indices  # -1 for one that has not begun
     node: Indices
-    turn: NDArray[np.complex128]
+    turn: Points
     frames: Indices
     cost: Array
 
@@ -97,19 +96,16 @@ class Controller:
         self._begin()
 
     def _prepare(self) -> None:
-        """Work out for every hop how far it leads, how long it lasts, and what it costs."""
-        graph = self.graph
-        origin = np.repeat(np.arange(len(graph.nodes)), np.diff(graph.hop_first))
-        ride_end = np.where(graph.rides > 0, graph.ride + graph.rides, graph.ride)
-        clip_frames = np.concatenate([[0], np.cumsum(graph.frames)])
-        self.frames = clip_frames[ride_end] - clip_frames[graph.ride] + graph.frames[graph.last]
-        end = graph.turn[graph.last] * graph.at[graph.target[graph.last]] + graph.move[graph.last]
-        self.leads = end - graph.at[origin]
-        self.price = np.where(graph.blended[graph.last], self.SEAM, 0.0)
-        bears = np.add.reduceat(graph.bears, graph.track_first, axis=1, dtype=np.intp)
-        lacks = np.concatenate([np.zeros((len(bears), 1)), np.cumsum(graph.frames - bears, axis=1)], axis=1)
-        ridden = lacks[:, ride_end] - lacks[:, graph.ride]
-        self.lacks = (ridden + (graph.frames - bears)[:, graph.last]) / graph.fps  # (L, H), seconds
+        """Work out for every hop how far it leads, what it costs, and for how long it lacks each label."""
+        graph, hops = self.graph, self.graph.hops
+        self.frames = hops.frames
+        origin = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
+        end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
+        self.leads: Points = end - graph.at[origin]
+        self.price = np.where(graph.blended[hops.last], self.SEAM, 0.0)
+        lacks = np.pad(np.cumsum(~graph.labels.bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
+        played: Indices = lacks[:, hops.starts + hops.counts] - lacks[:, hops.starts]  # (L, H, 2)
+        self.lacks: Array = played.sum(axis=-1) / graph.fps  # (L, H), seconds
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame.
@@ -142,11 +138,8 @@ class Controller:
     def _command(self, heading: float, speed: float, label: str) -> Command:
         if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
             raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
-        if label and label not in self.graph.labels:
-            have = ", ".join(self.graph.labels) or "none"
-            raise NoWalk(f"No clip of the graph bears the label '{label}'; there are: {have}.")
         velocity = speed * complex(np.exp(1j * heading))
-        return Command(velocity, self.graph.labels.index(label) if label else -1)
+        return Command(velocity, self.graph.label_number(label))
 
     def _begin(self) -> None:
         """Start to look ahead, from where the hop under way ends."""
@@ -157,14 +150,13 @@ class Controller:
     def _look(self) -> None:
         """Go on by one round: every walk that is too short, by every hop."""
         graph, walks, command = self.graph, self.walks, self.told
-        begin = graph.hop_first[walks.node]
         short = walks.frames < self.horizon
-        count = np.where(short, graph.hop_first[walks.node + 1] - begin, 0)
-        of, hop = np.repeat(np.arange(len(begin)), count), ranges(begin, count)
+        of, hop = graph.hops.leaving(walks.node[short])
+        of = np.flatnonzero(short)[of]
         self.decided = not len(hop)
         if self.decided:
             return
-        seconds, last = self.frames[hop] / graph.fps, graph.last[hop]
+        seconds, last = self.frames[hop] / graph.fps, graph.hops.last[hop]
         off = walks.turn[of] * self.leads[hop] - command.velocity * seconds
         cost = (off.real**2 + off.imag**2) / seconds + self.price[hop]
         if command.label >= 0:
@@ -184,8 +176,8 @@ class Controller:
         hop = int(self.walks.first[0])
         if hop < 0:
             raise NoWalk(f"The walk ends at node {self.graph.nodes[self.node]}: prune the graph first.")
-        ride, last = int(self.graph.ride[hop]), int(self.graph.last[hop])
-        self.edges = [*range(ride, ride + int(self.graph.rides[hop])), last]
+        self.edges = self.graph.hops.edges(np.array([hop])).tolist()
+        last = self.edges[-1]
         self.frame, self.node = 0, int(self.graph.target[last])
         self.end_turn = self.turn * complex(self.graph.turn[last])
         self._begin()

@@ -67,7 +67,7 @@ def walk_crowd(
     """
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
-    compiled, beam = compile_graph(graph), beam or Beam()
+    compiled, beam = compile_graph(graph), beam or Beam(width=100)
     walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam), paths))
     waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
     for character, path in enumerate(paths):
@@ -91,12 +91,13 @@ def _give_way(
     graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float, beam: Beam
 ) -> tuple[Followed, float, Array]:
     """Walk so as to keep away from some tracks, at the least wait that will do: walk, wait and track."""
-    wide = replace(beam, width=3 * beam.width, rescue=30.0)
+    wide = replace(beam, width=3 * (beam.width or 100), rescue=30.0)
     prices, found = Prices(crowding=60.0, stray=0.0), []
     for wait in WAITS:
         frames = round(wait * graph.fps)
         others = [track[min(frames, len(track) - 1) :] for track in before]
-        walk = follow_path(graph, path, Wishes(others=others, apart=1.1 * apart), beam=wide, prices=prices)
+        wishes = Wishes(others=others, apart=1.1 * apart)
+        walk = follow_path(graph, path, wishes, beam=wide, prices=prices, tries=1)
         track = np.concatenate([np.repeat(walk.track[:1], frames, axis=0), walk.track])
         found.append((walk, wait, track))
         if _clearance(track, before) >= apart:

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mocap._shared.arrays import ranges
 from mocap.body.ground_path import GroundPath
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
@@ -28,14 +29,14 @@ class PathCost:
     def __init__(self, graph: CompiledGraph, route: Route) -> None:
         self.graph, self.route = graph, route
         self.number: dict[SearchEdge, int] = {edge: number for number, edge in enumerate(graph.edges)}
-        self.step = np.maximum(graph.step, route.least / graph.fps)
+        self.step = np.maximum(graph.tracks.step, route.least / graph.fps)
 
     def cost(self, state: PathState, edge: SearchEdge) -> tuple[float, PathState]:
         """Play one edge."""
         graph, e = self.graph, self.number[edge]
-        rows = slice(graph.track_first[e], graph.track_first[e] + graph.frames[e])
+        rows = slice(graph.tracks.first[e], graph.tracks.first[e] + graph.frames[e])
         along = state.along + np.cumsum(self.step[rows])
-        off = np.abs(state.turn * graph.track[rows] + state.move - self.route.at(along))
+        off = np.abs(state.turn * graph.tracks.ground[rows] + state.move - self.route.at(along))
         turn, move = state.turn * graph.turn[e], state.move + state.turn * graph.move[e]
         return float((off**2).sum()), PathState(turn, move, float(along[-1]))
 
@@ -69,21 +70,16 @@ def follow_as_2002(
     """
     compiled = compile_graph(graph)
     route = make_route(compiled, path, wishes)
-    start = start_of(compiled, route, wishes)[0]
-    state = PathState(complex(start["turn"]), complex(start["move"]), 0.0)
+    start = start_of(compiled, route, wishes)
+    state = PathState(complex(start.turn[0]), complex(start.move[0]), 0.0)
     cost = PathCost(compiled, route)
     problem = Problem(compiled.source.graph, cost.cost, cost.done)
-    node = compiled.nodes[int(start["node"])]
+    node = compiled.nodes[int(start.node[0])]
     result = search_ahead(problem, node, state, look=look, budget=budget)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
     edges = np.array([cost.number[edge] for edge in result.walk])
-    rows = np.concatenate(
-        [
-            np.arange(f, f + n)
-            for f, n in zip(compiled.track_first[edges], compiled.frames[edges], strict=True)
-        ]
-    )
+    rows = ranges(compiled.tracks.first[edges], compiled.frames[edges])
     along = np.cumsum(cost.step[rows])
     found = Found(
         edges, state.turn, state.move, along, result.cost, result.expanded, result.cut, result.stopped

@@ -18,15 +18,15 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.components import reached
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Beam, Found, States, find_walk, start_states
+from mocap.steering.beam_search import Beam, Found, find_walk
 from mocap.steering.path_objective import Prices, Route, Wishes, make_route
+from mocap.steering.search_states import States, start_states
 from mocap.synthesis.walk_to_motion import to_motion
 
 ASTRAY = 0.15  # metres from the path at which a walk has left it
 NEAR = 0.04  # metres off on average,
 SEAMS = 1.0  # and transitions a second, up to which a path is well followed
-AGAIN = 1.25  # times as dear or cheap is a seam in a second and a third search,
-WIDER = (1.5, 2)  # with beams so many times as wide
+AGAIN = 1.25  # how many times as much, or as little, a seam costs in a repeated search
 
 
 class Departure(NamedTuple):
@@ -110,29 +110,35 @@ class Followed:
         return told + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
 
 
-def follow_path(
+def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     graph: MotionGraph | CompiledGraph,
     path: GroundPath,
     wishes: Wishes | None = None,
     *,
     beam: Beam | None = None,
     prices: Prices | None = None,
+    tries: int = 3,
 ) -> Followed:
     """Find a walk whose root, seen from above, follows a path.
 
-    The search is that of `beam_search`; its time is linear in the path's length. No one price of a seam
-    suits all paths: where, at the usual one, seams come too often or the walk strays too far
-    (`Followed.excess`), a second and a third, wider search with a dearer or a cheaper seam follow, and the
-    best walk is taken. Where no clip turns as the path does, it cuts the corner and comes back; a warning
-    tells where.
+    The search is that of `beam_search`; its time is linear in the path's length. No one price of a seam suits
+    all paths. So where seams come too often, or the walk strays too far (`Followed.excess` above 1), the
+    search is repeated with a wider beam, and with a seam that costs 1.25 times as much, or as little, as at
+    first. The best of the walks is taken. Where no clip turns as the path does, the walk cuts the corner and
+    comes back; a warning says where.
 
     Parameters
     ----------
     graph : pruned, so that walks do not end; compile it yourself to follow many paths.
     path : where to walk.
     wishes : labels, times and the start.
-    beam : how thoroughly to search; by default half as wide where nothing but the path is wished for.
-    prices : how much seams and wishes count against the distance; at prices of your own there is one search.
+    beam : how thoroughly to search.
+    prices : how much seams and wishes count against the distance.
+    tries : how many searches there may be; 1 for just one, with this beam and at these prices.
+
+    Returns
+    -------
+    The walk, and how well it keeps to the path.
 
     Raises
     ------
@@ -143,34 +149,46 @@ def follow_path(
     -----
     MocapWarning : where the walk is more than 15 cm off the path.
 
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> followed = follow_path(graph, body.GroundPath([[0, 0], [0, 6]]))
+    >>> followed.progress, bool(followed.off.mean() < 0.05)
+    (1.0, True)
+
     Notebook: 08-path-synthesis
     """
     wishes, compiled = wishes or Wishes(), compile_graph(graph)
+    if tries < 1:
+        raise MocapError(f"A path takes at least one search, got tries={tries}.")
     route = make_route(compiled, path, wishes)
-    beam = beam or Beam(width=Beam.width // 2 if route.bare else Beam.width)
     starts = start_of(compiled, route, wishes)
-    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts["node"])
+    _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
 
     def search(beam: Beam, prices: Prices) -> Followed:
         return account(compiled, path, route, find_walk(compiled, route, starts, beam, prices))
 
-    followed = search(beam, prices) if prices else _at_best_price(search, beam)
+    beam = replace(beam or Beam(), width=(beam or Beam()).width_on(route))
+    followed = _best_of(search, beam, prices or Prices(), tries)
     if not wishes.others:  # else it gave way
         _warn(followed.departures)
     return followed
 
 
-def _at_best_price(search: Callable[[Beam, Prices], Followed], beam: Beam) -> Followed:
-    """Search at the usual price of a seam; while the walk is out of bounds, wider and at a better one."""
+def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Prices, tries: int) -> Followed:
+    """Search; while the walk is out of bounds, search again with a wider beam and at a better price."""
     begun = time.monotonic()
-    best = last = search(beam, Prices())
-    for wider in WIDER:
+    best = last = search(beam, prices)
+    for again in range(1, tries):
         if best.excess <= 1 or last.found.stopped:
             return best
-        seam = Prices.seam * (AGAIN if best.seams_a_second > SEAMS else 1 / AGAIN)
+        seam = prices.seam * (AGAIN if best.seams_a_second > SEAMS else 1 / AGAIN)
         left = beam.seconds - (time.monotonic() - begun)
+        wider = replace(beam, width=round((1 + again / 2) * (beam.width or 0)), seconds=left)
         try:
-            last = search(replace(beam, width=round(wider * beam.width), seconds=left), Prices(seam=seam))
+            last = search(wider, replace(prices, seam=seam))
         except NoWalk:  # out of time at once
             return best
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
@@ -214,7 +232,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
     """Measure how far a walk is from its path, and where it lacks its label."""
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
     label = route.label[np.minimum(found.along / route.spacing, len(route.points) - 1).astype(np.intp)]
-    bears = graph.bears[label, rows] if graph.labels else np.zeros(len(rows), bool)
+    bears = graph.labels.bears[label, rows] if graph.labels.names else np.zeros(len(rows), bool)
     return Followed(
         graph.source,
         path,

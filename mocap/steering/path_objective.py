@@ -9,7 +9,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
 
@@ -140,7 +140,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     along = np.linspace(0, path.length, len(points))
     label = np.full(len(points), -1)
     for start, name in sorted(wishes.labels):
-        label[along >= start - 1e-9] = _label(graph, name)
+        label[along >= start - 1e-9] = graph.label_number(name)
     ground = on_ground(points)
     clock, others = _clock(along, wishes), _together(wishes.others)
     return Route(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
@@ -172,11 +172,3 @@ def _clock(along: Array, wishes: Wishes) -> Array:
     if (np.diff(places) <= 0).any():
         raise MocapError(f"Two times are asked for in one place: {places.tolist()} m.")
     return np.asarray(np.interp(along, places, times, left=np.nan, right=np.nan))
-
-
-def _label(graph: CompiledGraph, name: str) -> int:
-    """Find a label's number, -1 for any."""
-    if name and name not in graph.labels:
-        have = ", ".join(graph.labels) or "none"
-        raise NoWalk(f"No clip of the graph bears the label '{name}'; there are: {have}.")
-    return graph.labels.index(name) if name else -1

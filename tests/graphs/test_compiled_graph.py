@@ -33,7 +33,7 @@ def test_the_track_is_the_root_of_the_motion():
     track, rows = walk_track(GRAPH, edges, complex(turn), move)
     motion = to_motion(GRAPH.source, walk, place=PlanarTransform(0.7, 4.0, 3.0))
     assert track == pytest.approx(on_ground(motion.root_positions), abs=1e-9)
-    assert np.abs(np.diff(track)) == pytest.approx(GRAPH.step[rows][1:], abs=1e-9)
+    assert np.abs(np.diff(track)) == pytest.approx(GRAPH.tracks.step[rows][1:], abs=1e-9)
 
 
 def test_labels_are_those_of_the_motion():
@@ -42,7 +42,7 @@ def test_labels_are_those_of_the_motion():
     number = {edge: n for n, edge in enumerate(graph.edges)}
     _, rows = walk_track(graph, np.array([number[edge] for edge in walk]), 1 + 0j, 0j)
     motion = to_motion(graph.source, walk)
-    for label, bears in zip(graph.labels, graph.bears, strict=True):
+    for label, bears in zip(graph.labels.names, graph.labels.bears, strict=True):
         assert np.array_equal(bears[rows], motion.labels.get(label, np.zeros(len(rows), bool)))
 
 
@@ -63,9 +63,28 @@ def test_hops_are_all_ways_on_from_a_node():
         return found
 
     for n in range(0, len(GRAPH.nodes), 53):
-        hops = range(GRAPH.hop_first[n], GRAPH.hop_first[n + 1])
-        told = [(*range(GRAPH.ride[h], GRAPH.ride[h] + GRAPH.rides[h]), GRAPH.last[h]) for h in hops]
+        of, hops = GRAPH.hops.leaving(np.array([n]))
+        assert not of.any()
+        told = [GRAPH.hops.edges(np.array([hop])) for hop in hops]
         assert sorted(tuple(GRAPH.edges[e] for e in hop) for hop in told) == sorted(ways(GRAPH.nodes[n]))
+
+
+def test_a_hop_plays_the_frames_of_its_edges():
+    hops = np.arange(0, len(GRAPH.hops.last), 371)
+    rows, of = GRAPH.hops.rows(hops)
+    assert np.array_equal(np.bincount(of), GRAPH.hops.frames[hops])
+    for number, hop in enumerate(hops):
+        edges = GRAPH.hops.edges(np.array([hop]))
+        _, expected = walk_track(GRAPH, edges, 1 + 0j, 0j)
+        assert np.array_equal(rows[of == number], expected)
+
+
+def test_a_label_has_a_number():
+    graph = sneaking()
+    assert [graph.labels.names[graph.label_number(name)] for name in ("sneak", "walk")] == ["sneak", "walk"]
+    assert graph.label_number("") == -1
+    with pytest.raises(NoWalk, match="bears the label 'fly'; there are: sneak, walk"):
+        graph.label_number("fly")
 
 
 def test_it_is_compiled_once_and_never_empty():

@@ -7,11 +7,12 @@ from mocap.body.ground_path import GroundPath, s_curve
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
-from mocap.steering import beam_search
-from mocap.steering.beam_search import Beam, find_walk, start_states
+from mocap.steering import beam_search, search_states
+from mocap.steering.beam_search import Beam, find_walk
 from mocap.steering.paper_search import PathCost, PathState
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Prices, Wishes, make_route
+from mocap.steering.search_states import expand, start_states
 from mocap.synthesis.bounded_search import Problem, branch_and_bound
 from tests.bundled import walking
 from tests.strategies import wave
@@ -21,7 +22,7 @@ GRAPH = walking()
 
 def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds(monkeypatch):
     """The paper's search is the oracle; sliding along the path, which it does not know, is turned off."""
-    monkeypatch.setattr(beam_search._Run, "slide", lambda self, states, most: 0.0)
+    monkeypatch.setattr(search_states, "slide", lambda space, states, most: 0.0)
     path = GroundPath([[0, 0], [0.1, 0.45], [0.3, 0.75]])
     route = make_route(GRAPH, path, Wishes())
     for node in (3, 200, 500):
@@ -29,11 +30,11 @@ def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds(monkeypatc
         beam = Beam(width=10**6, place=1e-6, turn=1e-6, rescue=0.0)
         found = find_walk(GRAPH, route, start, beam, Prices(seam=0.0, match=0.0, stray=0.0))
         cost = PathCost(GRAPH, route)
-        state = PathState(complex(start["turn"][0]), complex(start["move"][0]), 0.0)
+        state = PathState(complex(start.turn[0]), complex(start.move[0]), 0.0)
         best = branch_and_bound(Problem(GRAPH.source.graph, cost.cost, cost.done), GRAPH.nodes[node], state)
         # A hop may ride on past the end of the path, to which the paper's walk stops: never for less.
         assert found.cost >= best.cost - 1e-12
-        walked, state = 0.0, PathState(complex(start["turn"][0]), complex(start["move"][0]), 0.0)
+        walked, state = 0.0, PathState(complex(start.turn[0]), complex(start.move[0]), 0.0)
         for edge in found.edges:
             if cost.done(state):
                 break
@@ -53,13 +54,15 @@ def test_a_wider_beam_costs_more_and_follows_better():
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_the_work_is_linear_in_the_length():
     prices = Prices()
-    walks = [follow_path(GRAPH, s_curve(length), prices=prices) for length in (10, 40)]
+    walks = [follow_path(GRAPH, s_curve(length), prices=prices, tries=1) for length in (10, 40)]
     short, long = (walk.found.expanded for walk in walks)
     assert 3 < long / short < 5
 
 
 def test_the_cost_is_what_the_walk_is_off():
-    followed = follow_path(GRAPH, GroundPath([[0, 0], [0, 6]]), prices=Prices(seam=0.0, match=0.0, stray=0.0))
+    followed = follow_path(
+        GRAPH, GroundPath([[0, 0], [0, 6]]), prices=Prices(seam=0.0, match=0.0, stray=0.0), tries=1
+    )
     assert followed.found.cost >= (followed.off**2).sum() - 1e-9
 
 
@@ -72,7 +75,7 @@ def test_it_tells_how_far_it_has_come():
             yield layer
 
     path = GroundPath([[0, 0], [0, 6]])
-    follow_path(GRAPH, path, beam=Beam(progress=progress, layer=0.25), prices=Prices())
+    follow_path(GRAPH, path, beam=Beam(progress=progress, layer=0.25), tries=1)
     assert seen == [(layer, 25) for layer in range(25)]
 
 
@@ -87,14 +90,14 @@ def test_out_of_time_it_gives_the_best_so_far_and_says_so():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_an_interruption_gives_the_best_walk_so_far(monkeypatch):
-    rounds, follow = iter(range(40)), beam_search._Run.follow
+    rounds = iter(range(40))
 
-    def interrupted(self, states):
+    def interrupted(*args):
         if next(rounds, None) is None:
             raise KeyboardInterrupt
-        return follow(self, states)
+        return expand(*args)
 
-    monkeypatch.setattr(beam_search._Run, "follow", interrupted)
+    monkeypatch.setattr(beam_search, "expand", interrupted)
     followed = follow_path(GRAPH, s_curve())
     assert followed.found.stopped == "interrupted"
     assert 0.05 < followed.progress < 0.9

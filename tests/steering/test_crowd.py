@@ -23,7 +23,7 @@ def apart(a, b):
 
 
 def test_who_would_collide_gives_way():
-    alone = [follow_path(GRAPH, path, beam=Beam()) for path in CROSSING]
+    alone = [follow_path(GRAPH, path, beam=Beam(width=100)) for path in CROSSING]
     crowd = walk_crowd(GRAPH, CROSSING)
     assert apart(*(walk.track for walk in alone)) < 0.3
     assert crowd.nearest[0, 1] >= 0.8
@@ -59,7 +59,9 @@ def test_what_falls_short_is_told():
 def test_who_is_far_apart_walks_as_if_alone():
     paths = [CROSSING[0], GroundPath([[9, 0], [9, 6]])]
     crowd = walk_crowd(GRAPH, paths)
-    assert [w.walk for w in crowd.walks] == [follow_path(GRAPH, path, beam=Beam()).walk for path in paths]
+    assert [w.walk for w in crowd.walks] == [
+        follow_path(GRAPH, path, beam=Beam(width=100)).walk for path in paths
+    ]
     assert crowd.waits == [0.0, 0.0]
     assert walk_crowd(GRAPH, paths[:1]).nearest.tolist() == [[np.inf]]
 

@@ -55,7 +55,7 @@ def test_what_it_tells_is_what_the_motion_does():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_dear_seams_are_few():
-    cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam)) for seam in (0.01, 2.0))
+    cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam), tries=1) for seam in (0.01, 2.0))
     assert dear.seams_a_second < 0.8 * cheap.seams_a_second
 
 
@@ -79,7 +79,7 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
 
     monkeypatch.setattr(path_following, "find_walk", search)
     monkeypatch.setattr(path_following, "account", measure)
-    once = follow_path(GRAPH, s_curve(), prices=Prices())
+    once = follow_path(GRAPH, s_curve(), tries=1)
     assert once.excess > 1
     assert widths() == [50]
     better = follow_path(GRAPH, s_curve())
@@ -88,7 +88,7 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     assert widths() in ([50, 75], [50, 75, 100])
     with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
         slow.setattr("mocap.steering.beam_search.time", SimpleNamespace(monotonic=count().__next__))
-        stopped = follow_path(GRAPH, s_curve(), beam=Beam(seconds=30))
+        stopped = follow_path(GRAPH, s_curve(), beam=Beam(width=100, seconds=30))
     assert stopped.found.stopped == "out of time"
     assert widths() == [100]
     for bound in ("NEAR", "ASTRAY", "SEAMS"):
