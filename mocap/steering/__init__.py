@@ -25,7 +25,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "path_objective": ["Prices", "Route", "Wishes", "make_route"],
-        "search_states": ["States", "start_states"],
+        "search_states": ["States", "expand", "prune", "score", "start_states"],
         "beam_search": ["Beam", "Found", "find_walk"],
         "path_following": ["Departure", "Followed", "follow_path"],
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
