@@ -1,17 +1,17 @@
 """Pictures, by matplotlib: stick figures, distance images, paths, curves and graphs.
 
-Every function draws on `ax` (new axes by default), computes nothing of its own, and gives back the artists it
-made; `show` puts the picture into a notebook with a sentence for readers who do not see it.
+Every function draws on `ax` (new axes by default), computes nothing of its own, and returns the artists that
+it made; `show` puts the picture into a notebook with a sentence for readers who do not see it.
 
 Reading order (notebooks 00 to 10)
 ----------------------------------
-1. `style`: one look: colours that colour-blind readers tell apart
+1. `style`: colours that colour-blind readers can tell apart
 2. `axes`: 3D axes with a ground
 3. `stick_figures`: bodies as lines
 4. `charts`: distance images, paths from above, curves
 5. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-6. `search_tree`: what a search looked at
-7. `picture`: pictures in notebooks
+6. `search_tree`: the walks that a search visits and cuts off
+7. `picture`: a figure as a picture in a notebook
 
 References
 ----------

@@ -1,6 +1,6 @@
-"""The ground and the bodies on it, in matplotlib's 3D axes.
+"""3D axes with a ground, and where the camera looks.
 
-The world's (z, x, y) are the picture's (x, y, z).
+The world's (z, x, y) are matplotlib's (x, y, z): its third axis points up, ours is y.
 """
 
 from __future__ import annotations
@@ -15,12 +15,17 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.plotting.style import FLOOR
 
-TALL = 1.9  # metres of height that pictures show
-ZOOM = 1.55  # how near one stands
+TALL = 1.9  # metres above the ground that pictures show
+ZOOM = 1.55  # of the camera, where nothing has to be brought inside the picture
 
 
 def to_picture(points: ArrayLike) -> Array:
     """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring.
+
+    Examples
+    --------
+    >>> to_picture([1, 2, 3])  # x to the left, y up, z ahead
+    array([3., 1., 2.])
 
     Notebook: 03-transforms
     """
@@ -35,15 +40,21 @@ def ground_axes(
     Parameters
     ----------
     centre : its middle (x, z), metres.
-    reach : metres each way from there.
-    tall : metres of height above it that are seen.
+    reach : metres from there to each side.
+    tall : metres above the ground that are seen.
     ax : 3D axes; by default they fill a new figure.
+
+    Examples
+    --------
+    >>> ax = ground_axes((0, 5), reach=2, ax=filled(Figure()))
+    >>> np.concatenate([ax.get_ylim(), ax.get_xlim()]).tolist()  # matplotlib's y is our x, its x our z
+    [-2.0, 2.0, 3.0, 7.0]
 
     Notebook: 01-skeletons-and-clips
     """
     ax = ax or filled(plt.figure(figsize=(5, 5)))
     ax.set_axis_off()
-    ax.computed_zorder = False  # the ground lies below the feet, from wherever one looks
+    ax.computed_zorder = False  # the ground is drawn below the feet, wherever the camera stands
     ax.view_init(elev=14, azim=-55)
     ax.set_proj_type("persp", focal_length=0.6)
     ax.set_box_aspect((2 * reach, 2 * reach, tall), zoom=ZOOM)
@@ -53,13 +64,22 @@ def ground_axes(
     return ax
 
 
+def ground_around(points: Array, ax: Axes3D | None = None) -> Axes3D:
+    """Set up ground that is wide and high enough for points, shape (..., 3), metres."""
+    low, high = (f(points.reshape(-1, 3), axis=0) for f in (np.min, np.max))
+    centre, wide = (low + high)[[0, 2]] / 2, (high - low)[[0, 2]]
+    ax = ground_axes(centre, max(1.2, *wide) / 2 + 0.3, tall=max(TALL, high[1]), ax=ax)
+    keep_inside(ax, points)
+    return ax
+
+
 def filled(figure: Figure) -> Axes3D:
-    """Let 3D axes fill a whole figure."""
+    """Add 3D axes that fill a whole figure."""
     return figure.add_axes((0, 0, 1, 1), projection="3d")
 
 
 def look_at(ax: Axes3D, centre: Array, reach: float) -> None:
-    """Show the ground around a point (x, z); its lines stay where they are in the world."""
+    """Show the ground around a point (x, z); the first collection of `ax`, its lines, keeps to the world."""
     x, z = centre
     ax.set(xlim=(z - reach, z + reach), ylim=(x - reach, x + reach))
     along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
@@ -69,10 +89,10 @@ def look_at(ax: Axes3D, centre: Array, reach: float) -> None:
 
 
 def keep_inside(ax: Axes3D, points: Array) -> None:
-    """Step back until points, shape (..., 3), metres, are all on the picture; nearer is left as it is."""
+    """Zoom out until all points, shape (..., 3), metres, are inside the picture; never zoom in."""
     flat, zoom = to_picture(points).reshape(-1, 3), ZOOM
     spans = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
-    for _ in range(3):  # perspective makes the first step nearly right, not quite
+    for _ in range(3):  # in perspective, the first step is only nearly right
         ax.apply_aspect()
         across, up, _ = proj3d.proj_transform(*flat.T, ax.get_proj())
         seen = ax.transAxes.inverted().transform(ax.transData.transform(np.stack([across, up], axis=-1)))

@@ -1,8 +1,4 @@
-"""Pictures: stick figures, distance images, paths, curves, graphs, animations.
-
-Every function draws on `ax` (a new one by default), computes nothing of its own, and gives back the artists
-it made. What stands on 3D ground comes from `axes`, graphs from `graph_drawing`, files from `film`.
-"""
+"""Charts: distance images, paths and footprints seen from above, curves over time."""
 
 from __future__ import annotations
 
@@ -21,15 +17,6 @@ from mocap.body.motion import Motion
 from mocap.feet.footprints import Footprint
 from mocap.plotting.style import ASKED, COLOURS, CURVES, MARK, PATH
 
-pass
-pass
-pass
-pass
-pass
-pass
-pass
-pass
-
 
 def distance_image(
     grid: NDArray[np.floating[Any]],
@@ -43,17 +30,30 @@ def distance_image(
 
     Parameters
     ----------
-    grid : D, shape (n, m), m²; its root, in centimetres, is what the colours show.
-    fps : frames a second: the axes are in seconds.
-    minima : rows and columns, shape (N, 2).
-    names : of the clip along the rows and that along the columns.
+    grid : D, shape (n, m), m²; the colours show its square root, in centimetres.
+    fps : frames per second; the axes are in seconds.
+    minima : the places to mark, rows and columns, shape (N, 2).
+    names : of the clip along the rows, and of the clip along the columns.
     ax : axes; new ones by default.
+
+    Returns
+    -------
+    The image.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> image = distance_image(np.array([[0.04, 0.01], [0.09, 0.16]]), fps=30, minima=[(0, 1)])
+    >>> image.get_array().round(3).tolist()  # cm
+    [[20.0, 10.0], [30.0, 40.0]]
+    >>> plotting.show(image, alt="Four distances, the least of them marked.")
+    Picture('Four distances, the least of them marked.')
 
     Notebook: 02-matching
     """
     ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
     seconds = (0, grid.shape[1] / fps, grid.shape[0] / fps, 0)
-    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes to shrink to the pixels
+    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes, so the image is drawn faster
     image = ax.imshow(centimetres, cmap="cividis", extent=seconds, interpolation="nearest")
     rows, columns = np.reshape(minima, (-1, 2)).T
     ax.plot((columns + 0.5) / fps, (rows + 0.5) / fps, ".", color="#FFFFFF", markersize=4, label="minima")
@@ -65,7 +65,7 @@ def distance_image(
 def path_from_above(
     motion: Motion, *, seams: ArrayLike = (), colour: str = PATH, ax: Axes | None = None
 ) -> list[Line2D]:
-    """Draw the root's path on the ground seen from above, with x to the left as from behind, z up.
+    """Draw the root's path on the ground, seen from above: z upwards, x to the left, as seen from behind.
 
     Parameters
     ----------
@@ -77,6 +77,13 @@ def path_from_above(
     Returns
     -------
     The path, the start, and the seams.
+
+    Examples
+    --------
+    >>> from mocap import datasets, plotting
+    >>> drawn = path_from_above(datasets.sample("walk_circle"), seams=[300, 600])
+    >>> plotting.show(drawn, alt="A circle seen from above, with two seams.")
+    Picture('A circle seen from above, with two seams.')
 
     Notebook: 00-quickstart
     """
@@ -90,16 +97,23 @@ def path_from_above(
 
 
 def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCollection:
-    """Draw where feet stood, seen from above, left and right in their colours; longer stands are larger.
+    """Draw where feet stood, seen from above: left and right in their colours, longer stands larger.
 
     Parameters
     ----------
     prints : as from `feet.find_footprints`.
-    ax : axes, as `path_from_above` gives them; new ones by default.
+    ax : axes, as from `path_from_above`; new ones by default.
 
     Returns
     -------
-    The prints.
+    The discs, one per footprint.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> steps = [Footprint("lfoot", "left", 0, 20, 0.1, 0.0), Footprint("rfoot", "right", 18, 40, -0.1, 0.6)]
+    >>> footprints(steps, ax=Figure().add_subplot()).get_offsets().tolist()  # (x, z)
+    [[0.1, 0.0], [-0.1, 0.6]]
 
     Notebook: 01-skeletons-and-clips
     """
@@ -111,17 +125,26 @@ def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCo
 
 
 def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None) -> list[Line2D]:
-    """Draw a path that was asked for, black, under the one that was walked [KGP02, Fig. 6].
+    """Draw the path that was asked for, in black, under the path that was walked [KGP02, Fig. 6].
 
     Parameters
     ----------
-    path : shape (N, 2), points (x, z), metres.
+    path : the path asked for, shape (N, 2), points (x, z), metres.
     motion : the walk.
     ax : axes; new ones by default.
 
     Returns
     -------
     The path asked for, the path walked, and its start.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")
+    >>> asked, walked, start = asked_and_walked([(0, 0), (0, 10)], walk, ax=Figure().add_subplot())
+    >>> asked.get_label(), walked.get_label()
+    ('asked for', 'walked')
 
     Notebook: 08-path-synthesis
     """
@@ -141,19 +164,28 @@ def joint_curve(
     labels: Sequence[str] = (),
     ax: Axes | None = None,
 ) -> list[Line2D]:
-    """Draw what a joint does over time, across seams, where a curve must neither jump nor bend sharply.
+    """Draw a joint's values over time, with the seams shaded: there a curve must not jump or bend sharply.
 
     Parameters
     ----------
     values : shape (F,) or (F, K), such as a joint's heights or its angles.
-    fps : frames a second.
-    seams : transitions, shape (N, 2), as frames [start, end); they are shaded.
-    labels : what the K curves are, with their units.
+    fps : frames per second.
+    seams : transitions, shape (N, 2), as frames [start, end).
+    labels : the names of the K curves, with their units.
     ax : axes; new ones by default.
 
     Returns
     -------
     The K curves.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> (curve,) = joint_curve([0.0, 2.0, 3.0, 3.0], fps=10, seams=[(1, 3)], labels=["height (cm)"])
+    >>> curve.get_xdata().tolist()  # seconds
+    [0.0, 0.1, 0.2, 0.3]
+    >>> plotting.show(curve, alt="A height that rises across a seam.")
+    Picture('A height that rises across a seam.')
 
     Notebook: 02-matching
     """
@@ -174,7 +206,7 @@ def joint_curve(
 
 
 def _from_above(ax: Axes | None) -> Axes:
-    """Make axes for the ground seen from above: with y up, x grows to the left when z grows upwards."""
+    """Make axes for the ground seen from above: y points at the viewer, so with z upwards x goes left."""
     ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.xaxis.set_inverted(True)

@@ -1,4 +1,4 @@
-"""Pictures of graphs: clips along time with arcs for transitions, and nodes with arrows for small ones."""
+"""Pictures of graphs: large ones as bars and arcs along time, small ones as nodes and arrows."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -20,21 +20,33 @@ from mocap.plotting.style import COLOURS, MARK, QUIET
 Places = Mapping[Any, Sequence[float]]
 
 MOST_NODES = 100
-"""A drawing of nodes and arrows with more is a ball of wool, and takes seconds to lay out."""
+"""With more nodes, the arrows of `node_link` cover each other."""
 
 
 def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = None) -> LineCollection:
-    """Draw a motion graph: a bar a clip, along time, and a line a transition, bent where it stays in a clip.
+    """Draw a motion graph: one bar per clip, along time, and one arc per transition.
+
+    Arcs within a clip are bent, arcs to another clip are straight.
 
     Parameters
     ----------
-    motion_graph : the graph; what its clips hold beside it is drawn thin.
-    most : transitions to show at most; where there are more, those that cost least.
+    motion_graph : the graph; parts of its clips that are not in the graph are drawn thin.
+    most : how many transitions to show at most; of more, those of least cost.
     ax : axes; new ones by default.
 
     Returns
     -------
     The arcs.
+
+    Examples
+    --------
+    >>> from mocap import datasets, graphs, plotting, resample
+    >>> clips = [resample(datasets.sample("walk_circle"), 30)]
+    >>> arcs = timeline(graphs.build(clips, window=10, threshold=0.03), most=200)
+    >>> len(arcs.get_segments())
+    200
+    >>> plotting.show(arcs, alt="A clip with arcs from each moment to moments like it.")
+    Picture('A clip with arcs from each moment to moments like it.')
 
     Notebook: 00-quickstart
     """
@@ -71,7 +83,7 @@ def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = N
 
 
 def _arcs(ends: Array) -> Array:
-    """Bend lines (E, 2, 2) upwards where both ends lie in one clip, so that they are seen: (E, 13, 2)."""
+    """Bend lines (E, 2, 2) upwards where both ends lie in one clip, off its bar: (E, 13, 2)."""
     t = np.linspace(0, 1, 13)[:, None]
     start, end = ends[:, :1], ends[:, 1:]
     lift = np.where(start[..., 1:] == end[..., 1:], [0, 0.45], 0)
@@ -89,18 +101,27 @@ def node_link(
 
     Parameters
     ----------
-    graph : up to a hundred nodes.
+    graph : 1 to 100 nodes.
     places : where to put the nodes, {node: (x, y)}; on a circle by default.
-    kept : what is left of the graph after pruning; the rest is drawn pale, its edges dashed.
+    kept : the graph after pruning; nodes that are not in it are drawn pale, such edges dashed.
     ax : axes; new ones by default.
 
     Returns
     -------
-    The discs, and an arrow an edge.
+    The discs, and one arrow per edge.
 
     Raises
     ------
     MocapError : for more nodes, or none.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> discs, arrows = node_link(nx.DiGraph([(1, 2), (2, 1), (2, 3)]))
+    >>> len(discs.get_offsets()), len(arrows)
+    (3, 3)
+    >>> plotting.show(discs, alt="1 and 2 lead to each other, 2 leads to 3.")
+    Picture('1 and 2 lead to each other, 2 leads to 3.')
 
     Notebook: 06-pruning
     """
@@ -132,7 +153,7 @@ def _name(node: object) -> str:
 
 
 def _arrow(start: Sequence[float], end: Sequence[float], kept: bool) -> FancyArrowPatch:
-    """Bend an arrow to its left, so that there and back are two; one to its own start goes round above."""
+    """Bend an arrow to its left, so that an arrow and the arrow back are apart; a loop goes over its node."""
     return FancyArrowPatch(
         (start[0], start[1]),
         (end[0], end[1]),
@@ -149,7 +170,7 @@ def _arrow(start: Sequence[float], end: Sequence[float], kept: bool) -> FancyArr
 
 
 def _round_above(start: Sequence[float], _: object, *, shrinkA: float, **__: object) -> Path:
-    """Lead a loop round the top of a disc of radius `shrinkA`, pixels."""
+    """Draw a loop over the top of a disc of radius `shrinkA`, pixels."""
     corners = np.array([(-0.5, 0.8), (-1.5, 2.8), (1.5, 2.8), (0.5, 0.95)])
     return Path(start + shrinkA * corners, [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4])
 
@@ -167,6 +188,14 @@ def before_and_after(
     Returns
     -------
     The arcs of both.
+
+    Examples
+    --------
+    >>> from mocap import datasets, graphs, plotting, resample
+    >>> whole = graphs.build([resample(datasets.sample("walk_straight"), 30)], window=10, threshold=0.03)
+    >>> drawn = before_and_after(whole, graphs.prune(whole))
+    >>> plotting.show(drawn, alt="A clip's transitions before pruning, and the fewer ones after it.")
+    Picture("A clip's transitions before pruning, and the fewer ones after it.")
 
     Notebook: 06-pruning
     """

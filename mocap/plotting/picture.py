@@ -17,11 +17,11 @@ from PIL import Image
 from mocap.errors import MocapError
 
 DPI = 110
-COLOURS = 256  # as many as a palette has: hardly seen, and less than half as large
+COLOURS = 256  # in the palette: the loss is hardly seen, and the file is less than half as large
 
 
 def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting function gives)
-    """Show a picture as the last line of a cell, with a sentence that tells it.
+    """Show a picture as the last line of a cell, with a sentence that describes it.
 
     Parameters
     ----------
@@ -30,16 +30,16 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
 
     Returns
     -------
-    The picture. The figure is closed, so that the notebook does not show it once more.
+    The picture. The figure is closed; otherwise the notebook would show it a second time.
 
     Raises
     ------
-    MocapError : for what is on no figure, and without a sentence.
+    MocapError : without a sentence, and where `drawn` is on no figure.
 
     Examples
     --------
     >>> show(plt.figure().add_subplot().plot([1, 4, 9]), alt="A curve that rises.")
-    Still('A curve that rises.')
+    Picture('A curve that rises.')
 
     Notebook: 00-quickstart
     """
@@ -54,33 +54,39 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
 
 @dataclass(frozen=True)
 class Picture:
-    """What `show` gives.
+    """What `show` returns: a PNG and its sentence; a notebook shows both.
 
     Parameters
     ----------
-    picture : a PNG.
-    alt : what it shows, in a sentence.
+    picture : the PNG, as bytes.
+    alt : a sentence that says what the picture shows.
+
+    Examples
+    --------
+    >>> picture = show(plt.figure().add_subplot().plot([1, 4, 9]), alt="A curve that rises.")
+    >>> picture.picture[1:4], picture.alt
+    (b'PNG', 'A curve that rises.')
     """
 
     picture: bytes = field(repr=False)
     alt: str
 
     def __repr__(self) -> str:
-        return f"Still({self.alt!r})"
+        return f"Picture({self.alt!r})"
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
         data = base64.b64encode(self.picture).decode()
         tag = f'<img alt="{html.escape(self.alt)}" src="data:image/png;base64,{data}">'
-        # JupyterLab and nbconvert show an image/png without its alt text: only HTML brings it to the reader.
+        # JupyterLab and nbconvert drop the alt text of an image/png, and keep that of HTML.
         return {"text/html": tag, "image/png": data, "text/plain": self.alt}, {"image/png": {"alt": self.alt}}
 
 
 def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
-    """Find the figure that artists, axes, or lists of them are on.
+    """Find the figure that holds artists, axes, or lists of them.
 
     Raises
     ------
-    MocapError : where there is none.
+    MocapError : where no figure holds them.
     """
     for figure in _figures(drawn):
         return figure

@@ -1,4 +1,4 @@
-"""A search seen as a tree: every walk it might have tried, where it went, and what its bound cut away."""
+"""A search as a tree: every walk that it could try, those that it visited, those that its bound cut off."""
 
 from __future__ import annotations
 
@@ -18,21 +18,23 @@ from mocap.errors import MocapError
 from mocap.plotting.style import COLOURS, PATH, QUIET
 from mocap.synthesis.bounded_search import Problem, SearchEdge, State, branch_and_bound
 
+Watched = tuple[State, tuple[SearchEdge, ...]]  # a problem's state, and the walk that leads to it
+
 MOST_BRANCHES = 20_000
 UNSEEN = "#CCCCCC"
 
 
 class SearchTree(NamedTuple):
-    """All T walks up to a horizon, the empty one first, each after the one that it goes on from.
+    """All T walks up to a horizon, the empty walk first, each walk after its parent.
 
     Parameters
     ----------
-    parent : shape (T,), the walk that each goes on from; -1 for the first.
+    parent : shape (T,), the walk without its last edge; -1 for the empty walk.
     edge : the last edge of each.
-    state : what the problem knows of each.
-    frames, cost : shape (T,), how long each is, and its f.
+    state : the problem's state after each.
+    frames, cost : shape (T,), how long each is, and its cost f.
     complete : shape (T,), whether the halting rule or the horizon ends it.
-    visit : shape (T,), when the search came to it, counted from 0; T where it never did.
+    visit : shape (T,), when the search visited it, counted from 0; T where it never did.
     """
 
     parent: Indices
@@ -45,23 +47,27 @@ class SearchTree(NamedTuple):
 
     @property
     def visits(self) -> int:
-        """How many of the walks the search came to."""
+        """How many of the walks the search visited."""
         return int((self.visit < len(self.visit)).sum())
 
     def best(self, visits: int) -> int:
-        """Find the best complete walk among the first so many visited; -1 before there is one."""
+        """Find the cheapest complete walk among the first `visits` visited; -1 before there is one."""
         cost = np.where(self.complete & (self.visit < visits), self.cost, np.inf)
         return int(cost.argmin()) if np.isfinite(cost).any() else -1
 
     def cut(self, visits: int) -> Mask:
-        """Mark the branches that the bound cuts off after so many visits: what lies beyond goes unseen."""
+        """Mark the walks that the bound has cut off after the first `visits` walks."""
         best = self.best(visits)
         bound = self.cost[best] if best >= 0 else np.inf
+        return self.waiting(visits) & (self.cost >= bound)
+
+    def waiting(self, visits: int) -> Mask:
+        """Mark the walks that were not among the first `visits`, but whose parents were."""
         met = self.visit < visits
-        return np.asarray(met[self.parent] & (self.parent >= 0) & ~met & (self.cost >= bound))
+        return np.asarray(met[self.parent] & (self.parent >= 0) & ~met)
 
     def line(self, walk: int) -> list[int]:
-        """List a walk and all it goes on from, the empty one first."""
+        """List the walks from the empty one to this one, each the parent of the next."""
         line = [walk]
         while (walk := int(self.parent[walk])) >= 0:
             line.append(walk)
@@ -69,45 +75,45 @@ class SearchTree(NamedTuple):
 
 
 def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float = math.inf) -> SearchTree:
-    """Try every walk, and note which of them `synthesis.branch_and_bound` comes to, and when.
+    """Try every walk, and note which of them `synthesis.branch_and_bound` visits, and when.
 
     Parameters
     ----------
-    problem, node, state, horizon : as there.
+    problem, node, state, horizon : as for `branch_and_bound`.
 
     Raises
     ------
-    MocapError : for more than 20 000 walks, which no picture shows.
-    NoWalk : as there.
+    MocapError : for more than 20 000 walks, too many for a picture.
+    NoWalk : as `branch_and_bound` does.
 
     Examples
     --------
     >>> import networkx as nx
     >>> graph = nx.MultiDiGraph([(1, 1), (1, 1)])
     >>> nx.set_edge_attributes(graph, 1, "frames")
-    >>> dear = Problem(graph, lambda _, edge: (edge[2], None), lambda _: False)  # g is the edge's key
-    >>> tree = grow_tree(dear, 1, None, horizon=3)
-    >>> len(tree.cost), tree.visits
+    >>> second_costs = Problem(graph, lambda _, edge: (edge[2], None), lambda _: False)  # g is the edge's key
+    >>> tree = grow_tree(second_costs, 1, None, horizon=3)
+    >>> len(tree.cost), tree.visits  # all walks of at most 3 edges; those that were visited
     (15, 4)
 
     Notebook: 07-walks-and-search
     """
     visit: dict[tuple[SearchEdge, ...], int] = {}
 
-    def done(told: tuple[State, tuple[SearchEdge, ...]]) -> bool:
-        visit.setdefault(told[1], len(visit))  # the search asks this of every walk that it comes to
-        return problem.done(told[0])
+    def done(watched: Watched) -> bool:
+        visit.setdefault(watched[1], len(visit))  # the search calls this for every walk that it visits
+        return problem.done(watched[0])
 
-    def step(told: tuple[State, tuple[SearchEdge, ...]], edge: SearchEdge) -> tuple[float, State]:
-        cost, after = problem.step(told[0], edge)
-        return cost, (after, (*told[1], edge))
+    def step(watched: Watched, edge: SearchEdge) -> tuple[float, Watched]:
+        cost, after = problem.step(watched[0], edge)
+        return cost, (after, (*watched[1], edge))
 
-    watched = Problem(problem.graph, step, done)
-    found = _every_walk(watched, node, (state, ()), horizon)
+    watching = Problem(problem.graph, step, done)
+    found = _every_walk(watching, node, (state, ()), horizon)
     visit.clear()
-    branch_and_bound(watched, node, (state, ()), horizon=horizon)
-    parent, told, frames, cost, complete = zip(*found, strict=True)
-    states, walks = zip(*told, strict=True)
+    branch_and_bound(watching, node, (state, ()), horizon=horizon)
+    parent, watched, frames, cost, complete = zip(*found, strict=True)
+    states, walks = zip(*watched, strict=True)
     return SearchTree(
         np.array(parent),
         [walk[-1] if walk else None for walk in walks],
@@ -122,7 +128,7 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
 def _every_walk(
     problem: Problem, node: Hashable, state: State, horizon: float
 ) -> list[tuple[int, State, int, float, bool]]:
-    """Grow all walks without a bound, depth first, the cheapest first: parent, state, frames, f, complete."""
+    """List all walks without a bound, depth first, cheap ones first: parent, state, frames, f, complete."""
     waiting: list[tuple[int, Hashable, State, int, float]] = [(-1, node, state, 0, 0.0)]
     found: list[tuple[int, State, int, float, bool]] = []
     while waiting:
@@ -142,15 +148,28 @@ def _every_walk(
 
 
 class TreePicture:
-    """A search's tree, its root at the top: thin grey what no one looked at, blue what was visited.
+    """A search's tree, its root at the top: visited walks are blue, the others thin and grey.
 
-    A red cross ends a branch that the bound cut, a ring one that waits; the best walk so far is orange.
+    A red cross ends a walk that the bound cut off, a ring a walk that waits; the best walk so far is orange.
 
     Parameters
     ----------
     tree : from `grow_tree`.
-    places : shape (T, 2), where to draw the walks' ends; by default spread out, and down by their frames.
+    places : shape (T, 2), where to draw the walks' ends; by default beside each other, and down by frames.
     ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> import networkx as nx
+    >>> from mocap import plotting
+    >>> graph = nx.MultiDiGraph([(1, 1), (1, 1)])
+    >>> nx.set_edge_attributes(graph, 1, "frames")
+    >>> second_costs = Problem(graph, lambda _, edge: (edge[2], None), lambda _: False)  # g is the edge's key
+    >>> picture = TreePicture(grow_tree(second_costs, 1, None, horizon=3))
+    >>> plotting.show(picture.after(visits=2), alt="Eight walks of three edges; two walks are visited.")
+    Picture('Eight walks of three edges; two walks are visited.')
+
+    Notebook: 07-walks-and-search
     """
 
     def __init__(self, tree: SearchTree, *, places: ArrayLike | None = None, ax: Axes | None = None) -> None:
@@ -173,10 +192,10 @@ class TreePicture:
             self.ax.spines[["top", "right", "bottom"]].set_visible(False)
 
     def after(self, visits: int | None = None) -> list[Artist]:
-        """Show the search after so many visits, by default at its end, and give the artists that moved."""
+        """Show the search after the first `visits`, by default all, and return the artists that moved."""
         tree, visits = self.tree, self.tree.visits if visits is None else visits
         met, cut, best = tree.visit < visits, tree.cut(visits), tree.best(visits)
-        pending = met[tree.parent] & (tree.parent >= 0) & ~met & ~cut
+        pending = tree.waiting(visits) & ~cut
         self.visited.set_segments(self._lines(np.flatnonzero(met & (tree.parent >= 0))))
         self.cut.set_segments(self._lines(np.flatnonzero(cut)))
         self.pending.set_segments(self._lines(np.flatnonzero(pending)))
@@ -186,7 +205,7 @@ class TreePicture:
         return [self.pending, self.cut, self.visited, self.best, self.crosses, self.rings]
 
     def _lines(self, walks: ArrayLike) -> list[Array]:
-        """Draw each of some walks' last edges as a line between two places."""
+        """Give a line for the last edge of each of these walks: the places of its two ends."""
         ends = np.asarray(walks, int)
         return list(np.stack([self.places[self.tree.parent[ends]], self.places[ends]], axis=1))
 
@@ -195,7 +214,7 @@ class TreePicture:
 
 
 def _spread(tree: SearchTree) -> Array:
-    """Give each leaf a column of its own, and each other walk the middle of those that go on from it."""
+    """Give each leaf a column of its own, and each other walk the middle of the leaves below it."""
     columns = np.full((len(tree.parent), 2), [np.inf, -np.inf])  # the first and the last below each walk
     leaf = np.ones(len(tree.parent), bool)
     leaf[tree.parent[1:]] = False

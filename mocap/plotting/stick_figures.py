@@ -17,12 +17,12 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.matching.point_clouds import distinct_joints
-from mocap.plotting.axes import TALL, ground_axes, keep_inside, to_picture
+from mocap.plotting.axes import ground_around, to_picture
 from mocap.plotting.style import COLOURS, PATH, SOURCES
 
 
 class Bones(NamedTuple):
-    """The lines of a body, each from the joint `starts` to the joint `ends`, on its `sides`, shapes (B,)."""
+    """The B lines of a body: from joint `starts` to joint `ends`, on the body's side `sides`; shapes (B,)."""
 
     starts: NDArray[np.intp]
     ends: NDArray[np.intp]
@@ -30,9 +30,16 @@ class Bones(NamedTuple):
 
 
 def bones(skeleton: Skeleton) -> Bones:
-    """List the lines of a body; one that several joints share is there once.
+    """List the lines of a body; joints that share a place share one line.
 
-    The line from a parent to its child is the parent's bone, and so on the parent's side.
+    The line from a parent to its child is the parent's bone, and so it is on the parent's side.
+
+    Examples
+    --------
+    >>> names = ["hips", "lknee", "rknee", "lfoot"]
+    >>> body = Skeleton(names, [-1, 0, 0, 1], [[0, 1, 0], [0.1, -0.4, 0], [-0.1, -0.4, 0], [0, -0.4, 0]])
+    >>> [f"{names[start]} to {names[end]}: {side}" for start, end, side in zip(*bones(body))]
+    ['hips to lknee: middle', 'hips to rknee: middle', 'lknee to lfoot: left']
     """
     ends = np.array(distinct_joints(skeleton)[1:], np.intp)
     starts = skeleton.parents[ends]
@@ -40,14 +47,26 @@ def bones(skeleton: Skeleton) -> Bones:
 
 
 class StickFigure:
-    """A body drawn as lines on 3D axes, left and right in colours of their own, the head as a dot.
+    """A body drawn as lines on 3D axes: left and right in colours of their own, the head as a dot.
 
     Parameters
     ----------
     skeleton : the body.
-    ax : 3D axes, as from `axes`.
+    ax : 3D axes, as from `ground_axes`.
     alpha : 1 for a solid body, less for a ghost.
-    colour : of all its bones, for telling two bodies apart; by default left, right and middle have their own.
+    colour : one for all bones, to tell two bodies apart; by default left, right and middle have their own.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> from mocap.plotting import ground_axes
+    >>> walk = datasets.sample("walk_straight")
+    >>> body = StickFigure(walk.skeleton, ground_axes(ax=Figure().add_subplot(projection="3d")))
+    >>> moved = body.pose(joint_positions(walk)[30])  # `explore` draws only these again
+    >>> len(moved)  # left, right, middle, head
+    4
+
+    Notebook: 01-skeletons-and-clips
     """
 
     def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0, colour: str | None = None) -> None:
@@ -67,7 +86,7 @@ class StickFigure:
         )
 
     def pose(self, points: Array) -> list[Artist]:
-        """Move to the joint positions `points`, shape (J, 3), metres, and give the artists that moved."""
+        """Move to the joint positions `points`, shape (J, 3), metres, and return the artists that moved."""
         segments = to_picture(np.stack([points[self.starts], points[self.ends]], axis=1))
         for side, part in self.bones.items():
             part.set_segments(segments[self.sides == side])
@@ -79,38 +98,36 @@ class StickFigure:
 def stick_figure(
     motion: Motion, frames: Sequence[int] | int = 0, *, ax: Axes3D | None = None
 ) -> list[StickFigure]:
-    """Draw poses of a motion: the last one solid, those before it as ghosts, and the root's path below.
+    """Draw poses of a motion: the last one solid, those before it as ghosts, the root's path on the ground.
 
     Parameters
     ----------
     motion : the motion.
     frames : which frames; one or several.
-    ax : 3D axes; by default a new `axes` around these poses.
+    ax : 3D axes; by default new ones around these poses.
 
     Returns
     -------
-    A figure a pose.
+    One stick figure per pose.
+
+    Examples
+    --------
+    >>> from mocap import datasets, plotting
+    >>> walk = datasets.sample("walk_straight")
+    >>> plotting.show(stick_figure(walk, [0, 40, 80]), alt="Three poses of a walk.")
+    Picture('Three poses of a walk.')
 
     Notebook: 01-skeletons-and-clips
     """
     shown = [frames] if isinstance(frames, int) else list(frames)
     points = joint_positions(motion)[shown]
-    ax = ax or _stage_around(points)
+    ax = ax or ground_around(points)
     ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
     ghosts = [0.15 + 0.35 * k / len(shown) for k in range(len(shown) - 1)]
     figures = [StickFigure(motion.skeleton, ax, alpha) for alpha in (*ghosts, 1.0)]
     for figure, pose in zip(figures, points, strict=True):
         figure.pose(pose)
     return figures
-
-
-def _stage_around(points: Array, ax: Axes3D | None = None) -> Axes3D:
-    """Set up ground that is wide and tall enough for points, shape (..., 3)."""
-    low, high = (f(points.reshape(-1, 3), axis=0) for f in (np.min, np.max))
-    centre, wide = (low + high)[[0, 2]] / 2, (high - low)[[0, 2]]
-    ax = ground_axes(centre, max(1.2, *wide) / 2 + 0.3, tall=max(TALL, high[1]), ax=ax)
-    keep_inside(ax, points)
-    return ax
 
 
 def laid_over(
@@ -120,18 +137,28 @@ def laid_over(
 
     Parameters
     ----------
-    first, second : the motions, where they are: `planar` lays one on the other.
+    first, second : the motions; they stay where they are, so align them first.
     every : frames from one pose to the next.
-    ax : 3D axes; by default a new `axes` around both.
+    ax : 3D axes; by default new ones around both.
 
     Returns
     -------
-    The figures of each.
+    The stick figures of the first motion, and those of the second.
+
+    Examples
+    --------
+    >>> from mocap import datasets, plotting
+    >>> walk = datasets.sample("walk_straight")
+    >>> first, second = laid_over(walk[:21], walk[2:23], every=10)
+    >>> len(first), len(second)
+    (3, 3)
+    >>> plotting.show(first[0].figure, alt="A walk, and the same walk two frames later.")
+    Picture('A walk, and the same walk two frames later.')
 
     Notebook: 02-matching
     """
     clouds = [joint_positions(motion)[::every] for motion in (first, second)]
-    ax = ax or _stage_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
+    ax = ax or ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
     drawn = []
     for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
         figures = [StickFigure(motion.skeleton, ax, 0.7, colour) for _ in points]
@@ -144,16 +171,23 @@ def laid_over(
 
 
 def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
-    """Draw poses side by side, evenly spread over the time of the first motion, the others with it.
+    """Draw poses side by side, evenly spread over the first motion's time; the others at the same times.
 
     Parameters
     ----------
     motions : one or more.
-    count : pictures; fewer where the motion has fewer frames.
+    count : poses; fewer where the first motion has fewer frames.
 
     Returns
     -------
-    A figure of its own, outside pyplot.
+    A figure that pyplot does not know, so nobody has to close it.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> strip = film_strip([datasets.sample("walk_straight")], count=3)
+    >>> [ax.get_title() for ax in strip.axes]
+    ['0.00 s', '5.00 s', '10.00 s']
     """
     first = motions[0]
     clouds = [joint_positions(motion) for motion in motions]
@@ -165,7 +199,7 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
             points[min(len(points) - 1, round(frame / first.fps * motion.fps))]
             for motion, points in zip(motions, clouds, strict=True)
         ]
-        _stage_around(np.concatenate(everyone), ax)
+        ground_around(np.concatenate(everyone), ax)
         ax.set_title(f"{frame / first.fps:.2f} s", fontsize=9, y=1.0)
         for number, (motion, points) in enumerate(zip(motions, everyone, strict=True)):
             colour = SOURCES[number % len(SOURCES)] if len(motions) > 1 else None

@@ -1,71 +1,12 @@
-"""What the pictures show, read back from their artists."""
+"""What the charts show, read back from their artists."""
 
-import matplotlib
-
-matplotlib.use("agg")
-
-from dataclasses import replace
-
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from mocap.body.kinematics import joint_positions
-from mocap.body.skeleton import Skeleton
 from mocap.feet.footprints import find_footprints
 from mocap.matching.distance_grids import distance_grid
-from mocap.plotting import axes, charts, stick_figures
-from mocap.plotting.axes import to_picture
+from mocap.plotting import charts
 from tests.strategies import wave
-
-
-@pytest.fixture(autouse=True)
-def no_figure_stays_open():
-    yield
-    plt.close("all")
-
-
-def test_world_axes_are_not_mirrored():
-    x, y, z = to_picture(np.eye(3))
-    assert np.cross(x, y) == pytest.approx(z)
-    assert y.tolist() == [0, 0, 1]  # up is up
-
-
-def test_a_stick_figure_has_every_bone_where_the_joints_are():
-    motion = wave(30)
-    (figure,) = stick_figures.stick_figure(motion, 12)
-    (root, elbow, hand, side) = to_picture(joint_positions(motion)[12])
-    drawn = np.concatenate([part._segments3d for part in figure.bones.values()])
-    expected = {tuple(np.round([*a, *b], 9)) for a, b in ((root, elbow), (elbow, hand), (root, side))}
-    assert {tuple(np.round(segment.ravel(), 9)) for segment in np.asarray(drawn)} == expected
-
-
-def test_left_and_right_have_their_own_colours():
-    names = ["hips", "lleg", "rleg", "lfoot", "rfoot", "head"]
-    body = Skeleton(names, [-1, 0, 0, 1, 2, 0], [[0, 0, 0]] + [[x, -0.4, 0] for x in (0.1, -0.1, 0, 0.01, 0)])
-    motion = replace(wave(5), skeleton=body, rotations=np.tile([1.0, 0, 0, 0], (5, 6, 1)), contacts={})
-    (figure,) = stick_figures.stick_figure(motion, 2)
-    assert {side: len(part._segments3d) for side, part in figure.bones.items()} == {
-        "left": 1,
-        "right": 1,
-        "middle": 3,
-    }
-    assert figure.dot.get_data_3d()[2] == pytest.approx(joint_positions(motion)[2, 5, 1])
-
-
-def test_earlier_poses_are_ghosts():
-    figures = stick_figures.stick_figure(wave(30), [0, 10, 20])
-    alphas = [figure.bones["middle"].get_alpha() for figure in figures]
-    assert alphas == sorted(alphas)
-    assert alphas[-1] == 1
-
-
-def test_the_ground_stays_where_it_is_in_the_world():
-    ax = axes.ground_axes((0.3, 7.1), 1.0)
-    lines = np.asarray(ax.collections[0]._segments3d)
-    assert np.all(lines[..., 2] == 0)
-    constant = np.where(np.ptp(lines[..., 0], axis=1) == 0, lines[:, 0, 0], lines[:, 0, 1])
-    assert constant * 2 == pytest.approx(np.round(constant * 2))
 
 
 def test_the_distance_image_shows_centimetres_in_seconds():
@@ -87,24 +28,6 @@ def test_a_path_from_above_is_not_mirrored():
     charts.path_from_above(motion, ax=path.axes)
     assert path.axes.xaxis_inverted()
     assert start.get_xdata() == pytest.approx(motion.root_positions[0, 0])
-
-
-def test_two_motions_laid_over_each_other_have_a_colour_each():
-    first, second = wave(20, name="a"), wave(20, phase=1, name="b")
-    figures = stick_figures.laid_over(first, second, every=5)
-    for motion, drawn in zip((first, second), figures, strict=True):
-        tips = [figure.bones["middle"]._segments3d[-1][-1] for figure in drawn]
-        assert np.asarray(tips) == pytest.approx(to_picture(joint_positions(motion)[::5, 3]))
-    colours = {tuple(figure.bones["middle"].get_color()[0]) for drawn in figures for figure in drawn}
-    assert len(colours) == 2
-    legend = figures[0][0].dot.axes.get_legend()
-    assert [text.get_text() for text in legend.get_texts()] == ["a", "b"]
-
-
-def test_high_poses_are_seen_whole():
-    tall = replace(wave(3), root_positions=wave(3).root_positions * 3)
-    (figure,) = stick_figures.stick_figure(tall)
-    assert figure.dot.axes.get_zlim()[1] >= joint_positions(tall)[0, :, 1].max()
 
 
 def test_footprints_stand_where_feet_did():

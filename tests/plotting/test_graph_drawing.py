@@ -1,13 +1,9 @@
 """Pictures of graphs, read back from their artists."""
 
-import matplotlib
-
-matplotlib.use("agg")
-
-import matplotlib.pyplot as plt
 import networkx as nx
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
 
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import build
@@ -17,18 +13,12 @@ from mocap.plotting.style import COLOURS
 from tests.strategies import wave
 
 
-@pytest.fixture(autouse=True)
-def no_figure_stays_open():
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def graph():
     return build([wave(90, name="a"), wave(70, phase=1, name="b", seed=1)], window=8, threshold=0.05)
 
 
-def test_the_timeline_has_an_arc_a_transition(graph):
+def test_the_timeline_has_one_arc_per_transition(graph):
     arcs = graph_drawing.timeline(graph)
     edges = [edge for edge in graph.graph.edges(data="kind") if edge[2] == "transition"]
     expected = {(start[1] / 30, -start[0], end[1] / 30, -end[0]) for start, end, _ in edges}
@@ -38,7 +28,7 @@ def test_the_timeline_has_an_arc_a_transition(graph):
     assert [label.get_text() for label in arcs.axes.get_yticklabels()] == ["a", "b"]
 
 
-def test_only_what_stays_in_its_clip_is_bent(graph):
+def test_only_arcs_within_a_clip_are_bent(graph):
     lines = graph_drawing.timeline(graph).get_segments()
     within = [line[0, 1] == line[-1, 1] for line in lines]
     assert any(within) and not all(within)
@@ -47,7 +37,7 @@ def test_only_what_stays_in_its_clip_is_bent(graph):
         assert np.abs(line - straight).max() == pytest.approx(0.45 if same else 0.0)
 
 
-def test_the_timeline_has_a_bar_a_stretch_of_clip(graph):
+def test_the_timeline_has_one_bar_per_piece_of_a_clip(graph):
     bars = graph_drawing.timeline(graph).axes.collections[1].get_segments()
     assert len(bars) == graph.count("clip")
     assert sum(bar[1, 0] - bar[0, 0] for bar in bars) * 30 == pytest.approx(graph.frames)
@@ -69,7 +59,7 @@ def test_before_and_after_pruning_share_their_axes(graph):
     assert f"{graph.graph.number_of_nodes()} nodes" in before.axes.get_title()
 
 
-def test_a_small_graph_has_a_disc_a_node_and_an_arrow_an_edge():
+def test_a_small_graph_has_one_disc_per_node_and_one_arrow_per_edge():
     graph = nx.DiGraph([(1, 2), (2, 1), (2, 3), (3, 3)])
     places = {1: (0, 0), 2: (1, 0), 3: (1, 1)}
     discs, arrows = graph_drawing.node_link(graph, places=places, kept=graph.subgraph([1, 2]))
@@ -77,7 +67,7 @@ def test_a_small_graph_has_a_disc_a_node_and_an_arrow_an_edge():
     assert [text.get_text() for text in discs.axes.texts] == ["1", "2", "3"]
     assert len(arrows) == 4
     assert [arrow.get_linestyle() for arrow in arrows] == ["-", "-", "--", "--"]
-    solid = matplotlib.colors.to_rgba(COLOURS["left"])
+    solid = to_rgba(COLOURS["left"])
     assert [tuple(face) == solid for face in discs.get_facecolors()] == [True, True, False]
 
 

@@ -1,16 +1,13 @@
-"""A few pictures compared with those in tests/baseline, for what no number tells: how it looks.
+"""A few pictures compared with those in `baseline`: no number says how a picture looks.
 
-Made anew by `pytest tests/test_images.py --mpl-generate-path=tests/baseline`.
+To draw them anew: `pytest tests/plotting/test_images.py --mpl-generate-path=tests/plotting/baseline`.
 """
-
-import matplotlib
-
-matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import networkx as nx
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
 from mocap.matching.distance_grids import distance_grid
 from mocap.plotting import charts, graph_drawing, stick_figures
@@ -19,7 +16,7 @@ from tests.strategies import wave
 pytest.importorskip("pytest_mpl", reason="pip install pytest-mpl")
 
 
-# Letters differ between versions of matplotlib, and so does what is laid out around them: none are drawn.
+# Letters differ between versions of matplotlib, and so does the layout around them: no text is drawn.
 def alike(tolerance=1):
     return pytest.mark.mpl_image_compare(
         baseline_dir="baseline",
@@ -31,12 +28,12 @@ def alike(tolerance=1):
 
 
 def bare():
-    """Give axes whose place depends on no text."""
+    """Give axes whose place does not depend on any text."""
     return plt.figure(figsize=(4, 4)).add_subplot()
 
 
 def without_text(figure):
-    for text in figure.findobj(matplotlib.text.Text):
+    for text in figure.findobj(Text):
         text.set_visible(False)
     return figure
 

@@ -4,10 +4,6 @@ import base64
 import io
 from html.parser import HTMLParser
 
-import matplotlib
-
-matplotlib.use("agg")
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -29,8 +25,8 @@ def no_figure_stays_open():
     assert plt.get_fignums() == []
 
 
-def image(still):
-    return Image.open(io.BytesIO(still.picture))
+def image(picture):
+    return Image.open(io.BytesIO(picture.picture))
 
 
 def axes():
@@ -47,19 +43,19 @@ def axes():
         lambda: Figure(figsize=(2, 1)).subplots(1, 2),
     ],
 )
-def test_whatever_was_drawn_its_whole_figure_is_shown(drawn):
+def test_the_whole_figure_of_what_was_drawn_is_shown(drawn):
     assert image(show(drawn(), alt="A drawing.")).size == (2 * DPI, DPI)
 
 
 def test_the_figure_is_closed_and_its_picture_stays():
     plt.figure(figsize=(2, 2)).add_subplot().plot([0, 1])
-    still = show(plt.gca(), alt="A line.")
+    picture = show(plt.gca(), alt="A line.")
     assert plt.get_fignums() == []
-    assert np.ptp(np.asarray(image(still).convert("L")).astype(int)) > 200
+    assert np.ptp(np.asarray(image(picture).convert("L")).astype(int)) > 200
 
 
 @pytest.mark.parametrize("nothing", [None, [], (), "a line", np.array(3.0), 3])
-def test_what_is_on_no_figure_is_refused(nothing):
+def test_a_thing_on_no_figure_is_refused(nothing):
     with pytest.raises(MocapError, match="must be given as a figure"):
         show(nothing, alt="Nothing.")
 
@@ -82,13 +78,13 @@ def test_pictures_are_small(draw):
     assert len(show(draw(), alt="A picture.").picture) < 60_000
 
 
-def test_few_colours_change_nothing_that_is_seen():
+def test_few_colours_change_nothing_visible():
     figure = Figure(figsize=(3, 3))
     charts.distance_image(np.hypot(*np.mgrid[-40:40, -40:40]), fps=30, ax=figure.add_subplot())
-    still = image(show(figure, alt="A valley.")).convert("RGB")
+    few = image(show(figure, alt="A valley.")).convert("RGB")
     stream = io.BytesIO()
     figure.savefig(stream, dpi=DPI)
-    apart = np.abs(np.asarray(still, int) - np.asarray(Image.open(stream).convert("RGB"), int))
+    apart = np.abs(np.asarray(few, int) - np.asarray(Image.open(stream).convert("RGB"), int))
     assert apart.mean() < 1.5  # of 255
     assert apart.max() < 16
 

@@ -1,6 +1,5 @@
 """The tree of a search holds every walk once, and its picture shows what the search did."""
 
-import matplotlib.pyplot as plt
 import networkx as nx
 import numpy as np
 import pytest
@@ -54,7 +53,7 @@ def test_a_tree_too_large_to_draw_is_refused():
         grow_tree(Problem(graph, lambda s, e: (0.0, s), lambda s: False), 1, None, horizon=9)
 
 
-def test_the_picture_shows_each_branch_once_by_its_fate():
+def test_the_picture_shows_each_branch_once():
     tree = grow_tree(problem_on(random_graph(2), 5), 0, ())
     picture = TreePicture(tree)
     for visits in (0, 1, tree.visits // 2, tree.visits):
@@ -67,15 +66,13 @@ def test_the_picture_shows_each_branch_once_by_its_fate():
     assert counts[2] == 0
     assert picture.after() == [pending, cut, visited, best, crosses, rings]
     ends = picture.places[tree.complete]
-    assert len(np.unique(ends[:, 0])) == len(ends)  # a column each
-    plt.close("all")
+    assert len(np.unique(ends[:, 0])) == len(ends)  # each has its own column
 
 
-def test_the_picture_lies_where_it_is_told_to():
+def test_the_tree_is_drawn_at_the_places_given():
     tree = grow_tree(problem_on(random_graph(2), 3), 0, ())
     places = np.random.default_rng(0).normal(size=(len(tree.cost), 2))
     picture = TreePicture(tree, places=places)
     picture.after()
     (start, _), *_ = picture.best.get_segments()
     assert start == pytest.approx(places[0])
-    plt.close("all")
