@@ -6,12 +6,21 @@ from itertools import pairwise
 import networkx as nx
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import mocap
 from mocap.body import rotations
 from mocap.errors import MocapError, NoWalk
-from mocap.graphs.homework_graph import segment_graph, segment_motion, segment_walk
-from mocap.matching.other_metrics import euler_grid, root_grid
+from mocap.graphs.homework_graph import (
+    segment_distances,
+    segment_graph,
+    segment_motion,
+    segment_walk,
+    segments,
+)
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.other_metrics import euler_grid, pose_grid, root_grid
 from tests.strategies import wave
 
 CLIPS = [wave(90, name="a"), wave(75, phase=1.0, name="b", seed=1), wave(60, phase=2.0, name="c", seed=2)]
@@ -30,6 +39,49 @@ def homework(real_data):
 @pytest.fixture(scope="module")
 def homework_graph(homework):
     return segment_graph(homework, weighting="distance")
+
+
+@given(st.integers(1, 3000), st.integers(1, 500))
+def test_segments_take_every_frame_once(frames, length):
+    cuts = segments(frames, length)
+    assert [n for cut in cuts for n in range(cut.start, cut.stop)] == list(range(frames))
+    assert len(cuts) == max(frames // length, 1)
+    assert all(cut.stop - cut.start == length for cut in cuts[:-1])
+
+
+def test_segments_have_a_length():
+    with pytest.raises(MocapError, match="at least one frame, got 0"):
+        segments(10, 0)
+
+
+@pytest.mark.parametrize("metric", [root_grid, pose_grid, distance_grid])
+def test_segment_distances_lay_heads_on_tails(metric):
+    a, b = wave(25), wave(20, phase=1.0, name="b", seed=1)
+    grid = segment_distances([a, b], segment=10, window=4, metric=metric)
+    pieces = [a[:10], a[10:], b[:10], b[10:]]
+    assert grid.shape == (4, 4)
+    for i, j in np.ndindex(4, 4):
+        assert grid[i, j] == pytest.approx(metric(pieces[i][-4:], pieces[j][:4], window=4)[0, 0], abs=1e-6)
+
+
+def test_segments_hold_a_window():
+    with pytest.raises(MocapError, match="A segment has 5 frames, too few for a window of 6"):
+        segment_distances([wave(20)], segment=5, window=6)
+    with pytest.raises(MocapError, match="'wave' has 4 frames, too few for a window of 5"):
+        segment_distances([wave(4)], segment=10, window=5)
+    with pytest.raises(MocapError, match="nothing to concatenate"):
+        segment_distances([])
+
+
+def test_the_homeworks_numbers(homework):
+    grid = segment_distances(homework)
+    assert grid.shape == (74, 74)
+    assert grid[0, 1:6] == pytest.approx([609.7033, 532.5454, 168.3574, 599.2567, 624.7405], abs=1e-3)
+    off = grid[~np.eye(74, dtype=bool)]
+    assert np.median(off) == pytest.approx(473.735, abs=1e-3)
+    assert grid.max() == pytest.approx(786.775, abs=1e-3)
+    assert off.min() == pytest.approx(87.407, abs=1e-3)
+    assert grid[36, 27] == off.min()
 
 
 def test_the_homeworks_graph(homework_graph):

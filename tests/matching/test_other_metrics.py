@@ -1,19 +1,16 @@
-"""The four metrics side by side; the homework's numbers."""
+"""The four metrics side by side, each against its formula."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
-from mocap import load
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.graphs.homework_graph import segment_distances, segments
 from mocap.matching import distance_grids
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, pose_grid, root_grid
@@ -161,48 +158,3 @@ def test_pose_grid_refuses_what_it_does_not_know():
             pose_grid(a, a, window=2, velocities=bad)
     with pytest.raises(MocapError, match="one frame, and so no velocities"):
         pose_grid(a[:1], a[:1], window=1, velocities=1.0)
-
-
-@given(st.integers(1, 3000), st.integers(1, 500))
-def test_segments_take_every_frame_once(frames, length):
-    cuts = segments(frames, length)
-    assert [n for cut in cuts for n in range(cut.start, cut.stop)] == list(range(frames))
-    assert len(cuts) == max(frames // length, 1)
-    assert all(cut.stop - cut.start == length for cut in cuts[:-1])
-
-
-def test_segments_have_a_length():
-    with pytest.raises(MocapError, match="at least one frame, got 0"):
-        segments(10, 0)
-
-
-@pytest.mark.parametrize("metric", ALL)
-def test_segment_distances_lay_heads_on_tails(metric):
-    a, _ = body_motion(0, 25)
-    b = replace(body_motion(0, 20)[0], name="b")
-    grid = segment_distances([a, b], segment=10, window=4, metric=metric)
-    pieces = [a[:10], a[10:], b[:10], b[10:]]
-    assert grid.shape == (4, 4)
-    for i, j in np.ndindex(4, 4):
-        assert grid[i, j] == pytest.approx(metric(pieces[i][-4:], pieces[j][:4], window=4)[0, 0], abs=1e-6)
-
-
-def test_segments_hold_a_window():
-    with pytest.raises(MocapError, match="A segment has 5 frames, too few for a window of 6"):
-        segment_distances([wave(20)], segment=5, window=6)
-    with pytest.raises(MocapError, match="'wave' has 4 frames, too few for a window of 5"):
-        segment_distances([wave(4)], segment=10, window=5)
-    with pytest.raises(MocapError, match="nothing to concatenate"):
-        segment_distances([])
-
-
-def test_the_homeworks_numbers(real_data):
-    clips = [load(real_data / "hw3" / f"walk_fwd_{name}.AMC") for name in ("circle", "curve1", "curve2")]
-    grid = segment_distances(clips)
-    assert grid.shape == (74, 74)
-    assert grid[0, 1:6] == pytest.approx([609.7033, 532.5454, 168.3574, 599.2567, 624.7405], abs=1e-3)
-    off = grid[~np.eye(74, dtype=bool)]
-    assert np.median(off) == pytest.approx(473.735, abs=1e-3)
-    assert grid.max() == pytest.approx(786.775, abs=1e-3)
-    assert off.min() == pytest.approx(87.407, abs=1e-3)
-    assert grid[36, 27] == off.min()
