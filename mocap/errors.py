@@ -3,12 +3,29 @@
 from pathlib import Path
 
 
+def shortened(text: str, most: int = 80) -> str:
+    """Cut a text from a file to at most so many characters, and say how long it was.
+
+    Examples
+    --------
+    >>> shortened("'1.0 2.0 x 3.0 4.0 5.0 6.0 7.0 8.0 9.0'", 36)
+    "'1.0 2.0 x 3.0 ...' (37 characters)"
+    """
+    if len(text) <= most:
+        return text
+    quote = "'" if text.startswith("'") else ""
+    more = f" ...{quote} ({len(text.strip(quote))} characters)"
+    return text[: most - len(more)].rstrip() + more
+
+
 class MocapError(ValueError):
     """The base of all errors raised on purpose: the input, not the program, is at fault."""
 
 
 class FormatError(MocapError):
     """A file that breaks its format, with the place and what stood there.
+
+    The message is cut to 200 characters besides the path, whatever the file holds.
 
     Parameters
     ----------
@@ -28,7 +45,8 @@ class FormatError(MocapError):
 
     def __str__(self) -> str:
         place = f"{self.path}" if self.line is None else f"{self.path}, line {self.line}"
-        return f"{place}: expected {self.expected}, got {self.got}"
+        expected = shortened(self.expected, 110)
+        return f"{place}: expected {expected}, got {shortened(self.got, min(80, 165 - len(expected)))}"
 
 
 class SkeletonMismatch(MocapError):

@@ -6,23 +6,18 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+from scipy.interpolate import BPoly
 
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.errors import FormatError, MocapError
 from mocap.files.text import read_text, to_numbers
 
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
-STEPS = 32  # straight pieces that a curve is drawn as
-# The two flags of an arc are one digit each, and what follows may touch them.
-ARGUMENTS = {
-    letter: re.compile(
-        "".join(rf"[\s,]*({'[01]' if letter == 'A' and n in (3, 4) else NUMBER})" for n in range(count))
-        + r"[\s,]*"
-    )
-    for letter, count in TAKES.items()
-}
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+BETWEEN = " ,\t\n"  # what parts numbers, besides their signs
+TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "Z": 0}  # numbers of a command
+CURVE = np.linspace(0, 1, 33)[1:]  # a curve becomes 32 straight pieces
+DRAWN = {"path", "polyline", "polygon", "line"}
 UNDRAWN = {"clipPath", "defs", "marker", "mask", "pattern", "symbol"}
 
 
@@ -32,17 +27,31 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks; a first line
     that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line`
     is taken, with its `transform` and those of the groups around it; the picture is the ground seen from
-    above, so its right is -x and its top +z.
+    above, so its right is -x and its top +z. Straight lines and Bézier curves are read. Elliptic arcs are
+    not: a drawing program can convert them to curves.
 
     Parameters
     ----------
     path : the file.
     scale : metres in a unit of the file; by default 1 for `.csv`, and 0.01 for `.svg`.
 
+    Returns
+    -------
+    The path, with 32 pieces for each curve.
+
     Raises
     ------
     MocapError : for a file that is missing or of another format.
     FormatError : for one that breaks its format, or draws what is not read here.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "corner.svg")
+    ...     _ = file.write_text('<svg><path d="M 0 0 V -300 H -400"/></svg>')
+    ...     load_path(file).points.tolist()
+    [[0.0, 0.0], [0.0, 3.0], [4.0, 3.0]]
 
     Notebook: 08-path-synthesis
     """
@@ -53,7 +62,7 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
         case ".csv":
             return _on_ground(path, (scale or 1.0) * _read_csv(path))
         case ".svg":
-            return _on_ground(path, -(scale or 0.01) * _read_svg(path))
+            return _on_ground(path, 0.0 - (scale or 0.01) * _read_svg(path))  # no -0.0
     raise MocapError(f"Cannot read a path from {path}: give a .csv or .svg file.")
 
 
@@ -74,140 +83,122 @@ def _read_csv(path: Path) -> Array:
     return np.array(rows).reshape(-1, 2)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # `GroundPath` refuses what is not finite
 def _read_svg(path: Path) -> Array:
-    """Find the first line drawn, in the picture's units: x to the right, y down."""
+    """Find the first line drawn (n, 2), in the picture's units: x to the right, y down."""
     try:
         root = ElementTree.fromstring(read_text(path))
     except ElementTree.ParseError as error:
         raise FormatError(path, error.position[0], "an SVG picture", str(error)) from None
-    for points, matrix in _drawn(path, root, np.eye(3)):
-        return np.asarray(points @ matrix[:2, :2].T + matrix[:2, 2])
+    waiting = [(root, np.eye(3))]  # elements in the order of drawing, from the end; what places them
+    while waiting:
+        element, matrix = waiting.pop()
+        kind = element.tag.rpartition("}")[2]
+        if kind in UNDRAWN:
+            continue
+        matrix = _transformed(path, matrix, element.get("transform", ""))
+        if kind in DRAWN:
+            return np.asarray(_corners(path, kind, element) @ matrix[:2, :2].T + matrix[:2, 2])
+        waiting += [(child, matrix) for child in reversed(element)]
     raise FormatError(path, None, "a path, polyline, polygon or line", "none")
 
 
-def _drawn(path: Path, element: ElementTree.Element, matrix: Array) -> Iterator[tuple[Array, Array]]:
-    """Give the lines of an element and those within it, (n, 2), and the matrix (3, 3) that places each."""
-    kind = element.tag.rpartition("}")[2]
-    if kind in UNDRAWN:
-        return
-    matrix = matrix @ _transform(path, element.get("transform", ""))
-    if kind == "path":
-        yield np.array(list(_outline(path, element.get("d", "")))), matrix
-    elif kind in ("polyline", "polygon"):
-        points = np.array([float(n) for n in re.findall(NUMBER, element.get("points", ""))])
-        points = points[: len(points) // 2 * 2].reshape(-1, 2)
-        yield np.vstack([points, points[:1]]) if kind == "polygon" else points, matrix
-    elif kind == "line":
-        ends = [float(element.get(name, "0")) for name in ("x1", "y1", "x2", "y2")]
-        yield np.array(ends).reshape(2, 2), matrix
-    for child in element:
-        yield from _drawn(path, child, matrix)
-
-
-def _transform(path: Path, text: str) -> Array:
-    """Multiply up the steps of a `transform`, of which the last comes first."""
-    matrix = np.eye(3)
-    if not re.fullmatch(r"(\s*\w+\s*\([^()]*\)[\s,]*)*", text):
-        raise FormatError(path, None, "a transform", f"'{text[:40]}'")
-    for name, numbers in re.findall(r"(\w+)\s*\(([^()]*)\)", text):
-        match name, [float(number) for number in re.findall(NUMBER, numbers)]:
+def _transformed(path: Path, matrix: Array, text: str) -> Array:
+    """Multiply a matrix (3, 3) by the steps of a `transform`, of which the last comes first."""
+    *steps, rest = text.split(")")
+    if rest.strip(BETWEEN):
+        raise FormatError(path, None, "a transform", f"'{rest.strip(BETWEEN)}'")
+    for step in steps:
+        name, _, arguments = step.strip(BETWEEN).partition("(")
+        match name.strip(), _numbers(path, arguments, "numbers of a transform").tolist():
             case "matrix", [a, b, c, d, e, f]:
-                step = [[a, c, e], [b, d, f]]
+                rows = [[a, c, e], [b, d, f]]
             case "translate", [x, *more] if len(more) < 2:
-                step = [[1, 0, x], [0, 1, *(more or [0])]]
+                rows = [[1, 0, x], [0, 1, *(more or [0])]]
             case "scale", [x, *more] if len(more) < 2:
-                step = [[x, 0, 0], [0, *(more or [x]), 0]]
+                rows = [[x, 0, 0], [0, *(more or [x]), 0]]
             case "rotate", [angle, *about] if len(about) in (0, 2):
                 c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
                 x, y = about or (0, 0)
-                step = [[c, -s, x - c * x + s * y], [s, c, y - s * x - c * y]]
+                rows = [[c, -s, x - c * x + s * y], [s, c, y - s * x - c * y]]
             case "skewX", [angle]:
-                step = [[1, np.tan(np.radians(angle)), 0], [0, 1, 0]]
+                rows = [[1, np.tan(np.radians(angle)), 0], [0, 1, 0]]
             case "skewY", [angle]:
-                step = [[1, 0, 0], [np.tan(np.radians(angle)), 1, 0]]
+                rows = [[1, 0, 0], [np.tan(np.radians(angle)), 1, 0]]
             case _:
-                raise FormatError(path, None, "a transform", f"'{name}({numbers})'")
-        matrix = matrix @ [*step, [0, 0, 1]]
+                raise FormatError(path, None, "a transform", f"'{step.strip(BETWEEN)})'")
+        matrix = matrix @ [*rows, [0, 0, 1]]
     return matrix
 
 
-def _outline(path: Path, text: str) -> Iterator[Array]:
-    """Follow the pen of a path's `d`: its first stroke, curves as short straight pieces."""
+def _numbers(path: Path, text: str, expected: str) -> Array:
+    """Read the numbers of an attribute; commas, blanks or signs part them."""
+    words = NUMBER.findall(text)
+    if NUMBER.sub("", text).strip(BETWEEN):
+        raise FormatError(path, None, expected, f"'{text.strip(BETWEEN)}'")
+    return to_numbers(path, None, words, expected, len(words))
+
+
+def _corners(path: Path, kind: str, element: ElementTree.Element) -> Array:
+    """List the points (n, 2) of one line drawn."""
+    if kind == "path":
+        return _outline(path, element.get("d", ""))
+    if kind == "line":
+        text = " ".join(element.get(name, "0") for name in ("x1", "y1", "x2", "y2"))
+    else:
+        text = element.get("points", "")
+    numbers = _numbers(path, text, f"numbers for a {kind}")
+    if len(numbers) % 2 or (kind == "line" and len(numbers) != 4):
+        raise FormatError(path, None, f"x and y for each point of a {kind}", f"{len(numbers)} numbers")
+    points = numbers.reshape(-1, 2)
+    return np.vstack([points, points[:1]]) if kind == "polygon" else points
+
+
+def _outline(path: Path, text: str) -> Array:
+    """Follow the pen of a path's `d` along its first stroke; curves become short straight pieces."""
     here = start = control = np.zeros(2)
+    pieces: list[Array] = []
     before = ""
     for letter, numbers in _commands(path, text):
         kind, base = letter.upper(), here if letter.islower() else np.zeros(2)
-        if kind == "M" and before:
-            return  # a second stroke
-        points = _absolute(kind, numbers, here, base)
+        match kind:
+            case "M" if pieces:
+                break  # a second stroke
+            case "H":
+                points = np.array([[base[0] + numbers[0], here[1]]])
+            case "V":
+                points = np.array([[here[0], base[1] + numbers[0]]])
+            case "Z":
+                points = start[None]
+            case _:
+                points = base + numbers.reshape(-1, 2)
         if kind in "ST":  # the control point not given mirrors the last one
             smooth = before in ("CS" if kind == "S" else "QT")
             points = np.vstack([2 * here - control if smooth else here, points])
-        if kind == "Z":
-            points = start[None]
         if kind == "M":
             start = points[0]
-        control = points[-2] if kind in "CSQT" else points[-1]
         if kind in "CSQT":
-            points = _bezier(np.vstack([here, points]))
-        if kind == "A":
-            points = _arc(here, numbers, points[-1])
-        yield from points
+            control = points[-2]
+            points = BPoly(np.vstack([here, points])[:, None], [0.0, 1.0])(CURVE)
+        pieces.append(points)
         here, before = points[-1], kind
-
-
-def _absolute(kind: str, numbers: Array, here: Array, base: Array) -> Array:
-    """Turn a command's numbers into points (n, 2)."""
-    if kind == "H":
-        return np.array([[numbers[0] + base[0], here[1]]])
-    if kind == "V":
-        return np.array([[here[0], numbers[0] + base[1]]])
-    return np.asarray((numbers[-2:] if kind == "A" else numbers).reshape(-1, 2) + base)
+    return np.vstack(pieces)
 
 
 def _commands(path: Path, text: str) -> Iterator[tuple[str, Array]]:
     """Split a path's `d` into commands with as many numbers as each takes; repeated ones need no letter."""
-    rest, letter = text.lstrip(), ""
-    if not rest.startswith(("M", "m")):
-        raise FormatError(path, None, "a path that starts with 'M'", f"'{text[:40]}'")
-    while rest:
-        if rest[0].isalpha():
-            letter, rest = rest[0], rest[1:]
-        elif letter in "MmZz":
-            letter = {"M": "L", "m": "l"}.get(letter, "")
+    blank, *parts = re.split(r"([A-DF-Za-df-z])", text)  # an e belongs to a number
+    if blank.strip(BETWEEN) or parts[:1] not in (["M"], ["m"]):
+        raise FormatError(path, None, "a path that starts with 'M'", f"'{text}'")
+    for letter, arguments in zip(parts[::2], parts[1::2], strict=True):
         if letter.upper() not in TAKES:
-            raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{letter or rest[:40]}'")
-        found = ARGUMENTS[letter.upper()].match(rest)
-        if found is None:
-            count = TAKES[letter.upper()]
-            raise FormatError(path, None, f"{count} numbers for '{letter}'", f"'{rest[:40].strip()}'")
-        yield letter, np.array(found.groups(), float)
-        rest = rest[found.end() :]
-
-
-def _bezier(points: Array) -> Array:
-    """Draw a Bézier curve of any degree (de Casteljau), without its first point."""
-    t = np.linspace(0, 1, STEPS + 1)[1:, None, None]
-    curve = np.broadcast_to(points, (STEPS, *points.shape))
-    while curve.shape[1] > 1:
-        curve = (1 - t) * curve[:, :-1] + t * curve[:, 1:]
-    return np.asarray(curve[:, 0])
-
-
-def _arc(here: Array, numbers: Array, end: Array) -> Array:
-    """Draw an elliptic arc from its end points, without the first [SVG 1.1, F.6.5 and F.6.6]."""
-    (rx, ry), (tilt, large, sweep) = np.abs(numbers[:2]), numbers[2:5]
-    if rx * ry == 0 or (here == end).all():
-        return end[None]
-    # Upright and divided by its radii, as complex numbers x + iy, the ellipse is a circle of radius 1.
-    tilted = np.exp(1j * np.radians(tilt))
-    upright = np.array([complex(*here), complex(*end)]) / tilted
-    first, last = upright.real / rx + 1j * upright.imag / ry
-    half = (last - first) / 2
-    grow = max(1.0, abs(half))  # where the radii are too short to reach
-    aside = 1j * half / abs(half) * np.sqrt(grow**2 - abs(half) ** 2)
-    centre = (first + last) / 2 + (aside if large != sweep else -aside)
-    angle = np.angle((last - centre) / (first - centre)) % (2 * np.pi) - (0 if sweep else 2 * np.pi)
-    circle = centre + (first - centre) * np.exp(1j * angle * np.linspace(0, 1, 4 * STEPS + 1)[1:])
-    ellipse = (circle.real * rx + 1j * circle.imag * ry) * tilted
-    return np.vstack([np.stack([ellipse.real, ellipse.imag], axis=1)[:-1], end])
+            raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{letter}'")
+        count = TAKES[letter.upper()]
+        numbers = _numbers(path, arguments, f"numbers for '{letter}'")
+        blocks = len(numbers) // count if count else 1
+        if blocks == 0 or blocks * count != len(numbers):
+            expected = f"{count} numbers for '{letter}'"
+            raise FormatError(path, None, expected, f"'{arguments.strip(BETWEEN)}'")
+        for block in numbers.reshape(blocks, count):
+            yield letter, block
+            letter = {"M": "L", "m": "l"}.get(letter, letter)

@@ -100,7 +100,7 @@ def lines(text: str) -> Iterator[tuple[int, list[str]]]:
             yield number, words
 
 
-def to_numbers(path: str | Path, line: int, words: list[str], expected: str, count: int) -> Array:
+def to_numbers(path: str | Path, line: int | None, words: list[str], expected: str, count: int) -> Array:
     """Turn words into numbers, every one of them finite and below 10⁹.
 
     Parameters
