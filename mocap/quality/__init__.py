@@ -1,11 +1,11 @@
-"""Numbers that judge: what is wrong with a clip, and how good a seam is.
+"""Measures: what is wrong with a clip, and how good a seam is.
 
-A seam is compared with the clips' own windows of the same length: a jump that the clips make themselves is
+A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
 nothing special.
 
 Reading order (notebooks 01, 04, 10)
 ------------------------------------
-1. `clip_flaws`: a clip's length, path and flaws
+1. `clip_flaws`: a clip's length, its path and its flaws
 2. `seam_measures`: a seam in five numbers
 """
 

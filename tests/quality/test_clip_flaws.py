@@ -1,4 +1,4 @@
-"""`mocap.inspection`: flaws put into a clean clip, and those of real ones."""
+"""Flaws put into a clean clip are found, and those of real ones."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The measure of a seam: right on seams made to order, fair on clips as they are, telling on real ones."""
+"""Seams are measured right where they are made to order, and bad seams of real clips are found."""
 
 from dataclasses import replace
 
@@ -61,7 +61,7 @@ def test_slide_depth_and_deviation_are_what_was_done_to_the_clip():
     assert quality.deviation == pytest.approx(5.0)
     assert quality.depth == pytest.approx(2.0, abs=0.01)
     drift = replace(WALK, root_positions=WALK.root_positions + (frames / 120)[:, None] * [0.1, 0, 0])
-    # A plant of n frames, drifting at 10 cm/s, strays by 5 cm/s from its middle, for n / 120 s.
+    # A plant of n frames drifts by 10 cm/s · n / 120 s: at its ends it is half as far from its middle.
     assert 1 < seam_quality(drift, seam, USUAL).slide < 5
 
 
