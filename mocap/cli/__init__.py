@@ -4,10 +4,10 @@ Reading order
 -------------
 1. `options`: what the commands share
 2. `demo`: clips in, a new walk out
-3. `graph`: build a motion graph and save it, or tell about a saved one
-4. `walk`: out of a saved graph, along a path or at random
+3. `graph`: build a motion graph and save it, or describe a saved one
+4. `walk`: a walk through a saved graph, along a path or at random
 5. `files`: `mocap info`, `mocap convert`, `mocap data`
 6. `view`: play a clip in the browser
-7. `course`: hand out, mark, publish, run and open the notebooks
-8. `main`: all of them behind one name
+7. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
+8. `main`: all of them under one name
 """

@@ -1,4 +1,4 @@
-"""The command `mocap course`: for those who teach from the notebooks, and those who write them."""
+"""The commands `mocap course`, for those who teach from the notebooks or write them, and `mocap lab`."""
 
 import argparse
 from pathlib import Path
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def add_course(commands: "Commands") -> None:
-    """Add `mocap course`, with a command of its own for each thing to do."""
+    """Add `mocap course` and its own commands."""
     parser = commands.add_parser(
         "course",
         help="hand out, mark, publish or run the notebooks",
@@ -25,14 +25,15 @@ def add_course(commands: "Commands") -> None:
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
     mark.add_argument("folder", type=Path, help="folder with the notebooks, such as name/02-matching.ipynb")
-    run = doing.add_parser("run", help="run notebooks anew and store them with their outputs")
-    run.add_argument("notebooks", nargs="*", type=Path, help="(default: all of the checkout)")
+    again = "run notebooks again and store them with their outputs"
+    run = doing.add_parser("run", help=again, description=f"{again.capitalize()}.")
+    run.add_argument("notebooks", nargs="*", type=Path, help="files to run (default: the whole course)")
     run.set_defaults(run=_run)
 
 
 def _add(commands: "Commands", name: str, run: object, what: str, out: Path) -> argparse.ArgumentParser:
     command = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
-    command.add_argument("-o", "--out", type=Path, default=out, help="where to (default: %(default)s)")
+    command.add_argument("-o", "--out", type=Path, default=out, help="where to write (default: %(default)s)")
     command.set_defaults(run=run)
     return command
 
@@ -57,7 +58,7 @@ def _mark(options: argparse.Namespace) -> int:
     marks = []
     try:
         for one in course.mark(options.folder, bar("marking")):
-            marks.append(one)  # one by one: what is marked stays, even after Ctrl-C
+            marks.append(one)  # one by one, so that Ctrl-C keeps the marks made so far
     finally:
         if marks:
             write_text(options.out, course.to_csv(marks))
@@ -75,13 +76,14 @@ def _run(options: argparse.Namespace) -> int:
 
 def add_lab(commands: "Commands") -> None:
     """Add `mocap lab`."""
-    lab = commands.add_parser("lab", help="open the course in JupyterLab", description="Open the course.")
+    what = "open the course in JupyterLab"
+    lab = commands.add_parser("lab", help=what, description=f"{what.capitalize()}.")
     lab.add_argument(
         "folder",
         nargs="?",
         type=Path,
         default=Path("mocap-course"),
-        help="where an installed package puts its copy of the notebooks (default: %(default)s)",
+        help="folder for a copy of the notebooks, outside a checkout (default: %(default)s)",
     )
     lab.set_defaults(run=_lab)
 

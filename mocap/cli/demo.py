@@ -1,14 +1,13 @@
 """The command `mocap demo`: clips in, a motion graph, pruned, and a new walk out."""
 
 import argparse
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from mocap import body, datasets, files, graphs, synthesis, widgets
+from mocap import body, datasets, files, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder
 from mocap._shared.progress import Progress
 from mocap.cli.options import add_building, bar, window_frames
@@ -34,14 +33,14 @@ def add_demo(commands: "Commands") -> None:
         "clips",
         nargs="*",
         type=Path,
-        help=".amc or .bvh files or folders of them (default: the bundled clips)",
+        help=".amc or .bvh files, or folders of them (default: the bundled clips)",
     )
     add(
         "-o", "--out", type=Path, default=Path("mocap-demo"), help="folder to write to (default: %(default)s)"
     )
     add_building(demo)
-    add("--seconds", type=float, default=12.0, help="length of the new walk (default: %(default)g)")
-    add("--seed", type=int, default=0, help="another seed, another walk (default: %(default)s)")
+    add("--seconds", type=float, default=12.0, help="duration of the new walk (default: %(default)g)")
+    add("--seed", type=int, default=0, help="seed of the random walk (default: %(default)s)")
     demo.set_defaults(run=_demo)
 
 
@@ -65,7 +64,7 @@ def _demo(options: argparse.Namespace) -> int:
 
 @dataclass(frozen=True)
 class Settings:
-    """What a demo may choose: `fps` of the graph, `window` (seconds), `threshold` (metres), and the walk."""
+    """The numbers of a demo: frame rate, window (seconds) and threshold (metres) of the graph; the walk."""
 
     fps: float = 30.0
     window: float = 1 / 3
@@ -84,11 +83,10 @@ class Result:
     seams: "list[Seam]"
 
     def table(self) -> str:
-        """Say what was done, in a few aligned lines."""
+        """Write the numbers in a few aligned lines."""
         clips, whole, pruned = self.whole.clips, self.whole, self.pruned
         frames = sum(map(len, clips))
-        height = np.median(np.ptp(body.joint_positions(clips[0])[..., 1], axis=1))
-        steps = np.diff(self.walk.root_positions[:, [0, 2]], axis=0)
+        height, path = quality.inspect(clips[0]).height, quality.inspect(self.walk).path
         rows = [
             ("clips", f"{len(clips)}: {_shortened([clip.name for clip in clips])}"),
             ("frames", f"{frames} at {clips[0].fps:g} Hz, {frames / clips[0].fps:.1f} s"),
@@ -98,7 +96,7 @@ class Result:
             ("transitions", f"{whole.count('transition'):8}{pruned.count('transition'):8}"),
             ("nodes", f"{whole.graph.number_of_nodes():8}{pruned.graph.number_of_nodes():8}"),
             ("edges", f"{whole.graph.number_of_edges():8}{pruned.graph.number_of_edges():8}"),
-            ("new walk", f"{self.walk.duration:.1f} s, {np.hypot(*steps.T).sum():.1f} m"),
+            ("new walk", f"{self.walk.duration:.1f} s, {path:.1f} m"),
             ("seams", f"{len(self.seams)}, the worst {self._worst():.1f} cm RMS"),
         ]
         return "\n".join(f"{name:<12} {text}".rstrip() for name, text in rows)
@@ -117,7 +115,7 @@ def run(clips: "Sequence[Motion]", settings: Settings, progress: Progress = iter
 
     Raises
     ------
-    NoWalk : where the threshold leaves no cycle, naming the smallest one that does.
+    NoWalk : if the graph has no cycle; the message gives the smallest threshold at which it has one.
     MocapError : for clips that do not go together, or are shorter than the window.
     """
     window = window_frames(settings.window, settings.fps)
@@ -129,7 +127,7 @@ def run(clips: "Sequence[Motion]", settings: Settings, progress: Progress = iter
         least = graphs.smallest_threshold(clips, window=window)
         raise NoWalk(
             f"No walk is left at a threshold of {100 * settings.threshold:g} cm; "
-            f"these clips need at least {np.ceil(1e4 * least) / 100:g} cm."
+            f"these clips need at least {math.ceil(1e4 * least) / 100:g} cm."
         ) from error
     edges = synthesis.random_walk(pruned, seconds=settings.seconds, seed=settings.seed)
     return Result(whole, pruned, synthesis.to_motion(pruned, edges), synthesis.seams(pruned, edges))

@@ -1,4 +1,4 @@
-"""The commands about files: `mocap info`, `mocap convert` and `mocap data`."""
+"""The commands for clip files: `mocap info`, `mocap convert` and `mocap data`."""
 
 import argparse
 from pathlib import Path
@@ -15,8 +15,8 @@ def add_info(commands: "Commands") -> None:
     """Add `mocap info`."""
     info = commands.add_parser(
         "info",
-        help="tell a clip's length, path and flaws",
-        description="Tell how long a clip is, how far and where it goes, and what is wrong with it.",
+        help="report a clip's length, path and flaws",
+        description="Report how long a clip is, how far the body goes and turns, and what is wrong with it.",
     )
     info.add_argument("file", type=Path, help="an .amc or .bvh file")
     add_reading(info)
@@ -34,9 +34,9 @@ def add_convert(commands: "Commands") -> None:
     """Add `mocap convert`."""
     convert = commands.add_parser(
         "convert",
-        help="convert clips between .amc and .bvh, whole folders too",
-        description="Convert a clip to the format of the other name's suffix, or all clips in a folder and "
-        "its folders. An .amc gets an .asf beside it. Lengths in a .bvh are centimetres.",
+        help="convert clips between .amc and .bvh, or whole folders of them",
+        description="Convert a clip, or all clips in a folder and the folders inside it. For one clip, the "
+        "suffix of OUT is the format. An .amc gets an .asf of its name. Lengths in a .bvh are centimetres.",
     )
     convert.add_argument("source", type=Path, metavar="IN", help="an .amc or .bvh file, or a folder")
     convert.add_argument("target", type=Path, metavar="OUT", help="the new file, or folder")
@@ -45,16 +45,16 @@ def add_convert(commands: "Commands") -> None:
         "--to",
         choices=["amc", "bvh"],
         default="bvh",
-        help="format for a folder's clips (default: %(default)s)",
+        help="format for the clips of a folder (default: %(default)s)",
     )
     convert.add_argument(
-        "--widen", action="store_true", help="let all bones of a new .asf turn about three axes"
+        "--widen", action="store_true", help="write an .asf in which all bones turn about three axes"
     )
     convert.set_defaults(run=_convert)
 
 
 def _convert(options: argparse.Namespace) -> int:
-    """Convert, and give 2 if any file failed."""
+    """Convert, and return 2 if any file failed."""
     pairs = files.plan(options.source, options.target, f".{options.to}")
     reading = files.Options(options.skeleton, options.fps, options.scale, options.widen)
     outcomes = files.convert(pairs, reading, bar("converting"))
@@ -67,7 +67,7 @@ def _convert(options: argparse.Namespace) -> int:
 
 def add_data(commands: "Commands") -> None:
     """Add `mocap data list`."""
-    data = commands.add_parser("data", help="list clips to download", description="Clips to download.")
+    data = commands.add_parser("data", help="list clips to download", description="List clips to download.")
     actions = data.add_subparsers(title="actions", required=True, metavar="ACTION")
     listing = actions.add_parser(
         "list",
@@ -80,8 +80,9 @@ def add_data(commands: "Commands") -> None:
 
 
 def _list(options: argparse.Namespace) -> int:
+    trials = datasets.trials(options.subject, options.kind)
     print(f"{'trial':<8} {'frames':>6}  description")
-    for trial in datasets.trials(options.subject, options.kind):
+    for trial in trials:
         print(f"{trial.name:<8} {trial.frames:>6}  {trial.description}")
     print(f"\n{datasets.TERMS}")
     return 0

@@ -1,4 +1,4 @@
-"""The command `mocap graph`: build a motion graph and save it, or tell about a saved one."""
+"""The command `mocap graph`: build a motion graph and save it, or describe a saved one."""
 
 import argparse
 from pathlib import Path
@@ -10,34 +10,36 @@ from mocap.cli.options import add_building, bar, window_frames
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
 
-ACTIONS = ("build", "info", "-h", "--help")
+ACTIONS = ("build", "info", "-h", "--help")  # before any other word, `build` may be left out
 
 
 def add_graph(commands: "Commands") -> None:
     """Add `mocap graph build` and `mocap graph info`."""
     graph = commands.add_parser(
         "graph",
-        help="build a motion graph and save it, or tell about a saved one",
+        help="build a motion graph and save it, or describe a saved one",
         usage="mocap graph [build] CLIPS... -o graph.npz\n       mocap graph info graph.npz",
-        description="Build the motion graph of some clips, prune it and save it; or tell what a saved graph "
-        "can play. Without a word `mocap graph` builds; a folder of clips named info is ./info.",
+        description="Build the motion graph of some clips, prune it and save it; or describe a saved graph. "
+        "The word `build` may be left out. For a folder of clips that is called info, write ./info.",
     )
-    actions = graph.add_subparsers(title="actions", required=True, metavar="ACTION")
+    actions = graph.add_subparsers(prog="mocap graph", title="actions", required=True, metavar="ACTION")
     build = actions.add_parser(
         "build",
         help="build a motion graph, prune it and save it",
         description="Build the motion graph of some clips, prune it and save it.",
     )
     add = build.add_argument
-    add("clips", nargs="+", type=Path, help=".amc or .bvh files or folders of them")
+    add("clips", nargs="+", type=Path, help=".amc or .bvh files, or folders of them")
     add("-o", "--out", type=Path, default=Path("graph.npz"), help="file to write (default: %(default)s)")
     add_building(build)
     add("--by-labels", action="store_true", help="keep the largest component of each set of labels")
     add("--whole", action="store_true", help="do not prune")
-    add("--graphml", type=Path, help="write the graph for other tools as well, as .graphml")
+    add("--graphml", type=Path, help="a second file to write, .graphml, for other tools")
     build.set_defaults(run=_build)
     info = actions.add_parser(
-        "info", help="tell what a saved graph can play", description="Tell what a saved graph can play."
+        "info",
+        help="describe a saved graph",
+        description="List a saved graph's clips and what it can play.",
     )
     info.add_argument("file", type=Path, help="an .npz file from `mocap graph`")
     info.set_defaults(run=_info)

@@ -5,6 +5,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 
+import mocap
 from mocap.cli.course import add_course, add_lab
 from mocap.cli.demo import add_demo
 from mocap.cli.files import add_convert, add_data, add_info
@@ -16,6 +17,7 @@ from mocap.errors import MocapError, MocapWarning
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="mocap", description="New human motion out of captured motion.")
+    parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for add in (
         add_demo,
@@ -32,37 +34,40 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _told_to_build(arguments: Sequence[str]) -> list[str]:
+def _with_action(arguments: Sequence[str]) -> list[str]:
     """Let `mocap graph CLIPS` mean `mocap graph build CLIPS`.
 
     Examples
     --------
-    >>> _told_to_build(["graph", "clips/"]), _told_to_build(["graph", "info", "graph.npz"])
+    >>> _with_action(["graph", "clips/"]), _with_action(["graph", "info", "graph.npz"])
     (['graph', 'build', 'clips/'], ['graph', 'info', 'graph.npz'])
     """
     command, *rest = arguments or [""]
-    return (
-        ["graph", "build", *rest]
-        if command == "graph" and rest and rest[0] not in ACTIONS
-        else list(arguments)
-    )
+    builds = command == "graph" and rest and rest[0] not in ACTIONS
+    return ["graph", "build", *rest] if builds else list(arguments)
 
 
-def _tell(message: Warning | str, *_place: object, **_more: object) -> None:
+def _say(message: Warning | str, *_place: object, **_more: object) -> None:
+    """Write an error or a warning as one line."""
     print(f"mocap: {message}", file=sys.stderr)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; give its exit status: 0, or 2 where the input is at fault, or 130 when interrupted."""
-    options = _parser().parse_args(_told_to_build(sys.argv[1:] if arguments is None else arguments))
+    """Run the command and return its exit status: 0, 2 for bad input, or 130 after Ctrl-C.
+
+    Parameters
+    ----------
+    arguments : the words after `mocap`; those of the command line by default.
+    """
+    options = _parser().parse_args(_with_action(sys.argv[1:] if arguments is None else arguments))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", MocapWarning)
-            warnings.showwarning = _tell
+            warnings.showwarning = _say
             return int(options.run(options))
     except MocapError as error:
-        print(f"mocap: {error}", file=sys.stderr)
+        _say(str(error))
         return 2
     except KeyboardInterrupt:
-        print("mocap: interrupted; nothing half-written is left.", file=sys.stderr)
+        _say("interrupted; no half-written file is left.")
         return 130

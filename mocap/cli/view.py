@@ -19,11 +19,11 @@ def add_view(commands: "Commands") -> None:
     view = commands.add_parser(
         "view",
         help="play a clip in the browser",
-        description="Play a clip in the browser, on a page that needs nothing else and can be passed on.",
+        description="Play a clip in the browser. The page is one file that works without a network.",
     )
     add = view.add_argument
     add("clip", type=Path, help="an .amc or .bvh file")
-    add("-o", "--out", type=Path, help="keep the page, or a .gif, .mp4 or .png instead, and open no browser")
+    add("-o", "--out", type=Path, help="an .html, .gif, .mp4 or .png to write; opens no browser")
     add_reading(view)
     view.set_defaults(run=_view)
 

@@ -1,4 +1,4 @@
-"""The command `mocap walk`: out of a saved graph, along a path or at random."""
+"""The command `mocap walk`: a walk through a saved graph, along a path or at random."""
 
 import argparse
 import re
@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import body, files, graphs, steering, synthesis
-from mocap.cli.options import bar
+from mocap.cli.options import SKELETON, bar
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
@@ -28,27 +28,26 @@ def add_walk(commands: "Commands") -> None:
     add = walk.add_argument
     add("graph", type=Path, help="an .npz file from `mocap graph`")
     what = walk.add_mutually_exclusive_group(required=True)
-    what.add_argument("--path", type=Path, help="a .csv file of points x, z in metres, or an .svg picture")
-    what.add_argument("--random", metavar="TIME", help="how long to wander, such as 60s, 10min or 1h")
+    what.add_argument("--path", type=Path, help="a path: .csv with points x, z in metres, or an .svg picture")
+    what.add_argument("--random", metavar="TIME", help="duration of a random walk, such as 60s, 10min or 1h")
     add("-o", "--out", type=Path, default=Path("walk.bvh"), help="file to write (default: %(default)s)")
     add(
         "--clips",
         nargs="+",
         type=Path,
-        help="the clips that the graph was built of (default: those beside it, or the bundled ones)",
+        help="the clips of the graph (default: those in its folder, or the bundled ones)",
     )
-    add("--skeleton", type=Path, help="the .asf file of .amc clips (default: the one beside that fits)")
-    add("--unit", type=float, help="metres in a unit of the path (default: 1; for .svg 0.01)")
-    wish = "from so far along the path on, this kind of motion; may be given many times"
+    add("--skeleton", type=Path, help=SKELETON)
+    add("--unit", type=float, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
+    wish = "kind of motion from that many metres along the path, as in 6.5:sneak; may be repeated"
     add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
-    add("--width", type=int, default=100, help="how thoroughly to search (default: %(default)s)")
-    add("--clean", action="store_true", help="make planted feet stand still")
-    add("--seed", type=int, default=0, help="another seed, another random walk (default: %(default)s)")
+    add("--width", type=int, default=100, help="walks that the search keeps at a time (default: %(default)s)")
+    add("--clean", action="store_true", help="clean up footskate: planted feet stand still")
+    add("--seed", type=int, default=0, help="seed of the random walk (default: %(default)s)")
     walk.set_defaults(run=_walk)
 
 
 def _walk(options: argparse.Namespace) -> int:
-
     if options.out.suffix.lower() != ".bvh":
         raise MocapError(f"A walk is written as .bvh, got '{options.out}'.")
     if options.random is not None:
@@ -71,7 +70,6 @@ def _walk(options: argparse.Namespace) -> int:
 
 
 def _followed(options: argparse.Namespace) -> "Followed":
-
     path = files.load_path(options.path, scale=options.unit)
     wishes = steering.Wishes(labels=[_label(text) for text in options.label])
     beam = steering.Beam(width=options.width, progress=bar("searching"))

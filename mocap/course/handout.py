@@ -35,7 +35,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     """
     nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
     if not files:
-        raise MocapError(f"There are no notebooks in {notebooks}.")
+        raise MocapError(f"The folder {notebooks} holds no notebooks.")
     make_folder(out)
     for file in (*files, *(notebooks / page for page in PAGES)):
         if (out / file.name).exists():
@@ -81,7 +81,7 @@ def mark(folder: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = it
     library()
     files = sorted(file for file in folder.rglob("*.ipynb") if ".ipynb_checkpoints" not in file.parts)
     if not files:
-        raise MocapError(f"There are no notebooks in {folder}.")
+        raise MocapError(f"The folder {folder} holds no notebooks.")
     for file in progress(files):
         whose = file.relative_to(folder).as_posix()
         try:

@@ -94,16 +94,27 @@ def run(path: Path, figures: Path) -> None:
 
     What the package has, the notebook takes from there: the code in `source:` cells, and pictures of
     `figures` that are attached under their names.
+
+    Raises
+    ------
+    MocapError : if a cell fails; the file stays as it was.
     """
     nbformat, notebook = library(), read(path)
     from nbclient import NotebookClient
+    from nbclient.exceptions import CellExecutionError
 
     for name, cell in tagged(notebook, "source"):
         cell.source = shown_source(name)
     for cell in notebook.cells:
         for name in cell.get("attachments", {}):
             cell.attachments[name] = {"image/png": base64.b64encode((figures / name).read_bytes()).decode()}
-    NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}}).execute()
+    at = [0]
+    client = NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}})
+    client.on_cell_start = lambda cell, cell_index: at.append(cell_index)
+    try:
+        client.execute()
+    except CellExecutionError as error:
+        raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue}") from error
     settle(notebook)
     write_text(path, nbformat.writes(notebook) + "\n")
 

@@ -40,7 +40,7 @@ def build_site(
     """
     files = sorted(notebooks.glob("*.ipynb")) + [notebooks / f"{name}.md" for name in PAGES]
     if len(files) == len(PAGES):
-        raise MocapError(f"There are no notebooks in {notebooks}.")
+        raise MocapError(f"The folder {notebooks} holds no notebooks.")
     make_folder(out)
     contents = {file.stem: _contents(file) for file in files}
     titles = {name: PAGES.get(name) or _title(name, notebook) for name, notebook in contents.items()}

@@ -1,4 +1,4 @@
-"""The main job, from files to files."""
+"""The main job, from files to files, and `mocap demo` as a person types it."""
 
 from dataclasses import replace
 
@@ -7,12 +7,18 @@ import pytest
 
 from mocap.cli import demo
 from mocap.cli.demo import Settings
+from mocap.cli.main import main
 from mocap.datasets import samples
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.files import load_save
 from tests.strategies import random_motion, wave
 
 CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
+
+
+@pytest.fixture(scope="module")
+def bundled():
+    return demo.run([samples.sample(name) for name in samples.SAMPLES], Settings(seconds=20))
 
 
 def test_it_makes_a_walk_and_says_what_it_did():
@@ -65,12 +71,11 @@ def test_folders_stand_for_the_clips_in_them(tmp_path):
         load_save.load_all([tmp_path / "empty"], skeleton=None, scale=None, progress=iter)
 
 
-def test_the_bundled_clips_make_a_long_walk():
-    result = demo.run([samples.sample(name) for name in samples.SAMPLES], Settings(seconds=20))
-    assert result.walk.duration > 19.9
-    assert result.pruned.count("transition") > 50
-    assert all(seam.cost < 0.04 for seam in result.seams)
-    steps = np.linalg.norm(np.diff(result.walk.root_positions[:, [0, 2]], axis=0), axis=1) * 30
+def test_the_bundled_clips_make_a_long_walk(bundled):
+    assert bundled.walk.duration > 19.9
+    assert bundled.pruned.count("transition") > 50
+    assert all(seam.cost < 0.04 for seam in bundled.seams)
+    steps = np.linalg.norm(np.diff(bundled.walk.root_positions[:, [0, 2]], axis=0), axis=1) * 30
     assert steps.max() < 4.5  # m/s: nobody is teleported
 
 
@@ -87,3 +92,64 @@ def test_real_clips_make_a_walk(real_data, folder):
     result = demo.run([clip[:1600] for clip in clips], Settings(seconds=10))
     assert result.walk.duration >= 9.9
     assert 0 < max(seam.cost for seam in result.seams) < 0.04
+
+
+# The command
+
+
+def test_the_demo_writes_a_walk_and_tells(clips, capsys):
+    out = clips / "new" / "walk"
+    assert main(["demo", str(clips), "-o", str(out), "--threshold", "5", "--seconds", "2"]) == 0
+    assert sorted(path.name for path in out.iterdir()) == ["walk.bvh", "walk.gif"]
+    assert len(load_save.load(out / "walk.bvh")) >= 60
+    told = capsys.readouterr()
+    assert "new walk" in told.out
+    assert str(out / "walk.gif") in told.out
+    assert told.err == ""
+
+
+def test_without_clips_it_takes_the_bundled_ones(bundled, tmp_path, capsys, monkeypatch):
+    taken = []
+
+    def run(clips, settings, progress):
+        taken.extend(clip.name for clip in clips)
+        return replace(bundled, walk=bundled.walk[:30])
+
+    monkeypatch.setattr(demo, "run", run)
+    assert main(["demo", "-o", str(tmp_path)]) == 0
+    assert taken == list(samples.SAMPLES)
+    assert "walk_circle" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["nowhere.bvh"], "nowhere.bvh"),
+        (["{clips}", "--threshold", "0.001"], "need at least"),
+        (["{clips}", "--threshold", "-1"], "above 0"),
+        (["{clips}", "--window", "60"], "too few for a window of 1800"),
+        (["{clips}", "--seconds", "0"], "longer than 0 s"),
+        (["{clips}", "--fps", "0"], "two frames or more, got 0.333333 s at 0 Hz"),
+        (["{clips}/a.bvh", "{clips}/a.bvh"], "given twice: a"),
+        (["{clips}", "--threshold", "5", "-o", "{clips}/a.bvh/below"], "Cannot make the folder"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_status_2(clips, capsys, options, message):
+    options = [option.format(clips=clips) for option in options]
+    before = sorted(clips.iterdir())
+    assert main(["demo", "-o", str(clips / "out"), *options]) == 2
+    told = capsys.readouterr().err
+    assert message in told
+    assert told.startswith("mocap: ")
+    assert told.count("\n") == 1
+    assert sorted(clips.iterdir()) == before
+
+
+def test_an_interruption_leaves_nothing(clips, capsys, monkeypatch):
+    def interrupt(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(demo, "run", interrupt)
+    assert main(["demo", str(clips), "-o", str(clips / "out")]) == 130
+    assert "interrupted" in capsys.readouterr().err
+    assert not (clips / "out").exists()

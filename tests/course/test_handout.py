@@ -122,7 +122,7 @@ def test_marks_made_before_an_interruption_are_kept(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("function", [lambda folder: list(mark(folder)), lambda f: hand_out(f, f / "out")])
 def test_an_empty_folder_is_told(function, tmp_path):
-    with pytest.raises(MocapError, match="There are no notebooks in"):
+    with pytest.raises(MocapError, match="holds no notebooks"):
         function(tmp_path)
 
 

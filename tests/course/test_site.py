@@ -80,7 +80,7 @@ def test_the_search_finds_text_under_its_heading(site):
 
 
 def test_a_folder_without_notebooks_is_told(tmp_path):
-    with pytest.raises(MocapError, match="There are no notebooks in"):
+    with pytest.raises(MocapError, match="holds no notebooks"):
         build_site(tmp_path, tmp_path / "out")
 
 
