@@ -50,13 +50,22 @@ def test_marks_come_from_the_larger_weight():
     ("weights", "message"),
     [
         ([0.5] * 4, r"got 5, 5, \(4,\)"),
-        ([0.5] * 4 + [1.1], r"lie in \[0, 1\]"),
+        ([0.5] * 4 + [1.001], r"lie in \[0, 1\]"),
+        ([0.5] * 4 + [-0.001], r"lie in \[0, 1\]"),
         ([np.nan] * 5, r"lie in \[0, 1\]"),
     ],
 )
 def test_weights_must_fit(weights, message):
     with pytest.raises(MocapError, match=message):
         blend(*pair(0), weights)
+
+
+def test_both_motions_have_as_many_frames():
+    a, b = pair(0)
+    for short, long, frames in ((a[:4], b, "4, 5"), (a, b[:4], "5, 4")):
+        for count in (4, 5):
+            with pytest.raises(MocapError, match=rf"got {frames}, \({count},\)"):
+                blend(short, long, np.zeros(count))
 
 
 def test_skeletons_must_be_the_same():

@@ -90,6 +90,16 @@ def test_real_clips_in_32_bits_are_as_good_as_in_64(real_data):
     assert np.abs(single - double).max() < 4e-6
 
 
+def test_it_does_not_matter_how_high_the_ground_is():
+    """Heights are measured from the clips' own, so no digits are lost."""
+    up = np.array([0, 1e5, 0])  # where the points themselves are right to 1e-11 m
+    a, b = random_points(0, 9), random_points(1, 7)
+    truth = distance_grid(a, b, window=3)
+    assert distance_grid(a + up, b + up, window=3) == pytest.approx(truth, abs=1e-9)
+    a, b = ((points + up / 100).astype(np.float32) for points in (a, b))  # right to 6e-5 m
+    assert distance_grid(a, b, window=3) == pytest.approx(truth, abs=2e-3)
+
+
 def test_the_grid_of_motions_is_that_of_their_points():
     a, b = wave(20), wave(25, phase=1.0)
     assert np.array_equal(

@@ -1,5 +1,7 @@
 """The closed form against a numerical optimiser; clouds of points where they should be."""
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,7 +12,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
-from mocap.matching.point_clouds import Surface, align, distinct_joints, point_cloud
+from mocap.matching.point_clouds import Surface, align, distinct_joints, point_cloud, unit_weights
 from tests.oracles import squared_distance
 from tests.strategies import planar, random_motion, seeds, wave
 
@@ -57,6 +59,20 @@ def test_weights_must_make_sense(weights):
         align(np.eye(3), np.eye(3), weights)
 
 
+def test_of_many_senseless_weights_the_message_shows_the_range():
+    with pytest.raises(MocapError, match=re.escape(f"got {[1.0] * 7 + [-1.0]}.")):
+        unit_weights([1.0] * 7 + [-1.0], 8)
+    with pytest.raises(MocapError, match=re.escape("got an array of shape (9,) from -1 to 1.")):
+        unit_weights([1.0] * 8 + [-1.0], 9)
+
+
+def test_points_lie_within_a_thousand_kilometres():
+    far = np.array([[0.0, 0, 1e6], [0, 0, -1e6]])
+    assert align(far, far) == pytest.approx((0, 0, 0))
+    with pytest.raises(MocapError, match=r"within 1e[+]06 m; the cloud holds -1000001.0 at \[1, 2\]"):
+        align(far, far - [[0, 0, 0], [0, 0, 1]])
+
+
 @pytest.mark.parametrize(
     ("points", "others", "message"),
     [
@@ -84,6 +100,12 @@ def test_coincident_joints_are_one_point():
     assert distinct_joints(hips) == [0, 3, 4]
 
 
+@pytest.mark.parametrize(("gap", "points"), [(4e-10, [0, 1]), (6e-10, [0, 1, 2])])
+def test_joints_coincide_within_a_nanometre(gap, points):
+    fork = Skeleton(["root", "l", "r"], [-1, 0, 0], [[0, 0, 0], [0, 1, 0], [0, 1, gap]])
+    assert distinct_joints(fork) == points
+
+
 def test_a_cmu_skeleton_has_31_points(real_data):
     from mocap import load_skeleton
 
@@ -98,8 +120,7 @@ def test_a_point_cloud_is_where_the_distinct_joints_are():
 @given(seeds)
 def test_surface_points_lie_around_their_bones(seed):
     motion = random_motion(seed, frames=2, joints=3)
-    surface = Surface(along=3, around=4, radius=0.05)
-    cloud = point_cloud(motion, surface).reshape(2, -1, 3, 4, 3)  # frame, bone, along, around
+    cloud = point_cloud(motion, Surface()).reshape(2, -1, 3, 4, 3)  # frame, bone, along, around
     joints = joint_positions(motion)
     for n, joint in enumerate(distinct_joints(motion.skeleton)[1:]):
         start, end = joints[:, motion.skeleton.parents[joint]], joints[:, joint]
@@ -108,6 +129,13 @@ def test_surface_points_lie_around_their_bones(seed):
             assert np.linalg.norm(ring, axis=-1) == pytest.approx(0.05)
             assert ring.sum(1) == pytest.approx(0, abs=1e-12)
             assert np.einsum("fpc,fc->fp", ring, end - start) == pytest.approx(0, abs=1e-12)
+
+
+def test_a_surface_of_one_point_without_a_radius_is_the_middle_of_each_bone():
+    motion = wave(3)
+    joints = joint_positions(motion)
+    middles = (joints[:, motion.skeleton.parents[1:]] + joints[:, 1:]) / 2
+    assert point_cloud(motion, Surface(along=1, around=1, radius=0.0)) == pytest.approx(middles)
 
 
 def test_a_surface_feels_what_joints_do_not():

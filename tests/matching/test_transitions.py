@@ -149,6 +149,15 @@ def test_far_from_the_origin_nothing_changes():
     assert near.cost == pytest.approx(away.cost, abs=1e-6)
 
 
+def test_how_high_the_clips_are_does_not_matter():
+    """Heights are measured from those of the first clip, so no digits are lost."""
+    up = np.array([0, 1e4, 0])
+    high = [replace(clip, root_positions=clip.root_positions + up) for clip in CLIPS]
+    near, away = (find_transitions(clips, window=8, below=0.1) for clips in (CLIPS, high))
+    assert np.array_equal(near.enter, away.enter) and np.array_equal(near.leave, away.leave)
+    assert near.cost == pytest.approx(away.cost, abs=1e-9)
+
+
 def test_a_threshold_for_every_pair_of_labels():
     marks = np.arange(70) < 35
     a = replace(CLIPS[0], labels={"walk": marks, "run": ~marks})
