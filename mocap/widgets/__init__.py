@@ -1,15 +1,15 @@
 """What moves in a browser: the player, and experiments with sliders.
 
 The player is one script that runs in JupyterLab and on a page of its own, without a network. An experiment is
-a picture that follows its controls.
+a picture that is drawn anew when its controls move.
 
 Reading order (notebooks 00 to 10)
 ----------------------------------
 1. `player`: a motion that plays, on a page or in a notebook
-2. `live_player`: players that report back: linked ones, and a canvas to draw a path on
-3. `experiments`: a picture that follows its controls
-4. `pointing`: an image to point at
-5. `film`: films, strips of pictures and pages as files
+2. `live_player`: players that Python and the reader move together, and a canvas to draw a path on
+3. `experiments`: a picture with controls
+4. `pointing`: an image to click on
+5. `film`: a motion as a film, a strip of poses or a page
 """
 
 import lazy_loader

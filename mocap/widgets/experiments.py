@@ -1,7 +1,7 @@
-"""Experiments for notebooks: a picture that follows its controls; and the players, by their short names.
+"""Experiments for notebooks: a picture with controls, drawn anew when a control moves.
 
-What `explore` shows is one output with three faces: the live controls where Python runs, a PNG where it does
-not (a code host, a printed page), and a sentence where there are no pictures.
+What `explore` shows is one output in three forms: live controls where Python runs, a PNG where it does not (a
+code host, a printed page), and a sentence where there are no pictures.
 """
 
 from __future__ import annotations
@@ -28,28 +28,23 @@ from mocap.errors import MocapError
 from mocap.plotting.picture import Picture, few_colours, figure_of
 from mocap.widgets.pointing import Pointed, pointer
 
-pass
-pass
-pass
-pass
-
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
-SLOW = 0.15  # seconds; a callback that takes longer waits until the reader's hand rests
+SLOW = 0.15  # seconds; a slower drawing waits until no control has moved for this long
 
 
 def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experiment:  # noqa: ANN401
     """Show a picture with controls, and draw it anew whenever one of them moves.
 
-    A figure in which little moves is quick when `draw` moves its artists and gives those back: then only they
-    are drawn again, over a picture of the rest that is kept.
+    Where little moves, let `draw` move the artists of one figure and return them: then only these are drawn
+    again, over a stored picture of the rest, which is faster.
 
     Parameters
     ----------
-    draw : called with the controls' values by name; gives what it drew, or a list of the artists it moved.
+    draw : called with the controls' values by name; returns what it drew, or a list of the artists it moved.
     alt : a sentence that says what the picture shows, for readers who do not see it.
-    controls : name=(low, high) or (low, high, step) for a slider, a bool for a box, a list or {label: value}
-        for a choice, an image such as a `plotting.distance_image` to click on for its (row, column), or a
-        widget. A default in `draw`'s signature is where the control starts.
+    controls : name=(low, high) or (low, high, step) for a slider, a bool for a check box, a list or
+        {label: value} for a choice, an image such as a `plotting.distance_image` to click on for its
+        (row, column), or a widget. A control starts at the default in `draw`'s signature.
 
     Returns
     -------
@@ -57,8 +52,9 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
     Raises
     ------
-    MocapError : where ipywidgets is not installed, and for controls that are none or `draw` lacks.
-    Exception : whatever `draw` raises at first. Later, the notebook shows it in the picture's place.
+    MocapError : where ipywidgets is not installed, for a control that `draw` does not take, and for a value
+        that makes no control.
+    Exception : whatever `draw` raises at first. Later, the notebook shows the error in the picture's place.
 
     Examples
     --------
@@ -104,7 +100,7 @@ def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore
 
 
 def step_aside(reason: object) -> None:
-    """Say in a sentence why a notebook cannot go on, and let the cells below it do nothing.
+    """Say in one sentence why a notebook cannot go on, and make the cells below do nothing.
 
     Parameters
     ----------
@@ -121,16 +117,26 @@ def step_aside(reason: object) -> None:
 
     print(f"The cells below do nothing until the kernel restarts: {reason}")
     if (shell := get_ipython()) is not None:
-        shell.input_transformers_cleanup.append(lambda lines: [])  # of what a cell says, nothing is left
+        shell.input_transformers_cleanup.append(lambda lines: [])  # turns each cell into an empty one
 
 
 class Experiment:
-    """What `explore` gives: the controls, the picture, and the last error.
+    """What `explore` returns: the controls, the picture, and the last error.
 
     Parameters
     ----------
     draw, alt : as for `explore`.
     controls : a widget for each name.
+
+    Examples
+    --------
+    >>> line, = plt.figure().add_subplot().plot([0, 1], [0, 0])
+    >>> def draw(slope=1.0):
+    ...     line.set_ydata([0, slope])
+    ...     return [line]
+    >>> experiment = explore(draw, alt="A line that rises as its slope does.", slope=(-1.0, 1.0))
+    >>> experiment.set(slope=0.5).values()  # a reader moves the slider, a test calls `set`
+    {'slope': 0.5}
     """
 
     def __init__(self, draw: Callable[..., Drawn], alt: str, controls: dict[str, Any]) -> None:
@@ -141,8 +147,8 @@ class Experiment:
         self._canvas = BlittedFigure()
         self._seconds = 0.0
         self._waiting: asyncio.TimerHandle | None = None
-        shrinking = {"flex": "1 1 320px", "max_width": "max-content"}  # before one goes below the other
-        self.picture = ipywidgets.Image(format="png", layout=shrinking)  # its alt is the sentence below
+        shrinking = {"flex": "1 1 320px", "max_width": "max-content"}  # to 320 pixels, then they stack
+        self.picture = ipywidgets.Image(format="png", layout=shrinking)  # has no alt; a sentence stands below
         self.message = ipywidgets.HTML(layout={"display": "none"})
         sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
         self._images = [control for control in controls.values() if isinstance(control, Pointed)]
@@ -163,11 +169,11 @@ class Experiment:
         return f"Experiment({self.draw.__name__}{values})"
 
     def values(self) -> dict[str, Any]:
-        """Give the controls' values by name."""
+        """Return the controls' values by name."""
         return {name: control.value for name, control in self.controls.items()}
 
     def set(self, **values: Any) -> Experiment:  # noqa: ANN401
-        """Move controls as a reader would, draw at once, and raise what `draw` raises: made for tests."""
+        """Move controls as a reader would, draw at once, and raise what `draw` raises; for tests."""
         for name, value in values.items():
             self.controls[name].value = value
         self.refresh()
@@ -176,27 +182,26 @@ class Experiment:
         return self
 
     def refresh(self) -> None:
-        """Draw anew; an error takes the picture's place until the next drawing works."""
+        """Draw anew; an error is shown in the picture's place until a drawing works again."""
         start = time.perf_counter()
         try:
             self.picture.value = self._canvas.png(self.draw(**self.values()))
             self.error = None
-        except Exception as error:  # whatever a student's function raises belongs on the page
+        except Exception as error:  # of any kind: it comes from a student's function
             self.error = error
-            self.message.value = (
-                f"<pre style='color:#A00000; white-space:pre-wrap'>{html.escape(_told(error))}</pre>"
-            )
+            style = "color:#A00000; white-space:pre-wrap"
+            self.message.value = f"<pre style='{style}'>{html.escape(_error_text(error))}</pre>"
         self.picture.layout.display = "none" if self.error else None
         self.message.layout.display = None if self.error else "none"
         self._seconds = time.perf_counter() - start
 
     def _moved(self, _: object) -> None:
-        """Draw at once where that is quick; else when no control has moved for a while."""
+        """Draw at once where that is fast; else when no control has moved for a while."""
         if self._waiting:
             self._waiting.cancel()
         try:
             loop = asyncio.get_running_loop() if self._seconds > SLOW else None
-        except RuntimeError:  # no kernel: a test, or a script
+        except RuntimeError:  # no event loop: this is a test or a script, not a kernel
             loop = None
         if loop:
             self._waiting = loop.call_later(SLOW, self.refresh)
@@ -204,42 +209,44 @@ class Experiment:
             self.refresh()
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
-        still, metadata = Picture(self._still(), self.alt)._repr_mimebundle_()
-        return {**(self.box._repr_mimebundle_() or {}), **still}, metadata
+        picture, metadata = Picture(self._whole_picture(), self.alt)._repr_mimebundle_()
+        return {**(self.box._repr_mimebundle_() or {}), **picture}, metadata
 
-    def _still(self) -> bytes:
-        """Give the picture, to the right of the images that it depends on."""
-        stills = [image.still() for image in self._images] + [Image.open(io.BytesIO(self.picture.value))]
-        row = Image.new("RGB", (sum(s.width for s in stills), max(s.height for s in stills)), "white")
-        for number, still in enumerate(stills):
-            row.paste(still, (sum(s.width for s in stills[:number]), 0))
+    def _whole_picture(self) -> bytes:
+        """Return the images to click on and, to their right, the picture, as one PNG."""
+        parts = [image.with_ring() for image in self._images] + [Image.open(io.BytesIO(self.picture.value))]
+        row = Image.new(
+            "RGB", (sum(part.width for part in parts), max(part.height for part in parts)), "white"
+        )
+        for number, part in enumerate(parts):
+            row.paste(part, (sum(before.width for before in parts[:number]), 0))
         return few_colours(row)
 
 
-def _told(error: Exception) -> str:
-    """Say what went wrong, and at which line of the reader's function."""
+def _error_text(error: Exception) -> str:
+    """Say what went wrong, and in which line of the reader's function."""
     (last,) = traceback.format_exception_only(error)[-1:]
     at = traceback.extract_tb(error.__traceback__)[1:2]
     return last.strip() + "".join(f"\n({frame.name}, line {frame.lineno}: {frame.line})" for frame in at)
 
 
 class BlittedFigure:
-    """Turns what a `draw` function gave into a PNG, drawing again only what moved.
+    """Turns what a `draw` function returned into a PNG, and draws again only what moved.
 
     Matplotlib leaves `animated` artists out of a full drawing, and their changes do not make a figure stale.
-    So as long as the figure is not stale, the kept background is true, and the moved artists go on top.
+    So while the figure is not stale, the stored background is valid, and the moved artists go on top.
     """
 
     def __init__(self) -> None:
         self.figure: Figure | None = None
 
     def png(self, drawn: Drawn) -> bytes:
-        """Draw a figure, or, of a list of artists, these over the picture of the rest of theirs."""
+        """Draw a whole figure; or, for a list of artists, these over the stored picture of all others."""
         figure = figure_of(drawn)
         moved = isinstance(drawn, Sequence) and all(isinstance(part, Artist) for part in drawn)
         artists = sorted(drawn, key=Artist.get_zorder) if moved else []
         if figure is not self.figure:
-            plt.close(figure)  # nothing of it may appear elsewhere on the page, nor stay behind
+            plt.close(figure)  # or the notebook shows it a second time, and pyplot keeps it for ever
             self.figure, self.canvas = figure, FigureCanvasAgg(figure)
             figure.stale = True
         for artist in artists:
@@ -259,7 +266,7 @@ class BlittedFigure:
 
 
 def encoded(pixels: np.ndarray) -> bytes:
-    """Encode pixels, shape (height, width, 4), as a PNG: quickly rather than small."""
+    """Encode pixels, shape (height, width, 4), as a PNG: fast rather than small."""
     stream = io.BytesIO()
     Image.fromarray(pixels).convert("RGB").save(stream, "png", compress_level=1)
     return stream.getvalue()

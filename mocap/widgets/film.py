@@ -1,4 +1,4 @@
-"""Motions as files to look at: films, strips of pictures, pages that play."""
+"""Motions as files to look at: films, strips of poses, pages with the player."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,15 +24,15 @@ SUFFIXES = (".gif", ".mp4", ".png", ".html")
 
 
 def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progress: Progress = iter) -> Path:
-    """Write a motion as a file to look at: the stick figure on the ground, its path, the camera beside it.
+    """Write a motion as a file to look at: a stick figure on the ground, its path, a camera that follows it.
 
     Parameters
     ----------
     motion : what to show.
-    path : the file to write; nothing is left behind when writing fails. Its ending says what it will be:
-        .gif or .mp4 a film, .png a strip of pictures, .html a page with the player, which needs nothing else.
-    fps : pictures a second of a film; GIFs count in hundredths of a second, so 25, 50 and 20 are exact.
-    progress : wraps the pictures of a film as they are drawn, to show a bar.
+    path : the file to write; nothing is left behind when writing fails. Its ending decides: .gif or .mp4 is a
+        film, .png a strip of poses, .html a page with the player, which needs nothing else.
+    fps : frames per second of a film; a GIF counts in hundredths of a second, so 20, 25 and 50 are exact.
+    progress : wraps the frames of a film as they are drawn, to show a bar.
 
     Returns
     -------
@@ -41,6 +41,14 @@ def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progr
     Raises
     ------
     MocapError : for another ending, where the file cannot be written, and for .mp4 without imageio-ffmpeg.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from mocap import datasets
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_animation(datasets.sample("walk_straight")[:60], Path(folder, "walk.gif")).stat().st_size > 0
+    True
 
     Notebook: 00-quickstart
     """
@@ -62,12 +70,12 @@ def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progr
 
 
 def _pictures(motion: Motion, fps: float, progress: Progress) -> Iterator[NDArray[np.uint8]]:
-    """Draw a film, a picture at a time, shape (500, 500, 3)."""
+    """Draw a film, frame by frame, each of shape (500, 500, 3)."""
     motion = resample(motion, fps)
     points = joint_positions(motion)
     centres = gaussian_filter1d(motion.root_positions[:, [0, 2]], fps / 3, axis=0, mode="nearest")
     figure = Figure(figsize=(5, 5))
-    canvas = FigureCanvasAgg(figure)  # draws whatever pyplot is set to, and needs no screen
+    canvas = FigureCanvasAgg(figure)  # whatever pyplot's backend is, this one needs no screen
     ax = ground_axes(centres[0], ax=filled(figure))
     ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
     body = StickFigure(motion.skeleton, ax)

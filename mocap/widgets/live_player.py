@@ -1,7 +1,7 @@
-"""Players that Python and the reader move together, and the canvas on which one draws a path.
+"""Players that Python and the reader move together, and a canvas to draw a path on.
 
-The player's scripts in their second shell, `anywidget`: `frame`, `scene` and `path` are traits, which both
-sides may set and observe.
+Here `anywidget` runs the player's scripts: `frame`, `scene` and `path` are traits, which both sides can set
+and observe.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ Follow = Callable[[Array], Motion | Player]
 
 
 class _Shown:
-    """What a live player has beside its traits: the player it shows, and its output in a notebook."""
+    """The live player without its traits: the player that it shows, and its output in a notebook."""
 
     player: Player
 
     def show(self, player: Player, **extra: bool) -> None:
         """Show another player in the same place, from its first frame on."""
         self.player = player
-        self.frame = 0  # which every motion has
+        self.frame = 0  # before the new scene, which may have fewer frames
         self.scene = player.scene | extra
 
     def __repr__(self) -> str:
@@ -38,13 +38,13 @@ class _Shown:
 
     def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:  # noqa: ANN401
         live: Any = super()._repr_mimebundle_(**options)  # type: ignore[misc]  # of the widget
-        still, metadata = self.player._repr_mimebundle_()
-        return {**live[0], **still}, metadata
+        stored, metadata = self.player._repr_mimebundle_()
+        return {**live[0], **stored}, metadata
 
 
 @cache
 def _live_player() -> type[Any]:
-    """Make the class of the widget, which needs anywidget and so is not there without it."""
+    """Make the widget's class, once; it needs anywidget, which may not be installed."""
     try:
         import anywidget
         import traitlets
@@ -52,7 +52,7 @@ def _live_player() -> type[Any]:
         raise MocapError("A linked player needs anywidget: pip install 'mocap[notebooks]'.") from error
 
     class LivePlayer(_Shown, anywidget.AnyWidget):
-        """A player whose `frame` Python may set and observe."""
+        """A player with a `frame` that Python may set and observe."""
 
         _esm = script()
         scene = traitlets.Dict().tag(sync=True)
@@ -71,7 +71,7 @@ def _live_player() -> type[Any]:
 
 
 def linked(player: Player) -> Any:  # noqa: ANN401
-    """Link a player to Python: set its `frame` to go there, `observe` it to follow the reader.
+    """Link a player to Python: set its `frame` to go to a frame, observe it to follow the reader.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def linked(player: Player) -> Any:  # noqa: ANN401
 
     Raises
     ------
-    MocapError : where anywidget is not installed, and when a frame is set that the player lacks.
+    MocapError : where anywidget is not installed; later, when `frame` is set to one that does not exist.
 
     Examples
     --------
@@ -103,18 +103,26 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Parameters
     ----------
-    follow : from a path, shape (N, 2), points (x, z) in metres, to a motion, or a `play` of one, whose
-        sentence is told below the canvas: how far off the walk is, say.
-    path : what is drawn already when the canvas appears.
+    follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one
+        with an `alt`, which stands below the canvas and can say how far off the path the walk is.
+    path : the first path, shape (N, 2).
 
     Returns
     -------
-    A linked player; its `path` is what the reader drew last, `error` what `follow` raised at it, or None.
+    A linked player; its `path` is what the reader drew last, its `error` what `follow` raised there, or None.
 
     Raises
     ------
     MocapError : where anywidget is not installed.
-    Exception : whatever `follow` raises at the first path; later, the canvas shows it.
+    Exception : whatever `follow` raises at the first path. Later, the canvas shows the error.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> canvas = draw_path(lambda path: datasets.generate_walk(path), [(0, 0), (0, 3)])
+    >>> canvas.path = [(0, 0), (0, 2), (1, 4)]  # as a reader draws it
+    >>> canvas.error is None, canvas.player.motions[0].root_positions[-1].round()[[0, 2]].tolist()
+    (True, [1.0, 4.0])
 
     Notebook: 08-path-synthesis
     """
@@ -129,7 +137,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
         try:
             canvas.show(_along(follow, np.array(change["new"], float)), **on_canvas, autoplay=True)
             canvas.error, canvas.message = None, canvas.player.alt
-        except Exception as error:  # whatever a student's function raises belongs on the page
+        except Exception as error:  # of any kind: it comes from a student's function
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
 
     canvas.observe(walk, "path")

@@ -1,9 +1,9 @@
 // A player of stick figures on a canvas, without any library.
 //
-// `player.py` packs a scene (`player_scene.js`), `Picture` draws it (`player_picture.js`), and here is what the
-// reader touches. The three are joined to one module, which runs in two shells: a page starts every
-// `.mocap-player` in it (`startAll`), and anywidget calls `render`, whose `model` shares `frame`, `scene` and
-// `path` with Python.
+// `player.py` packs a scene, `player_scene.js` unpacks it, `Picture` in `player_picture.js` draws it, and this file
+// holds the controls. The three scripts are joined to one module. On a page, `startAll` starts every
+// `.mocap-player`; in JupyterLab, anywidget calls `render`, whose `model` shares `frame`, `scene` and `path` with
+// Python.
 
 const KEYS = "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom.";
 
@@ -37,7 +37,7 @@ class Player {
 
   build() {
     this.root.classList.add("mocap-player");
-    this.root.dataset.started = "true"; // so that no page's script takes a live player for one of its own
+    this.root.dataset.started = "true"; // so that `startAll` does not start it a second time
     this.root.innerHTML = `<style>${STYLE}</style><canvas tabindex="0" role="img"></canvas>
       <div class="bar"><button class="play" aria-label="play"></button>
         <div class="scrub"><input type="range" min="0" step="1" aria-label="frame"><div></div></div><output></output></div>
@@ -63,7 +63,7 @@ class Player {
     this.scene = scene;
     this.characters = scene.characters.map((packed) => new Character(packed, bytes));
     this.seconds = (scene.frames - 1) / scene.fps;
-    if (!again) this.follow.checked = scene.follow; // who has drawn a path keeps the view for the next one
+    if (!again) this.follow.checked = scene.follow; // a reader who draws one path after the other keeps the view
     if (scene.drawable && !again) { this.drawing = true; this.camera.pitch = 0.9; }
     this.canvas.setAttribute("aria-label", `${scene.alt} ${KEYS}`);
     this.scrub.max = scene.frames - 1;
@@ -78,7 +78,7 @@ class Player {
 
   say(text) { this.message.textContent = text; this.message.classList.toggle("error", /^\w+Error:/.test(text)); }
 
-  // The bar under the slider, and the words that go with its colours.
+  // The coloured bar under the slider, and the names of its colours.
   showSources() {
     const [{ sources }] = this.characters;
     const stops = sources.map((s, i) => {
@@ -95,7 +95,7 @@ class Player {
     }));
   }
 
-  // Where the camera looks when it follows nobody, and from how far.
+  // Where the camera looks when it does not follow, and how far away it is.
   frameAll() {
     const places = [...this.characters.flatMap((c) => c.path.map(([, x, z]) => [x, z])), ...this.scene.asked];
     const span = (i) => [Math.min(...places.map((p) => p[i])), Math.max(...places.map((p) => p[i]))];
@@ -133,11 +133,11 @@ class Player {
     this.model.on("change:message", () => this.say(this.model.get("message")));
   }
 
-  // Tell Python the frame, at most twenty times a second.
-  tell() {
-    if (!this.model || this.telling) return;
-    this.telling = setTimeout(() => {
-      this.telling = null;
+  // Send Python the frame, at most twenty times per second.
+  report() {
+    if (!this.model || this.reporting) return;
+    this.reporting = setTimeout(() => {
+      this.reporting = null;
       if (this.model.get("frame") === this.frame()) return;
       this.model.set("frame", this.frame());
       this.model.save_changes();
@@ -150,7 +150,7 @@ class Player {
 
   seek(time) {
     this.time = Math.min(Math.max(time, 0), this.seconds);
-    this.tell();
+    this.report();
     this.update();
   }
 
@@ -171,13 +171,13 @@ class Player {
       if (this.last !== null) this.time += Math.min(0.25, (now - this.last) / 1000) * this.speed;
       if (this.time > this.seconds) this.time = this.seconds > 0 ? this.time % this.seconds : 0;
       this.last = now;
-      this.tell();
+      this.report();
       this.update();
     }
     this.draw();
   }
 
-  // ---- hands ----
+  // ---- keys, mouse, fingers ----
 
   key(event) {
     const onCanvas = event.target === this.canvas;
@@ -201,7 +201,7 @@ class Player {
 
   zoomBy(factor) { this.camera.zoom = Math.min(12, Math.max(0.2, this.camera.zoom * factor)); this.update(); }
 
-  // A wheel over a picture that nobody has chosen scrolls the page.
+  // The wheel zooms where the canvas has the focus; elsewhere it scrolls the page.
   wheel(event) {
     if (!event.ctrlKey && document.activeElement !== this.canvas) return;
     event.preventDefault();
@@ -214,7 +214,7 @@ class Player {
     if (this.drawing) this.drawn = [];
   }
 
-  // One finger or the mouse turns the view, two fingers zoom; while drawing, the pen goes over the ground.
+  // One finger or the mouse turns the view, two fingers zoom; in drawing mode, one finger or the mouse draws.
   pointermove(event) {
     const before = this.pointers.get(event.pointerId);
     if (!before) return;
@@ -251,7 +251,7 @@ class Player {
     this.showState();
   }
 
-  // The ground under the first character, smoothed over a second so that the view does not rock with each step.
+  // Above the ground under the first character, averaged over a second so that the view does not rock with each step.
   target() {
     if (!this.follow.checked) return this.centre;
     const mean = [0, 0.85, 0];
@@ -274,17 +274,17 @@ class Player {
     this.firstPicture ??= performance.now();
   }
 
-  end() { this.resized?.disconnect(); this.seen?.disconnect(); clearTimeout(this.telling); cancelAnimationFrame(this.waiting); }
+  end() { this.resized?.disconnect(); this.seen?.disconnect(); clearTimeout(this.reporting); cancelAnimationFrame(this.waiting); }
 }
 
-// Shell one: a page. Each output that comes starts the players that have not been started yet.
+// On a page: each output that appears starts the players that have not been started yet.
 export function startAll() {
   for (const root of document.querySelectorAll(".mocap-player:not([data-started])")) {
     root.player = new Player(root, JSON.parse(root.querySelector("script").textContent), null);
   }
 }
 
-// Shell two: anywidget.
+// In JupyterLab: called by anywidget.
 export default {
   render({ model, el }) {
     el.player = new Player(el, model.get("scene"), model);

@@ -1,8 +1,8 @@
-"""A player for notebooks and pages: stick figures that move, with nothing but a browser needed.
+"""A player for notebooks and pages: stick figures that move; it needs nothing but a browser.
 
-The scripts in `PARTS` draw; this module packs what they draw. Places are sent as 16-bit numbers between the
-lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 pictures a
-second. What is sent are their second differences over time, which are small, and so shrink when deflated.
+The scripts in `PARTS` draw; this module packs what they draw. Coordinates are sent as 16-bit numbers between
+the lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 frames
+per second. What is sent are their second differences over time: these are small, and compress well.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from mocap.plotting.style import COLOURS, PATH, SOURCES, source_colours
 
 Sources = Sequence[tuple[int, str]]
 
-SCREEN = 60.0  # pictures a second that a screen shows; a faster clip is thinned
+SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
 PARTS = ("player_scene.js", "player_picture.js", "player.js")  # of one module, in this order
-SIDES = ("middle", "left", "right")  # the scripts count them
+SIDES = ("middle", "left", "right")  # the scripts know a side by its number
 
 
 def script() -> str:
@@ -44,20 +44,20 @@ def script() -> str:
 def play(
     *motions: Motion, sources: Sources = (), path: ArrayLike = (), follow: bool = True, alt: str = ""
 ) -> Player:
-    """Play motions in the notebook: turn the view, step, slow down, follow.
+    """Play motions in the notebook; the reader can turn the view, step, and change the speed.
 
     Parameters
     ----------
-    motions : one or more characters; time runs by the first one's frames.
-    sources : where the first motion comes from, as (frame, name of the clip from there on): it is coloured so
-        that the seams are seen.
-    path : a path asked for, shape (N, 2), points (x, z) in metres.
-    follow : whether the camera goes along.
-    alt : a sentence for readers who do not see it; by default one with names and lengths.
+    motions : one or more characters; frames are counted by the first.
+    sources : where the first motion comes from, as pairs (frame, name of the clip from there on); each clip
+        has its colour, so the seams are seen.
+    path : a path that was asked for, shape (N, 2), points (x, z) in metres.
+    follow : whether the camera follows the first character.
+    alt : a sentence for readers who do not see it; by default it gives names and seconds.
 
     Returns
     -------
-    The player; a notebook shows it as the last line of a cell, and `page` is a file to share.
+    The player; a notebook shows it as the last line of a cell, and its `page()` is a file to share.
 
     Raises
     ------
@@ -74,11 +74,11 @@ def play(
     if not motions:
         raise MocapError("There is no motion to play.")
     return Player(
-        motions, tuple(sources), np.reshape(np.asarray(path, float), (-1, 2)), follow, alt or _told(motions)
+        motions, tuple(sources), np.reshape(np.asarray(path, float), (-1, 2)), follow, alt or _alt(motions)
     )
 
 
-def _told(motions: Sequence[Motion]) -> str:
+def _alt(motions: Sequence[Motion]) -> str:
     who = "A stick figure plays" if len(motions) == 1 else f"{len(motions)} stick figures play"
     names = ", ".join(dict.fromkeys(motion.name for motion in motions))
     return f"{who} {names}, {max(motion.duration for motion in motions):.1f} s."
@@ -86,7 +86,17 @@ def _told(motions: Sequence[Motion]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Player:
-    """What `play` gives, with the same arguments. It shows itself as part of a page, picture, sentence."""
+    """What `play` returns, with the same arguments; a notebook shows it live, as a picture or a sentence.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> player = play(datasets.sample("walk_straight"))
+    >>> player.scene["fps"], player.scene["frames"]
+    (120.0, 1201)
+    >>> player.page()[:15]
+    '<!doctype html>'
+    """
 
     motions: Sequence[Motion]
     sources: Sources
@@ -99,7 +109,7 @@ class Player:
 
     @cached_property
     def scene(self) -> dict[str, Any]:
-        """What the scripts draw; `data` holds, deflated, all characters' numbers, each from its `offset`."""
+        """What the scripts draw; `data` holds all characters' numbers, compressed, each from its `offset`."""
         characters: list[dict[str, Any]] = []
         data = b""
         for number, motion in enumerate(self.motions):
@@ -128,11 +138,11 @@ class Player:
 
     @cached_property
     def picture(self) -> bytes:
-        """The strip of poses that stands in where nothing can move, as a PNG."""
+        """A strip of poses as a PNG, for places where no script runs."""
         return small_png(film_strip(self.motions))
 
     def html(self) -> str:
-        """Give the player as part of a page; its picture stays where no script runs."""
+        """Return the player as part of a page; where no script runs, its picture stays."""
         data = base64.b64encode(self.scene["data"]).decode()
         scene = json.dumps({**self.scene, "data": data, "autoplay": True}).replace("<", "\\u003c")
         picture, alt = base64.b64encode(self.picture).decode(), html.escape(self.alt)
@@ -143,7 +153,7 @@ class Player:
         )
 
     def page(self) -> str:
-        """Give the player as a whole page, with all it needs inside."""
+        """Return the player as a whole page, with everything that it needs."""
         return (
             f'<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -158,7 +168,7 @@ class Player:
 
 
 def _packed(motion: Motion, colour: str) -> tuple[dict[str, Any], bytes]:
-    """Pack a motion: the numbers of the joints that bones end at, the root first, and what they mean."""
+    """Pack the joints at which bones end, the root first: the numbers as bytes, and what they mean."""
     starts, ends, sides = bones(motion.skeleton)
     joints, index = np.unique([0, *starts, *ends], return_inverse=True)
     index = index[1:].reshape(2, -1)

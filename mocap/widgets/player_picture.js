@@ -5,8 +5,8 @@ const GHOSTS = 6, GHOST_GAP = 0.25; // how many earlier poses, and the seconds b
 class Picture {
   constructor(canvas, camera) { this.canvas = canvas; this.camera = camera; }
 
-  // Draw characters at a time as the camera sees them, from `distance` away from `target`. `asked` and `drawn` are
-  // lines on the ground; `sides` are colours, and the ground's lines go `reach` metres out and more.
+  // Draw the characters at a time, seen from `distance` metres away from `target`. `asked` and `drawn` are paths on
+  // the ground, `sides` are the colours of a body's sides, and the ground reaches at least `reach` metres.
   draw({ characters, time, asked, drawn, sides, ghosts, target, distance, reach }) {
     Object.assign(this, { characters, time, sides });
     const [wide, high] = this.clear();
@@ -20,7 +20,7 @@ class Picture {
     this.drawBodies();
   }
 
-  // Wipe the canvas, as sharp as the screen is; give its size on the page.
+  // Clear the canvas, give it as many pixels as the screen has there, and return its size on the page.
   clear() {
     const { canvas } = this, sharp = devicePixelRatio || 1, size = [canvas.clientWidth, canvas.clientHeight];
     const pixels = size.map((length) => Math.round(length * sharp));
@@ -32,7 +32,7 @@ class Picture {
     return size;
   }
 
-  // Lines a metre apart that stay where they are in the world and fade with distance.
+  // Lines one metre apart, which stay where they are in the world and fade with distance.
   drawGround([x, , z], reach) {
     const lines = Math.max(6, Math.ceil(1.3 * reach / Math.min(1, this.camera.zoom)));
     const x0 = Math.round(x), z0 = Math.round(z);
@@ -44,7 +44,7 @@ class Picture {
     }
   }
 
-  // The root's path in the colours of its sources, and footprints: strong while the foot stands, pale once it left.
+  // The root's path in the colours of its sources, and footprints: strong while the foot stands, pale afterwards.
   drawTrail(character) {
     const { path } = character;
     for (let i = 1, start = 0; i <= path.length; i++) {
@@ -78,7 +78,7 @@ class Picture {
     return bones;
   }
 
-  // Shadows first, then all bones of all bodies from the farthest to the nearest.
+  // Shadows first, then all bones of all bodies, the farthest first.
   drawBodies() {
     const parts = [];
     for (const character of this.characters) {
@@ -93,8 +93,8 @@ class Picture {
     for (const part of parts.sort((a, b) => b.far - a.far)) part.paint();
   }
 
-  // Lines through points of the world, in one go, so that where they meet they are no darker; what lies behind
-  // the eye is cut off. Widths are pixels, or metres.
+  // Lines through points of the world, in one stroke, so that they are not darker where they meet. Parts behind the
+  // camera are cut off. `width` is in pixels, or in metres.
   stroke(lines, colour, width, alpha = 1, metres = false) {
     const { camera, pen } = this, near = 0.1;
     let far = 0;
@@ -117,7 +117,7 @@ class Picture {
     pen.globalAlpha = 1;
   }
 
-  // A ball, or, where it lies flat, a disc on the ground.
+  // A ball, or, where `flat`, a disc on the ground.
   disc(place, radius, colour, alpha, flat) {
     const { camera, pen } = this, seen = camera.see(...place);
     if (seen[2] < 0.1) return;

@@ -1,7 +1,7 @@
 // What the player shows: characters, and the camera that sees them. `player.py` joins `player_scene.js`,
 // `player_picture.js` and `player.js`, in this order, to one module.
 //
-// World: y up, metres, seconds. A camera goes round a target; `Camera.see` is all the projection there is.
+// World: y up, metres, seconds. The camera turns about a target; `Camera.see` and `pixel` are the whole projection.
 
 class Camera {
   constructor() { this.reset(); }
@@ -19,7 +19,7 @@ class Camera {
     this.middle = [width / 2, height / 2];
   }
 
-  // Where a point is for the eye: [to the right, up, ahead], metres.
+  // Where a point is, seen from the camera: [to the right, up, ahead], metres.
   see(x, y, z) {
     const a = x - this.eye[0], b = y - this.eye[1], c = z - this.eye[2];
     const along = (v) => a * v[0] + b * v[1] + c * v[2];
@@ -46,8 +46,8 @@ async function inflated(data) {
   return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
-// A character: where its joints are at any time. Their places are 16-bit numbers, low + step · number metres. Sent
-// are their second differences over time, a coordinate after the other, deflated: less than half as much.
+// A character: where its joints are at any time. A coordinate is low + step · number metres, with a 16-bit number.
+// What Python sends are second differences over time, one coordinate after the other, compressed to less than half.
 class Character {
   constructor(packed, bytes) {
     Object.assign(this, packed);
@@ -57,7 +57,7 @@ class Character {
     this.path = this.pathOnGround();
   }
 
-  // Undo the differences, which wrap round at 2¹⁶.
+  // Undo the differences, modulo 2¹⁶.
   sum() {
     for (let i = 0, change = 0, number = 0; i < this.numbers.length; i++) {
       if (i % this.frames === 0) change = number = 0;
@@ -66,7 +66,7 @@ class Character {
     }
   }
 
-  // All joints at a time, between two frames on straight lines: x, y, z, x, y, z, ...
+  // All joints at a time, interpolated between two frames: x, y, z, x, y, z, ...
   pose(time) {
     const at = Math.min(Math.max(time, 0), this.seconds) * this.fps;
     const frame = Math.min(Math.floor(at), this.frames - 1), share = at - frame;
@@ -79,7 +79,7 @@ class Character {
     return this.low[coordinate % 3] + this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame];
   }
 
-  // [time, x, z] of the root, at most about a thousand times.
+  // [time, x, z] of the root, at fewer than 2000 times.
   pathOnGround() {
     const every = Math.max(1, Math.floor(this.frames / 1000)), path = [];
     for (let frame = 0; frame < this.frames; frame += every) path.push([frame / this.fps, this.place(0, frame), this.place(2, frame)]);

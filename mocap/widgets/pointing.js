@@ -1,7 +1,7 @@
-// A picture to point at: a click, a drag or the arrow keys choose a row and a column of the image in it.
+// An image to click on: a click, a drag or the arrow keys choose a row and a column.
 //
-// `pointing.py` gives the PNG, and `box`: where in it, in shares of its width and height, the image starts
-// (left, top) and how far it goes from row 0 and column 0 to the last ones.
+// `pointing.py` sends the figure as a PNG, and `box`: left, top, width and height of the image in it, as shares of
+// the figure's, from row 0 and column 0. Width or height is negative where they start at the right or the bottom.
 
 const STYLE = `
 .mocap-pointing { position: relative; touch-action: none; cursor: crosshair; }
@@ -16,7 +16,7 @@ export default {
   render({ model, el }) {
     el.innerHTML = `<style>${STYLE}</style><div class="mocap-pointing" tabindex="0" role="application"
       data-lm-suppress-shortcuts="true"><img draggable="false"><i></i></div><div role="status"></div>`;
-    const [, place, told] = el.children, [picture, ring] = place.children;
+    const [, place, status] = el.children, [picture, ring] = place.children;
     const [left, top, wide, high] = model.get("box"), [rows, columns] = model.get("shape");
     picture.src = model.get("picture");
     picture.alt = "";
@@ -26,7 +26,7 @@ export default {
       const [row, column] = model.get("value");
       ring.style.left = `${100 * (left + (wide * (column + 0.5)) / columns)}%`;
       ring.style.top = `${100 * (top + (high * (row + 0.5)) / rows)}%`;
-      told.textContent = model.get("told");
+      status.textContent = model.get("status");
     };
 
     const choose = (row, column) => {
@@ -51,8 +51,8 @@ export default {
       event.preventDefault();
       event.stopPropagation();
     };
-    model.on("change:value change:told", show);
+    model.on("change:value change:status", show);
     show();
-    return () => model.off("change:value change:told", show);
+    return () => model.off("change:value change:status", show);
   },
 };

@@ -1,4 +1,4 @@
-"""A picture to point at: a click on an image, or the arrow keys, choose one of its rows and columns."""
+"""An image to click on: a click or the arrow keys choose one of its rows and columns."""
 
 from __future__ import annotations
 
@@ -29,10 +29,24 @@ def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: AN
     image : on axes; the whole figure is shown, and closed.
     value : where the ring is at first.
 
+    Returns
+    -------
+    A widget with the trait `value`, for `explore` or on its own.
+
     Raises
     ------
-    MocapError : where anywidget is not installed, for an image that is not of numbers, and, here and when it
-        is set, for a value outside it.
+    MocapError : where anywidget is not installed, for an image that is not of numbers, and for a value
+        outside the image, here and when it is set later.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> at = pointer(plotting.distance_image(np.array([[0.04, 0.01], [0.09, 0.16]]), fps=30))
+    >>> at.value = (1, 0)  # as a click does
+    >>> at.status
+    'row 1, column 0: RMS distance (cm) 30'
+
+    Notebook: 02-matching
     """
     numbers = np.asarray(image.get_array())
     if numbers.ndim != 2:
@@ -42,14 +56,14 @@ def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: AN
     plt.close(figure)
     widget = _pointer_class()(box=_box(image), shape=numbers.shape, picture=f"data:image/png;base64,{png}")
     widget.numbers, widget.quantity = numbers, image.colorbar.ax.get_ylabel() if image.colorbar else "value"
-    widget.observe(widget.tell, "value")
+    widget.observe(widget.say_where, "value")
     widget.value = tuple(value)
-    widget.tell()
+    widget.say_where()
     return widget
 
 
 def _box(image: AxesImage) -> list[float]:
-    """Say where the image is in its figure: left, top, width, height from row 0 and column 0, in shares."""
+    """Find the image in its figure: left, top, width, height from row 0 and column 0, as shares of 1."""
     left, right, bottom, top = image.get_extent()
     first, last = (bottom, top) if image.origin == "lower" else (top, bottom)
     corners = image.axes.transData.transform([(left, first), (right, last)])
@@ -58,7 +72,7 @@ def _box(image: AxesImage) -> list[float]:
 
 
 class Pointed:
-    """What a pointer has beside its traits: what it tells, and how it looks where nothing is live."""
+    """The pointer without its traits: the sentence below it, and its picture where no Python runs."""
 
     numbers: NDArray[np.floating[Any]]
     quantity: str
@@ -68,25 +82,25 @@ class Pointed:
     picture: str
     layout: Any
 
-    def tell(self, _: object = None) -> None:
+    def say_where(self, _: object = None) -> None:
         """Say where the ring is, and the number there."""
         row, column = self.value
-        self.told = f"row {row}, column {column}: {self.quantity} {self.numbers[row, column]:.3g}"
+        self.status = f"row {row}, column {column}: {self.quantity} {self.numbers[row, column]:.3g}"
 
-    def still(self) -> Image.Image:
-        """Draw the picture with its ring."""
-        still = Image.open(io.BytesIO(base64.b64decode(self.picture.split(",")[1]))).convert("RGB")
+    def with_ring(self) -> Image.Image:
+        """Draw the ring into the picture."""
+        picture = Image.open(io.BytesIO(base64.b64decode(self.picture.split(",")[1]))).convert("RGB")
         (left, top, wide, high), (row, column) = self.box, np.add(self.value, 0.5) / self.shape
-        x, y = (left + wide * column) * still.width, (top + high * row) * still.height
+        x, y = (left + wide * column) * picture.width, (top + high * row) * picture.height
         for radius, colour in ((9, "#222222"), (7, "#FFFFFF")):
             around = (x - radius, y - radius, x + radius, y + radius)
-            ImageDraw.Draw(still).ellipse(around, outline=colour, width=2)
-        return still
+            ImageDraw.Draw(picture).ellipse(around, outline=colour, width=2)
+        return picture
 
 
 @cache
 def _pointer_class() -> type[Any]:
-    """Make the class of the widget, which needs anywidget and so is not there without it."""
+    """Make the widget's class, once; it needs anywidget, which may not be installed."""
     try:
         import anywidget
         import traitlets
@@ -95,14 +109,14 @@ def _pointer_class() -> type[Any]:
         raise MocapError("An image to point at needs anywidget: pip install 'mocap[notebooks]'.") from error
 
     class Pointer(Pointed, anywidget.AnyWidget, ValueWidget):  # type: ignore[misc]  # untyped
-        """A picture whose `value`, a row and a column, Python and the reader may set."""
+        """A picture with a `value`, a row and a column, that Python and the reader may set."""
 
         _esm = SCRIPT.read_text("utf-8")
         description = traitlets.Unicode().tag(sync=True)
         picture = traitlets.Unicode().tag(sync=True)
         box: traitlets.List[float] = traitlets.List().tag(sync=True)
         shape = traitlets.Tuple().tag(sync=True)
-        told = traitlets.Unicode().tag(sync=True)
+        status = traitlets.Unicode().tag(sync=True)
         value = traitlets.Tuple((0, 0)).tag(sync=True)
 
         @traitlets.validate("value")

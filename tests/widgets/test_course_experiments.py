@@ -1,4 +1,4 @@
-"""What an experiment draws with stays its own: a slider moved after the last cell must find it as it was."""
+"""No later cell changes what an experiment draws with: its slider must work after the last cell too."""
 
 import ast
 from pathlib import Path
@@ -11,7 +11,7 @@ NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 
 
 def bound(tree):
-    """Name what a cell binds for all cells."""
+    """List the names that a cell binds for all cells."""
     parts = [n for n in tree.body if not isinstance(n, ast.FunctionDef)]
     stored = {
         n.id for p in parts for n in ast.walk(p) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
@@ -20,7 +20,7 @@ def bound(tree):
 
 
 def used(name, functions):
-    """Name what a function takes from other cells, and what the functions take that it calls."""
+    """List the names that a function, and the functions that it calls, use from other cells."""
     found, todo = set(), [name]
     while todo:
         node = functions.pop(todo.pop(), None)

@@ -115,12 +115,12 @@ def test_an_error_in_the_first_drawing_is_raised():
 
 
 @pytest.mark.parametrize("nothing", [None, [], [plt.Line2D([0], [0])]])
-def test_a_function_that_gives_no_figure_is_told_so(nothing):
+def test_a_function_that_returns_no_figure_is_refused(nothing):
     with pytest.raises(MocapError, match="must be given as a figure"):
         explore(lambda n=1: nothing, alt="Nothing.", n=(0, 2))
 
 
-def test_controls_that_fit_nothing_are_refused():
+def test_senseless_controls_are_refused():
     with pytest.raises(MocapError, match="takes no 'speed'; it takes: frame, ghost"):
         explore(fresh, alt="A line.", speed=(0, 9))
     with pytest.raises(MocapError, match="is no range"):
@@ -135,7 +135,7 @@ def test_without_ipywidgets_one_sentence_says_what_to_install(monkeypatch):
         explore(fresh, alt="A line.", frame=(0, 9))
 
 
-def test_a_slow_drawing_waits_until_the_hand_rests(monkeypatch):
+def test_a_slow_drawing_waits_until_no_control_moves(monkeypatch):
     monkeypatch.setattr(experiments, "SLOW", 0.0)
     drawn = []
 
@@ -150,7 +150,7 @@ def test_a_slow_drawing_waits_until_the_hand_rests(monkeypatch):
 
     experiment = explore(draw, alt="A line.", frame=(0, 9))
     asyncio.run(drag())
-    assert drawn == [4, 8]  # in the middle at first, as with interact
+    assert drawn == [4, 8]  # a slider starts in the middle, as with `interact`
 
 
 @pytest.mark.parametrize("pyplot", [False, True])

@@ -13,7 +13,7 @@ from mocap.widgets.player import play
 from tests.strategies import wave
 
 
-def test_an_animation_has_a_picture_every_time_step(tmp_path):
+def test_a_film_has_one_frame_per_time_step(tmp_path):
     motion = wave(31)  # one second
     path = film.save_animation(motion, tmp_path / "wave.gif", fps=20)
     with Image.open(path) as gif:
@@ -68,8 +68,9 @@ def test_a_strip_and_a_page_are_the_players(tmp_path):
     motion = wave(30)
     strip = film.save_animation(motion, tmp_path / "wave.png")
     page = film.save_animation(motion, tmp_path / "wave.HTML")
-    assert strip.read_bytes() == play(motion).picture
-    assert page.read_text("utf-8") == play(motion).page()
+    player = play(motion)
+    assert strip.read_bytes() == player.picture
+    assert page.read_text("utf-8") == player.page()
 
 
 def test_another_ending_is_refused(tmp_path):

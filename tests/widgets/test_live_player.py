@@ -14,7 +14,7 @@ from tests.strategies import wave
 pytest.importorskip("anywidget")
 
 
-def test_a_frame_that_is_set_is_heard():
+def test_a_frame_that_is_set_is_observed():
     player, heard = linked(play(wave(30))), []
     player.observe(lambda change: heard.append(change["new"]), "frame")
     player.frame = 29
@@ -23,7 +23,7 @@ def test_a_frame_that_is_set_is_heard():
 
 
 @pytest.mark.parametrize("frame", [-1, 30])
-def test_a_frame_that_is_not_there_is_refused(frame):
+def test_a_frame_that_does_not_exist_is_refused(frame):
     player = linked(play(wave(30)))
     with pytest.raises(MocapError, match="frames 0 to 29"):
         player.frame = frame
@@ -62,7 +62,7 @@ def test_a_shorter_walk_may_come_after_a_longer_one():
     assert canvas.scene["characters"][0]["sources"]
 
 
-def test_an_error_is_said_and_goes_with_the_next_path():
+def test_an_error_is_shown_until_the_next_path():
     def follow(path):
         if len(path) > 2:
             raise MocapError("No walk goes there.")

@@ -45,7 +45,7 @@ def test_places_are_sent_to_a_65535th_of_the_clip(seed, away):
     assert places[:, 0] == pytest.approx(true[:, 0], abs=0.51 * max(character["step"]))
 
 
-def test_a_fast_clip_is_thinned_and_keeps_its_frames_count():
+def test_of_a_fast_clip_every_second_frame_is_sent_and_all_are_counted():
     fast = replace(wave(241), fps=120.0)
     player = play(fast)
     character, places = unpacked(player)

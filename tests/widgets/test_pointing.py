@@ -1,4 +1,4 @@
-"""Images to point at, driven from Python."""
+"""Images to click on, driven from Python."""
 
 import base64
 import io
@@ -37,6 +37,11 @@ def experiment():
     return experiments.explore(lay, alt="Two windows.", at=charts.distance_image(GRID, fps=30))
 
 
+@pytest.fixture(scope="module")
+def shown():
+    return experiment()
+
+
 def pixels(png):
     return np.asarray(Image.open(io.BytesIO(png)).convert("RGB")).astype(int)
 
@@ -61,17 +66,17 @@ def test_a_row_of_minima_is_a_place():
     assert at.value == (3, 4)
 
 
-def test_it_tells_the_cost():
-    at = experiment().set(at=(12, 7)).controls["at"]
-    assert at.told == f"row 12, column 7: RMS distance (cm) {100 * np.sqrt(GRID[12, 7]):.3g}"
+def test_it_says_the_cost(shown):
+    at = shown.set(at=(12, 7)).controls["at"]
+    assert at.status == f"row 12, column 7: RMS distance (cm) {100 * np.sqrt(GRID[12, 7]):.3g}"
 
 
 @pytest.mark.parametrize("at", [(31, 0), (0, 41), (-1, 0), (1, 2, 3), (1.5, 2)])
-def test_a_place_beside_the_image_is_refused(at):
-    grid = experiment()
+def test_a_place_outside_the_image_is_refused(at, shown):
+    before = shown.values()
     with pytest.raises(MocapError, match="Rows go from 0 to 30, columns to 40"):
-        grid.set(at=at)
-    assert grid.values() == {"at": (3, 20)}
+        shown.set(at=at)
+    assert shown.values() == before
 
 
 def test_an_error_is_shown_in_the_pictures_place():
@@ -87,12 +92,11 @@ def test_an_error_is_shown_in_the_pictures_place():
     assert grid.error is None
 
 
-def test_the_output_is_one_bundle_with_both_pictures():
-    grid = experiment()
-    data, metadata = grid._repr_mimebundle_()
+def test_the_output_is_one_bundle_with_both_pictures(shown):
+    data, metadata = shown._repr_mimebundle_()
     assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/html", "text/plain"}
     assert data["text/plain"] == metadata["image/png"]["alt"] == "Two windows."
-    both, alone = pixels(base64.b64decode(data["image/png"])), pixels(grid.picture.value)
+    both, alone = pixels(base64.b64decode(data["image/png"])), pixels(shown.picture.value)
     assert both.shape[1] > alone.shape[1] + 400
     assert np.abs(both[: len(alone), -alone.shape[1] :] - alone).max() < 16  # in few colours
     assert len(data["image/png"]) < 90_000
@@ -113,7 +117,7 @@ def test_the_ring_is_round_the_number_meant(origin, value):
     grown = high / rows * picture.shape[0]
     beside = int(y - grown) if value[0] == 2 else int(y + grown)
     assert picture[beside, x] == 0
-    ringed = np.asarray(at.still().convert("L")).astype(int)
+    ringed = np.asarray(at.with_ring().convert("L")).astype(int)
     ys, xs = np.nonzero(ringed != picture)
     assert (ys.mean(), xs.mean()) == pytest.approx((y, x), abs=1.5)
 
