@@ -7,11 +7,9 @@ import warnings
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
 
 from mocap._shared.arrays import Array
-from mocap.body.rotations import (
-    _rotation,
-)
 
 
 def from_euler(order: str, angles: ArrayLike) -> Array:
@@ -31,6 +29,8 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
     --------
     >>> from_euler("y", [np.pi]).round(6) + 0.0
     array([0., 0., 1., 0.])
+
+    Notebook: 01-skeletons-and-clips
     """
     halves = np.moveaxis(np.asarray(angles, float), -1, 0) / 2
     turns = list(zip(order.lower(), np.cos(halves), np.sin(halves), strict=True))
@@ -39,7 +39,7 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
     for axis, cos, sin in turns if order.isupper() else reversed(turns):
         i = "xyz".index(axis)
         same, left, right = 1 + i, 1 + (i + 1) % 3, 1 + (i + 2) % 3
-        # q (cos + sin e): the product with e swaps the numbers in two pairs
+        # q (cos + sin e): the product with the axis e swaps the numbers of q in two pairs
         q[[0, same]] = cos * q[[0, same]] + sin * np.stack([-q[same], q[0]])
         q[[left, right]] = cos * q[[left, right]] + sin * np.stack([q[right], -q[left]])
     return np.moveaxis(q, 0, -1)
@@ -61,18 +61,22 @@ def to_euler(order: str, quaternions: ArrayLike) -> Array:
     --------
     >>> to_euler("ZXY", from_euler("ZXY", [0.1, 0.2, 0.3])).round(6)
     array([0.1, 0.2, 0.3])
+
+    Notebook: 03-transforms
     """
-    shape = np.shape(quaternions)[:-1]
+    quaternions = np.asarray(quaternions, float)
+    turns = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Gimbal lock")
-        return np.asarray(_rotation(quaternions).as_euler(order), float).reshape(*shape, 3)
+        angles = turns.as_euler(order)
+    return np.asarray(angles.reshape(*quaternions.shape[:-1], 3))
 
 
 def continuous(order: str, angles: ArrayLike) -> Array:
-    """Choose, among all angles that mean the same turns, those nearest to the frame before.
+    """Choose, among the angles of the same rotations, those nearest to the frame before.
 
-    (a, b, c) means the same as (a + π, π - b, c + π), and so do whole turns more or less. In gimbal lock,
-    where b = ±π/2, only a + c or a - c matters: there c stays as it was before.
+    (a, b, c) is the same rotation as (a + π, π - b, c + π), and a whole turn more or less changes nothing. In
+    gimbal lock, where b = ±π/2, only a + c or a - c matters: there c stays as it was before.
 
     Parameters
     ----------
@@ -96,7 +100,7 @@ def continuous(order: str, angles: ArrayLike) -> Array:
     twins = angles * [1, -1, 1] + np.pi
     turn = 2 * np.pi
     steps, twin_steps = (np.abs((a[1:] - angles[:-1] + np.pi) % turn - np.pi) for a in (angles, twins))
-    # From one frame to the next, whichever of the two the first has.
+    # Is the twin nearer to the frame before? It is the same question for either twin of that frame.
     flips = steps.sum(-1) > twin_steps.sum(-1)
     flipped = np.zeros(angles.shape[:-1], bool)
     flipped[1:] = np.cumsum(flips, axis=0) % 2 == 1
@@ -104,11 +108,11 @@ def continuous(order: str, angles: ArrayLike) -> Array:
 
 
 def _without_lock(order: str, angles: Array) -> Array:
-    """Where two axes fall together and `to_euler` made the third angle 0, hold on to its last value."""
+    """Keep the last value of the third angle where two axes fall together and `to_euler` made it 0."""
     first, second, third = np.moveaxis(angles, -1, 0)
     locked = (third == 0) & (np.abs(np.cos(second)) < 1e-6)
     last = np.where(locked, 0, np.arange(len(angles)).reshape(-1, *[1] * (angles.ndim - 2)))
-    # At the start, where there is no frame before, the first one that is free.
+    # A lock at the start has no frame before it: take the first frame that is not locked.
     free = np.maximum(np.maximum.accumulate(last, axis=0), locked.argmin(axis=0))
     held = np.where(locked, np.take_along_axis(third, free, axis=0), third)
     sign = (1 if order.lower() in "xyzxy" else -1) * (1 if order.isupper() else -1) * np.sign(second)

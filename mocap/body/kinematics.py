@@ -11,7 +11,13 @@ from mocap.errors import MocapError
 
 
 class GlobalPoses(NamedTuple):
-    """Where the joints are, `positions` (F, J, 3) in metres; how they are turned, `matrices` (F, J, 3, 3)."""
+    """Where all joints are: `positions` (F, J, 3), metres; and how they are turned: `matrices` (F, J, 3, 3).
+
+    Examples
+    --------
+    >>> GlobalPoses(np.zeros((1, 2, 3)), np.tile(np.eye(3), (1, 2, 1, 1))).matrices[0, 1, 2]
+    array([0., 0., 1.])
+    """
 
     positions: Array
     matrices: Array
@@ -42,18 +48,24 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     """
     skeleton = motion.skeleton
     positions = np.empty((len(skeleton), len(motion), 3))  # a joint's frames together
-    matrices = np.empty((len(skeleton), len(motion), 3, 3))
-    positions[0], matrices[0] = motion.root_positions, rotations.to_matrix(motion.rotations[:, 0])
+    matrices = rotations.to_matrix(np.swapaxes(motion.rotations, 0, 1))  # L_j, and R_j from the root down
+    positions[0] = motion.root_positions
     for joint in range(1, len(skeleton)):
-        above = matrices[skeleton.parents[joint]]
-        matrices[joint] = above @ rotations.to_matrix(motion.rotations[:, joint])
-        moved = np.einsum("fij,j->fi", above, skeleton.offsets[joint])
-        positions[joint] = positions[skeleton.parents[joint]] + moved
+        parent = skeleton.parents[joint]
+        matrices[joint] = matrices[parent] @ matrices[joint]
+        moved = np.einsum("fij,j->fi", matrices[parent], skeleton.offsets[joint])
+        positions[joint] = positions[parent] + moved
     return GlobalPoses(np.swapaxes(positions, 0, 1), np.swapaxes(matrices, 0, 1))
 
 
 def joint_positions(motion: Motion) -> Array:
     """Give only the positions of `forward_kinematics`, shape (F, J, 3), metres.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> joint_positions(sample("walk_straight")[:10]).shape
+    (10, 38, 3)
 
     Notebook: 01-skeletons-and-clips
     """
@@ -66,11 +78,15 @@ def velocities(positions: Array, fps: float) -> Array:
     Parameters
     ----------
     positions : shape (F, ...), metres; at least two frames.
-    fps : frames a second.
+    fps : frames per second.
 
     Returns
     -------
-    Shape (F, ...), metres a second.
+    Shape (F, ...), metres per second.
+
+    Raises
+    ------
+    MocapError : for fewer than two frames.
 
     Examples
     --------

@@ -1,9 +1,12 @@
-"""Unit quaternions as arrays `(..., 4)`, scalar first (w, x, y, z): a thin adapter over SciPy.
+"""Unit quaternions as arrays `(..., 4)`, scalar first (w, x, y, z).
 
-This module alone knows in which order a quaternion's numbers stand. All functions broadcast over
-leading axes, none included, and every rotation turns column vectors: `rotate(multiply(a, b), v)` turns by b
-first. Only `from_euler` and `to_matrix`, which meet every joint of every frame, compute on their own.
-Notebooks: 01-skeletons-and-clips, 03-transforms (Euler angles), 04-blending (slerp).
+All functions broadcast over the leading axes, and take a single quaternion as well. Rotations turn column
+vectors: `rotate(multiply(a, b), v)` turns v by b first, then by a.
+
+Products, slerp and rotation vectors are written out as their formulas; on arrays these are also several
+times quicker than SciPy's `Rotation`, against which the tests check them. Matrices come from SciPy.
+
+Notebooks: 01-skeletons-and-clips, 04-blending (slerp).
 """
 
 import numpy as np
@@ -16,14 +19,6 @@ IDENTITY: Array = np.array([1.0, 0.0, 0.0, 0.0])
 IDENTITY.flags.writeable = False
 
 
-def _rotation(quaternions: ArrayLike) -> Rotation:
-    return Rotation.from_quat(np.asarray(quaternions, float).reshape(-1, 4), scalar_first=True)
-
-
-def _quaternions(rotation: Rotation, shape: tuple[int, ...]) -> Array:
-    return np.asarray(rotation.as_quat(scalar_first=True), float).reshape(*shape, 4)
-
-
 def from_matrix(matrices: ArrayLike) -> Array:
     """Convert rotation matrices, shape (..., 3, 3), to quaternions, shape (..., 4).
 
@@ -33,57 +28,67 @@ def from_matrix(matrices: ArrayLike) -> Array:
     array([1., 0., 0., 0.])
     """
     matrices = np.asarray(matrices, float)
-    return _quaternions(Rotation.from_matrix(matrices.reshape(-1, 3, 3)), matrices.shape[:-2])
+    quaternions = Rotation.from_matrix(matrices.reshape(-1, 3, 3)).as_quat(scalar_first=True)
+    return np.asarray(quaternions.reshape(*matrices.shape[:-2], 4))
 
 
 def to_matrix(quaternions: ArrayLike) -> Array:
     """Convert quaternions, shape (..., 4), to rotation matrices, shape (..., 3, 3).
 
+    With q = (w, v) of length 1 the matrix is (w² - v·v) I + 2 v vᵀ + 2 w [v]×, where [v]× u = v × u;
+    quaternions of another length than 1 are scaled to it.
+
     Examples
     --------
-    >>> to_matrix([1, 0, 0, 0])[0]
-    array([1., 0., 0.])
+    >>> to_matrix(about_y(np.pi / 2)).round(6) + 0.0
+    array([[ 0.,  0.,  1.],
+           [ 0.,  1.,  0.],
+           [-1.,  0.,  0.]])
+
+    Notebook: 01-skeletons-and-clips
     """
     quaternions = np.asarray(quaternions, float)
-    squares = np.einsum("...i,...i", quaternions, quaternions)
-    w, x, y, z = np.moveaxis(quaternions, -1, 0) * np.sqrt(2 / squares)
-    rows = [
-        [1 - y * y - z * z, x * y - w * z, x * z + w * y],
-        [x * y + w * z, 1 - x * x - z * z, y * z - w * x],
-        [x * z - w * y, y * z + w * x, 1 - x * x - y * y],
-    ]
-    matrices = np.empty((*quaternions.shape[:-1], 3, 3))
-    for i, j in np.ndindex(3, 3):
-        matrices[..., i, j] = rows[i][j]
-    return matrices
+    if not quaternions.size:  # SciPy before 1.15 refuses these
+        return np.empty((*quaternions.shape[:-1], 3, 3))
+    matrices = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True).as_matrix()
+    return np.asarray(matrices.reshape(*quaternions.shape[:-1], 3, 3))
 
 
 def from_rotvec(vectors: ArrayLike) -> Array:
     """Convert rotation vectors (axis times angle in radians), shape (..., 3), to quaternions, shape (..., 4).
 
+    The exponential: a turn by θ about the unit axis n is q = (cos θ/2, n sin θ/2).
+
     Examples
     --------
     >>> from_rotvec([0, 0, np.pi]).round(6) + 0.0
     array([0., 0., 0., 1.])
+
+    Notebook: 01-skeletons-and-clips
     """
     vectors = np.asarray(vectors, float)
-    if not vectors.size:
-        return np.empty((*vectors.shape[:-1], 4))
-    return _quaternions(Rotation.from_rotvec(vectors.reshape(-1, 3)), vectors.shape[:-1])
+    half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2
+    # n sin θ/2 = vector / 2 · sinc(θ/2), where NumPy's sinc has a factor π and is 1 at 0
+    return np.concatenate([np.cos(half), vectors / 2 * np.sinc(half / np.pi)], axis=-1)
 
 
 def to_rotvec(quaternions: ArrayLike) -> Array:
     """Convert quaternions to rotation vectors, shape (..., 3), of at most π radians.
 
+    The logarithm: (w, v) with w ≥ 0 is a turn by θ = 2 atan2(|v|, w) about v. Where w < 0, -q is used, which
+    is the same rotation.
+
     Examples
     --------
     >>> to_rotvec(about_y(-0.5)).round(6) + 0.0
     array([ 0. , -0.5,  0. ])
+
+    Notebook: 04-blending
     """
-    shape = np.shape(quaternions)[:-1]
-    if not np.size(quaternions):
-        return np.empty((*shape, 3))
-    return np.asarray(_rotation(quaternions).as_rotvec(), float).reshape(*shape, 3)
+    quaternions = np.asarray(quaternions, float)
+    w, v = quaternions[..., :1], quaternions[..., 1:]
+    sine = np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-300)  # never 0 / 0
+    return np.asarray(2 * np.arctan2(sine, np.abs(w)) / sine * np.where(w < 0, -v, v))
 
 
 def about_y(angles: ArrayLike) -> Array:
@@ -99,7 +104,9 @@ def about_y(angles: ArrayLike) -> Array:
 
 
 def multiply(first: ArrayLike, second: ArrayLike) -> Array:
-    """Compose rotations: the result turns by `second`, then by `first`; shapes (..., 4) broadcast.
+    """Compose rotations by Hamilton's product: the result turns by `second`, then by `first`.
+
+    (w₁, v₁)(w₂, v₂) = (w₁w₂ - v₁·v₂, w₁v₂ + w₂v₁ + v₁ × v₂); shapes (..., 4) broadcast.
 
     Examples
     --------
@@ -108,10 +115,15 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
 
     Notebook: 01-skeletons-and-clips
     """
-    a, b = np.broadcast_arrays(np.asarray(first, float), np.asarray(second, float))
-    if not a.size:
-        return np.empty(a.shape)
-    return _quaternions(_rotation(a) * _rotation(b), a.shape[:-1])
+    w1, x1, y1, z1 = np.moveaxis(np.asarray(first, float), -1, 0)
+    w2, x2, y2, z2 = np.moveaxis(np.asarray(second, float), -1, 0)
+    product = [
+        w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
+        w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
+        w1 * y2 + y1 * w2 + z1 * x2 - x1 * z2,
+        w1 * z2 + z1 * w2 + x1 * y2 - y1 * x2,
+    ]
+    return np.stack(product, axis=-1)
 
 
 def inverse(quaternions: ArrayLike) -> Array:

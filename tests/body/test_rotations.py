@@ -1,4 +1,4 @@
-"""Quaternions against matrices, and against SciPy's own slerp."""
+"""Quaternions against SciPy's rotations, an independent implementation."""
 
 import numpy as np
 import pytest
@@ -6,82 +6,94 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
-from mocap.body import euler, rotations
-from tests.strategies import random_quaternions, seeds
+from mocap.body import rotations
+from tests.strategies import seeds
+
+AXES = np.eye(4)[1:]  # the vectors x, y, z, as quaternions (0, v)
+TINY = [0.0, 1e-300, 1e-160, 1e-20, 1e-9, 1e-4]
+
+
+def units(seed: int, *shape: int) -> np.ndarray:
+    """Return random unit quaternions, evenly over the sphere: of each rotation both, q and -q."""
+    quaternions = np.random.default_rng(seed).normal(size=(*shape, 4))
+    return quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True)
+
+
+def scipys(quaternions: np.ndarray) -> Rotation:
+    return Rotation.from_quat(np.reshape(quaternions, (-1, 4)), scalar_first=True)
+
+
+def turned(start: np.ndarray, axis: np.ndarray, angle: float) -> np.ndarray:
+    """Turn on from `start` by an angle about one of its own axes, with SciPy."""
+    vector = angle * axis / np.linalg.norm(axis)
+    return (scipys(start) * Rotation.from_rotvec(vector)).as_quat(scalar_first=True)[0]
 
 
 @given(seeds)
-def test_multiply_is_the_product_of_the_matrices(seed):
-    a, b = random_quaternions(np.random.default_rng(seed), 2, 3, 4)
-    product = rotations.to_matrix(a) @ rotations.to_matrix(b)
-    assert rotations.to_matrix(rotations.multiply(a, b)) == pytest.approx(product, abs=1e-12)
+def test_multiply_is_scipys_product(seed):
+    a, b = units(seed, 2, 7)
+    product = rotations.multiply(a, b)
+    assert product == pytest.approx((scipys(a) * scipys(b)).as_quat(scalar_first=True), abs=4e-15)
+    assert rotations.multiply(-a, b) == pytest.approx(-product, abs=4e-15)
+
+
+@given(seeds)
+def test_multiply_broadcasts(seed):
+    a, b = units(seed, 2, 1), units(seed + 1, 3)
+    product = rotations.multiply(a, b)
+    assert product.shape == (2, 3, 4)
+    assert product[1, 2] == pytest.approx(rotations.multiply(a[1, 0], b[2]), abs=0)
 
 
 @given(seeds)
 def test_group_axioms(seed):
-    a, b, c = random_quaternions(np.random.default_rng(seed), 3, 5)
+    a, b, c = units(seed, 3, 5)
     left = rotations.multiply(rotations.multiply(a, b), c)
     right = rotations.multiply(a, rotations.multiply(b, c))
-    assert rotations.angle_between(left, right) == pytest.approx(0, abs=1e-7)
-    assert rotations.angle_between(rotations.multiply(a, rotations.inverse(a)), rotations.IDENTITY) == (
-        pytest.approx(0, abs=1e-7)
-    )
+    assert left == pytest.approx(right, abs=4e-15)
+    for back in (rotations.multiply(a, rotations.inverse(a)), rotations.multiply(rotations.inverse(a), a)):
+        assert back == pytest.approx(np.tile(rotations.IDENTITY, (5, 1)), abs=4e-15)
+    assert np.array_equal(rotations.multiply(a, rotations.IDENTITY), a)
+
+
+@given(seeds, st.floats(0.5, 2))
+def test_to_matrix_does_what_two_products_do(seed, length):
+    q = units(seed, 2, 3)
+    turned = rotations.multiply(rotations.multiply(q[..., None, :], AXES), rotations.inverse(q[..., None, :]))
+    columns = np.swapaxes(turned[..., 1:], -1, -2)
+    for same in (q, -q, length * q):
+        assert rotations.to_matrix(same) == pytest.approx(columns, abs=1e-14)
+    assert rotations.to_matrix(q[0, 0]) == pytest.approx(columns[0, 0], abs=1e-14)
+
+
+@given(seeds)
+def test_rotation_vectors_are_scipys(seed):
+    q = units(seed, 9)
+    assert rotations.to_rotvec(q) == pytest.approx(scipys(q).as_rotvec(), abs=1e-14)
+    vectors = np.random.default_rng(seed).normal(size=(9, 3)) * 4  # of more than a full turn, too
+    expected = Rotation.from_rotvec(vectors).as_quat(scalar_first=True)
+    assert rotations.from_rotvec(vectors) == pytest.approx(expected, abs=1e-14)
+
+
+@pytest.mark.parametrize("angle", [*TINY, 1.0, np.pi - 1e-9, np.pi])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_rotation_vectors_keep_the_smallest_and_the_largest_turns(angle, sign):
+    vector = sign * angle * np.array([0.6, 0.0, 0.8])
+    q = rotations.from_rotvec(vector)
+    assert np.linalg.norm(q) == pytest.approx(1, abs=4e-15)
+    for same in (q, 1.5 * q):
+        assert rotations.to_rotvec(same) == pytest.approx(vector, rel=1e-13, abs=0)
+    assert rotations.to_rotvec(-q) == pytest.approx(vector, rel=1e-13, abs=0) or angle == np.pi
 
 
 @given(seeds)
 def test_every_form_goes_there_and_back(seed):
-    q = random_quaternions(np.random.default_rng(seed), 2, 7)
+    q = units(seed, 2, 7)
     for back in (
         rotations.from_matrix(rotations.to_matrix(q)),
         rotations.from_rotvec(rotations.to_rotvec(q)),
-        euler.from_euler("ZXY", euler.to_euler("ZXY", q)),
-        euler.from_euler("xyz", euler.to_euler("xyz", q)),
     ):
-        assert rotations.angle_between(q, back) == pytest.approx(0, abs=1e-6)
-
-
-def test_euler_orders_are_products_of_single_turns():
-    angles = a, b, c = 0.3, -0.7, 1.1
-    single = [euler.from_euler(axis, [v]) for axis, v in zip("xyz", angles, strict=True)]
-    x, y, z = rotations.to_matrix(single)
-    assert rotations.to_matrix(euler.from_euler("xyz", [a, b, c])) == pytest.approx(z @ y @ x)
-    assert rotations.to_matrix(euler.from_euler("ZXY", [c, a, b])) == pytest.approx(z @ x @ y)
-
-
-ORDERS = ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XY", "ZX", "Y"]
-
-
-@given(seeds, st.sampled_from([*ORDERS, *map(str.lower, ORDERS)]))
-def test_from_euler_and_to_matrix_agree_with_scipy(seed, order):
-    angles = np.random.default_rng(seed).uniform(-7, 7, (2, 3, len(order)))
-    expected = Rotation.from_euler(order, angles.reshape(6, -1))
-    found = euler.from_euler(order, angles)
-    assert rotations.angle_between(found.reshape(6, 4), expected.as_quat(scalar_first=True)).max() < 1e-12
-    assert rotations.to_matrix(1.001 * found).reshape(6, 3, 3) == pytest.approx(expected.as_matrix())
-
-
-def test_gimbal_lock_keeps_the_rotation():
-    locked = euler.from_euler("ZXY", [0.4, np.pi / 2, 0.3])
-    back = euler.from_euler("ZXY", euler.to_euler("ZXY", locked))
-    assert rotations.angle_between(locked, back) == pytest.approx(0, abs=1e-6)
-
-
-@pytest.mark.parametrize("order", [*ORDERS[:6], *map(str.lower, ORDERS[:6])])
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize("start", [0, 150])
-def test_angles_stay_continuous_through_gimbal_lock(order, sign, start):
-    """The second angle stays at ±90° for a long while, and may begin there, as the others turn on."""
-    time = np.linspace(0, 1, 401)[start:]
-    second = sign * np.minimum(1.3 + 0.9 * time - 4 * np.maximum(time - 0.7, 0), np.pi / 2)
-    angles = np.stack([2 * time + 1, second, 0.9 * np.sin(3 * time) + 0.5], axis=-1)
-    assert (np.abs(second) == np.pi / 2).sum() > 100
-    turns = euler.from_euler(order, angles)
-    found = euler.continuous(order, euler.to_euler(order, turns))
-    assert rotations.angle_between(euler.from_euler(order, found), turns).max() < 1e-12
-    leave = (np.abs(second) == np.pi / 2).nonzero()[0].max()  # where the third angle is free no more
-    steps = np.abs(np.diff(found, axis=0))
-    assert np.delete(steps, leave, axis=0).max() < 0.05
-    assert steps[leave].max() < 0.5
+        assert rotations.angle_between(q, back) == pytest.approx(0, abs=1e-14)
 
 
 def test_scalar_first():
@@ -93,18 +105,54 @@ def test_scalar_first():
 
 @given(seeds)
 def test_slerp_is_scipys(seed):
-    random = np.random.default_rng(seed)
-    ends = random_quaternions(random, 2)
-    amounts = random.random(6)
-    oracle = Slerp([0, 1], Rotation.from_quat(ends, scalar_first=True))(amounts).as_matrix()
-    assert rotations.to_matrix(rotations.slerp(*ends, amounts)) == pytest.approx(oracle, abs=1e-9)
+    start, end = units(seed, 2)
+    amounts = np.random.default_rng(seed).random(6)
+    oracle = Slerp([0, 1], scipys([start, end]))(amounts).as_quat(scalar_first=True)
+    found = rotations.slerp(start, end, amounts)
+    assert rotations.angle_between(found, oracle).max() < 1e-14
+    assert np.linalg.norm(found, axis=-1) == pytest.approx(np.ones(6), abs=1e-12)
 
 
 @given(seeds)
 def test_slerp_takes_the_short_way_whatever_the_signs(seed):
-    a, b = random_quaternions(np.random.default_rng(seed), 2)
-    middle = rotations.slerp(a, -b, 0.5)
-    assert rotations.angle_between(a, middle) == pytest.approx(rotations.angle_between(a, b) / 2, abs=1e-6)
+    start, end = units(seed, 2, 5)
+    amounts = np.random.default_rng(seed).random(5)
+    whole = rotations.angle_between(start, end)
+    for a, b in [(start, end), (start, -end), (-start, end)]:
+        part = rotations.slerp(a, b, amounts)
+        assert rotations.angle_between(a, part) == pytest.approx(amounts * whole, abs=1e-14)
+        assert rotations.angle_between(part, b) == pytest.approx((1 - amounts) * whole, abs=1e-14)
+        assert np.sum(a * part, axis=-1).min() >= -1e-15  # on the same side of the sphere as the start
+
+
+@given(seeds)
+def test_slerp_ends_where_it_should(seed):
+    start, end = units(seed, 2, 5)
+    assert np.array_equal(rotations.slerp(start, end, np.zeros(5)), start)
+    nearer = end * np.sign(np.sum(start * end, axis=-1, keepdims=True))
+    assert rotations.slerp(start, end, np.ones(5)) == pytest.approx(nearer, abs=4e-15)
+    assert rotations.slerp(start, start, np.linspace(0, 1, 5)) == pytest.approx(start, abs=4e-15)
+
+
+@given(seeds, st.sampled_from([*TINY, *(np.pi - angle for angle in TINY)]), st.floats(0, 1))
+def test_slerp_between_nearly_equal_and_nearly_opposite_rotations(seed, angle, amount):
+    random = np.random.default_rng(seed)
+    start, axis = units(seed), random.normal(size=3)
+    end = turned(start, axis, angle)
+    for last in (end, -end):
+        part = rotations.slerp(start, last, amount)
+        assert np.linalg.norm(part) == pytest.approx(1, abs=1e-12)
+        assert rotations.angle_between(start, part) == pytest.approx(amount * angle, abs=4e-15)
+        assert rotations.angle_between(part, last) == pytest.approx((1 - amount) * angle, abs=4e-15)
+
+
+@given(seeds)
+def test_slerp_broadcasts(seed):
+    start, end = units(seed, 4, 1), units(seed + 1, 3)
+    amounts = np.random.default_rng(seed).random((4, 1))
+    found = rotations.slerp(start, end, amounts)
+    assert found.shape == (4, 3, 4)
+    assert found[3, 2] == pytest.approx(rotations.slerp(start[3, 0], end[2], amounts[3, 0]), abs=4e-15)
 
 
 @given(seeds)
@@ -117,11 +165,19 @@ def test_between_is_the_shortest_turn_onto_a_direction(seed):
     assert rotations.angle_between(turn, rotations.IDENTITY) == pytest.approx(angles, abs=1e-6)
 
 
+@given(seeds)
+def test_the_angle_between_is_scipys(seed):
+    a, b = units(seed, 2, 5)
+    expected = (scipys(a).inv() * scipys(b)).magnitude()
+    assert rotations.angle_between(a, b) == pytest.approx(expected, abs=1e-14)
+
+
 def test_no_rotations_at_all_are_fine():
-    none, vectors = np.empty((0, 4)), np.empty((0, 3))
-    assert rotations.multiply(none, rotations.IDENTITY).shape == (0, 4)
-    assert rotations.slerp(none, none, np.empty(0)).shape == (0, 4)
-    assert rotations.to_rotvec(none).shape == (0, 3)
-    assert rotations.from_rotvec(vectors).shape == (0, 4)
-    assert rotations.rotate(none, vectors).shape == (0, 3)
-    assert rotations.angle_between(none, none).shape == (0,)
+    none, vectors = np.empty((2, 0, 4)), np.empty((2, 0, 3))
+    assert rotations.multiply(none, rotations.IDENTITY).shape == (2, 0, 4)
+    assert rotations.slerp(none, none, np.empty((2, 0))).shape == (2, 0, 4)
+    assert rotations.to_matrix(none).shape == (2, 0, 3, 3)
+    assert rotations.to_rotvec(none).shape == (2, 0, 3)
+    assert rotations.from_rotvec(vectors).shape == (2, 0, 4)
+    assert rotations.rotate(none, vectors).shape == (2, 0, 3)
+    assert rotations.angle_between(none, none).shape == (2, 0)
