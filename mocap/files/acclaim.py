@@ -1,7 +1,7 @@
 """Acclaim motions (`.amc`) of an Acclaim skeleton.
 
-A bone's rotation stands in the AMC as angles M about the bone's own axes, which the ASF turns by C against
-the world; so a joint's rotation in its parent's frame is L = C M C⁻¹.
+An AMC file gives a bone's rotation M as angles about the bone's own axes. The ASF file turns these axes by C
+against the world, so a joint's rotation in its parent's frame is L = C M C⁻¹.
 """
 
 from __future__ import annotations
@@ -18,20 +18,19 @@ from mocap.files.amc import read_frames
 from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton, Bone
 from mocap.files.text import check_room
 
-pass
-CMU_RATE = 120.0  # frames a second of most of the CMU database
+CMU_RATE = 120.0  # frames per second in most of the CMU database
 
 
 def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None) -> Motion:
     """Read an AMC file.
 
-    The root stands at its position at rest + T, turned by M O with O its orientation at rest.
+    The root's position is its position at rest + T; its rotation is M O, with O its orientation at rest.
 
     Parameters
     ----------
     path : the file.
     asf : its skeleton.
-    fps : frames a second; by default what a first line "# fps 30" says, as `mocap` writes it, else CMU's 120.
+    fps : frames per second; by default those of a first line "# fps 30", which `save` writes, else CMU's 120.
 
     Returns
     -------
@@ -39,7 +38,7 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
 
     Raises
     ------
-    FormatError : naming the line that breaks the format, or does not fit the skeleton.
+    FormatError : with the line that breaks the format or does not fit the skeleton.
     """
     keywords, numbers, rate = read_frames(path, asf.dofs(), asf.needed())
     degrees, frames = _in_degrees(keywords, asf), len(numbers["root"])
@@ -59,7 +58,7 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
 
 
 def read_angles(path: str | Path, asf: AcclaimSkeleton) -> dict[str, Array]:
-    """Give each bone's angles, shape (F, rotational dofs), degrees, as they stand in the file."""
+    """Give each bone's angles, shape (F, rotational dofs), in degrees, as they are in the file."""
     keywords, numbers, _ = read_frames(path, asf.dofs(), asf.needed())
     unit = 1.0 if _in_degrees(keywords, asf) else np.degrees(1.0)
     return {name: unit * numbers[name][:, _turning(asf.bones[name])] for name in asf.needed()}
@@ -91,5 +90,5 @@ def turned(name: str, bone: Bone, numbers: Array, degrees: bool) -> Array:
 
 
 def conjugation(axis: Array) -> Array:
-    """Give the matrix (4, 4) for M @ matrix = C M C⁻¹, which is linear in M: it holds where 1, i, j, k go."""
+    """Give the matrix (4, 4) with M @ matrix = C M C⁻¹: linear in M, its rows are where 1, i, j, k go."""
     return rotations.multiply(rotations.multiply(axis, np.eye(4)), rotations.inverse(axis))

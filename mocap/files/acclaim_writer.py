@@ -1,8 +1,8 @@
-"""Write motions as Acclaim files, and refuse to lose anything on the way.
+"""Write motions as Acclaim files, and refuse what these would lose.
 
-An Acclaim bone has one end, where all its children start, and turns about those axes that its skeleton file
-grants. A joint whose children sit apart becomes a bone of no length with a fixed bone to each child; these
-come back as further joints, in places that were there before.
+An Acclaim bone has one end, where all its children start, and turns only about the axes that its skeleton
+file lists. A joint whose children start at different places becomes a bone of no length with a fixed bone to
+each child. Reading makes a joint of each fixed bone; these joints add no new place.
 """
 
 from collections import defaultdict
@@ -15,19 +15,19 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened
 from mocap.files.acclaim import conjugation, turned
 from mocap.files.asf import INCH, MOVES, TURNS, AcclaimSkeleton, Bone, grown
 from mocap.files.text import rounded
 
-UNIT = INCH / 0.45  # metres: what most Acclaim files measure in
+UNIT = INCH / 0.45  # metres: the unit of most Acclaim files
 LOST = 1e-7  # degrees that count as none
-STILL = 1e-9  # metres: noise of computing
+STILL = 1e-9  # metres: rounding
 FIXED = Bone(np.zeros(3), rotations.IDENTITY, ())
 
 
 class Loss(NamedTuple):
-    """What a bone cannot tell: `degrees`, at worst, in `frame`."""
+    """What a bone cannot hold of a motion: most of it, in `degrees`, in `frame`."""
 
     bone: str
     degrees: float
@@ -35,7 +35,7 @@ class Loss(NamedTuple):
 
 
 def widened(motion: Motion) -> Skeleton:
-    """Grant three axes to every joint that has children, or turns.
+    """Give three axes to every joint that has children or turns.
 
     Examples
     --------
@@ -57,16 +57,16 @@ def to_acclaim(skeleton: Skeleton, *, scale: float = UNIT) -> AcclaimSkeleton:
 
     Parameters
     ----------
-    skeleton : the joints, whose axes and dofs the bones take over.
+    skeleton : the joints; the bones have the same axes and dofs.
     scale : metres in one unit of the files.
 
     Returns
     -------
-    The bones, and the skeleton as it will be read, with one more joint for each fixed bone.
+    The bones, and the skeleton that reading will give, with one more joint for each fixed bone.
 
     Raises
     ------
-    MocapError : for a name that the format cannot hold, or a root alone.
+    MocapError : for a name that the format cannot hold, or a root without other joints.
 
     Examples
     --------
@@ -101,12 +101,12 @@ def _check_name(name: str) -> None:
     broken = name.split() != [name] or not name.isprintable() or set(name) & set("#(),")
     if broken or name.startswith(":") or name.isdecimal() or name.lower() in ("begin", "end", "root"):
         raise MocapError(
-            f"An Acclaim file cannot hold a joint called {name!r}: rename it, or save the motion as .bvh."
+            f"An Acclaim file cannot hold a joint called {shortened(repr(name))}: rename it, or save as .bvh."
         )
 
 
 def _ends(skeleton: Skeleton) -> set[int]:
-    """Find the leaves that need no bone of their own: reading would name them just as they are called."""
+    """Find the leaves that need no bone of their own, because reading adds them with the same names."""
     ends = set()
     for joint in range(1, len(skeleton)):
         parent = int(skeleton.parents[joint])
@@ -118,7 +118,7 @@ def _ends(skeleton: Skeleton) -> set[int]:
 
 
 def _common_end(skeleton: Skeleton, joint: int) -> Array:
-    """Give the place where all children of a joint start, or its own if that is not one."""
+    """Give the place where all children of a joint start; zero if there are several such places."""
     starts = skeleton.offsets[skeleton.children(joint)]
     together = joint > 0 and len(starts) > 0 and np.all(starts == starts[0])
     return starts[0] if together else np.zeros(3)
@@ -188,11 +188,11 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
 
     Returns
     -------
-    The text; its first line tells the frame rate, as a comment.
+    The text; its first line is a comment with the frame rate.
 
     Raises
     ------
-    MocapError : when a bone cannot turn, or the root not move, as the motion does.
+    MocapError : when a bone cannot turn as the motion does, or the root cannot move as it does.
 
     Examples
     --------
@@ -205,14 +205,14 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
     >>> to_amc(wag, wide, precision=2).split("\n")[-3:]
     ['root 0.00 0.00 0.00 0.00 0.00 0.00', 'tail 0.00 5.73 0.00', '']
     """
-    tolerance = max(LOST, 2 * 10.0**-precision)  # degrees; the second is what rounding loses anyway
+    tolerance = max(LOST, 2 * 10.0**-precision)  # degrees; rounding loses the second anyway
     numbers, losses = {}, []
     for joint, name in enumerate(["root", *motion.skeleton.names[1:]]):
         bone = asf.bones.get(name, FIXED)
         numbers[name] = _numbers(name, bone, motion.rotations[:, joint])
         if not set(TURNS) <= set(bone.dofs):
-            told = turned(name, bone, numbers[name], degrees=True)
-            lost = np.degrees(rotations.angle_between(told, motion.rotations[:, joint]))
+            kept = turned(name, bone, numbers[name], degrees=True)
+            lost = np.degrees(rotations.angle_between(kept, motion.rotations[:, joint]))
             losses.append(Loss(name, float(lost.max()), int(lost.argmax())))
     _refuse_losses(motion, asf, [loss for loss in losses if loss.degrees > tolerance])
     _add_moves(motion, asf, numbers["root"])
@@ -224,7 +224,7 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
 
 
 def _numbers(name: str, bone: Bone, local: Array) -> Array:
-    """Turn rotations (F, 4) into a bone's numbers (F, dofs), in degrees, 0 for its moves."""
+    """Turn rotations (F, 4) into a bone's numbers (F, dofs), in degrees; its moves are 0."""
     turns = [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
     numbers = np.zeros((len(local), len(bone.dofs)))
     if name == "root":
@@ -237,8 +237,8 @@ def _numbers(name: str, bone: Bone, local: Array) -> Array:
 
 
 def _angles(order: str, own: Array) -> Array:
-    """Read continuous angles (F, axes in `order`) off rotations (F, 4); what needs more axes is lost."""
-    # The axes that a bone lacks come last, where it needs no more than the angle 0 about them.
+    """Find continuous angles (F, axes in `order`) of rotations (F, 4); turns about other axes are lost."""
+    # The axes that a bone lacks come last, so that what fits the bone has angle 0 about them.
     angles = euler.to_euler(order + "".join(sorted(set("xyz") - set(order))), own)
     if len(order) == 3:
         return euler.continuous(order, angles)
@@ -255,8 +255,8 @@ def _add_moves(motion: Motion, asf: AcclaimSkeleton, numbers: Array) -> None:
             numbers[:, root.dofs.index(move)] = moves[:, column]
         elif (lost := np.abs(moves[:, column]) * asf.unit).max() > STILL:
             raise MocapError(
-                f"The skeleton file grants its root no {move}: '{motion.name}' would lose {lost.max():.2g} m "
-                f"in frame {lost.argmax()}. Leave skeleton= out, and a fitting one is written beside."
+                f"The skeleton file gives its root no {move}: '{shortened(motion.name, 40)}' would lose "
+                f"{lost.max():.2g} m in frame {lost.argmax()}. Leave skeleton= out to write a new one."
             )
 
 
@@ -265,8 +265,8 @@ def _refuse_losses(motion: Motion, asf: AcclaimSkeleton, losses: list[Loss]) -> 
         name, degrees, frame = max(losses, key=lambda loss: loss.degrees)
         axes = " ".join(dof for dof in asf.bones.get(name, FIXED).dofs if dof in TURNS) or "no axis"
         more = f", and {len(losses) - 1} more bones less" if len(losses) > 1 else ""
+        clip, name = shortened(motion.name, 32), shortened(name, 32)
         raise MocapError(
-            f"'{motion.name}' does not fit its bones: '{name}', which turns about {axes}, would lose "
-            f"{degrees:.2g}° in frame {frame}{more}. Without skeleton= and with widen=True, a skeleton "
-            "whose bones turn any way is written beside; a .bvh file needs none."
+            f"'{clip}' does not fit its bones: '{name}', which turns about {axes}, would lose {degrees:.2g}° "
+            f"in frame {frame}{more}. Use widen=True without skeleton=, or a .bvh file."
         )

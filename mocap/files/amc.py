@@ -1,8 +1,8 @@
-"""The numbers in an AMC file, bone by bone; what they mean, `acclaim` knows.
+"""The numbers in an AMC file, bone by bone; `acclaim` knows what they mean.
 
 A file has some keywords, then frames: a line with the frame's number, and a line for each bone with a number
 for each of its degrees of freedom. Nearly all files repeat the first frame's pattern to the end, so whole
-columns of words can be read at once; any other file is read line by line, which also finds a flaw's place.
+columns of words can be read at once. Any other file is read line by line, which finds the line of an error.
 """
 
 from collections.abc import Collection, Mapping
@@ -21,7 +21,7 @@ Dofs = Mapping[str, Collection[str]]
 class Frames(NamedTuple):
     """An AMC file: the `keywords` before its frames, in capitals, and `numbers` (F, dofs) for each bone.
 
-    The format tells no frame rate; `fps` is what a comment says, or None.
+    The format has no frame rate; `fps` is the rate in a comment, or None.
     """
 
     keywords: set[str]
@@ -35,7 +35,7 @@ def read_frames(path: str | Path, dofs: Dofs, needed: Collection[str]) -> Frames
     Parameters
     ----------
     path : the file.
-    dofs : the degrees of freedom of every bone there is, "root" among them.
+    dofs : the degrees of freedom of every bone, "root" among them.
     needed : the bones that each frame must name.
 
     Returns
@@ -44,7 +44,7 @@ def read_frames(path: str | Path, dofs: Dofs, needed: Collection[str]) -> Frames
 
     Raises
     ------
-    FormatError : naming the line that breaks the format, or does not fit the bones.
+    FormatError : with the line that breaks the format or does not fit the bones.
     """
     text = read_text(path)
     keywords, start, counts = _opening(text)
@@ -56,13 +56,13 @@ def read_frames(path: str | Path, dofs: Dofs, needed: Collection[str]) -> Frames
 
 
 def _rate(path: str | Path, text: str) -> float | None:
-    """Read the frame rate off the first line, if that is "# fps <number>"."""
+    """Read the frame rate from the first line, if that is "# fps <number>"."""
     words = text.partition("\n")[0].split()
     if words[:2] != ["#", "fps"] or len(words) != 3:
         return None
-    fps = float(to_numbers(path, 1, words[2:], "frames a second, above 0", 1)[0])
+    fps = float(to_numbers(path, 1, words[2:], "frames per second, above 0", 1)[0])
     if fps <= 0:
-        raise FormatError(path, 1, "frames a second, above 0", words[2])
+        raise FormatError(path, 1, "frames per second, above 0", words[2])
     return fps
 
 
@@ -72,7 +72,7 @@ def first_frame(path: str | Path) -> dict[str, int]:
 
 
 def fits(counts: Mapping[str, int], dofs: Dofs, needed: Collection[str]) -> bool:
-    """Tell whether a frame with so many numbers for each bone is one of these bones.
+    """Check whether a frame with these counts of numbers is one of these bones.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def fits(counts: Mapping[str, int], dofs: Dofs, needed: Collection[str]) -> bool
 
 
 def _opening(text: str) -> tuple[set[str], int, dict[str, int]]:
-    """Read the keywords, how many lines they take, and the first frame's count of numbers for each bone."""
+    """Read the keywords, count their lines, and count the first frame's numbers for each bone."""
     keywords: set[str] = set()
     counts: dict[str, int] = {}
     start = None
@@ -101,7 +101,7 @@ def _opening(text: str) -> tuple[set[str], int, dict[str, int]]:
 
 
 def _read_columns(text: str, counts: Mapping[str, int]) -> dict[str, Array] | None:
-    """Read a file whose frames all look like its first one; None if they do not, or if a number is wrong."""
+    """Read a file whose frames all have the first one's pattern; None if not, or for a wrong number."""
     words = f"{text.strip()}\n".replace("\n", " \0 ").split()  # \0 marks the end of a line
     pattern: list[str | None] = [None]
     for name, count in counts.items():
@@ -126,7 +126,7 @@ def _read_columns(text: str, counts: Mapping[str, int]) -> dict[str, Array] | No
 
 
 def _read_lines(path: str | Path, text: str, dofs: Dofs, needed: Collection[str]) -> dict[str, Array]:
-    """Read any file, and raise at the first line that is wrong."""
+    """Read any file line by line, and raise at the first line that is wrong."""
     frames: list[dict[str, list[float]]] = []
     line = number = 0
     for line, words in lines(text):

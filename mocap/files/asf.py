@@ -1,8 +1,8 @@
 """The skeleton of Acclaim files (`.asf`): bones, where they start and end, and how they may turn.
 
-A joint carries the name of the bone that starts there: the root's children sit at the root itself, and a
-childless bone ends in `<bone>_end`. Orders name the axes in which turns happen, about fixed axes: XYZ is
-R = Rz Ry Rx.
+A joint has the name of the bone that starts there: the root's children are at the root itself, and a bone
+without children ends in the joint `<bone>_end`. An order lists turns about fixed axes, the first one first:
+XYZ is R = Rz Ry Rx.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError
+from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers
 
 Line = tuple[int, list[str]]  # its number, from 1, and its words
 Fields = dict[str, Line]  # lines by their first words
 
-INCH, SHORTEST = 0.0254, 1e-6  # metres; and the least that `:units length` may say
+INCH, SHORTEST = 0.0254, 1e-6  # metres; the smallest `:units length`
 SEVERAL = ("name", "direction", "length", "axis", "dof", "order", "position", "orientation", "angle")
 TURNS, MOVES = ("rx", "ry", "rz"), ("tx", "ty", "tz")
 
@@ -30,7 +30,7 @@ TURNS, MOVES = ("rx", "ry", "rz"), ("tx", "ty", "tz")
 class Bone(NamedTuple):
     """A bone: `vector` from its start to its end (3,), metres; `axis` C, a quaternion; `dofs` in file order.
 
-    The root is one as well: its vector is its position at rest, its axis the orientation.
+    The root is a bone, too: its vector is its position at rest, its axis its orientation at rest.
     """
 
     vector: Array
@@ -39,7 +39,7 @@ class Bone(NamedTuple):
 
 
 class AcclaimSkeleton(NamedTuple):
-    """A `skeleton`, its `bones` by name, the file's `unit` in metres, whether its angles are `degrees`."""
+    """A `skeleton`, its `bones` by name, the file's `unit` in metres, and `degrees`, else radians."""
 
     skeleton: Skeleton
     bones: Mapping[str, Bone]
@@ -65,11 +65,11 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
 
     Returns
     -------
-    The skeleton, and what it takes to read an AMC file of it. Bones outside the hierarchy are not in it.
+    The skeleton, and what reading an AMC file needs. Bones outside the hierarchy are not in the skeleton.
 
     Raises
     ------
-    FormatError : naming the line that breaks the format.
+    FormatError : with the line that breaks the format.
     """
     sections = _sections(path, read_text(path))
     for key in (":root", ":bonedata", ":hierarchy"):
@@ -84,11 +84,16 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
             raise FormatError(path, line, "a new bone's name, one word", f"'{' '.join(words)}'")
         bones[words[0]] = _bone(path, block, unit, degrees)
     children = _hierarchy(path, sections[":hierarchy"], bones)
-    return AcclaimSkeleton(grown(children, bones), bones, unit, degrees)
+    try:
+        skeleton = grown(children, bones)
+    except MocapError:
+        expected, got = "bones whose ends have new names", "a bone called '<another bone>_end'"
+        raise FormatError(path, None, expected, got) from None
+    return AcclaimSkeleton(skeleton, bones, unit, degrees)
 
 
 def _units(path: str | Path, fields: Fields) -> tuple[float, bool]:
-    """Read how many metres the unit of length is, and whether angles are degrees."""
+    """Read the unit of length, in metres, and whether angles are degrees."""
     length = _vector(path, fields, "length", 1)[0] if "length" in fields else 1.0
     if length < SHORTEST:
         raise FormatError(path, fields["length"][0], f"a length of {SHORTEST:g} or more", f"{length:g}")
@@ -99,7 +104,7 @@ def _units(path: str | Path, fields: Fields) -> tuple[float, bool]:
 
 
 def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
-    """Sort the lines under the keywords; commas and parentheses are white space in an ASF."""
+    """Sort the lines by section; commas and parentheses are white space in an ASF file."""
     sections: dict[str, list[Line]] = {}
     for number, words in lines(text.translate(str.maketrans(",()", "   "))):
         if words[0].startswith(":"):
@@ -154,7 +159,7 @@ def _vector(path: str | Path, fields: Fields, key: str, count: int) -> Array:
 
 
 def _axis(path: str | Path, line: int, order: str, angles: Array, degrees: bool) -> Array:
-    """Turn angles about x, y and z, in that order whatever the order of turning, into a quaternion."""
+    """Turn the angles about x, y and z into a quaternion; `order` says which turn comes first."""
     if sorted(order.lower()) != ["x", "y", "z"]:
         raise FormatError(path, line, "an order of axes, such as XYZ", f"'{order}'")
     radians = np.radians(angles) if degrees else angles
@@ -203,9 +208,9 @@ def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -
 
 
 def grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
-    """Follow the hierarchy down from the root, depth first; what it does not reach is left out.
+    """Follow the hierarchy from the root, depth first; bones that it does not reach are left out.
 
-    A bone without children gets its end for one, unless it has no length.
+    A bone without children gets a joint at its end, unless it has no length.
     """
     joints: list[tuple[str, int, Array]] = []
     waiting = [("root", -1, np.zeros(3))]  # name, parent, offset
@@ -216,7 +221,7 @@ def grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skele
         waiting += [(child, len(joints), end) for child in reversed(children.get(name, ends))]
         joints.append((name, parent, offset))
     names, parents, offsets = zip(*joints, strict=True)
-    # The root's axis is how it stands at rest, not one that its angles turn about.
+    # The root's axis is its orientation at rest; its angles do not turn about it.
     stub = Bone(np.zeros(3), rotations.IDENTITY, ())  # an end site
     known = [bones.get(name, stub) for name in names]
     axes = [rotations.IDENTITY, *(bone.axis for bone in known[1:])]

@@ -1,8 +1,8 @@
 """BVH files: a hierarchy of joints, and the numbers of their channels in every frame.
 
-Position channels stand in place of a joint's offset, and rotation channels turn about the joint's own axes
-in the order given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file names no unit: it is `scale` metres,
-a centimetre unless told otherwise. `bvh_hierarchy` tells how joints are named.
+Position channels replace a joint's offset. Rotation channels turn about the joint's own axes in the order
+given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file has no unit: it is `scale` metres, by default a
+centimetre. `bvh_hierarchy` says how joints are named.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError, MocapError, shortened
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers
 
-STILL = 1e-5  # metres a joint may move in its parent's frame and still count as fixed: noise of printing
+STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
@@ -34,7 +34,7 @@ TIMES = re.compile(
 
 
 class Channels(NamedTuple):
-    """A BVH file as it stands: its joints, the numbers of all channels (F, channels), the frame rate."""
+    """The contents of a BVH file: its joints, the numbers of all channels (F, channels), the frame rate."""
 
     joints: list[Joint]
     values: Array
@@ -44,14 +44,14 @@ class Channels(NamedTuple):
 def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> Motion:
     """Read a BVH file.
 
-    Position channels below the root are fine as long as they keep still. If the root has only one child, and
-    that one moves, as where a reference point carries the hips, the two become one joint of the child's name.
+    Position channels below the root are allowed if they do not move. If the root has only one child, and that
+    child moves (some files have a reference point above the hips), both become one joint, named as the child.
 
     Parameters
     ----------
     path : the file.
     scale : metres in one unit of the file.
-    fps : frames a second. By default what the frame time says, and a whole number where its digits allow it.
+    fps : frames per second; by default from the frame time, a whole number where its digits allow it.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
 
     Raises
     ------
-    FormatError : naming the line that breaks the format.
+    FormatError : with the line that breaks the format.
     """
     joints, values, rate = read_channels(path, fps=fps)
     places, local = _poses(joints, values)
@@ -76,7 +76,7 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
 
 
 def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
-    """Read a BVH file as it stands; `fps` goes before its frame time."""
+    """Read the contents of a BVH file; `fps` replaces its frame time."""
     text = read_text(path)
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
@@ -93,7 +93,7 @@ def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
 
 
 def read_angles(path: str | Path) -> dict[str, Array]:
-    """Give each joint's angles, shape (F, rotation channels), degrees, as they stand in the file."""
+    """Give each joint's angles, shape (F, rotation channels), in degrees, as they are in the file."""
     joints, values, _ = read_channels(path, fps=1.0)
     found, column = {}, 0
     for joint in joints:
@@ -104,7 +104,7 @@ def read_angles(path: str | Path) -> dict[str, Array]:
 
 
 def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
-    """Read the frames (F, width); `times` is where their count stands."""
+    """Read the frames (F, width); `times` is the match with their count."""
     line = text.count("\n", 0, times.start(1)) + 1
     count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
     if count < 1 or width == 0:
@@ -126,7 +126,7 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
-    """Read the frame rate, a whole one where the frame time is that of one, rounded or cut off."""
+    """Read the frame rate; a whole number where the frame time is 1 / that number, rounded or cut off."""
     line = text.count("\n", 0, times.start(2)) + 1
     seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
     if not SHORTEST <= seconds <= LONGEST:
@@ -175,9 +175,9 @@ def _without_reference(joints: list[Joint], places: Array, local: Array) -> tupl
 def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: int = 6) -> None:
     """Write a BVH file.
 
-    Joints come depth first. A leaf that never turns, named as reading would name it, becomes an End Site; any
-    other leaf is a joint with an End Site of zero length. Of all equal angles those nearest to the frame
-    before are written, so that every curve is continuous.
+    Joints are written depth first. A leaf that never turns, and has the name that reading would give it,
+    becomes an End Site; any other leaf is a joint with an End Site of zero length. Of all equal angles the
+    nearest to those of the frame before are written, so every curve is continuous.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: i
 
     Raises
     ------
-    MocapError : for a name or frame rate that a BVH file cannot hold, or a folder one cannot write to.
+    MocapError : for a name or frame rate that a BVH file cannot hold, or a folder that cannot be written to.
     """
     write_pieces([motion], path, frames=len(motion), turns=turning(motion), printing=(scale, precision))
 
@@ -207,7 +207,7 @@ def write_pieces(
     ----------
     pieces : motions of one skeleton and rate, with `frames` frames together.
     path : the file; it appears once it is whole.
-    frames : what the file's header promises.
+    frames : the count in the file's header.
     turns : shape (J,), which joints ever turn, as by `body.turning`.
     printing : the scale, and the digits after the point, as for `write`.
     """
@@ -232,10 +232,11 @@ def write_pieces(
 def _header(
     motion: Motion, frames: int, turns: NDArray[np.bool_], printing: tuple[float, int]
 ) -> tuple[str, list[int]]:
-    """Write all that comes before the frames, and tell in which order their joints stand."""
+    """Write all that comes before the frames, and list the joints in the order of their channels."""
     seconds = 1 / motion.fps
     if not SHORTEST <= seconds <= LONGEST:
-        raise MocapError(f"'{motion.name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
+        name = shortened(motion.name)
+        raise MocapError(f"'{name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
     scale, precision = printing
     offsets = np.round(motion.skeleton.offsets / scale, precision) + 0.0  # no -0.000000
     hierarchy, order = write_hierarchy(motion.skeleton, offsets, turns, precision)

@@ -1,7 +1,7 @@
 """The hierarchy of a BVH file: a tree of joints, each with an offset and channels.
 
-An End Site under `head` becomes the joint `head_end`, further ones `head_end2`, …; one of zero length only
-marks that nothing follows, and becomes no joint.
+An End Site under `head` becomes the joint `head_end`, further ones `head_end2`, …; an End Site of zero length
+becomes no joint, as it only marks that no joint follows.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError, MocapError, shortened
 from mocap.files.text import to_numbers
 
 OUTSIDE, OPENING = ("HIERARCHY", "ROOT"), ("ROOT", "JOINT", "END")
@@ -31,7 +31,7 @@ ROTATIONS = ("xrotation", "yrotation", "zrotation")
 
 @dataclass
 class Joint:
-    """A joint as the file has it; an End Site has no name until its parent's are counted."""
+    """A joint of the file; an End Site gets its name at the end, when those of its parent are counted."""
 
     line: int
     name: str
@@ -41,7 +41,7 @@ class Joint:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, str]]:
-    """Go through the hierarchy: a statement's line, its keyword in capitals, and the rest."""
+    """Go through the statements of the hierarchy: line, keyword in capitals, and the rest."""
     for number, line in enumerate(text.split("\n"), 1):
         for statement in re.findall(r"[{}]|[^{}]+", line):
             if words := statement.split(maxsplit=1):
@@ -100,7 +100,7 @@ def _close(path: str | Path, line: int, joints: list[Joint], joint: int) -> None
 
 
 def _named(path: str | Path, joints: list[Joint]) -> list[Joint]:
-    """Name the End Sites, and see that no two joints have one name."""
+    """Name the End Sites, and check that no two joints have the same name."""
     ends: Counter[int] = Counter()
     names = set()
     for joint in joints:
@@ -114,12 +114,12 @@ def _named(path: str | Path, joints: list[Joint]) -> list[Joint]:
 
 
 def _end_name(parent: str, before: int) -> str:
-    """Name the End Site of `parent` that comes after so many others."""
+    """Name the End Site of `parent` that comes after `before` others."""
     return f"{parent}_end{before + 1 if before else ''}"
 
 
 def _end_sites(skeleton: Skeleton, offsets: Array, turning: NDArray[np.bool_]) -> set[int]:
-    """Find the leaves that never turn and that reading would name just as they are called."""
+    """Find the leaves that never turn and have the names that reading would give them."""
     found: set[int] = set()
     ends: Counter[int] = Counter()
     leaves = set(range(1, len(skeleton))) - set(skeleton.parents.tolist())
@@ -160,5 +160,5 @@ def write_hierarchy(
 
 def _name(name: str) -> str:
     if not name.isprintable() or name != name.strip() or not name or set(name) & set("{}"):
-        raise MocapError(f"A BVH file cannot hold a joint called {name!r}.")
+        raise MocapError(f"A BVH file cannot hold a joint called {shortened(repr(name))}.")
     return name

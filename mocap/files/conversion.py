@@ -14,11 +14,11 @@ from mocap.errors import MocapError
 from mocap.files.load_save import load, save
 
 FORMATS = (".amc", ".bvh")
-QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # it is for the main process to say that it was interrupted
+QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # only the main process reports an interruption
 
 
 class Options(NamedTuple):
-    """What `files.load` and `files.save` take: `skeleton`, `fps` and `scale` to read, `widen` to write."""
+    """Options of `files.load` (`skeleton`, `fps`, `scale`) and of `files.save` (`widen`)."""
 
     skeleton: Path | None = None
     fps: float | None = None
@@ -27,7 +27,7 @@ class Options(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """A file, what it was to become, and why it did not (a sentence that names one of the two), or None."""
+    """A file, the file to write, and the problem, a sentence that names one of the two, or None."""
 
     source: Path
     target: Path
@@ -39,9 +39,9 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
 
     Parameters
     ----------
-    source : a file, or a folder, whose folders count as well.
+    source : a file, or a folder with all folders in it.
     target : for a file, another file; for a folder, a folder that gets the same folders.
-    suffix : the format to write below a folder.
+    suffix : the format to write for a folder.
 
     Raises
     ------
@@ -67,17 +67,17 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
 
 
 def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Progress = iter) -> list[Outcome]:
-    """Convert files, as many at a time as there are processors; one that fails does not stop the others.
+    """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
 
     Parameters
     ----------
-    pairs : files to read and files to write, as `plan` gives them.
+    pairs : files to read and files to write, from `plan`.
     options : how to read and to write.
-    progress : wraps the pairs while they are worked through.
+    progress : wraps the pairs while they are converted.
 
     Returns
     -------
-    What became of each.
+    The outcome of each pair.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
             return [next(outcomes) for _ in progress(pairs)]
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
-        finally:  # after an interruption, nothing more is begun
+        finally:  # after an interruption no other file is started
             pool.shutdown(cancel_futures=True)
 
 

@@ -1,4 +1,4 @@
-"""Read and write motions, whatever the format: the suffix of the file's name decides."""
+"""Read and write motions; the suffix of the file's name decides the format."""
 
 import math
 from collections.abc import Sequence
@@ -20,7 +20,26 @@ from mocap.files.text import read_text
 def load_all(
     paths: Sequence[Path], *, skeleton: Path | None, scale: float | None, progress: Progress
 ) -> list[Motion]:
-    """Load files, and of folders every `.amc` and `.bvh` file in them."""
+    """Load files, and every `.amc` and `.bvh` file of folders.
+
+    Parameters
+    ----------
+    paths : files and folders.
+    skeleton, scale : as for `load`.
+    progress : wraps the files while they are read.
+
+    Raises
+    ------
+    MocapError, FormatError : as for `load`, and for a folder without such files.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     load_all([Path(folder)], skeleton=None, scale=None, progress=iter)
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder ... holds no .amc or .bvh file.
+    """
     found: list[Path] = []
     for path in paths:
         inside = (
@@ -46,11 +65,11 @@ def load(
     Parameters
     ----------
     path : the file; capital letters in its suffix are fine.
-    skeleton : for `.amc`, the `.asf` file of its skeleton. By default the one beside it that fits: of the
-        same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
-    fps : frames a second, which goes before what the file says. An `.amc` says none unless `save` wrote it,
-        and by default has 120 as most of the CMU database.
-    scale : metres in one unit of the file; by default 0.01 for `.bvh`, and what the skeleton says for `.amc`.
+    skeleton : for `.amc`, the `.asf` file of its skeleton. By default one in the same folder that fits: that
+        of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
+    fps : frames per second, which replace those of the file. An `.amc` file has none unless `save` wrote it;
+        by default it has 120, as most of the CMU database.
+    scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
 
     Returns
     -------
@@ -59,7 +78,7 @@ def load(
     Raises
     ------
     MocapError : for a file that is missing or of another format, or when no skeleton fits.
-    FormatError : for a file that breaks its format; it names the line.
+    FormatError : for a file that breaks its format, with the line.
 
     Examples
     --------
@@ -110,9 +129,9 @@ def load_skeleton(path: str | Path) -> Skeleton:
 
 
 def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
-    """Give each joint's angles as they stand in the file, shape (F, its axes), degrees.
+    """Give each joint's angles as they are in the file, shape (F, its axes), degrees.
 
-    `load` makes rotations of them, which hold no jump where an angle jumps from 180° to -180°.
+    `load` turns them into rotations, which do not jump where an angle jumps from 180° to -180°.
 
     Parameters
     ----------
@@ -138,7 +157,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
 
 
 class Form(TypedDict, total=False):
-    """How numbers stand in a file: `scale` is metres in a unit, `precision` digits after the point."""
+    """How numbers are written: `scale` is metres in a unit, `precision` digits after the point."""
 
     scale: float | None
     precision: int
@@ -152,25 +171,25 @@ def save(
     widen: bool = False,
     **form: Unpack[Form],
 ) -> None:
-    """Write a motion to an `.amc` or `.bvh` file; a file that exists is replaced once the new one is whole.
+    """Write a motion to an `.amc` or `.bvh` file; an old file is replaced when the new one is whole.
 
-    Marks (labels and contacts) have no place in these formats and are left out.
+    These formats cannot hold marks (labels and contacts), so they are left out.
 
     Parameters
     ----------
     motion : F frames.
     path : the file.
-    skeleton : for `.amc`, the `.asf` file that it is to fit; by default one of the same name is written
-        beside it.
-    widen : for `.amc`, let the bones of that new skeleton turn about all three axes, as blended motions need.
-    scale : metres in one unit of the file; by default 0.01 for `.bvh`, 0.0564 (as in the CMU database) or
-        what the skeleton says for `.amc`.
+    skeleton : for `.amc`, the `.asf` file that it must fit; by default one of the same name is written into
+        the same folder.
+    widen : for `.amc`, let the bones of that new skeleton turn about all three axes; blended motions need it.
+    scale : metres in one unit of the file; by default 0.01 for `.bvh`; for `.amc` that of the skeleton, or
+        0.0564 as in the CMU database.
     precision : digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to 1e-10 m.
 
     Raises
     ------
-    MocapError : for another format, a missing folder, or what the format cannot hold: the bone that would
-        lose most, how much, and in which frame.
+    MocapError : for another format, a missing folder, or a motion that the format cannot hold, with the bone
+        that would lose most, how much, and in which frame.
 
     Examples
     --------
@@ -207,7 +226,7 @@ def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> 
     asf = to_acclaim(widened(motion) if widen else motion.skeleton, scale=form.get("scale") or UNIT)
     amc, beside = to_amc(motion, asf, precision=form.get("precision", 6)), path.with_suffix(".asf")
     text = to_asf(asf, " ".join(path.stem.split()))
-    if beside.exists() and read_text(beside) != text:  # other clips may need it
+    if beside.exists() and read_text(beside) != text:  # other clips may need the old one
         raise MocapError(
             f"{beside} holds another skeleton: choose another name for {path.name}, or delete that file, "
             f"or set skeleton= to it if the motion fits."

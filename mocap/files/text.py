@@ -1,4 +1,4 @@
-"""A text file is read whole or refused, and its lines and numbers are checked."""
+"""Text files: read whole or refused, with checks of their lines and numbers."""
 
 import re
 from collections.abc import Iterator
@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError, MocapError, shortened
 
-LARGEST = 1e9  # no length, angle or time in a motion file comes near
+LARGEST = 1e9  # lengths, angles and times of motion files are far below
 
 
 def read_text(path: str | Path, *, most: int = -1) -> str:
-    r"""Read a text file, its lines ended by "\n" whatever they ended with on disk.
+    r"""Read a text file; all its lines end with "\n" afterwards.
 
     Text that is not UTF-8 is read as Latin-1, which older exporters wrote.
 
@@ -58,11 +58,11 @@ def read_text(path: str | Path, *, most: int = -1) -> str:
 
 
 def check_room(path: str | Path, poses: int, numbers: int) -> None:
-    """Refuse a file whose few numbers would fill the memory with poses of joints that have none.
+    """Refuse a file with few numbers and many joints without channels: their poses would fill the memory.
 
     Raises
     ------
-    FormatError : for over 10 million poses of one joint, and fewer than a number to ten of them.
+    FormatError : for more than 10 million poses of one joint, and less than one number per ten of them.
     """
     if poses > 10_000_000 and poses > 10 * numbers:
         raise FormatError(path, None, "numbers for at least a tenth of the joints", f"{numbers} for {poses}")
@@ -82,13 +82,13 @@ def rounded(numbers: Array, precision: int, name: str) -> Array:
     """
     if np.any(np.abs(numbers) >= LARGEST):
         raise MocapError(
-            f"'{name}' goes {LARGEST:g} units far, or turns by as many degrees: no file holds it."
+            f"'{shortened(name)}' goes {LARGEST:g} units far, or turns by as many degrees: no file holds it."
         )
     return np.round(numbers, precision) + 0.0
 
 
 def lines(text: str) -> Iterator[tuple[int, list[str]]]:
-    r"""Go through the lines that say something: their numbers, from 1, and their words; `#` starts a comment.
+    r"""Go through the lines with words: line number, from 1, and words; `#` starts a comment.
 
     Examples
     --------
@@ -101,12 +101,12 @@ def lines(text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def to_numbers(path: str | Path, line: int | None, words: list[str], expected: str, count: int) -> Array:
-    """Turn words into numbers, every one of them finite and below 10⁹.
+    """Turn words into numbers, all finite and below 10⁹.
 
     Parameters
     ----------
-    path, line, expected : what the error names.
-    words : what stands in the file.
+    path, line, expected : for the error.
+    words : the words of the file.
     count : how many there must be.
 
     Returns
@@ -115,7 +115,7 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
 
     Raises
     ------
-    FormatError : for more or fewer words, one that is no number, or one that no motion needs.
+    FormatError : for another count of words, a word that is no number, or a number that is too large.
 
     Examples
     --------

@@ -283,6 +283,11 @@ def test_a_broken_asf_is_refused_at_its_line(write, old, new, message):
         read_skeleton(write("a.asf", ASF.replace(old, new, 1)))
 
 
+def test_a_bone_named_as_the_end_of_another_is_refused(write):
+    with pytest.raises(FormatError, match=r"a.asf: expected bones whose ends have new names"):
+        read_skeleton(write("a.asf", ASF.replace("hip", "arm_end")))
+
+
 def test_bones_that_would_stretch_are_refused(write):
     asf = ASF.replace("dof rz ry", "dof rz l")
     assert len(read(write, asf, AMC.replace("arm 90 90", "arm 90 0"))) == 2
@@ -430,5 +435,5 @@ def test_a_comment_may_tell_the_rate(write):
     assert read(write, amc_text=f"# fps 29.97\n{AMC}", fps=60.0).fps == 60.0
     assert read(write, amc_text=f"# fps are many\n{AMC}", fps=60.0).fps == 60.0
     for wrong in ("0", "-1", "nan"):
-        with pytest.raises(FormatError, match="line 1: expected frames a second, above 0"):
+        with pytest.raises(FormatError, match="line 1: expected frames per second, above 0"):
             read(write, amc_text=f"# fps {wrong}\n{AMC}")

@@ -148,7 +148,7 @@ def test_a_root_at_rest_somewhere_and_one_that_cannot_move(tmp_path):
     load_save.save(motion, tmp_path / "c.amc", skeleton=tmp_path / "b.asf", precision=9)
     assert same_places(load_save.load(tmp_path / "c.amc", skeleton=tmp_path / "b.asf"), motion) < 1e-9
     (tmp_path / "b.asf").write_text(text.replace("TX TY TZ", "TX TZ"))
-    with pytest.raises(MocapError, match=r"grants its root no ty: 'step' would lose 0.11 m in frame 0"):
+    with pytest.raises(MocapError, match=r"gives its root no ty: 'step' would lose 0.11 m in frame 0"):
         load_save.save(motion, tmp_path / "c.amc", skeleton=tmp_path / "b.asf")
 
 

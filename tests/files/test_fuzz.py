@@ -1,17 +1,20 @@
-"""Whatever stands in a file, reading gives a motion or a sentence, and soon.
+"""Whatever is in a file, reading gives a motion or a short sentence, and soon.
 
-All 100 000: pytest -m exhaustive -n 0 tests/test_fuzz.py, about ten minutes.
+All 100 000: pytest -m exhaustive -n 0 tests/files/test_fuzz.py, about ten minutes.
 """
 
 import random
+import re
 import time
+from dataclasses import replace
 
 import pytest
 
 from mocap.body.motion import Motion
 from mocap.datasets import samples
 from mocap.errors import FormatError, MocapError
-from mocap.files import load_save
+from mocap.files import load_save, path_files
+from tests.strategies import wave
 
 CHARACTERS = " \n\t\r{}#:.-+eE019,()\x0b\x85_\0\ufeff"
 WORDS = ["nan", "inf", "1e999", "9" * 30, "-", "1_0", "end\n", "begin\n", "root ", "JOINT x\n{\n", "}\n", "٣"]
@@ -75,6 +78,14 @@ def bases(tmp_path, request):
     return pairs
 
 
+def short(error, *paths):
+    """Check that a message is one line of 200 characters at most, besides the paths in it."""
+    text = str(error)
+    for path in paths:
+        text = text.replace(str(path), "")
+    return "\n" not in text and len(text) <= 200
+
+
 def survive(folder, bases, seed):
     """Read one mutated file, or a clip with a mutated skeleton."""
     chance = random.Random(seed)
@@ -93,7 +104,7 @@ def survive(folder, bases, seed):
         assert isinstance(load_save.load(path, skeleton=asf), Motion)
         loaded = True
     except MocapError as error:
-        assert "\n" not in str(error)
+        assert short(error, path, asf)
         assert not isinstance(error, FormatError) or error.path in (path, asf)
         loaded = False
     assert time.perf_counter() - start < 10
@@ -109,3 +120,81 @@ def test_a_thousand_broken_files(bases, tmp_path, part):
 @pytest.mark.exhaustive
 def test_a_hundred_thousand_broken_files(bases, tmp_path):
     assert 5_000 < sum(survive(tmp_path, bases, 10_000 + number) for number in range(100_000)) < 95_000
+
+
+LONG = ["x" * 17_000, "9" * 17_000, f"0.{'0' * 17_000}", "1 " * 9_000, "{" * 9_000, ":" * 17_000]
+DRAWING = """<svg>
+<g transform="rotate ( 5 )">
+<path transform="scale ( 2 ) translate ( 3 , 4 )" d="M 0 0 L 1 1 C 1 2 3 4 5 6 Z" />
+<polyline points=" 0 0 1 1 " />
+<line x1=" 1 " />
+</g>
+</svg>"""
+
+
+def long_ones(text):
+    """Give a text with each of its words in turn replaced by long ones."""
+    for number, word in enumerate(re.finditer(r"\S+", text)):
+        for long in LONG[number % 2 :: 2]:
+            yield f"{text[: word.start()]}{long}{text[word.end() :]}"
+
+
+def broken(text):
+    """Give a text with each of its lines in turn without its last word, or with another one there."""
+    rows = text.split("\n")
+    for number, row in enumerate(rows):
+        for end in ("", " nan", " x"):
+            yield "\n".join([*rows[:number], row.rpartition(" ")[0] + end, *rows[number + 1 :]])
+
+
+def complaints(read, path, texts):
+    """Read a file again and again with other texts, and count the refusals; all of them are short."""
+    count = 0
+    for text in texts:
+        path.write_text(text)
+        try:
+            read(path)
+        except MocapError as error:
+            assert short(error, path, path.with_suffix(".asf")), text[:500]
+            count += 1
+    return count
+
+
+@pytest.mark.parametrize("suffix", [".amc", ".asf", ".bvh"])
+def test_long_words_make_no_long_messages(tmp_path, suffix):
+    load_save.save(wave(2), tmp_path / f"a{'.amc' if suffix == '.asf' else suffix}")
+    path = tmp_path / f"a{suffix}"
+    read = load_save.load_skeleton if suffix == ".asf" else load_save.load
+    assert complaints(read, path, long_ones(path.read_text())) > 50
+
+
+@pytest.mark.parametrize("suffix", [".amc", ".asf", ".bvh"])
+def test_long_names_make_no_long_messages(tmp_path, suffix):
+    load_save.save(wave(2), tmp_path / f"a{'.amc' if suffix == '.asf' else suffix}")
+    for path in tmp_path.iterdir():
+        path.write_text(re.sub(r"elbow|hand|side", lambda name: name[0] * 5_000, path.read_text()))
+    path = tmp_path / f"a{suffix}"
+    read = load_save.load_skeleton if suffix == ".asf" else load_save.load
+    assert complaints(read, path, broken(path.read_text())) > 20
+
+
+@pytest.mark.parametrize(("suffix", "text"), [(".csv", "x,z\n0 , 0\n0 ; 5\n5 5"), (".svg", DRAWING)])
+def test_long_words_in_paths_make_no_long_messages(tmp_path, suffix, text):
+    for variant in (text, text.replace("<path", "<text"), re.sub("<(path|polyline)", "<text", text)):
+        assert complaints(path_files.load_path, tmp_path / f"a{suffix}", long_ones(variant)) > 20
+
+
+@pytest.mark.parametrize("suffix", [".amc", ".bvh"])
+def test_long_names_make_no_long_messages_in_writing(tmp_path, suffix):
+    motion, long = wave(2, name="n" * 5_000), "j" * 5_000
+    bones = [
+        replace(motion.skeleton, names=["root", f"{long}{end}", "hand", "side"]) for end in ("{", "#", "")
+    ]
+    hinged = replace(bones[2], dofs=["xyz", "x", "", ""])
+    motions = [replace(motion, skeleton=skeleton) for skeleton in (*bones, hinged)]
+    motions += [replace(motion, root_positions=motion.root_positions + 1e12), replace(motion, fps=1e7)]
+    for bad in motions:
+        try:
+            load_save.save(bad, tmp_path / f"a{suffix}")
+        except MocapError as error:
+            assert short(error)
