@@ -1,14 +1,15 @@
-"""Out of the graph: walks at random or by search, and the motions they stand for.
+"""Synthesis: find walks through a motion graph, at random or by search, and turn them into motions.
 
-A walk is a list of edges, each starting where the one before ends; `to_motion` plays it.
+A walk is a list of edges; each edge starts where the one before ends. `to_motion` plays a walk. A new way to
+choose edges belongs in a file beside `random_walks`; ways that follow a user's wish belong in `steering`.
 
 Reading order (notebook 07)
 ---------------------------
-1. `walks`: a walk, its seams and its sources
-2. `random_walks`: wander through a graph
-3. `walk_to_motion`: play a walk
-4. `bounded_search`: the paper's search: branch and bound
-5. `streaming`: hours of walk, piece by piece
+1. `walks`: check a walk, list its seams and the clips it plays
+2. `random_walks`: choose transitions at random
+3. `walk_to_motion`: turn a walk into a motion
+4. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
+5. `streaming`: make hours of motion, piece by piece
 
 References
 ----------

@@ -1,11 +1,11 @@
-"""The paper's search for a walk: branch and bound, depth first, a stretch at a time [KGP02, 4.2].
+"""The paper's search for a walk: depth-first branch and bound, one stretch after the other [KGP02, 4.2].
 
 The cost of a walk is the sum f(w) = Σ g([e₁ … e_{i-1}], e_i) over its edges [KGP02, Eq. 8], and g is never
-below 0: so once a walk costs as much as the best complete one, no way of going on can better it, and the
-branch is cut. Children come in the order of g, that the best complete walk is good early.
+below 0. So a walk that costs as much as the best complete one cannot become better, and its branch is cut.
+The children with the smallest g are searched first, so that a good complete walk is found early.
 
-What g and the halting rule need to know of the walk so far is a `state` of the caller's own making: the walk
-itself, or sums over it.
+The caller chooses the `state` of a walk: all that g and the halting rule must know of it. This can be the
+walk itself, or sums over it.
 """
 
 import math
@@ -21,17 +21,17 @@ from mocap.errors import MocapError, NoWalk
 State = Any
 SearchEdge = tuple[Hashable, Hashable, int]
 Step = Callable[[State, SearchEdge], tuple[float, State]]
-"""g(w, e): what an edge adds to the cost of a walk in some state, and the state after it."""
+"""g(w, e): from a walk's state and the next edge to the cost that the edge adds, and the next state."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What to search for.
+    """A search problem: a graph, a cost, and a halting rule.
 
     Parameters
     ----------
     graph : any `networkx.MultiDiGraph` with `frames` on its edges.
-    step : g: from the state of a walk, and an edge, to the cost, 0 or more, and the next state.
+    step : g: from a walk's state and the next edge to the cost of this edge, 0 or more, and the next state.
     done : the halting rule: whether a walk in this state is complete.
 
     Examples
@@ -52,24 +52,30 @@ class Problem:
 
 @dataclass(frozen=True)
 class Budget:
-    """How many walks to expand at most, and for how many seconds to search."""
+    """The largest number of walks to expand, and the largest number of seconds to search.
+
+    Examples
+    --------
+    >>> Budget(nodes=100).spent(100, time.monotonic())
+    'out of nodes'
+    """
 
     nodes: float = math.inf
     seconds: float = math.inf
 
     def spent(self, nodes: int, begun: float) -> str:
-        """Say what a search has run out of that expanded so many and began at a time of `time.monotonic`."""
+        """Give the reason to stop after this many nodes, or ""; `begun` is the start by `time.monotonic`."""
         if nodes >= self.nodes:
             return "out of nodes"
         return "out of time" if time.monotonic() > begun + self.seconds else ""
 
 
 class SearchResult(NamedTuple):
-    """The best walk found.
+    """The best walk found, its cost and its last state.
 
-    `complete` tells whether the halting rule, or the horizon, was met. `expanded` walks were gone on from,
-    `cut` ones were not, by the bound. `stopped` is "" where the walk is proven optimal (within each stretch),
-    or tells what ended the search before: then the walk is the best so far.
+    `complete` is whether the halting rule or the horizon was met. `expanded` counts the walks that were
+    lengthened, `cut` those that the bound cut. `stopped` is "" where the walk is optimal (within each
+    stretch); else it is the reason why the search ended early, and the walk is the best so far.
     """
 
     walk: list[SearchEdge]
@@ -82,7 +88,14 @@ class SearchResult(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A walk under way: its last edge, and the branch that it goes on from."""
+    """A walk in the search tree: its last edge, and the branch `before` that edge.
+
+    Examples
+    --------
+    >>> root = Branch(0.0, "a", None)
+    >>> Branch(1.0, "b", None, 5, ("a", "b", 0), root).walk()
+    [('a', 'b', 0)]
+    """
 
     cost: float
     node: Hashable
@@ -92,7 +105,7 @@ class Branch(NamedTuple):
     before: "Branch | None" = None
 
     def walk(self) -> list[SearchEdge]:
-        """List its edges, the first one first."""
+        """List the walk's edges in order."""
         edges, branch = [], self
         while branch.edge is not None and branch.before is not None:
             edges.append(branch.edge)
@@ -108,7 +121,7 @@ def branch_and_bound(
     horizon: float = math.inf,
     budget: Budget | None = None,
 ) -> SearchResult:
-    """Find the cheapest walk that is done, or at least `horizon` frames long.
+    """Find the cheapest walk that is complete, or at least `horizon` frames long.
 
     Parameters
     ----------
@@ -117,10 +130,26 @@ def branch_and_bound(
     horizon : frames to look ahead.
     budget : when to stop; Ctrl-C stops the search, too.
 
+    Returns
+    -------
+    The best walk; where the search stops before it has a complete one, the longest walk so far.
+
     Raises
     ------
-    NoWalk : for a node that the graph lacks, and where every walk ends before it is complete.
-    MocapError : where g gives a cost below 0, with which the bound would cut what it must not.
+    NoWalk : for a node that is not in the graph, and where every walk ends before it is complete.
+    MocapError : for a cost below 0, with which the bound would be wrong.
+
+    Examples
+    --------
+    The cheap way from 1 to 3 goes through 2:
+
+    >>> graph = nx.MultiDiGraph()
+    >>> graph.add_weighted_edges_from([(1, 2, 1.0), (2, 3, 1.0), (1, 3, 5.0)], frames=1)
+    >>> def step(node, edge):
+    ...     return graph.edges[edge]["weight"], edge[1]
+    >>> found = branch_and_bound(Problem(graph, step, lambda node: node == 3), 1, 1)
+    >>> found.walk, found.cost
+    ([(1, 2, 0), (2, 3, 0)], 2.0)
 
     Notebook: 07-walks-and-search
     """
@@ -148,7 +177,15 @@ def branch_and_bound(
 
 
 def children(problem: Problem, branch: Branch) -> list[Branch]:
-    """Go on by every edge, the dearest first.
+    """Lengthen a walk by every edge that leaves its node; the child with the highest cost comes first.
+
+    Examples
+    --------
+    >>> graph = nx.MultiDiGraph()
+    >>> _ = graph.add_edges_from([(1, 2), (1, 3)], frames=1)
+    >>> problem = Problem(graph, lambda state, edge: (edge[1], None), lambda state: False)
+    >>> [(child.node, child.cost) for child in children(problem, Branch(0.0, 1, None))]
+    [(3, 3.0), (2, 2.0)]
 
     Notebook: 07-walks-and-search
     """
@@ -171,19 +208,35 @@ def search_ahead(
     look: tuple[int, int] = (90, 28),
     budget: Budget | None = None,
 ) -> SearchResult:
-    """Search in stretches: find the best walk of n frames, keep its first m, go on from there [KGP02, 4.2].
+    """Search in stretches: find the best walk of n frames, keep its first m, repeat from there [KGP02, 4.2].
 
-    The time is linear in the walk's length, and the walk is optimal within each horizon only.
+    The time is linear in the walk's length; the walk is optimal only within each stretch.
 
     Parameters
     ----------
     problem, node, state : as for `branch_and_bound`.
     look : n and m, frames; the paper takes 80-120 and 25-30.
-    budget : for each stretch; where it runs out, the best walk so far is kept.
+    budget : of each stretch; where it runs out, the best walk so far is used.
 
     Returns
     -------
-    The whole walk; after Ctrl-C, as far as it has come.
+    The whole walk; after Ctrl-C, the walk so far.
+
+    Raises
+    ------
+    NoWalk, MocapError : as for `branch_and_bound`, and for n and m without 1 ≤ m ≤ n.
+
+    Examples
+    --------
+    A short look ahead takes the edge that is cheap now, and pays for it later:
+
+    >>> graph = nx.MultiDiGraph()
+    >>> graph.add_weighted_edges_from([(1, 2, 1), (1, 3, 2), (2, 4, 9), (3, 4, 1)], frames=1)
+    >>> def step(node, edge):
+    ...     return graph.edges[edge]["weight"], edge[1]
+    >>> problem = Problem(graph, step, lambda node: node == 4)
+    >>> [search_ahead(problem, 1, 1, look=(frames, 1)).cost for frames in (1, 2)]
+    [10.0, 3.0]
 
     Notebook: 07-walks-and-search
     """

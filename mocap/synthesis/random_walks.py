@@ -1,4 +1,4 @@
-"""Random walks: wander through a motion graph for as long as one likes."""
+"""Random walks: choose the transitions of a motion graph at random, for a walk of any length."""
 
 from collections.abc import Iterator
 
@@ -17,26 +17,37 @@ def random_walk(
     settle: float = 1.0,
     start: Node | None = None,
 ) -> list[Edge]:
-    """Wander through a graph for a while.
+    """Walk through a graph at random for a given time.
 
-    Where the last transition is `settle` seconds past, the walk takes one of the transitions at hand, the
-    likelier the less it costs; else it goes on along the clip. Where the clip does not go on, it must leave.
+    When at least `settle` seconds of clip have passed since the last transition, the walk takes one of the
+    transitions that leave its node, else it stays on the clip. At the end of a clip it takes a transition at once.
+    The odds of a transition are 1 / (cost + 1 mm).
 
     Parameters
     ----------
     motion_graph : the graph, pruned, so that a walk never ends.
-    seconds : how long the motion shall be at least.
+    seconds : the least duration of the motion.
     seed : the same seed gives the same walk.
-    settle : seconds of clip between two transitions, where the graph allows.
-    start : the first node; by default one drawn at random.
+    settle : seconds of clip between two transitions, where the graph allows this.
+    start : the first node; by default a random one.
 
     Returns
     -------
-    Edges, as many as needed.
+    The edges of the walk; their frames last `seconds` or a little longer.
 
     Raises
     ------
-    NoWalk : for a start that the graph lacks, and where the walk runs into a dead end.
+    NoWalk : for a start that is not in the graph, and for a walk that reaches a dead end.
+    MocapError : for a duration that is not above 0.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> walk = random_walk(graph, seconds=5, seed=1)
+    >>> sum(graph.graph.edges[edge]["frames"] for edge in walk) >= 5 * 30
+    True
 
     Notebook: 07-walks-and-search
     """
@@ -55,7 +66,19 @@ def random_walk(
 def wander(
     motion_graph: MotionGraph, *, seed: int = 0, settle: float = 1.0, start: Node | None = None
 ) -> Iterator[Edge]:
-    """Give the edges of a random walk one by one, for ever; see `random_walk`.
+    """Yield the edges of a random walk without end; the parameters are those of `random_walk`.
+
+    Examples
+    --------
+    A clip with one transition back: the walk goes round for ever.
+
+    >>> from itertools import islice
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.prune(graphs.from_transitions([clip], [back], window=10))
+    >>> [end for _, end, _ in islice(wander(graph, start=(0, 20)), 4)]
+    [(0, 60), (0, 20), (0, 60), (0, 20)]
 
     Notebook: 07-walks-and-search
     """

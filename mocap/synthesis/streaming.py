@@ -1,4 +1,4 @@
-"""Motion dumping: random walks as long as one likes, written as they are made [KGP02, 5.3]."""
+"""Motion dumping: long random walks, written piece by piece while they are made [KGP02, 5.3]."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,25 +16,25 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.synthesis.random_walks import wander
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
 
-MARGIN = 3.0  # seconds: no plant of a walk lasts so long, and no correction reaches so far
+MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 
 
 def stream(
     motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0, clean: bool = False
 ) -> Iterator[Motion]:
-    """Play a random walk piece by piece, so that memory holds one piece only.
+    """Play a random walk piece by piece, so that only one piece is in memory.
 
     Parameters
     ----------
     motion_graph : pruned, so that the walk never ends.
-    seconds : how long all pieces together shall be at least.
+    seconds : the least duration of all pieces together.
     seed : the walk is that of `synthesis.random_walk` with this seed.
-    piece : seconds of a piece, at least.
-    clean : whether to make planted feet stand still, as in `synthesis.to_motion`.
+    piece : the least duration of a piece, seconds.
+    clean : whether to remove footskate, as in `synthesis.to_motion`.
 
     Yields
     ------
-    Motions, each going on where the one before ends; together they are that walk, frame for frame.
+    Motions; each starts where the one before ends. Together they are the walk, frame by frame.
 
     Examples
     --------
@@ -62,9 +62,9 @@ def _motions(motion_graph: MotionGraph, walks: Iterator[list[Edge]]) -> Iterator
 
 
 def _cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
-    """Clean each piece together with twice `MARGIN` of what came before; hold its last `MARGIN` back.
+    """Clean each piece together with 2 · `MARGIN` of the motion before it; give its last `MARGIN` out later.
 
-    So every frame is cleaned with all that it depends on around it, and the cuts cannot be seen.
+    So every frame is cleaned together with all frames that it depends on, and the cuts do not show.
     """
     waiting, done = next(pieces), 0
     margin = round(MARGIN * waiting.fps)
@@ -85,12 +85,12 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     clean: bool = False,
     progress: Progress = iter,
 ) -> int:
-    """Write a random walk as a `.bvh` file while it is made; an hour takes no more memory than a minute.
+    """Write a random walk to a `.bvh` file while it is made; an hour needs no more memory than a minute.
 
     Parameters
     ----------
     motion_graph, seconds, seed, clean : as for `stream`.
-    path : the file; it appears once it is whole.
+    path : the file; it appears when it is complete.
     progress : wraps the pieces, to show a bar.
 
     Returns
@@ -99,13 +99,23 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
 
     Raises
     ------
-    MocapError : for another format, a folder that one cannot write to, or a duration that is none.
+    MocapError : for another format, a file that cannot be written, or a duration that is not above 0.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     dump(graph, f"{folder}/long.bvh", seconds=20) >= 20 * 30
+    True
 
     Notebook: 07-walks-and-search
     """
     if Path(path).suffix.lower() != ".bvh":
         raise MocapError(f"A long walk is written as .bvh, got '{path}'.")
-    # The same seed gives the same walk: count its frames first, for they stand at the file's top.
+    # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
     edges = motion_graph.graph.edges
     counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
     pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)

@@ -1,4 +1,4 @@
-"""Out of the graph: random walks, and the motions that walks stand for."""
+"""Turn a walk into a motion: gather its frames, place them, and blend its transitions."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -24,29 +24,41 @@ def to_motion(
     place: PlanarTransform = IDENTITY,
     clean: bool = False,
 ) -> Motion:
-    """Play a walk: stretches of clip as they are, transitions blended, each placed where the last one led.
+    """Play a walk: copy the stretches of clip, blend the transitions, and place each where the last one ends.
 
-    Every frame is moved by the product of the transforms of the transitions passed so far [KGP02, 4.1]. All
-    frames are gathered, placed and blended at once, so the time is linear in the walk's length. A walk that
-    passes no transition repeats its clip bit for bit.
+    Every frame is moved by the product of the transforms of all transitions before it [KGP02, 4.1]. All
+    frames are gathered, placed and blended at once, so the time is linear in the walk's length. A walk
+    without transitions repeats its clip bit for bit.
 
     Parameters
     ----------
     motion_graph : the graph.
-    walk : edges, each starting where the one before ends.
+    walk : edges; each starts where the one before ends.
     name : the new motion's name.
     place : moves the whole motion; by default it starts where its first clip is.
-    clean : whether to make planted feet stand still, by `feet.clean_up`; where no clip tells when its
-        feet stand, that is found out first.
+    clean : whether to remove footskate by `feet.clean_up`; footplants are marked first where no clip has
+        contacts.
 
     Returns
     -------
-    As many frames as the edges have together; labels and contacts are those of the clips, in a transition
-    those of the clip with the larger weight.
+    As many frames as the edges have together. Labels and contacts come from the clips; in a transition they
+    come from the clip with the larger weight.
 
     Raises
     ------
-    NoWalk : for an empty walk, an edge that the graph lacks, or one that starts elsewhere.
+    NoWalk : for an empty walk, a missing edge, or an edge that does not start where the last one ends.
+
+    Examples
+    --------
+    A clip with one transition back to an earlier frame, and a walk of 40 frames of clip and 10 of blend:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions([clip], [back], window=10)
+    >>> motion = to_motion(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)])
+    >>> len(motion), bool((motion.rotations[:40] == clip.rotations[20:60]).all())
+    (50, True)
 
     Notebook: 07-walks-and-search
     """
@@ -58,7 +70,7 @@ def to_motion(
     before = places(edges, place)
     roots, turns = _placed(motion_graph, table.here, before, table.edge)
     mixed = edges.blended[table.edge]
-    # The clip that a transition enters stays, from its blend on, where the transition put it.
+    # The target clip is placed by the transition's transform, in the blend and after it.
     there, turned = _placed(motion_graph, table.there[mixed], before, table.edge[mixed] + 1)
     alpha = table.alpha[mixed, None]
     roots[mixed] = alpha * roots[mixed] + (1 - alpha) * there
@@ -70,17 +82,41 @@ def to_motion(
 
 
 def with_plants(motion_graph: MotionGraph) -> MotionGraph:
-    """Find out when feet stand, where no clip tells."""
+    """Mark the footplants of all clips by `feet.mark_plants`, unless some clip has contacts already.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from mocap import datasets, graphs
+    >>> clip = replace(datasets.sample("walk_curve_1"), contacts={})
+    >>> sorted(with_plants(graphs.from_transitions([clip], [], window=10)).clips[0].contacts)
+    ['lfoot', 'ltoes', 'rfoot', 'rtoes']
+    """
     if any(clip.contacts for clip in motion_graph.clips):
         return motion_graph
     return replace(motion_graph, clips=tuple(map(mark_plants, motion_graph.clips)))
 
 
 def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransform:
-    """Multiply up the transforms along a walk of n edges: n + 1 places, the last where it ends.
+    """Multiply the transforms along a walk of n edges: n + 1 places, one before each edge and one at the end.
 
-    Angles add up, and so do the steps t_i, each turned by the angles before it: with a ground point as the
-    complex number z + ix, a turn by θ is a product with exp(iθ), and both are running sums.
+    Both the angle and the translation are running sums. With ground points as complex numbers z + ix, a turn
+    by θ is a product with exp(iθ): the translation of each edge is turned by the angles before it, then added.
+
+    Parameters
+    ----------
+    edges : the walk's edges, from `graphs.edge_table`.
+    place : where the walk starts.
+
+    Examples
+    --------
+    Two transitions, each of which turns left by 90° and moves 1 m forward:
+
+    >>> from mocap.graphs import EdgeTable
+    >>> one, turn = np.ones(2), PlanarTransform(np.full(2, np.pi / 2), np.zeros(2), np.ones(2))
+    >>> x, z = places(EdgeTable(one, one, one, one > 0, one, turn))[1:]
+    >>> x.round(6).tolist(), z.round(6).tolist()
+    ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0])
 
     Notebook: 07-walks-and-search
     """
@@ -93,7 +129,7 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
 def _placed(
     motion_graph: MotionGraph, frames: Indices, places: PlanarTransform, chosen: Indices
 ) -> tuple[Array, Array]:
-    """Gather frames (F, 2) and move each by one of the places: root positions and rotations."""
+    """Gather frames (F, 2), move each by its place `places[chosen]`; return root positions and rotations."""
     joints = len(motion_graph.clips[0].skeleton)
     roots, turns = np.empty((len(frames), 3)), np.empty((len(frames), joints, 4))
     for clip in np.unique(frames[:, 0]):
@@ -101,13 +137,13 @@ def _placed(
         roots[of_clip] = motion_graph.clips[clip].root_positions[frames[of_clip, 1]]
         turns[of_clip] = motion_graph.clips[clip].rotations[frames[of_clip, 1]]
     place = PlanarTransform(*(np.asarray(numbers)[chosen] for numbers in places))
-    turned = place.angle != 0  # what is not turned keeps its last digits
+    turned = place.angle != 0  # frames without a turn stay bit for bit
     turns[turned, 0] = rotations.multiply(rotations.about_y(place.angle)[turned], turns[turned, 0])
     return place.apply_points(roots), turns
 
 
 def _marks(motion_graph: MotionGraph, owner: Indices, kind: str) -> dict[str, Mask]:
-    """Take over the labels or the contacts of the clips that the frames (F, 2) come from."""
+    """Gather the labels or the contacts of the clip frames (F, 2)."""
     visited, number = np.unique(owner[:, 0], return_inverse=True)
     sources = [getattr(motion_graph.clips[clip], kind) for clip in visited]
     return gather_marks(sources, np.stack([number, owner[:, 1]], axis=1))

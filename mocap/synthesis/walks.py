@@ -1,7 +1,7 @@
-"""A walk through a motion graph, as a list of edges and as arrays: what each of its frames is made of.
+"""A walk through a motion graph: a list of edges, each of which starts where the one before ends.
 
-An edge is (start node, end node, key). A walk is a list of edges, each starting where the one before ends,
-and its frames are those of its edges in order. Every frame is one frame of a clip, or a blend of two.
+An edge is (start node, end node, key). The frames of a walk are those of its edges in order. Every frame is
+one frame of a clip, or a blend of two.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,18 @@ class Seam(NamedTuple):
 
 
 def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
-    """List the transitions that a walk passes.
+    """List the transitions that a walk takes.
+
+    Examples
+    --------
+    A clip with one transition back to an earlier frame, and a walk that takes it once:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions([clip], [back], window=10)
+    >>> seams(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)])
+    [Seam(frame=40, cost=0.02)]
 
     Notebook: 07-walks-and-search
     """
@@ -33,7 +44,18 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
 
 
 def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, str]]:
-    """Tell which clip a walk plays from which frame on; within a transition it changes half-way.
+    """List the clips that a walk plays, each with its first frame; in a transition the clip changes half-way.
+
+    Examples
+    --------
+    A transition of 10 frames leads from one clip to another:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "sneak")]
+    >>> over = matching.Transition(0, 60, 1, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions(clips, [over], window=10)
+    >>> sources(graph, [((0, 0), (0, 60), 0), ((0, 60), (1, 20), 0)])
+    [(0, 'walk_circle'), (65, 'sneak')]
 
     Notebook: 07-walks-and-search
     """
@@ -47,7 +69,16 @@ def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, 
 
 
 def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
-    """Raise `NoWalk` for an empty walk, an edge that the graph lacks, or one that starts elsewhere."""
+    """Raise `NoWalk` for an empty walk, a missing edge, or an edge that starts elsewhere than the last one ends.
+
+    Examples
+    --------
+    >>> from mocap import datasets, graphs
+    >>> graph = graphs.from_transitions([datasets.sample("walk_circle")], [], window=10)
+    >>> require_walk(graph, [((0, 0), (0, 99), 0)])
+    Traceback (most recent call last):
+    mocap.errors.NoWalk: The graph has no edge ((0, 0), (0, 99), 0).
+    """
     if not walk:
         raise NoWalk("The walk has no edges.")
     for edge in walk:
