@@ -19,9 +19,9 @@ def random_walk(
 ) -> list[Edge]:
     """Walk through a graph at random for a given time.
 
-    When at least `settle` seconds of clip have passed since the last transition, the walk takes one of the
-    transitions that leave its node, else it stays on the clip. At the end of a clip it takes a transition at once.
-    The odds of a transition are 1 / (cost + 1 mm).
+    When `settle` seconds of clip have passed since the last transition, the walk takes one of the transitions
+    that leave its node, else it stays on the clip. At the end of a clip it takes a transition at once. The
+    odds of a transition are 1 / (cost + 1 mm).
 
     Parameters
     ----------

@@ -101,7 +101,7 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     """Multiply the transforms along a walk of n edges: n + 1 places, one before each edge and one at the end.
 
     Both the angle and the translation are running sums. With ground points as complex numbers z + ix, a turn
-    by θ is a product with exp(iθ): the translation of each edge is turned by the angles before it, then added.
+    by θ is a product with exp(iθ): the translation of an edge is turned by the angles before it, then added.
 
     Parameters
     ----------

@@ -69,7 +69,7 @@ def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, 
 
 
 def require_walk(motion_graph: MotionGraph, walk: Sequence[Edge]) -> None:
-    """Raise `NoWalk` for an empty walk, a missing edge, or an edge that starts elsewhere than the last one ends.
+    """Raise `NoWalk` for an empty walk, a missing edge, or an edge that starts away from the last one's end.
 
     Examples
     --------
