@@ -49,6 +49,21 @@ def test_blocks_and_tiles_do_not_show(seed, lengths, window, block):
     assert found[2] ** 2 == pytest.approx(grid[i, j], abs=1e-6)
 
 
+def test_no_more_is_measured_than_tiles_and_their_neighbours(monkeypatch):
+    shapes = []
+
+    def recorded(a, b, taper):
+        grid = cloud_distances(a, b, taper)
+        shapes.append(grid.shape)
+        return grid
+
+    monkeypatch.setattr(tiled_search, "cloud_distances", recorded)
+    monkeypatch.setattr(tiled_search, "BLOCK", 10)
+    monkeypatch.setattr(distance_grids, "TILE", (3, 4))
+    find_minima(clouds([30], 2, 0), 0.8)
+    assert (max(rows for rows, _ in shapes), max(columns for _, columns in shapes)) == (5, 6)
+
+
 class Late:
     """An executor that does nothing before its results are asked for; it counts what is out."""
 
