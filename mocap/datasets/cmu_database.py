@@ -1,8 +1,8 @@
 """Trials of the CMU Graphics Lab Motion Capture Database, fetched once and kept.
 
-`cmu.tsv` beside this module lists subjects 02, 03, 16, 49 and 127, each file with its SHA-256, so that a
-file is either whole or refused. Files lie in the platform's cache folder, or where the environment variable
-`MOCAP_DATA` says, as `<subject>/<file>`; what is there needs no network.
+`cmu.tsv` beside this module lists the files of subjects 02, 03, 16, 49 and 127 with their SHA-256, so a file
+is either whole or refused. Files are kept as `<subject>/<file>` in the platform's cache folder, or in the
+folder that the environment variable `MOCAP_DATA` names. A file that is there needs no network.
 """
 
 from __future__ import annotations
@@ -33,7 +33,13 @@ TERMS = (
 
 
 class Trial(NamedTuple):
-    """One trial of the database: its `name`, such as "16_15", and what the database says it shows."""
+    """One trial of the database, with the database's description of it.
+
+    Examples
+    --------
+    >>> trials(127)[0]
+    Trial(name='127_01', subject=127, frames=..., description=...)
+    """
 
     name: str
     subject: int
@@ -53,11 +59,11 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     Parameters
     ----------
     subject : only trials of this person.
-    kind : only trials whose description has this word, whatever its case.
+    kind : only trials whose description has this word, in small or capital letters.
 
     Raises
     ------
-    MocapError : when there is none.
+    MocapError : when there is no such trial.
 
     Examples
     --------
@@ -90,21 +96,21 @@ def cmu(*, subject: int | None = None, kind: str | None = None) -> list[Motion]:
 def cmu(
     clip: str | None = None, *, subject: int | None = None, kind: str | None = None
 ) -> Motion | list[Motion]:
-    """Give a trial of the CMU database, or all of a person and a kind, at 120 Hz.
+    """Give a trial of the CMU database, or all trials of a person or a kind, at 120 Hz.
 
     Parameters
     ----------
-    clip : a trial's name; or else
-    subject : the person's number,
-    kind : a word of the description, such as "walk"; `mocap data list` shows them all.
+    clip : a trial's name, such as "16_15".
+    subject : without `clip`, the person's number.
+    kind : without `clip`, a word of the description, such as "walk"; `mocap data list` shows all of them.
 
     Returns
     -------
-    The motion; a list of them unless one is named.
+    The motion that `clip` names, else a list of motions.
 
     Raises
     ------
-    MocapError : for a trial that is not listed, or a file that cannot be had: what to do instead.
+    MocapError : for a trial that is not listed, or a file that cannot be downloaded, with what to do instead.
 
     Examples
     --------
@@ -130,7 +136,7 @@ def fetch(name: str) -> Path:
 
     Raises
     ------
-    MocapError : when it cannot be had; the cache never keeps part of a file.
+    MocapError : when it cannot be downloaded; the cache never keeps part of a file.
     """
     from requests import RequestException
 
@@ -163,7 +169,7 @@ def _store() -> Pooch:
 
 
 def _download(url: str, output_file: str, store: Pooch) -> None:
-    """Download a file, and end its lines as the listed one does: copies differ in nothing else."""
+    """Download a file, and give it the line ends of the listed one: copies differ only in these."""
     import pooch
 
     _show_terms()

@@ -1,4 +1,4 @@
-"""`mocap.cmu`, against a server of its own that does all the things servers do."""
+"""The CMU database, against a server of its own that does all the things servers do."""
 
 import hashlib
 import threading

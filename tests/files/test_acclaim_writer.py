@@ -1,4 +1,4 @@
-"""`mocap.acclaim_writer`: what is written reads back as it was, or is not written."""
+"""What is written reads back as it was, or is not written."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""`mocap.bvh`: small files worked out by hand, round trips, and files that others wrote."""
+"""BVH files: small ones worked out by hand, round trips, and files that others wrote."""
 
 import csv
 

@@ -1,4 +1,4 @@
-"""`mocap.files`: the right reader and skeleton for every file, and every real file at hand."""
+"""The right reader and skeleton for every file, and every real file at hand."""
 
 import contextlib
 import csv

@@ -1,0 +1,14 @@
+"""What the tests of files share."""
+
+import pytest
+
+
+@pytest.fixture
+def write(tmp_path):
+    """Return a function that writes a file and gives its path."""
+
+    def file(name, text):
+        (tmp_path / name).write_bytes(text.encode())
+        return tmp_path / name
+
+    return file
