@@ -1,10 +1,10 @@
-"""Every error `mocap` raises on purpose: one clear sentence, and what would help."""
+"""The errors that `mocap` raises on purpose: each is one clear sentence, and says what would help."""
 
 from pathlib import Path
 
 
 def shortened(text: str, most: int = 80) -> str:
-    """Cut a text from a file to at most so many characters, and say how long it was.
+    """Cut a text from a file to at most `most` characters, and say how long it was.
 
     Examples
     --------
@@ -23,14 +23,14 @@ class MocapError(ValueError):
 
 
 class FormatError(MocapError):
-    """A file that breaks its format, with the place and what stood there.
+    """A file breaks its format: the message gives the line, what the format asks for, and what stands there.
 
-    The message is cut to 200 characters besides the path, whatever the file holds.
+    Without the path, the message is at most 200 characters long, whatever the file holds.
 
     Parameters
     ----------
     path : the file.
-    line : the line's number, from 1; None where the whole file is meant.
+    line : the line's number, from 1; None for the whole file.
     expected, got : what the format asks for, and what the file holds.
 
     Examples
@@ -50,12 +50,12 @@ class FormatError(MocapError):
 
 
 class SkeletonMismatch(MocapError):
-    """Two motions, or a motion and a skeleton, whose joints are not the same."""
+    """Two motions, or a motion and a skeleton, do not have the same joints."""
 
 
 class NoWalk(MocapError):
-    """A graph in which the walk asked for does not exist."""
+    """The graph has no walk of the kind that was asked for."""
 
 
 class MocapWarning(UserWarning):
-    """Something that was asked for can be had only in part; the message says how much of it."""
+    """Something that was asked for is possible only in part; the message says how much of it."""

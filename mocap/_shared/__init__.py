@@ -1,6 +1,6 @@
-"""Small things that all rooms need; not what to read first.
+"""Small things that all rooms need; there is no need to read them first.
 
-1. `arrays`: names for kinds of arrays, and three small things to do with them
+1. `arrays`: names for kinds of arrays; read-only copies, runs of True, joined ranges
 2. `easing`: the curve that eases from 0 to 1
 3. `atomic`: a file is written whole or not at all
 4. `progress`: what functions take as `progress=`

@@ -1,4 +1,4 @@
-"""Names for kinds of arrays, and three small things that many modules do with them."""
+"""Names for kinds of arrays, and three small functions that many modules use."""
 
 from typing import Any
 
@@ -13,7 +13,13 @@ Points = NDArray[np.complex128]
 
 
 def frozen(values: ArrayLike, dtype: type[np.generic]) -> NDArray[Any]:
-    """Copy into an array that nobody can write to."""
+    """Copy values into a read-only array.
+
+    Examples
+    --------
+    >>> frozen([1, 2], np.float64).flags.writeable
+    False
+    """
     array: NDArray[Any] = np.array(values, dtype)
     array.flags.writeable = False
     return array
@@ -34,7 +40,7 @@ def runs(marks: Mask) -> NDArray[np.intp]:
 
 
 def ranges(first: Indices, counts: Indices) -> Indices:
-    """Count up from each of some numbers, so many steps each, in one row.
+    """Join ranges of whole numbers, each given by its first number and its count, into one row.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A text file is read whole or refused, and written whole or not at all."""
+"""A file is written whole or not at all."""
 
 import tempfile
 from collections.abc import Iterator
@@ -10,10 +10,10 @@ from mocap.errors import MocapError
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Write beside a file, then put the new one in its place in a single step.
+    """Write a new file beside the old one, then replace the old one in a single step.
 
-    Whatever goes wrong inside the `with` block, an interruption too, the old file stays as it was
-    and nothing is left beside it.
+    If anything goes wrong inside the `with` block, even an interruption, the old file stays as it was,
+    and the new one is removed.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
     Raises
     ------
-    MocapError : when the folder is missing or cannot be written to.
+    MocapError : when the folder is missing, or writing there is not allowed.
 
     Examples
     --------
@@ -37,7 +37,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     path = Path(path)
     try:
         folder = tempfile.TemporaryDirectory(prefix=".", dir=path.parent, ignore_cleanup_errors=True)
-        with folder as beside:  # a folder, so that the new file gets the permissions of any other
+        with folder as beside:  # a folder: a file in it gets ordinary permissions
             yield Path(beside, path.name)
             Path(beside, path.name).replace(path)
     except OSError as error:
@@ -51,7 +51,7 @@ def write_text(path: str | Path, text: str) -> None:
 
 
 def make_folder(path: Path) -> None:
-    """Make a folder, and those above it, where they are missing.
+    """Make a folder and the folders above it, if they are missing.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""What functions take as `progress=`."""
+"""The type of the parameter `progress=`."""
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 Progress = Callable[[Sequence[Any]], Iterable[Any]]
-"""Wraps the things to do, and hands them on one by one: `iter` shows nothing, `tqdm.tqdm` shows a bar."""
+"""Wraps a sequence and gives its items one by one: `iter` shows nothing, `tqdm.tqdm` shows a bar."""

@@ -12,7 +12,7 @@ from mocap._shared.arrays import Array, frozen
 from mocap.errors import MocapError
 
 FINE = 0.02  # metres between the points of a curve
-CLOSEST = 1e-9  # metres between two points that count as two
+CLOSEST = 1e-9  # metres; nearer points count as one
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,12 +55,12 @@ class GroundPath:
         return float(self.along[-1])
 
     def at(self, along: ArrayLike) -> Array:
-        """Give the points (..., 2) so many metres along; past either end that end."""
+        """Give the points (..., 2) that lie `along` metres from the start; past either end, that end."""
         along = np.asarray(along, float)
         return np.stack([np.interp(along, self.along, axis) for axis in self.points.T], axis=-1)
 
     def resampled(self, spacing: float) -> GroundPath:
-        """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by that much."""
+        """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by as much."""
         if not (np.isfinite(spacing) and spacing > 0):
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
         return GroundPath(self.at(np.linspace(0, self.length, int(np.ceil(self.length / spacing)) + 1)))
@@ -72,9 +72,9 @@ class SmoothPath:
 
     A natural cubic spline c(u) passes through the points, C²; its parameter u is the length of the chords.
     A second spline fits points of the first one at even arc lengths s(u) = ∫ |c'| du, so `at(s)` moves one
-    metre per metre of s: to 1 % where neighbouring chords turn by less than 35°, but not around sharp
-    corners. Beyond both ends the curve goes straight on. `spline` is better for points at very uneven
-    distances.
+    metre per metre of s: within 1 % where neighbouring chords turn by less than 35°, but not around sharp
+    corners. Beyond both ends the curve goes straight on. For points at very uneven distances, `spline` is
+    better.
 
     Parameters
     ----------
@@ -142,17 +142,17 @@ def _checked(points: ArrayLike) -> Array:
 def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
     """Draw a smooth curve through some points, C² where it passes them.
 
-    A cubic spline over the square roots of the chords, which neither overshoots nor loops where points
+    It is a cubic spline over the square roots of the chords, which neither overshoots nor loops where points
     lie close together.
 
     Parameters
     ----------
     points : shape (N, 2), (x, z) in metres.
-    closed : whether it comes back to the first point.
+    closed : whether the curve comes back to the first point.
 
     Returns
     -------
-    The curve, a point every 2 cm.
+    The curve, with a point every 2 cm.
 
     Examples
     --------
@@ -171,13 +171,13 @@ def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
 
 
 def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, float]]) -> GroundPath:
-    """Draw a line of arcs, each going on where and as the one before ends.
+    """Draw a line of arcs; each goes on from the place and direction where the one before ends.
 
     Parameters
     ----------
     start : (x, z), metres.
     heading : radians; 0 goes towards +z, π/2 towards +x.
-    pieces : (length in metres, turn in radians, to the left where above 0); a turn of 0 goes straight on.
+    pieces : (length in metres, turn in radians); turns above 0 go to the left, a turn of 0 straight on.
 
     Examples
     --------
@@ -200,13 +200,23 @@ def arcs(start: tuple[float, float], heading: float, pieces: list[tuple[float, f
 def circle(radius: float = 3.0) -> GroundPath:
     """Draw a circle to the left.
 
+    Examples
+    --------
+    >>> circle(1.0)
+    GroundPath(316 points, 6.3 m)
+
     Notebook: 10-real-data
     """
     return arcs((0, 0), 0.0, [(2 * np.pi * radius, 2 * np.pi)])
 
 
 def s_curve(length: float = 20.0) -> GroundPath:
-    """Draw two bends, one to the right and one to the left, of nearly half a turn each.
+    """Draw two bends of nearly half a turn each, the first to the right and the second to the left.
+
+    Examples
+    --------
+    >>> s_curve(10.0)
+    GroundPath(501 points, 10.0 m)
 
     Notebook: 08-path-synthesis
     """
@@ -215,14 +225,26 @@ def s_curve(length: float = 20.0) -> GroundPath:
 
 
 def rounded_square(side: float = 6.0, radius: float = 1.5) -> GroundPath:
-    """Draw a square with rounded corners, to the left."""
+    """Draw a square with rounded corners, to the left.
+
+    Examples
+    --------
+    >>> rounded_square(4.0, radius=1.0)
+    GroundPath(717 points, 14.3 m)
+    """
     corner = (radius * np.pi / 2, np.pi / 2)
     half = (side / 2 - radius, 0.0)
     return arcs((0, 0), 0.0, [half, corner, *[(side - 2 * radius, 0.0), corner] * 3, half])
 
 
 def figure_eight(radius: float = 2.5) -> GroundPath:
-    """Draw a loop to the left and one to the right, joined by straight lines that cross."""
+    """Draw a loop to the left and one to the right, joined by straight lines that cross.
+
+    Examples
+    --------
+    >>> figure_eight(1.0)
+    GroundPath(673 points, 13.4 m)
+    """
     loop = (1.5 * np.pi * radius, 1.5 * np.pi)
     pieces = [(radius, 0.0), loop, (2 * radius, 0.0), (loop[0], -loop[1]), (radius, 0.0)]
     return arcs((0, 0), -np.pi / 4, pieces)
@@ -230,6 +252,11 @@ def figure_eight(radius: float = 2.5) -> GroundPath:
 
 def letter_s(radius: float = 1.5) -> GroundPath:
     """Draw a letter S, from its upper end to its lower end.
+
+    Examples
+    --------
+    >>> letter_s(1.0)
+    GroundPath(395 points, 7.9 m)
 
     Notebook: 08-path-synthesis
     """
@@ -243,4 +270,4 @@ SHAPES = {
     "figure of eight": figure_eight,
     "letter S": letter_s,
 }
-"""The shapes by name, each called without arguments."""
+"""The shapes by name; each can be called without arguments."""

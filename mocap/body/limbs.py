@@ -1,7 +1,8 @@
-"""Which joints are the legs? Found by the names that common skeletons give them, or told by hand."""
+"""Which joints are the legs? Found by the names that common skeletons use, or named by hand."""
 
 from collections.abc import Sequence
 from itertools import pairwise
+from textwrap import shorten
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
-# Hip, knee and ankle of a left and a right leg, as files name them; what stands before a colon is left out.
+# Hip, knee and ankle of a left and a right leg, as files name them; a prefix up to a colon is ignored.
 _NAMES = (
     ("lfemur ltibia lfoot", "rfemur rtibia rfoot"),  # Acclaim, CMU
     ("LeftUpLeg LeftLeg LeftFoot", "RightUpLeg RightLeg RightFoot"),
@@ -22,7 +23,15 @@ _NAMES = (
 
 
 class Leg(NamedTuple):
-    """One leg's joints, as indices into a skeleton, each the parent of the next."""
+    """One leg's joints, as indices into a skeleton, each the parent of the next.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import SKELETON
+    >>> leg = Leg(2, 3, 4, 5)
+    >>> SKELETON.names[leg.knee], leg.lengths(SKELETON).round(3)
+    ('ltibia', array([0.429, 0.43 , 0.136]))
+    """
 
     hip: int
     knee: int
@@ -35,11 +44,11 @@ class Leg(NamedTuple):
 
 
 def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
-    """Find the left and the right leg by their joints' names; the ball is what first hangs on the ankle.
+    """Find the left and the right leg by their joints' names; the ball is the ankle's first child.
 
     Raises
     ------
-    MocapError : where no names fit, with those that were tried; `name_leg` tells them by hand.
+    MocapError : if no known names are there; then name the joints by hand with `name_leg`.
 
     Examples
     --------
@@ -53,20 +62,26 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     for pair in _NAMES:
         if all(name in plain for side in pair for name in side.split()):
             return tuple(_complete(skeleton, [plain.index(name) for name in side.split()]) for side in pair)
-    tried = ", ".join("-".join(left.split()) for left, _ in _NAMES)
+    joints, known = (", ".join(names) for names in (skeleton.names, [left for left, _ in _NAMES]))
     raise MocapError(
-        f"No legs found among {', '.join(skeleton.names)}: tried {tried}, and the right ones alike. Name "
-        "each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
+        f"No legs found among {shorten(joints, 45)}: tried {shorten(known, 50)}. "
+        "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
     )
 
 
 def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> Leg:
-    """Tell by their names which joints are a leg.
+    """Make a leg out of the names of its joints.
 
     Raises
     ------
-    MocapError : for names that the skeleton lacks, joints of which one is not the parent of the next, and
+    MocapError : for names that the skeleton lacks, a joint that is not the parent of the next one, and
         bones without a length.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import SKELETON
+    >>> name_leg(SKELETON, "lfemur", "ltibia", "lfoot", "ltoes")
+    Leg(hip=2, knee=3, ankle=4, ball=5)
     """
     leg = Leg(*(skeleton.index(name) for name in (hip, knee, ankle, ball)))
     for above, below in pairwise(leg):
@@ -84,7 +99,7 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
 
 def _complete(skeleton: Skeleton, joints: list[int]) -> Leg:
-    """Add the ball, what first hangs on the ankle, to hip, knee and ankle."""
+    """Add the ball, the ankle's first child, to hip, knee and ankle."""
     hip, knee, ankle = (skeleton.names[joint] for joint in joints)
     children = skeleton.children(joints[2])
     if not children:
@@ -93,5 +108,5 @@ def _complete(skeleton: Skeleton, joints: list[int]) -> Leg:
 
 
 def legs_of(skeleton: Skeleton, legs: Sequence[Leg] | None) -> Sequence[Leg]:
-    """Take the legs that were told, or find them."""
+    """Return the given legs, or find them where none are given."""
     return find_legs(skeleton) if legs is None else legs

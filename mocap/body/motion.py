@@ -25,8 +25,8 @@ class Motion:
     skeleton : the joints.
     root_positions : shape (F, 3), metres, y up.
     rotations : shape (F, J, 4), unit quaternions (w, x, y, z) relative to the parent's frame.
-    fps : frames a second.
-    name : what errors and pictures call it.
+    fps : frames per second.
+    name : its name in errors and pictures.
     labels : what kind of motion each frame is, as {label: (F,) booleans}; one boolean stands for all frames.
     contacts : which joints stand on the ground, as {joint: (F,) booleans}.
 
@@ -122,17 +122,25 @@ class Motion:
 
 
 def turning(motion: Motion) -> NDArray[np.bool_]:
-    """Tell which joints, shape (J,), ever turn against their parents by more than the noise of computing."""
+    """Find the joints that ever turn against their parents by more than rounding, as booleans (J,).
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> [walk.skeleton.names[joint] for joint in np.flatnonzero(~turning(walk))][:3]
+    ['lhipjoint', 'ltoes_end', 'rhipjoint']
+    """
     return np.asarray(np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(0, 2)) > 1e-9)
 
 
 def resample(motion: Motion, fps: float) -> Motion:
-    """Show a motion at another frame rate: roots interpolated on lines, rotations by slerp.
+    """Resample a motion to another frame rate: roots on straight lines, rotations by slerp.
 
     Parameters
     ----------
     motion : F frames.
-    fps : the new rate; at the motion's own rate it comes back as it is.
+    fps : the new rate; at its own rate the motion is returned as it is.
 
     Returns
     -------
@@ -168,7 +176,7 @@ def resample(motion: Motion, fps: float) -> Motion:
 
 
 def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
-    """Play motions one after the other, as they are: nothing is aligned or blended.
+    """Put motions one after the other, as they are: nothing is aligned or blended.
 
     Parameters
     ----------
@@ -211,6 +219,18 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 def require_alike(motions: Sequence[Motion]) -> None:
     """Raise unless all motions share one skeleton and one frame rate.
 
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for different skeletons or rates.
+
+    Examples
+    --------
+    >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
+    >>> walk = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 120.0, "walk")
+    >>> require_alike([walk, resample(walk, 30.0)])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
+
     Notebook: 04-blending
     """
     for motion in motions[1:]:
@@ -231,11 +251,11 @@ def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
     Parameters
     ----------
     sources : the labels, or the contacts, of each motion.
-    frames : shape (F, 2); the number of the motion and the frame in it that each new frame takes over.
+    frames : shape (F, 2): for each new frame, the number of its motion and its frame in that motion.
 
     Returns
     -------
-    Every name that one of the sources has, each with shape (F,).
+    The marks of all names in the sources, each of shape (F,).
 
     Examples
     --------

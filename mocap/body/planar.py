@@ -1,7 +1,7 @@
 """Planar transforms: turn about the vertical, then move over the ground.
 
-A captured motion means the same wherever on the ground it happens and whichever way it faces. So these three
-numbers are all that may be changed to lay one clip on another [KGP02, 3.1].
+A captured motion stays the same motion wherever on the ground it happens and whichever way it faces. So only
+these three numbers may change when one clip is laid on another [KGP02, 3.1].
 
 A point (x, z) on the ground is also the complex number z + ix. To turn it about +y by θ is then to multiply
 it by exp(iθ), and a planar transform is p ↦ turn · p + move. Only this module knows which part is which.
@@ -102,7 +102,7 @@ class PlanarTransform(NamedTuple):
         return PlanarTransform((total + np.pi) % (2 * np.pi) - np.pi, moved[..., 0], moved[..., 2])
 
     def inverse(self) -> PlanarTransform:
-        """Undo it."""
+        """Give the transform that undoes this one."""
         back = PlanarTransform(np.negative(self.angle), 0.0, 0.0)
         moved = back.apply_points(np.stack(np.broadcast_arrays(self.x, 0.0, self.z), -1))
         return PlanarTransform(back.angle, -moved[..., 0], -moved[..., 2])
@@ -112,11 +112,11 @@ IDENTITY = PlanarTransform(0.0, 0.0, 0.0)
 
 
 def heading(quaternions: ArrayLike) -> Array:
-    """Read the direction a body faces as its twist about the vertical: θ = 2 atan2(q_y, q_w).
+    """Read the direction that a body faces as its twist about the vertical: θ = 2 atan2(q_y, q_w).
 
     Every rotation is a turn about +y after a swing about a level axis; θ is that turn. It stays defined when
     the body lies down or looks straight up, and turning the body by α adds α exactly. The one exception is
-    a swing by half a turn (upside down, q_w = q_y = 0), where it is 0. The homework read the heading off
+    a swing by half a turn (upside down, q_w = q_y = 0), where it is 0. The homework took the heading from
     the rotation matrix instead; `course.homework_slips.homework_heading` shows where that fails.
 
     Parameters
@@ -147,8 +147,8 @@ def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
 
     Parameters
     ----------
-    motion : what is to be moved.
-    target, frame : where its first frame is to lie.
+    motion : the motion to move.
+    target, frame : the motion and the frame to lay it on.
 
     Examples
     --------
@@ -173,13 +173,13 @@ def place(motion: Motion, direction: float, position: ArrayLike) -> Motion:
 
     Parameters
     ----------
-    motion : any; heights stay.
+    motion : any motion; its heights stay.
     direction : radians about +y, as `heading` reads it.
     position : (x, z), metres.
 
     Raises
     ------
-    MocapError : for a direction or a position that is no finite number, or not two of them.
+    MocapError : for numbers that are not finite, and positions that are not two numbers.
 
     Examples
     --------

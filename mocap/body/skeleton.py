@@ -1,9 +1,10 @@
-"""The body: a tree of joints."""
+"""The body as a tree of joints."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from textwrap import shorten
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,15 +25,15 @@ class Skeleton:
     parents : shape (J,), the index of each joint's parent; -1 for joint 0, the root, and
         `parents[j] < j` for every other.
     offsets : shape (J, 3), metres: where a joint sits in the frame of its parent.
-    axes : shape (J, 4), quaternions C: how a file's own axes of a joint are turned against those of its
-        parent's frame, so that angles M in the file mean the rotation C M C⁻¹; by default not at all.
+    axes : shape (J, 4), quaternions C: how a file turns a joint's own axes against its parent's frame, so
+        that angles M in the file mean the rotation C M C⁻¹; by default they are not turned.
     dofs : the axes about which a joint can turn, in the order of turning about fixed axes, such as "xyz" or
-        "x"; by default "xyz", and "" for a joint without children. Like `axes`, they say how a file tells
-        the motion's angles; a motion itself may turn any joint any way.
+        "x"; by default "xyz", and "" for a joint without children. Like `axes`, they only say how a file
+        stores the angles; in a motion any joint may turn any way.
 
     Raises
     ------
-    MocapError : where one of these does not hold.
+    MocapError : if one of these does not hold.
 
     Examples
     --------
@@ -61,10 +62,11 @@ class Skeleton:
         object.__setattr__(self, "dofs", tuple(self.dofs or free))
         if self.axes.shape != (count, 4) or not np.allclose(np.linalg.norm(self.axes, axis=-1), 1):
             raise MocapError(f"{count} joints need axes ({count}, 4) of length 1, got {self.axes.shape}.")
-        if len(self.dofs) != count or not all(
-            set(d) <= set("xyz") and len(set(d)) == len(d) for d in self.dofs
-        ):
-            raise MocapError(f"{count} joints need as many dofs, such as 'xyz', 'x' or '', got {self.dofs}.")
+        if len(self.dofs) != count:
+            raise MocapError(f"{count} joints need as many dofs, got {len(self.dofs)}.")
+        for name, axes in zip(self.names, self.dofs, strict=True):
+            if not set(axes) <= set("xyz") or len(set(axes)) < len(axes):
+                raise MocapError(f"Joint '{name}' needs dofs such as 'xyz', 'x' or '', got '{axes}'.")
 
     def _check_tree(self) -> None:
         count = len(self.names)
@@ -95,15 +97,15 @@ class Skeleton:
     def index(self, name: str) -> int:
         """Find a joint by its name."""
         if name not in self.names:
-            raise MocapError(f"No joint '{name}'; there are: {', '.join(self.names)}.")
+            raise MocapError(f"No joint '{name}'; there are: {shorten(', '.join(self.names), 150)}.")
         return self.names.index(name)
 
     def children(self, joint: int) -> list[int]:
-        """List the joints that hang on `joint`."""
+        """List the joints whose parent is `joint`."""
         return [int(child) for child in np.flatnonzero(self.parents == joint)]
 
     def side(self, joint: int) -> str:
-        """Tell "left" from "right" by a joint whose name is the mirror image; "middle" where there is none.
+        """Give "left" or "right" by a joint's name if the skeleton has its mirror image, else "middle".
 
         Examples
         --------
@@ -120,11 +122,12 @@ class Skeleton:
         return "middle"
 
     def require_same(self, other: Skeleton) -> None:
-        """Raise `SkeletonMismatch` unless `other` has the same joints in the same tree, and as long bones."""
+        """Raise `SkeletonMismatch` unless `other` has the same joints, the same tree and the same offsets."""
         if self is other:
             return
         if missing := set(self.names) ^ set(other.names):
-            raise SkeletonMismatch(f"The skeletons differ in these joints: {', '.join(sorted(missing))}.")
+            names = shorten(", ".join(sorted(missing)), 150)
+            raise SkeletonMismatch(f"The skeletons differ in these joints: {names}.")
         if tuple(self.names) != tuple(other.names) or not np.array_equal(self.parents, other.parents):
             raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)

@@ -1,7 +1,7 @@
-"""From where a limb shall end to how its two bones turn: a triangle, solved in closed form.
+"""Two-bone inverse kinematics: from where a limb must end to how its bones turn, in closed form.
 
-The limb's rest pose hangs straight down: both bones along -y of their frames, the hinge along +x, so
-that bending turns the lower bone backwards, as a knee does.
+In its rest pose the limb hangs straight down: both bones along -y of their frames, the hinge along +x. So
+bending turns the lower bone backwards, as a knee does.
 """
 
 from __future__ import annotations
@@ -17,9 +17,14 @@ from mocap.errors import MocapError
 
 
 class TwoBone(NamedTuple):
-    """How a limb lies: `middle` and `end` (..., 3) in metres, and the bones' global rotations (..., 4).
+    """A limb's pose: `middle` and `end` (..., 3) in metres, and the bones' global rotations (..., 4).
 
-    Where `reached` (...) is False the target lies too far, or too near: the limb points at it all the same.
+    Where `reached` (...) is False, the target is too far or too near; the limb still points at it.
+
+    Examples
+    --------
+    >>> two_bone([0, 1, 0], [0, -2, 0], (0.5, 0.5), [0, 0, 1])._asdict()["reached"].tolist()
+    False
     """
 
     middle: Array
@@ -38,17 +43,17 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     Parameters
     ----------
     start : shape (..., 3), metres: the hip.
-    target : shape (..., 3), metres: where the ankle shall be.
-    lengths : the two bones', metres.
+    target : shape (..., 3), metres: where the ankle must be.
+    lengths : of the upper and the lower bone, metres.
     bend : shape (..., 3): the direction the middle joint points to; forwards for a knee.
 
     Returns
     -------
-    A `TwoBone`; its end is the target wherever `reached` says so.
+    A `TwoBone`; its end is the target where `reached` is True.
 
     Raises
     ------
-    MocapError : where a length is not above 0, the target sits on the start, or `bend` points along the limb.
+    MocapError : if a length is not above 0, the target is at the start, or `bend` points along the limb.
 
     Examples
     --------
@@ -78,11 +83,11 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
 
 
 def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, Array]:
-    """Measure how far the target is, (..., 1), and the directions to it and, across that, to the bend.
+    """Measure the distance to the target, (..., 1), its direction, and the bend's direction across that.
 
     Raises
     ------
-    MocapError : where the target sits on the start, or `bend` points along the limb.
+    MocapError : if the target is at the start, or `bend` points along the limb.
 
     Notebook: 04-blending
     """
@@ -93,7 +98,7 @@ def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, 
     across = bend - (bend * along).sum(-1, keepdims=True) * along
     width = np.linalg.norm(across, axis=-1, keepdims=True)
     if not np.all(width > 1e-9):
-        raise MocapError("The bend must not point along the limb: which way shall the middle joint go?")
+        raise MocapError("The bend points along the limb: it does not say which way the middle joint goes.")
     return reach, along, across / width
 
 

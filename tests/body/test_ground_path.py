@@ -97,6 +97,6 @@ def test_points_that_repeat_count_once():
         ([[0, 0, 0], [1, 1, 1]], "two points"),
     ],
 )
-def test_what_is_no_path_is_told(kind, points, message):
+def test_what_is_no_path_is_refused(kind, points, message):
     with pytest.raises(MocapError, match=message):
         kind(points)

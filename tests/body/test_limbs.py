@@ -40,7 +40,7 @@ def test_the_legs_of_the_bundled_body_are_as_long_as_they_are():
 
 
 def test_where_none_are_found_the_error_says_what_was_tried_and_how_to_name_them():
-    with pytest.raises(MocapError, match=r"among pelvis, a, b.*tried lfemur-ltibia-lfoot, Left.*name_leg\("):
+    with pytest.raises(MocapError, match=r"among pelvis, a, b: tried lfemur ltibia lfoot, Left.*name_leg\("):
         find_legs(body("a", "b"))
 
 

@@ -1,4 +1,4 @@
-"""What a skeleton refuses, and how it tells its sides apart."""
+"""What a skeleton refuses, and how it finds its sides."""
 
 import numpy as np
 import pytest
@@ -21,8 +21,8 @@ ZEROS = np.zeros((2, 3))
         ((["a", "b"], [-1, 0], [[0, 0, 0], [0, np.nan, 0]]), "'b' is not a finite"),
         ((["a", "b"], [-1, 0], ZEROS, np.ones((2, 4))), r"axes \(2, 4\) of length 1"),
         ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:1]), r"axes \(2, 4\) of length 1, got \(1, 4\)"),
-        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:2], ["xx", ""]), "as many dofs"),
-        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:2], ["x"]), "as many dofs"),
+        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:2], ["xx", ""]), "'a' needs dofs such as .*got 'xx'"),
+        ((["a", "b"], [-1, 0], ZEROS, np.eye(4)[:2], ["x"]), "2 joints need as many dofs, got 1"),
     ],
 )
 def test_a_bad_skeleton_is_refused(arguments, message):

@@ -34,7 +34,7 @@ def test_the_end_meets_a_target_within_reach(seed):
 
 
 @given(seeds)
-def test_the_middle_points_where_it_shall(seed):
+def test_the_middle_points_where_it_should(seed):
     start, target, lengths, bend = random_limbs(seed, 0.02, 0.98)
     limb = two_bone(start, target, lengths, bend)
     outwards = limb.middle - start
@@ -65,13 +65,13 @@ def test_the_knee_is_a_hinge_that_bends_backwards(seed):
     assert (knee[:, 0] > 0).all()
 
 
-def test_a_target_out_of_reach_is_told_and_pointed_at():
+def test_a_target_out_of_reach_is_reported_and_pointed_at():
     limb = two_bone([0, 1, 0], [[0, -1, 0], [0, 0.4, 0]], (0.4, 0.4), [0, 0, 1])
     assert limb.reached.tolist() == [False, True]
     assert limb.end[0] == pytest.approx([0, 0.2, 0])
 
 
-def test_a_target_too_near_is_told():
+def test_a_target_too_near_is_reported():
     limb = two_bone([0, 1, 0], [0, 0.9, 0], (0.5, 0.3), [0, 0, 1])
     assert not limb.reached
     assert limb.end == pytest.approx([0, 0.8, 0])
@@ -85,6 +85,6 @@ def test_a_target_too_near_is_told():
         ([0, 0, 0], (1.0, 1.0), [0, 2, 0], "along the limb"),
     ],
 )
-def test_senseless_limbs_are_told(target, lengths, bend, message):
+def test_senseless_limbs_are_refused(target, lengths, bend, message):
     with pytest.raises(MocapError, match=message):
         two_bone([0, 1, 0], target, lengths, bend)

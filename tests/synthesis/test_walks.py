@@ -1,11 +1,7 @@
 """Walks as arrays say what walks as lists say."""
 
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from mocap._shared.arrays import ranges
 from mocap.errors import NoWalk
 from mocap.graphs.edge_tables import edge_table, frame_table, require_node
 from mocap.graphs.motion_graph import build
@@ -17,12 +13,6 @@ WINDOW = 8
 GRAPH = prune(
     build([wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)], window=WINDOW, threshold=0.05)
 )
-
-
-@given(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 5)), min_size=1))
-def test_ranges_count_up_from_each(pairs):
-    first, counts = np.array(pairs).T
-    assert ranges(first, counts).tolist() == [n for f, c in pairs for n in range(f, f + c)]
 
 
 def test_every_frame_is_told_as_the_edges_tell_it():
