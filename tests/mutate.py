@@ -1,0 +1,209 @@
+"""Do the tests notice a small change? Make changes in a copy of the package, one at a time, and see.
+
+    python tests/mutate.py --count 100 --seed 1
+    python tests/mutate.py --only mocap/feet/footskate.py --count 20
+
+A change concerns one token: a comparison, an operator, a number, and/or, min/max, True/False. Docstrings,
+annotations, imports, decorators, error messages and `strict=` stay as they are. For each change, the tests
+that name the module run first, then the rest of its room, then rooms above (with --near, only the first of
+these). A failing test catches the change, and so does one that does not end. Changes that no test catches are
+printed. Not for Windows: each run is a fork.
+"""
+
+import argparse
+import ast
+import importlib
+import multiprocessing
+import os
+import random
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
+from pathlib import Path
+from queue import SimpleQueue
+from typing import NamedTuple
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+MODULES = {
+    "matching": "point_clouds distance_grids minima tiled_search transitions",
+    "blending": "weights interpolation joining inertialization",
+    "body": "planar rotations",
+    "graphs": "components pruning compiled_graph edge_tables motion_graph",
+    "synthesis": "bounded_search",
+    "steering": "search_states beam_search path_objective",
+    "feet": "leg_ik ankle_targets root_height knee_smoothing footskate footplants",
+}
+ABOVE = {"body": "matching blending feet", "matching": "graphs", "blending": "graphs quality"}
+ABOVE |= {"graphs": "synthesis steering", "synthesis": "steering", "feet": "quality synthesis"}
+PAIRS = dict(pair.split() for pair in ["< <=", "> >=", "== !=", "+ -", "* /", "+= -=", "*= /=", "and or"])
+SWAPS = PAIRS | {new: old for old, new in PAIRS.items()} | {"**": "*", "//": "/", "%": "//", "is": "is not"}
+NAMES = {"min": "max", "minimum": "maximum", "argmin": "argmax", "fmin": "fmax"}
+NAMES |= {new: old for old, new in NAMES.items()}
+LEFT_OUT = (ast.JoinedStr, ast.Raise, ast.Import, ast.ImportFrom)
+LIMIT = 120  # seconds of processor time for a group of tests
+LOADED_ONCE = "networkx scipy.ndimage scipy.optimize scipy.sparse.csgraph scipy.spatial hypothesis.strategies"
+OPTIONS = ["-x", "-q", "-n0", "-pno:cacheprovider", "--no-cov", "--tb=no", "-oaddopts=", "--doctest-modules"]
+OPTIONS += ["-m", "not tools and not benchmark and not exhaustive"]
+QUICK = """
+from hypothesis import Phase  # the same examples each time, and no search for simpler ones
+settings.register_profile("quick", settings(derandomize=True, phases=[Phase.explicit, Phase.generate]))
+settings.load_profile("quick")
+"""
+
+
+class Change(NamedTuple):
+    """Bytes `start` to `end` of a file become `new`."""
+
+    path: str
+    start: int
+    end: int
+    line: int
+    old: str
+    new: str
+
+
+def changes_of(path: str) -> list[Change]:
+    """List all changes of one token in a file of the package."""
+    source = (ROOT / path).read_bytes()
+    starts = [0, *(found.end() for found in re.finditer(b"\n", source))]
+    changes = []
+    for node in nodes(ast.parse(source)):
+        for start, end, new in swaps(node, source, starts):
+            line = source[:start].count(b"\n") + 1
+            changes.append(Change(path, start, end, line, source[start:end].decode(), new))
+    return changes
+
+
+def nodes(node: ast.AST) -> Iterator[ast.AST]:
+    """Walk through the code, without what is left out."""
+    yield node
+    for field, value in ast.iter_fields(node):
+        if field not in ("annotation", "returns", "decorator_list") and getattr(node, "arg", "") != "strict":
+            for part in value if isinstance(value, list) else [value]:
+                if isinstance(part, ast.AST) and not isinstance(part, LEFT_OUT):
+                    yield from nodes(part)
+
+
+def swaps(node: ast.AST, source: bytes, starts: list[int]) -> Iterator[tuple[int, int, str]]:
+    """Yield where a change of a node starts and ends, and what stands there then."""
+    if not isinstance(node, ast.expr | ast.AugAssign):
+        return
+    start = starts[node.lineno - 1] + node.col_offset
+    end = starts[node.end_lineno - 1] + node.end_col_offset
+    match node:
+        case ast.Constant(value=bool(value)):
+            yield start, end, str(not value)
+        case ast.Constant(value=int(value) | float(value)):
+            yield start, end, repr(value + 1 if isinstance(value, int) else 2 * value or 1.0)
+        case ast.Name(id=name) | ast.Attribute(attr=name) if name in NAMES:
+            yield end - len(name), end, NAMES[name]
+        case ast.UnaryOp(op=ast.USub()):
+            yield start, start + 1, "+"
+        case ast.UnaryOp(op=ast.Not()):
+            yield start, start + 3, ""
+        case ast.BinOp() | ast.AugAssign() | ast.Compare() | ast.BoolOp():
+            operands = [part for part in ast.iter_child_nodes(node) if isinstance(part, ast.expr)]
+            for left, right in pairwise(operands):
+                first = starts[left.end_lineno - 1] + left.end_col_offset
+                between = source[first : starts[right.lineno - 1] + right.col_offset]
+                yield from operators(between, first)
+
+
+def operators(between: bytes, first: int) -> Iterator[tuple[int, int, str]]:
+    """Yield the change of the operator between two operands, which may stand in brackets."""
+    text = re.sub(rb"#.*", lambda comment: b" " * len(comment[0]), between)
+    found = re.search(rb"is not|not in|[^\s()]+", text)
+    if new := SWAPS.get(found[0].decode()):
+        yield first + found.start(), first + found.end(), new
+
+
+def tests_of(path: str) -> list[list[str]]:
+    """List the tests for a module: those that name it, the rest of its room, those of rooms above."""
+    room, module = Path(path).parts[1], Path(path).stem
+    files = sorted(str(file.relative_to(ROOT)) for file in (ROOT / "tests" / room).glob("test_*.py"))
+    first = [file for file in files if re.search(rf"\b{module}\b", (ROOT / file).read_text("utf-8"))]
+    first.sort(key=lambda file: file != f"tests/{room}/test_{module}.py")
+    rest = [file for file in files if file not in first]
+    return [[path, *first], rest, [f"tests/{name}" for name in ABOVE.get(room, "").split()]]
+
+
+def make_copy(copy: Path) -> Path:
+    """Copy the package and its tests."""
+    for folder in ("mocap", "tests", "notebooks"):
+        shutil.copytree(ROOT / folder, copy / folder)
+    for file in ("pyproject.toml", "conftest.py"):
+        shutil.copy2(ROOT / file, copy)
+    with (copy / "tests/conftest.py").open("a", encoding="utf-8") as conftest:
+        conftest.write(QUICK)
+    return copy
+
+
+def run(copy: Path, tests: list[str]) -> None:
+    """Run tests in this process, then end it."""
+    import resource  # missing on Windows, where pytest still imports this file
+
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))
+    os.chdir(copy)
+    sys.path.insert(0, str(copy))
+    sys.dont_write_bytecode = True
+    for stream in (1, 2):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
+    os._exit(pytest.main([*OPTIONS, *tests]))
+
+
+def survives(change: Change, groups: list[list[str]], copies: "SimpleQueue[Path]") -> bool:
+    """Do all groups of tests pass with a change?"""
+    copy = copies.get()
+    file = copy / change.path
+    source = file.read_bytes()
+    file.write_bytes(source[: change.start] + change.new.encode() + source[change.end :])
+    try:
+        for tests in filter(None, groups):
+            process = multiprocessing.get_context("fork").Process(target=run, args=(copy, tests))
+            process.start()
+            process.join()
+            if process.exitcode:
+                return False
+        return True
+    finally:
+        file.write_bytes(source)
+        copies.put(copy)
+
+
+def main() -> None:
+    """Make the changes, and print those that no test catches."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=100, help="how many changes (100)")
+    parser.add_argument("--seed", type=int, default=1, help="which changes (1)")
+    parser.add_argument("--only", metavar="PATH", help="one module, as mocap/feet/footskate.py")
+    parser.add_argument("--near", action="store_true", help="run only the tests that name the module")
+    parser.add_argument("--jobs", type=int, default=1, help="how many changes at the same time (1)")
+    wanted = parser.parse_args()
+    paths = [f"mocap/{room}/{module}.py" for room, names in MODULES.items() for module in names.split()]
+    changes = [change for path in ([wanted.only] if wanted.only else paths) for change in changes_of(path)]
+    changes = random.Random(wanted.seed).sample(changes, min(wanted.count, len(changes)))
+    for name in LOADED_ONCE.split():
+        importlib.import_module(name)
+    caught = 0
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(wanted.jobs) as pool:
+        copies = SimpleQueue()
+        for job in range(wanted.jobs):
+            copies.put(make_copy(Path(folder) / str(job)))
+        near = 1 if wanted.near else None
+        groups = [tests_of(change.path)[:near] for change in changes]
+        found = pool.map(survives, changes, groups, [copies] * len(changes))
+        for change, survived in zip(changes, found, strict=True):
+            caught += not survived
+            if survived:
+                print(f"{change.path}:{change.line} {change.old} -> {change.new or 'nothing'}", flush=True)
+    print(f"{caught} of {len(changes)} changes caught ({caught / len(changes):.0%})")
+
+
+if __name__ == "__main__":
+    main()
