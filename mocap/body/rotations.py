@@ -3,8 +3,9 @@
 All functions broadcast over the leading axes, and take a single quaternion as well. Rotations turn column
 vectors: `rotate(multiply(a, b), v)` turns v by b first, then by a.
 
-Products, slerp and rotation vectors are written out as their formulas; on arrays these are also several
-times quicker than SciPy's `Rotation`, against which the tests check them. Matrices come from SciPy.
+Products, rotation vectors and slerp are written out as their formulas. On arrays, products and slerp are also
+several times quicker than those of SciPy's `Rotation`, against which the tests check them. Lengths are not
+corrected: results have length 1, up to rounding, if the arguments have. Matrices come from SciPy.
 
 Notebooks: 01-skeletons-and-clips, 04-blending (slerp).
 """
@@ -13,10 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, frozen
 
-IDENTITY: Array = np.array([1.0, 0.0, 0.0, 0.0])
-IDENTITY.flags.writeable = False
+IDENTITY: Array = frozen([1.0, 0.0, 0.0, 0.0], np.float64)
 
 
 def from_matrix(matrices: ArrayLike) -> Array:
@@ -127,7 +127,7 @@ def multiply(first: ArrayLike, second: ArrayLike) -> Array:
 
 
 def inverse(quaternions: ArrayLike) -> Array:
-    """Turn the other way: the conjugates of unit quaternions, shape (..., 4).
+    """Invert rotations: the conjugates (w, -v) of unit quaternions, shape (..., 4).
 
     Examples
     --------
@@ -155,7 +155,7 @@ def between(start: ArrayLike, end: ArrayLike) -> Array:
 
     Parameters
     ----------
-    start, end : shape (..., 3), of any length but 0; where they are opposite, no turn is the shortest
+    start, end : shape (..., 3), of any length but 0. Between opposite directions no turn is the shortest,
         and the result is not a rotation.
 
     Examples
@@ -170,6 +170,8 @@ def between(start: ArrayLike, end: ArrayLike) -> Array:
 
 def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     """Interpolate the short way round: start · exp(amount · log(start⁻¹ · end)).
+
+    exp is `from_rotvec`, log is `to_rotvec`; as log gives turns of at most π, the way is the short one.
 
     Parameters
     ----------
@@ -194,7 +196,7 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
 def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
     """Measure the angle, in [0, π] radians and shape (...), of the turn from one rotation to another.
 
-    θ = 4 atan2(|a - b|, |a + b|) for a and ±b, whichever is nearer: exact for small angles, too.
+    θ = 4 atan2(|a - b|, |a + b|), where b is the nearer one of b and -b; exact for small angles, too.
 
     Examples
     --------
