@@ -1,6 +1,6 @@
-"""A browser, and JupyterLab in it; nothing may leave the machine.
+"""A browser, and JupyterLab in it, started once for all tests of this folder; no request leaves the machine.
 
-Pictures of what was seen are kept in the folder that MOCAP_ARTEFACTS names, else in pytest's own.
+Screenshots are kept in the folder that MOCAP_ARTEFACTS names, else in pytest's own.
 """
 
 import contextlib
@@ -13,6 +13,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from functools import partial
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -30,7 +31,7 @@ LAB = [
     "--LabApp.expose_app_in_browser=True",
 ]
 SETTINGS = {
-    "notebook-extension/tracker": {"windowingMode": "none"},  # cells out of sight are there as well
+    "notebook-extension/tracker": {"windowingMode": "none"},  # cells out of view are in the page as well
     "apputils-extension/notification": {"fetchNews": "false"},
 }
 CHROMIUM = [
@@ -45,7 +46,7 @@ CHROMIUM = [
 
 
 def wait_until(what, seconds=30.0):
-    """Ask again and again until the answer is yes, and give it."""
+    """Call `what` until it returns something true, and return that."""
     end = time.monotonic() + seconds
     while not (answer := what()):
         assert time.monotonic() < end, f"not within {seconds} s"
@@ -60,7 +61,7 @@ def artefacts(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="module")  # no longer: Playwright's event loop would be found running by other tests
+@pytest.fixture(scope="package")  # not "session": other tests must not find Playwright's event loop running
 def browser():
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     if program is None:
@@ -73,35 +74,41 @@ def browser():
 
 
 def is_error(message):
-    """Tell an error from JupyterLab's first, vain look for a picture that is attached to a cell."""
+    """Whether a message is an error; JupyterLab always fails to load pictures attached to cells at first."""
     return message.type == "error" and "net::ERR_UNKNOWN_URL_SCHEME" not in message.text
 
 
-@pytest.fixture
-def page(browser, artefacts, request):
-    """Yield a fresh page; afterwards no request has left the machine, and the console holds no error."""
+@contextlib.contextmanager
+def watched_page(browser):
+    """Open a fresh page; yield it, and a list of its faults: requests that leave the machine, and errors."""
     context = browser.new_context(viewport={"width": 1200, "height": 900})
-    page, away, errors = context.new_page(), [], []
+    page, faults = context.new_page(), []
 
     def stay(route):
         at = urlsplit(route.request.url)
         if at.scheme in ("http", "https", "ws", "wss") and at.hostname != "127.0.0.1":
-            away.append(route.request.url)
+            faults.append(f"a request for {route.request.url}")
             route.abort()
         else:
             route.continue_()
 
     page.route("**/*", stay)
-    page.on("console", lambda message: errors.append(message.text) if is_error(message) else None)
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    yield page
-    page.screenshot(path=artefacts / f"{request.node.name}.png")
+    page.on("console", lambda message: faults.append(message.text) if is_error(message) else None)
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    yield page, faults
     context.close()
-    assert away == []
-    assert errors == []
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
+def page(browser, artefacts, request):
+    """Yield a fresh page; afterwards it must have no faults."""
+    with watched_page(browser) as (page, faults):
+        yield page
+        page.screenshot(path=artefacts / f"{request.node.name}.png")
+    assert faults == []
+
+
+@pytest.fixture(scope="package")
 def lab(tmp_path_factory):
     """Start JupyterLab on a free port with folders of its own; yield its address, and the notebooks'."""
     pytest.importorskip("jupyterlab", reason="pip install 'mocap[notebooks]'")
@@ -143,20 +150,20 @@ def answers(address):
     return False
 
 
+def run_notebook(lab, page, notebook, name):
+    """Open a notebook, run all of it, and wait for the end."""
+    address, folder = lab
+    (folder / name).write_text(notebook)
+    page.goto(f"{address}/lab/tree/{name}?reset")
+    kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status"
+    wait_until(lambda: page.evaluate(kernel) == "idle", 60)
+    page.evaluate("jupyterapp.commands.execute('application:toggle-left-area')")
+    page.evaluate("window.ran = jupyterapp.commands.execute('notebook:run-all-cells').then(() => 'ran')")
+    assert page.evaluate("window.ran") == "ran"
+    wait_until(lambda: page.evaluate(kernel) == "idle", 60)
+
+
 @pytest.fixture
 def run(lab, page):
-    """Give a function that opens a notebook, runs all of it, and waits for the end."""
-    address, folder = lab
-
-    def opened(notebook, name):
-        (folder / name).write_text(notebook)
-        page.goto(f"{address}/lab/tree/{name}?reset")
-        kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel?.status"
-        wait_until(lambda: page.evaluate(kernel) == "idle", 60)
-        page.evaluate("jupyterapp.commands.execute('application:toggle-left-area')")
-        page.evaluate("window.ran = jupyterapp.commands.execute('notebook:run-all-cells').then(() => 'ran')")
-        assert page.evaluate("window.ran") == "ran"
-        wait_until(lambda: page.evaluate(kernel) == "idle", 60)
-        return page
-
-    return opened
+    """Return a function of a notebook and its file's name that runs all of it on the page."""
+    return partial(run_notebook, lab, page)

@@ -1,4 +1,7 @@
-"""The notebooks of the course, opened, run and played with as a reader would."""
+"""The notebooks of the course in JupyterLab, opened, run and used as a reader would.
+
+All of them, in about five minutes: pytest -m "exhaustive or not exhaustive" -n 0 tests/browser/test_course.py
+"""
 
 from pathlib import Path
 
@@ -7,18 +10,21 @@ import pytest
 from tests.browser.conftest import wait_until
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
-# Of every kind one: players, an image to point at, a canvas to draw on, the discussion's sliders. All the
-# others are driven without a browser, in tests/test_course.py.
+# These two have every kind of output: players, sliders, choices, an image to click on, a canvas to draw on.
+# The experiments of all notebooks are driven without a browser, in tests/course/test_course.py.
+FIRST = ("00-quickstart", "02-matching")
 NOTEBOOKS = [
-    FOLDER / f"{name}.ipynb"
-    for name in ("00-quickstart", "02-matching", "08-path-synthesis", "09-discussion")
+    pytest.param(path, id=path.stem, marks=[] if path.stem in FIRST else [pytest.mark.exhaustive])
+    for path in sorted(FOLDER.glob("*.ipynb"))
 ]
 FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"
 
 
-@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
-def test_it_runs_and_all_its_sliders_move(notebook, run, artefacts):
-    page = run(notebook.read_text("utf-8"), notebook.name)
+@pytest.mark.parametrize("notebook", NOTEBOOKS)
+def test_it_runs_and_all_its_sliders_move(notebook, run, page, artefacts, request):
+    if notebook.stem == "10-real-data":
+        request.getfixturevalue("real_data")
+    run(notebook.read_text("utf-8"), notebook.name)
     assert page.locator(FAILED).count() == 0
     for number in range(page.locator(".noUi-handle").count()):
         handle = page.locator(".noUi-handle").nth(number)

@@ -1,11 +1,11 @@
-"""Experiments and players in JupyterLab, as a reader meets them."""
+"""Experiments and players in JupyterLab, as a reader meets them: one notebook, run once for all tests."""
 
 from textwrap import dedent
 
 import nbformat
 import pytest
 
-from tests.browser.conftest import wait_until
+from tests.browser.conftest import run_notebook, wait_until, watched_page
 
 CELLS = {
     "start": """
@@ -24,6 +24,12 @@ CELLS = {
                 raise ValueError("here the clip ends")
             return body.pose(points[frame])
         explore(pose, alt="A stick figure at a frame.", frame=(0, 239))""",
+    "choose": """
+        def steps(side="left", count=60, seam=False):
+            colour = plotting.COLOURS[side]
+            return plotting.path_from_above(walk[:count], seams=[30] if seam else [], colour=colour)
+        count = ipywidgets.SelectionSlider(options=[60, 120, 240], value=60)
+        explore(steps, alt="A path from above.", side=["left", "right"], count=count, seam=False)""",
     "show": 'show(plotting.stick_figure(walk, 40), alt="One pose of a walk.")',
     "point": """
         def lay(at=(30, 100)):
@@ -35,10 +41,10 @@ CELLS = {
     "play": "play(walk)",
     "linked": """
         live = linked(play(walk, follow=False))
-        said = ipywidgets.Label("Python has heard nothing")
-        live.observe(lambda change: setattr(said, "value", f"Python is at {live.frame}"), "frame")
+        label = ipywidgets.Label("Python knows no frame")
+        live.observe(lambda change: setattr(label, "value", f"Python is at {live.frame}"), "frame")
         live""",
-    "said": "said",
+    "label": "label",
     "draw": """
         def follow(path):
             length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
@@ -54,13 +60,21 @@ CELLS = {
 }
 
 
-@pytest.fixture
-def notebook(run):
-    """Run a notebook of all cells; give the page, and a function that finds a cell's output."""
+@pytest.fixture(scope="module")
+def ran(browser, lab):
+    """Run a notebook of all cells; yield the page and its faults."""
     cells = [nbformat.v4.new_code_cell(dedent(text).strip()) for text in CELLS.values()]
     kernel = {"name": "python3", "display_name": "Python 3"}
     notebook = nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel})
-    page = run(nbformat.writes(notebook), "all.ipynb")
+    with watched_page(browser) as (page, faults):
+        run_notebook(lab, page, nbformat.writes(notebook), "all.ipynb")
+        yield page, faults
+
+
+@pytest.fixture
+def notebook(ran, artefacts, request):
+    """Yield the page, and a function that finds a cell's output; afterwards there must be no faults."""
+    page, faults = ran
     order = list(CELLS)
 
     def cell(name):
@@ -68,11 +82,13 @@ def notebook(run):
         found.scroll_into_view_if_needed()
         return found
 
-    return page, cell
+    yield page, cell
+    page.screenshot(path=artefacts / f"{request.node.name}.png")
+    assert faults == []
 
 
 def state(place):
-    """Give the frame that a player shows, or -1 before it has drawn one."""
+    """Return the frame that a player shows, or -1 before it has drawn one."""
     frame = "root => root.player?.pictures ? root.player.frame() : -1"
     return place.locator(".mocap-player").evaluate(frame)
 
@@ -97,6 +113,21 @@ def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artef
     page.screenshot(path=artefacts / "lab-explore.png")
 
 
+def test_a_choice_a_slider_of_choices_and_a_box_change_the_picture(notebook):
+    _, cell = notebook
+    place = cell("choose")
+    picture = place.locator("img")
+    for move in (
+        lambda: place.locator("select").select_option("right"),
+        lambda: place.locator(".noUi-handle").press("End"),
+        lambda: place.get_by_role("checkbox").check(),
+    ):
+        before = picture.get_attribute("src")
+        move()
+        wait_until(lambda before=before: picture.get_attribute("src") != before)
+    assert place.locator(".widget-readout").inner_text() == "240"
+
+
 def test_a_shown_picture_has_its_alt_text(notebook):
     _, cell = notebook
     picture = cell("show").get_by_role("img", name="One pose of a walk.")
@@ -107,20 +138,20 @@ def test_a_shown_picture_has_its_alt_text(notebook):
 def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook, artefacts):
     page, cell = notebook
     place = cell("point")
-    grid, told = place.locator(".mocap-pointing"), place.get_by_role("status")
-    wait_until(lambda: "row 30, column 100" in told.inner_text())
+    grid, status = place.locator(".mocap-pointing"), place.get_by_role("status")
+    wait_until(lambda: "row 30, column 100" in status.inner_text())
     laid = place.locator("img").last
     before, box = laid.get_attribute("src"), grid.bounding_box()
     page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     wait_until(lambda: laid.get_attribute("src") != before)
-    wait_until(lambda: "column 100" not in told.inner_text())
-    row, column = (int(part.split()[1]) for part in told.inner_text().split(":")[0].split(", "))
+    wait_until(lambda: "column 100" not in status.inner_text())
+    row, column = (int(part.split()[1]) for part in status.inner_text().split(":")[0].split(", "))
     assert 100 < row < 130
     assert 100 < column < 160  # the colours' bar is at the right
     before = laid.get_attribute("src")
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Shift+ArrowLeft")
-    wait_until(lambda: f"row {row + 1}, column {column - 10}:" in told.inner_text())
+    wait_until(lambda: f"row {row + 1}, column {column - 10}:" in status.inner_text())
     wait_until(lambda: laid.get_attribute("src") != before)
     page.screenshot(path=artefacts / "lab-point.png")
 
@@ -131,27 +162,27 @@ def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):
     wait_until(lambda: state(place) > 5)
     place.locator("canvas").focus()
     page.keyboard.press(" ")
-    stopped = state(place)
+    page.keyboard.press("Home")
     page.keyboard.press("ArrowRight")
-    assert state(place) == stopped + 1
+    assert state(place) == 1
     place.get_by_role("slider").focus()
     page.keyboard.press("ArrowRight")
-    assert state(place) == stopped + 2
+    assert state(place) == 2
     page.screenshot(path=artefacts / "lab-player.png")
 
 
 def test_python_and_the_reader_move_one_frame(notebook):
     page, cell = notebook
     place = cell("linked")
-    wait_until(lambda: state(place) == 33)  # as the last cell says
+    wait_until(lambda: state(place) == 33)  # the last cell set it
     place.locator("canvas").focus()
     page.keyboard.press("ArrowRight")
-    wait_until(lambda: cell("said").get_by_text("Python is at 34").is_visible())
+    wait_until(lambda: cell("label").get_by_text("Python is at 34").is_visible())
     cell("linked").get_by_role("button", name="play").click()
     wait_until(lambda: state(place) > 40)
     cell("linked").get_by_role("button", name="pause").click()
     stopped = state(place)
-    wait_until(lambda: cell("said").get_by_text(f"Python is at {stopped}").is_visible())
+    wait_until(lambda: cell("label").get_by_text(f"Python is at {stopped}").is_visible())
 
 
 def test_a_path_that_is_drawn_is_walked(notebook, artefacts):

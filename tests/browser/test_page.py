@@ -1,4 +1,4 @@
-"""The page that `Player.page` writes, in a browser: it plays, listens, and asks nobody for anything."""
+"""The page that `Player.page` writes, in a browser: it plays, obeys the reader, and loads nothing."""
 
 import io
 from dataclasses import replace
@@ -16,7 +16,7 @@ PLAYER = "document.querySelector('.mocap-player').player"
 
 @pytest.fixture
 def shown(page, tmp_path):
-    """Give a function that shows a player's page, and waits for its first picture."""
+    """Return a function that shows a player's page, and waits for its first picture."""
 
     def show(player, **media):
         page.emulate_media(**media)
@@ -30,7 +30,7 @@ def shown(page, tmp_path):
 
 
 def colours(page):
-    """Give the canvas's pixels, shape (height, width, 3)."""
+    """Return the canvas's pixels, shape (height, width, 3)."""
     shot = Image.open(io.BytesIO(page.locator("canvas").screenshot())).convert("RGB")
     return np.asarray(shot).astype(int)
 
@@ -47,12 +47,12 @@ def test_it_plays_by_itself_and_stops(shown, artefacts):
     wait_until(lambda: np.any(colours(page) != before))
     page.get_by_role("button", name="pause").click()
     page.screenshot(path=artefacts / "page.png")
-    still = frame(page)
+    stopped = frame(page)
     page.wait_for_timeout(200)
-    assert frame(page) == still
+    assert frame(page) == stopped
 
 
-def test_who_wants_less_motion_gets_none_unasked(shown):
+def test_where_less_motion_is_wanted_it_does_not_play_by_itself(shown):
     page = shown(play(wave(300)), reduced_motion="reduce")
     page.wait_for_timeout(200)
     assert frame(page) == 0
@@ -61,8 +61,8 @@ def test_who_wants_less_motion_gets_none_unasked(shown):
 
 
 @pytest.fixture
-def still(shown):
-    """Give a page whose player rests at frame 0."""
+def resting(shown):
+    """Return a function that shows a player's page, where it rests at frame 0."""
 
     def show(player):
         return shown(player, reduced_motion="reduce")
@@ -70,8 +70,8 @@ def still(shown):
     return show
 
 
-def test_scrubbing_goes_to_a_frame(still):
-    page = still(play(wave(300)))
+def test_scrubbing_goes_to_a_frame(resting):
+    page = resting(play(wave(300)))
     before = colours(page)
     page.get_by_role("slider", name="frame").focus()
     page.keyboard.press("End")
@@ -80,11 +80,11 @@ def test_scrubbing_goes_to_a_frame(still):
     wait_until(lambda: np.any(colours(page) != before))
 
 
-def test_the_places_drawn_are_those_of_the_motion(still):
+def test_the_places_drawn_are_those_of_the_motion(resting):
     from mocap.body.kinematics import joint_positions
 
     motion = wave(61)
-    page = still(play(motion))
+    page = resting(play(motion))
     pose = page.evaluate(f"Array.from({PLAYER}.characters[0].pose(1.5))")  # frame 45
     assert np.reshape(pose, (-1, 3)) == pytest.approx(joint_positions(motion)[45], abs=1e-4)
     between = page.evaluate(f"Array.from({PLAYER}.characters[0].pose(45.5 / 30))")
@@ -92,8 +92,8 @@ def test_the_places_drawn_are_those_of_the_motion(still):
     assert np.reshape(between, (-1, 3)) == pytest.approx(middle, abs=1e-4)
 
 
-def test_the_view_is_not_mirrored(still):
-    page = still(play(wave(61)))
+def test_the_view_is_not_mirrored(resting):
+    page = resting(play(wave(61)))
     view = f"{PLAYER}.camera"  # set and asked in one call: between two, the page may draw
     front = f"{view}.yaw = 0; {view}.pitch = 0; {view}.place([0, 0, 0], 5, 400, 400)"
     right, up, ahead = page.evaluate(f"{front}; {view}.see(1, 0, 0)")  # a body's left is at the right
@@ -103,8 +103,8 @@ def test_the_view_is_not_mirrored(still):
     assert place == pytest.approx([0.5, -1.5])
 
 
-def test_keys_play_step_turn_and_zoom(still):
-    page = still(play(wave(300)))
+def test_keys_play_step_turn_and_zoom(resting):
+    page = resting(play(wave(300)))
     page.locator("canvas").focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("ArrowRight")
@@ -121,8 +121,8 @@ def test_keys_play_step_turn_and_zoom(still):
     assert not page.evaluate(f"{PLAYER}.playing")
 
 
-def test_the_mouse_turns_and_the_wheel_zooms(still):
-    page = still(play(wave(300)))
+def test_the_mouse_turns_and_the_wheel_zooms(resting):
+    page = resting(play(wave(300)))
     box = page.locator("canvas").bounding_box()
     x, y = box["x"] + 200, box["y"] + 200
     yaw, before = page.evaluate(f"{PLAYER}.camera.yaw"), colours(page)
@@ -140,7 +140,7 @@ def test_the_mouse_turns_and_the_wheel_zooms(still):
 
 @pytest.fixture
 def touch(page):
-    """Give a function that puts fingers on places of the canvas: none, or one (x, y) each."""
+    """Return a function that puts fingers on places (x, y) of the canvas."""
     session = page.context.new_cdp_session(page)
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
 
@@ -152,8 +152,8 @@ def touch(page):
     return fingers
 
 
-def test_two_fingers_zoom(still, touch):
-    page = still(play(wave(300)))
+def test_two_fingers_zoom(resting, touch):
+    page = resting(play(wave(300)))
     yaw, before = page.evaluate(f"{PLAYER}.camera.yaw"), colours(page)
     touch("touchStart", (300, 100), (350, 100))
     for apart in (70, 90, 100):
@@ -164,8 +164,8 @@ def test_two_fingers_zoom(still, touch):
     wait_until(lambda: np.any(colours(page) != before))
 
 
-def test_one_finger_turns_and_does_not_scroll(still, touch):
-    page = still(play(wave(300)))
+def test_one_finger_turns_and_does_not_scroll(resting, touch):
+    page = resting(play(wave(300)))
     page.evaluate("document.body.style.height = '3000px'")
     yaw, pitch, before = *page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]"), colours(page)
     touch("touchStart", (300, 200))
@@ -179,16 +179,16 @@ def test_one_finger_turns_and_does_not_scroll(still, touch):
     assert page.evaluate(f"{PLAYER}.pointers.size") == 0
 
 
-def test_the_camera_follows_or_stays(still):
-    page = still(play(wave(300)))
+def test_the_camera_follows_or_stays(resting):
+    page = resting(play(wave(300)))
     page.evaluate(f"{PLAYER}.seek(9)")
     assert page.evaluate(f"{PLAYER}.target()[2]") == pytest.approx(270 * 0.02, abs=0.1)
     page.get_by_label("follow").uncheck()
     assert page.evaluate(f"{PLAYER}.target()[2]") == pytest.approx(150 * 0.02, abs=0.1)
 
 
-def test_ghosts_footprints_and_sources_are_seen(still, artefacts):
-    page = still(play(wave(300), sources=[(0, "first"), (150, "second")]))
+def test_ghosts_footprints_and_sources_are_seen(resting, artefacts):
+    page = resting(play(wave(300), sources=[(0, "first"), (150, "second")]))
     assert page.locator(".legend").inner_text() == "firstsecond"
     page.evaluate(f"{PLAYER}.seek(4)")
     assert page.evaluate(f"{PLAYER}.characters[0].colourAt(4)") == "#009E73"
@@ -202,9 +202,9 @@ def test_ghosts_footprints_and_sources_are_seen(still, artefacts):
     assert prints == 8  # the hand is down in half of each of 7.5 periods
 
 
-def test_a_print_is_strong_while_the_foot_stands(still):
+def test_a_print_is_strong_while_the_foot_stands(resting):
     motion = replace(wave(90), contacts={"hand": np.arange(90) < 30})
-    page = still(play(motion, follow=False))
+    page = resting(play(motion, follow=False))
     page.evaluate(
         f"{PLAYER}.painted = []; {PLAYER}.picture.disc = (p, r, c, a) => {PLAYER}.painted.push(a); 0"
     )
@@ -212,8 +212,8 @@ def test_a_print_is_strong_while_the_foot_stands(still):
     assert page.evaluate(f"[...new Set({PLAYER}.painted)]") == [0.95, 0.25]
 
 
-def test_several_characters_of_other_lengths_play_together(still, artefacts):
-    page = still(play(wave(90, name="a"), wave(300, phase=2, name="b"), follow=False))
+def test_several_characters_of_other_lengths_play_together(resting, artefacts):
+    page = resting(play(wave(90, name="a"), wave(300, phase=2, name="b"), follow=False))
     assert page.locator("output").inner_text().startswith("frame 0 of 300")
     assert page.locator(".legend").inner_text() == "ab"
     page.evaluate(f"{PLAYER}.seek(9)")
@@ -221,16 +221,16 @@ def test_several_characters_of_other_lengths_play_together(still, artefacts):
     page.screenshot(path=artefacts / "page-two.png")
 
 
-def test_a_single_frame_is_shown(still):
-    page = still(play(wave(1)))
+def test_a_single_frame_is_shown(resting):
+    page = resting(play(wave(1)))
     page.get_by_role("button", name="play").click()
     page.wait_for_timeout(100)
     assert frame(page) == 0
     assert np.ptp(colours(page)) > 100
 
 
-def test_every_part_that_takes_keys_keeps_them_from_jupyterlab(still):
-    page = still(play(wave(9)))
+def test_every_part_that_takes_keys_keeps_them_from_jupyterlab(resting):
+    page = resting(play(wave(9)))
     parts = page.locator(".mocap-player :is(canvas, button, input, select)")
     assert parts.count() >= 7
     assert {p.get_attribute("data-lm-suppress-shortcuts") for p in parts.all()} == {"true"}

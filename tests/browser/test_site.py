@@ -1,4 +1,4 @@
-"""The course's site: pages opened as files; they load nothing, play, and are searched."""
+"""The course's site, its pages opened as files: they load nothing, they play, and the search finds."""
 
 import pytest
 
@@ -23,7 +23,7 @@ def test_a_page_plays_folds_and_is_searched(page, site, artefacts):
     folded.locator("summary").click()
     wait_until(folded.locator("p, pre").first.is_visible)
     formula = page.locator("math[display=block]").first
-    assert formula.bounding_box()["height"] > 15  # drawn, and by the browser alone
+    assert formula.bounding_box()["height"] > 15  # the browser itself draws it
     page.locator("#search").fill("one transition")
     hit = page.locator("#found a").first
     assert hit.inner_text().startswith("One transition")
