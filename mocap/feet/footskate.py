@@ -1,12 +1,14 @@
 """Feet that stay where they stand: footskate cleaned up in the five steps of [KSG02].
 
-Captured feet creep while they stand, blended feet slide. So each plant gets one place (1), which tells where
-the ankle shall be (2); the root moves so that both legs reach (3); the legs bend (4); and around each plant
-the corrections come and go smoothly (5). Three departures from the paper. Step 5 is taken with step 2, as
-one curve that bends least, instead of by fades. While only the ball stands, the foot may turn about it, so
-that the ankle need not follow. And no bone is ever stretched, a skeleton's lengths being fixed: instead
-the root moves up or down by what keeps the knees bent as they were, eased where a knee would jolt; and a
-plant that would move it further than 2 cm, or still jolt a knee, is let go there.
+Captured feet creep while they stand, and blended feet slide. So each plant gets one place (1); the places say
+where the ankle must be (2); the root moves so that both legs reach (3); the legs bend (4); and around each
+plant the corrections come and go smoothly (5).
+
+Three things differ from the paper. Step 5 is taken with step 2, as one curve that bends least, instead of by
+fades. While only the ball stands, the foot may turn about it, so that the ankle need not follow. And no bone
+is stretched, because a skeleton's lengths are fixed: instead the root rises or falls by what keeps the knees
+bent as they were, smoothed where a knee would jolt. A plant that would move the root by more than 2 cm, or
+would still jolt a knee, is let go there.
 """
 
 import warnings
@@ -26,15 +28,17 @@ from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.knee_smoothing import smooth_knees
 from mocap.feet.leg_ik import pose_leg
-from mocap.feet.leg_track import UP, LegTrack
+from mocap.feet.leg_track import ROUNDING, UP, LegTrack
 from mocap.feet.root_height import MOST, root_rise
 
+# Share of its bound by which a knee may still jolt when it is smoothed. Half or twice as much changes
+# nothing on the four sets; with 0.01 captured walks keep all planted frames, and the worst knee accelerates
+# by 0.3 % more than before.
 JOLT = 0.001
-ROUNDING = 1e-9
 
 
 class Excess(NamedTuple):
-    """By how much plants go beyond a bound, `amount` (F,), where it is above 0; and whose plants, `legs`."""
+    """By how much plants go beyond a bound: `amount` (F,) where it is above 0; `legs` says whose plants."""
 
     legs: slice
     amount: Array
@@ -45,14 +49,14 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Parameters
     ----------
-    motion : its `contacts` tell when the legs' ankles and balls stand; `feet.mark_plants` marks them.
+    motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
     legs : found by name by default.
 
     Returns
     -------
-    The same frames; within each plant its joint stays in one place, to rounding. Only the root's height,
-    by at most 2 cm, the hips, knees and ankles differ. Contacts are settled: a plant, or a gap between two,
-    that is shorter than 0.05 s is none, and nor is one that was let go.
+    The same frames. Within each plant its joint stays in one place, but for rounding. Only the root's height,
+    by at most 2 cm, and the rotations of hips, knees and ankles differ. Contacts are settled: gaps shorter
+    than 0.05 s are closed, and plants as short, or let go, are no longer marked.
 
     Raises
     ------
@@ -60,8 +64,8 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Warns
     -----
-    MocapWarning : for plants that are let go around the frames where to hold them would take a longer leg,
-        move the root further, or make a knee's acceleration larger than 99.9 % of the knees' own are.
+    MocapWarning : for plants that are let go. To hold them would take a longer leg, move the root further, or
+        make a knee's acceleration larger than it was and than 99.9 % of the knees' own.
 
     Examples
     --------
@@ -90,7 +94,7 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
         # Each round unmarks at least one planted frame, so the rounds end: at the latest when none is left.
         marks = let_go(marks, excesses, least_frames(motion.fps))
     contacts = _by_name(tracks, marks)
-    _warn_of_gaps(motion, _by_name(tracks, asked), contacts)
+    _warn_of_plants_let_go(motion, _by_name(tracks, asked), contacts)
     # Step 4: the legs bend.
     poses = GlobalPoses(poses.positions + rise[:, None, None] * UP, poses.matrices)
     pose = motion.rotations.copy()
@@ -160,10 +164,10 @@ def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     """
     kept, frames = marks.copy(), np.arange(marks.shape[-1])
     for legs, amount in excesses:
-        # The worst frames: those that no other within `span` exceeds.
+        # The worst frames: no other frame within `span` is worse.
         for worst in np.flatnonzero((amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))):
             away = np.where(marks[legs], np.abs(frames - worst), len(frames)).reshape(-1, len(frames))
-            for row, gaps in zip(kept[legs].reshape(away.shape), away, strict=True):
+            for row, gaps in zip(kept[legs].reshape(away.shape), away, strict=True):  # rows of `kept` itself
                 if gaps.min() == away.min():
                     near = int(gaps.argmin())
                     row[max(near - span, 0) : near + span + 1] = False
@@ -171,8 +175,8 @@ def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     return kept
 
 
-def _warn_of_gaps(motion: Motion, asked: Mapping[str, Mask], held: Mapping[str, Mask]) -> None:
-    """List the plants that were let go, in the order of the motion's contacts."""
+def _warn_of_plants_let_go(motion: Motion, asked: Mapping[str, Mask], held: Mapping[str, Mask]) -> None:
+    """Warn of plants that were let go, in the order of the motion's contacts."""
     names = [name for name in motion.contacts if name in asked]
     gone = [f"{name} {a}-{b - 1}" for name in names for a, b in runs(asked[name] & ~held[name])]
     if gone:
@@ -186,7 +190,7 @@ def _warn_of_gaps(motion: Motion, asked: Mapping[str, Mask], held: Mapping[str, 
 
 
 def _within_reach(track: LegTrack, target: FootTarget) -> Array:
-    """Let a foot in the air go only as far as its leg; a planted one must be reached."""
+    """Move the targets of a foot in the air to within its leg's reach; a planted foot's are reached."""
     apart = target.ankle - track.hip
     share = np.minimum(track.hinge.reach / np.linalg.norm(apart, axis=-1), 1.0)
     return np.asarray(track.hip + np.where(target.planted, 1.0, share)[:, None] * apart)

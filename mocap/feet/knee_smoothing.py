@@ -16,13 +16,28 @@ from mocap.feet.ankle_targets import FootTarget
 from mocap.feet.leg_ik import bend_and_swing
 from mocap.feet.leg_track import UP, LegTrack
 
+# Percent of a clip's own frames: what all but one in a thousand stay below is no jolt. With 99 captured
+# walks lose 2 % of their planted frames; with 100 their knees accelerate by 3 % more (99.9 % of the
+# frames).
 USUAL = 99.9
+
+# At most: in each, a knee's path is taken as linear in the changes. 5 or 20 give the same on the four sets.
 PASSES = 10
+
+# Of the bound: what a pass aims at, for it does not quite meet its aim. With 1 walks keep 99.1 % of their
+# planted frames instead of 99.8 %.
 AIM = 0.99
+
+# How much other accelerations count, where one that jolts counts 1, and how much the changes themselves
+# count. Half or twice as much changes the knees' accelerations (99.9 % of the frames) by less than 0.1 %.
 QUIET = 0.1
 NEAR = 0.03
-STEP = 1e-4
-ROUNDING = 1e-7
+
+STEP = 1e-4  # metres, for slopes; half or twice as much makes no difference
+
+# Metres per frame²: what rotations lose of a pose. With 0 a clean clip would be changed by half a
+# millimetre.
+LOST_IN_POSES = 1e-7
 
 Aimed = tuple[LegTrack, FootTarget]  # a leg, and where its ankle must be
 
@@ -60,7 +75,7 @@ def smooth_knees(
             break
         excess = np.where(sizes > bound, 1 - AIM * bound / np.maximum(sizes, bound), 0.0)
         slopes = _slopes(legs, knees, rise, change) * free[:, None, :, None]
-        change += _smaller(knees, slopes, excess, change)
+        change += _solve_changes(knees, slopes, excess, change)
         change[0] = np.minimum(rise + change[0], ceiling) - rise
     moved = [leg[1]._replace(ankle=_moved_inwards(leg, x)) for leg, x in zip(legs, change[1:], strict=True)]
     return moved, rise + change[0], np.pad((sizes / bound).max(axis=0) - 1, 1, constant_values=-1.0)
@@ -78,7 +93,7 @@ def _ceiling(legs: Sequence[Aimed]) -> Array:
 def _bound(tracks: Sequence[LegTrack]) -> Array:
     """Measure how large each knee's second differences may be, shape (L, F - 2), metres."""
     own = np.linalg.norm(np.diff([track.knee for track in tracks], 2, axis=1), axis=-1)
-    return np.asarray(np.maximum(np.percentile(own, USUAL, method="lower"), own) + ROUNDING)
+    return np.asarray(np.maximum(np.percentile(own, USUAL, method="lower"), own) + LOST_IN_POSES)
 
 
 def _moved_inwards(leg: Aimed, shift: Array) -> Array:
@@ -107,7 +122,7 @@ def _slopes(legs: Sequence[Aimed], knees: Array, rise: Array, change: Array) -> 
     return slopes
 
 
-def _smaller(knees: Array, slopes: Array, excess: Array, change: Array) -> Array:
+def _solve_changes(knees: Array, slopes: Array, excess: Array, change: Array) -> Array:
     """Solve for changes (1 + L, F) that take the share `excess` (L, F - 2) off the knees' accelerations."""
     kinds, frames = change.shape
     windows = sliding_window_view(slopes, 3, axis=2) * [1.0, -2.0, 1.0]  # (1 + L, L, F - 2, 3, 3 frames)

@@ -1,7 +1,7 @@
 """Bring a leg's ankle to another place, and change the leg as little as that allows: step 4 of [KSG02].
 
-`two_bone_ik` poses a limb from nothing; here a pose is there already. The knee, a hinge, turns until
-hip and ankle are as far apart as they must be, and then the whole leg swings at the hip.
+`two_bone_ik` poses a limb from nothing; here there is a pose to begin with. The knee, a hinge, turns until
+hip and ankle are as far apart as they must be. Then the whole leg swings at the hip.
 """
 
 import numpy as np
@@ -10,9 +10,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.errors import MocapError
-from mocap.feet.leg_track import LegTrack
-
-ROUNDING = 1e-9
+from mocap.feet.leg_track import ROUNDING, LegTrack
 
 
 def bend_and_swing(track: LegTrack, wanted: Array) -> tuple[Array, Array]:

@@ -16,9 +16,18 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
 UP = np.array([0.0, 1.0, 0.0])
+ROUNDING = 1e-9  # metres: what rounding may add to a distance
+
+# Radians: 8°. A leg that becomes a millimetre shorter moves its knee by 6 mm there, by 10 mm at 4°, and by
+# 14 mm at 2°: knee popping. With 0° the knees of captured walks accelerate by 4 % more (99.9 % of the
+# frames); with 16° the root moves by 3.0 mm instead of 2.5.
 BENT = np.radians(8.0)
-BACK = 1e-4
-STRAIGHT_ALWAYS = 1e-6
+
+BACK = 1e-4  # radians: a knee that bends backwards by less is straight, but for rounding
+
+# Square metres: where the cross product of thigh and shank is smaller in every frame, its direction is
+# rounding.
+STIFF = 1e-6
 
 
 class KneeHinge(NamedTuple):
@@ -131,7 +140,7 @@ class LegTrack:
         frame = self.poses.matrices[:, self.leg.hip]
         bends = np.einsum("fji,fj->fi", frame, np.cross(thigh, shank))  # seen from the thigh, (F, 3)
         axis = bends.sum(axis=0)
-        if not np.linalg.norm(bends, axis=-1).max() > STRAIGHT_ALWAYS:
+        if not np.linalg.norm(bends, axis=-1).max() > STIFF:
             raise MocapError(f"'{self.names[1]}' is straight in every frame: which way does it bend?")
         axis = frame @ (axis / np.linalg.norm(axis))
         along = (thigh * axis).sum(-1) * (shank * axis).sum(-1)

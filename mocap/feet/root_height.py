@@ -9,8 +9,17 @@ from mocap._shared.arrays import Array
 from mocap.feet.ankle_targets import FADE, FootTarget
 from mocap.feet.leg_track import LegTrack
 
+# Metres: a plant that would move the root further is let go. With 0.01 6 % of the planted frames of skating
+# clips are let go; with 0.04 runs keep 98 % instead of 93 %, but their root moves by up to 3.2 cm.
 MOST = 0.02
+
+# Radians: 5°. A knee that is bent less counts as bent by this, or 1 / sin² φ would let one straight leg
+# decide alone. Half or twice as much changes the root's rise by 1 to 4 %.
 STRAIGHT = np.radians(5.0)
+
+# The cost of a metre of rise, where a knee's turn by a radian in a leg of a metre costs 1, both squared.
+# With 1.5 the root of skating clips moves by 3.3 mm instead of 2.9 (rms), with 6 by 2.4 mm. With 1 they
+# lose 0.3 % of their planted frames.
 HEAVY = 3.0
 
 

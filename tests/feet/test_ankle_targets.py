@@ -1,4 +1,4 @@
-"""Plants get places that their foot and their leg can keep, and the way from one to the next bends least."""
+"""Plants get places that foot and leg can keep, and the way from one place to the next bends least."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ POSES = forward_kinematics(WALK)
 MARKS = np.array([WALK.contacts[joint] for joint in ("lfoot", "ltoes")])
 
 
-def test_a_foot_that_stands_still_is_asked_for_nothing():
+def test_a_foot_that_stands_still_stays_as_it_is():
     target = foot_target(LegTrack(WALK, LEFT, POSES), MARKS)
     assert target.ankle == pytest.approx(POSES.positions[:, LEFT.ankle], abs=1e-7)
     assert target.turn == pytest.approx(0, abs=1e-6)

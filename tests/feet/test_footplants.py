@@ -14,7 +14,7 @@ from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError
 from mocap.feet.footplants import hysteresis, mark_plants, settle
 from mocap.files.load_save import load
-from tests.strategies import random_motion
+from tests.strategies import random_motion, seeds
 
 JOINTS = ("lfoot", "ltoes", "rfoot", "rtoes")
 masks = st.lists(st.booleans(), min_size=1, max_size=80).map(lambda marks: np.array(marks, bool))
@@ -45,7 +45,7 @@ def test_noise_of_half_a_millimetre_does_not_hide_the_plants():
     assert f1(mark_plants(replace(clip, root_positions=clip.root_positions + noise)), clip) > 0.85
 
 
-def test_who_stands_still_stands_on_both_feet_all_the_time():
+def test_one_who_stands_still_stands_on_both_feet_all_the_time():
     frame = sample("stop_and_go")[100:101]
     noise = np.random.default_rng(1).normal(size=(240, 3)) * 2e-4
     still = replace(
@@ -58,14 +58,14 @@ def test_who_stands_still_stands_on_both_feet_all_the_time():
     assert all(mark_plants(still).contacts[joint].all() for joint in JOINTS)
 
 
-def test_who_never_touches_the_ground_slowly_has_no_plants():
+def test_feet_that_are_never_slow_have_no_plants():
     jog = sample("jog")
     ride = jog.root_positions + np.arange(len(jog))[:, None] / jog.fps * [0.0, 1.5, 3.0]
     assert not any(mark_plants(replace(jog, root_positions=ride)).contacts[joint].any() for joint in JOINTS)
 
 
 def stance(clip):
-    """Give how much of the time a foot stands, both do, none does; and plants a second."""
+    """Give the shares of the time in which a foot stands, both stand, none stands; and plants per second."""
     marks = mark_plants(clip).contacts
     left, right = (marks[side + "foot"] | marks[side + "toes"] for side in "lr")
     plants = (len(runs(left)) + len(runs(right))) / clip.duration
@@ -75,9 +75,9 @@ def stance(clip):
 @pytest.mark.parametrize(
     ("trials", "stands", "flight", "steps"),
     [
-        (("16_15", "16_16", "16_31", "16_47"), (0.48, 0.66), (0, 0.1), (1.6, 2.1)),  # 99-109 a minute
-        (("16_21", "16_22"), (0.42, 0.6), (0, 0.1), (1.9, 2.4)),  # brisk: 125 a minute
-        (("16_35", "16_45"), (0.2, 0.4), (0.25, 0.6), (2.5, 3.1)),  # runs: 152-176 a minute
+        (("16_15", "16_16", "16_31", "16_47"), (0.48, 0.66), (0, 0.1), (1.6, 2.1)),  # 99-109 per minute
+        (("16_21", "16_22"), (0.42, 0.6), (0, 0.1), (1.9, 2.4)),  # brisk: 125 per minute
+        (("16_35", "16_45"), (0.2, 0.4), (0.25, 0.6), (2.5, 3.1)),  # runs: 152-176 per minute
     ],
 )
 def test_people_stand_as_people_do(real_data, trials, stands, flight, steps):
@@ -88,7 +88,7 @@ def test_people_stand_as_people_do(real_data, trials, stands, flight, steps):
         assert steps[0] < plants < steps[1]
 
 
-def test_who_walks_slowly_stands_on_both_feet_for_longer(real_data):
+def test_slow_walkers_stand_on_both_feet_for_longer(real_data):
     slow, brisk, run = (
         stance(load(real_data / name)[:2000])[1]
         for name in ("hw3/walk_fwd_circle.AMC", "cmu/16/16_21.amc", "cmu/16/16_35.amc")
@@ -114,6 +114,24 @@ def test_settled_marks_have_no_short_runs_and_settle_no_further(marks, span):
         inner = [stop - start for start, stop in runs(kind) if start > 0 and stop < len(marks)]
         assert all(length >= span for length in inner)
     assert np.array_equal(settle(settled, span), settled)
+
+
+def spread_by_loop(values, allowed, enter, leave):
+    """Return what `hysteresis` marks, run by run."""
+    marks = np.zeros(len(values), bool)
+    for start, stop in runs(allowed & (values < leave)):
+        marks[start:stop] = (values[start:stop] < enter).any()
+    return marks
+
+
+@given(st.lists(st.sampled_from([0.0, 0.5, 1.0, 1.5, 2.0, 3.0, np.nan]), max_size=60), seeds)
+def test_hysteresis_is_what_a_loop_over_the_runs_finds(values, seed):
+    random = np.random.default_rng(seed)
+    values, allowed = np.array(values), random.random(len(values)) < random.random()
+    enter, leave = random.choice([0.5, 1.0, 2.0], 2)  # in either order
+    assert np.array_equal(
+        hysteresis(values, allowed, enter, leave), spread_by_loop(values, allowed, enter, leave)
+    )
 
 
 @given(st.lists(st.floats(0, 4), min_size=1, max_size=50), masks)

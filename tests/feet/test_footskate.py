@@ -38,7 +38,7 @@ JOINED = {way: way(WALK, *(SEAM[0], WALK, SEAM[1]), 40) for way in (join, inerti
 
 
 def slides(motion: Motion) -> np.ndarray:
-    """Return how far each planted joint strays from its place during each plant, metres."""
+    """Return how far a joint is from its mean place at most, for each plant, metres."""
     positions = joint_positions(motion)
     return np.array(
         [
@@ -50,7 +50,7 @@ def slides(motion: Motion) -> np.ndarray:
 
 
 def furthest(motion: Motion, other: Motion) -> float:
-    """Return how far a joint of one motion ever is from where it is in another, metres."""
+    """Return how far a joint of one motion is from where it is in another at most, metres."""
     return float(np.linalg.norm(joint_positions(motion) - joint_positions(other), axis=-1).max())
 
 
@@ -123,7 +123,7 @@ WALKS = (*range(11, 35), 47, 58)
 RUNS = (35, 38, 42, 45, 52, 56)
 
 
-@pytest.mark.filterwarnings("ignore:.*let go")  # told below
+@pytest.mark.filterwarnings("ignore:.*let go")  # tested below
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 @pytest.mark.parametrize(("trials", "least"), [(WALKS, 0.97), (RUNS, 0.9)])
 def test_captured_feet_creep_and_afterwards_stand(real_data, trials, least, fps):
@@ -178,7 +178,7 @@ def check_walks(graph, paths):
 
 @pytest.mark.filterwarnings("error:.*let go")
 @pytest.mark.filterwarnings("ignore:The walk leaves the path")
-def test_along_followed_paths_feet_stand_and_knees_keep_calm():
+def test_along_followed_paths_feet_stand_and_knees_do_not_jolt():
     graph = bundled("walk_circle", "walk_curve_1")
     check_walks(graph, [figure_eight(2.5), s_curve(8.0)])
 
@@ -209,7 +209,7 @@ def test_missing_marks_and_missing_legs_are_errors():
         clean_up(random_motion(0))
 
 
-def test_a_plant_out_of_reach_is_let_go_and_told():
+def test_a_plant_out_of_reach_is_let_go_with_a_warning():
     late = {name: maximum_filter1d(marks, 49) for name, marks in WALK.contacts.items()}
     lingering = replace(WALK, contacts=late)[:360]
     with pytest.warns(

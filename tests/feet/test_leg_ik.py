@@ -1,4 +1,4 @@
-"""A leg ends where it shall, bends as a knee does, and where nothing is asked of it nothing changes."""
+"""An ankle comes to its target, the knee bends as a hinge, and with nothing to do nothing changes."""
 
 from dataclasses import replace
 
@@ -59,7 +59,7 @@ def test_the_ankle_comes_to_its_target_and_the_foot_turns_as_asked(seed, far):
     )
 
 
-def test_asked_for_what_is_there_already_nothing_changes():
+def test_with_the_ankle_at_its_target_nothing_changes():
     same = pose_leg(TRACK, ANKLE, np.zeros((len(CLIP), 3)))
     assert same == pytest.approx(CLIP.rotations[:, LEFT[:3]], abs=1e-9)
 

@@ -1,4 +1,4 @@
-"""The root moves as little as lets both legs reach, and not at all where they do."""
+"""The root moves only as far as both legs need to reach, and not at all where they reach already."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def targets(*shifts):
     ]
 
 
-def test_feet_that_are_where_they_shall_be_need_no_rise():
+def test_feet_that_are_at_their_targets_need_no_rise():
     assert root_rise(TRACKS, targets(0.0, 0.0)) == pytest.approx(0, abs=1e-9)
 
 
