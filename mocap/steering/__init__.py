@@ -1,18 +1,22 @@
-"""A walk where one wants it: along a path, through waypoints, in a crowd, or by hand.
+"""Steering: walks that follow a wish: along a path, through waypoints, in a crowd, or by commands.
 
-The path objective says what a walk is to keep to and what it costs to miss it; a beam search finds the best
-walk; the other files ask for it in different ways.
+The path objective defines what a walk is asked for and what each deviation costs. A beam search finds the
+walk with the lowest cost. `follow_path` joins the two; `waypoints` and `crowd` call it. A new way of steering
+gets a file of its own: one that leads to a path calls `follow_path`, one that reacts frame by frame works as
+`control` does. A new kind of wish is a field of `Wishes`, with its price in `Prices` and its cost in
+`search_states.hop_costs`.
 
 Reading order (notebook 08)
 ---------------------------
-1. `path_objective`: what is wished for along a path, and what it costs to go without
-2. `search_states`: walks under way as arrays: expand, score, prune
-3. `beam_search`: all walks advance together
-4. `path_following`: a walk along a path, and how well it keeps to it
-5. `paper_search`: the same by the search of 2002
-6. `waypoints`: what kind of motion, where, and when
-7. `crowd`: many characters, kept apart
-8. `control`: a character that is told where to go while it walks
+1. `path_objective`: a path, the wishes along it, and their prices
+2. `search_states`: the walks of a search as arrays: expand, score, prune
+3. `beam_search`: all walks advance along the path together
+4. `path_following`: find a walk along a path, and measure how well it follows
+5. `paper_search`: the same by the paper's branch and bound
+6. `waypoints`: places, labels and times to pass
+7. `crowd`: many characters that keep apart
+8. `look_ahead`: the walks ahead of a controlled character, and their cost
+9. `control`: a character that gets a new command in any frame
 
 References
 ----------
@@ -31,6 +35,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
         "waypoints": ["Arrival", "Waypoint", "WaypointWalk", "through_waypoints"],
         "crowd": ["Crowd", "walk_crowd"],
-        "control": ["Command", "Controller", "Delay", "Pose", "measure_delay"],
+        "look_ahead": ["Command"],
+        "control": ["Controller", "Delay", "Pose", "measure_delay"],
     },
 )

@@ -1,11 +1,11 @@
-"""The best walk along a line on the ground: a beam search in layers of path.
+"""A beam search for the best walk along a route, in layers of path.
 
-A depth-first search, as in the paper, drowns in a dense graph: of dozens of choices per second it has tried
-few when the time is over. But what a walk can still do depends only on where it stands: at which node, in
-which place, turned which way. So here all walks advance together, a few centimetres of path at a time:
+A depth-first search, as in the paper, is too slow for a dense graph: there are dozens of choices per second,
+and it tries few of them before the time is over. But what a walk can still do depends only on its node, its
+place and its direction. So here all walks advance together, a few centimetres of path at a time:
 
-1. Of the walks in a layer that stand alike only the best goes on (dominance).
-2. Of these only the `width` most promising go on (the beam).
+1. Of the walks in a layer that stand alike, only the best one stays (dominance).
+2. Of these, only the `width` best stay (the beam).
 3. Each of them is lengthened by every hop that leaves its node, and put into the layer that it reaches.
 
 The time is linear in the path's length.
@@ -38,16 +38,21 @@ from mocap.steering.search_states import (
 
 @dataclass(frozen=True)
 class Beam:
-    """How thoroughly to search, and what counts beside the squared distance from the path.
+    """How thoroughly to search.
 
     Parameters
     ----------
-    width : walks that go on in a layer; by default 100, or 50 where nothing but the path is wished for.
-    layer : metres of path that a layer is long.
-    place, turn : walks nearer than this, metres and radians, at the same node stand alike.
-    rescue : the most that is expected to be lost where a walk is about to leave the path, m².
-    seconds : time to search; when it is over, the best walk so far is taken.
+    width : walks that stay in each layer; by default 100, or 50 where the path is the only wish.
+    layer : the length of a layer, metres of path.
+    place, turn : walks at one node and in one cell of this size, metres and radians, stand alike.
+    rescue : the largest expected cost of a walk that is about to leave the path, m².
+    seconds : time to search; after it the best walk so far is taken.
     progress : wraps the layers, to show a bar.
+
+    Examples
+    --------
+    >>> Beam(width=200).layer
+    0.15
     """
 
     width: int | None = None
@@ -66,9 +71,9 @@ class Beam:
 class Found(NamedTuple):
     """The best walk found.
 
-    `edges` are numbers in the compiled graph, and the first one's clip is placed by p ↦ turn · p + move.
-    `along` says how far along the path each frame counts; `expanded` states were lengthened, `cut` were
-    dropped as no better or less promising; `stopped` is "" or says what ended the search before its end.
+    `edges` are numbers in the compiled graph; the first one's clip is placed by p ↦ turn · p + move. `along`
+    gives each frame's progress along the path, metres. `expanded` counts the walks that were lengthened,
+    `cut` those that were dropped. `stopped` is "", or the reason why the search ended early.
     """
 
     edges: Indices
@@ -82,13 +87,13 @@ class Found(NamedTuple):
 
 
 def find_walk(graph: CompiledGraph, route: Route, starts: States, beam: Beam, prices: Prices) -> Found:
-    """Find a walk from one of some starts to the end of a route.
+    """Find the best walk from one of the starts to the end of a route.
 
     Parameters
     ----------
-    graph, route : where to walk, and what is wished for.
+    graph, route : the graph, and the path with its wishes.
     starts : from `start_states`.
-    beam, prices : how thoroughly to search, and what counts.
+    beam, prices : how thoroughly to search, and what deviations cost.
 
     Returns
     -------
@@ -96,7 +101,19 @@ def find_walk(graph: CompiledGraph, route: Route, starts: States, beam: Beam, pr
 
     Raises
     ------
-    NoWalk : where every walk ends before the route does.
+    NoWalk : where every walk ends before the route does, or the time is over before the first step.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.steering import Wishes, make_route, start_states
+    >>> clips = [body.resample(datasets.sample("walk_circle"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> route = make_route(graph, body.GroundPath([[0, 0], [0, 3]]), Wishes())
+    >>> starts = start_states(graph, np.arange(len(graph.nodes)), 0j, 0.0)
+    >>> found = find_walk(graph, route, starts, Beam(), Prices())
+    >>> bool(found.along[-1] >= 3), found.stopped
+    (True, '')
     """
     search = _Search(search_space(graph, route, prices), beam, {0: [starts]})
     stopped = ""
@@ -109,7 +126,7 @@ def find_walk(graph: CompiledGraph, route: Route, starts: States, beam: Beam, pr
 
 @dataclass(eq=False)
 class _Search:
-    """A search under way: the walks that wait in each layer, all that were lengthened, and the best one."""
+    """The state of a search: the walks in each layer, all that were lengthened, and the best complete one."""
 
     space: SearchSpace
     beam: Beam
@@ -120,7 +137,7 @@ class _Search:
     best: States | None = None
 
     def to_the_end(self, deadline: float) -> str:
-        """Work through the layers; say what stopped it before the last one."""
+        """Work through the layers; return "", or the reason to stop before the last one."""
         route, beam = self.space.route, self.beam
         for layer in beam.progress(range(int(route.length / beam.layer) + 1)):
             while parts := self.waiting.pop(layer, []):
@@ -133,7 +150,7 @@ class _Search:
         return ""
 
     def select(self, states: States) -> States:
-        """Choose the walks that go on, and remember them."""
+        """Choose the walks that stay, and add them to the history."""
         scores = score(self.space, states, self.beam.rescue)
         cells = standing(self.space, states, self.beam.place, self.beam.turn)
         chosen = prune(states, scores, cells, self.beam.width_on(self.space.route))
@@ -143,21 +160,21 @@ class _Search:
         return chosen
 
     def put_into_layers(self, new: States, earliest: int) -> None:
-        """Put walks into the layers they have reached; those at the end compete for the best."""
+        """Put walks into the layers they have reached; of those at the end of the route keep the best."""
         done = new.along >= self.space.route.length
         if done.any():
             arrived = new.take(done)
             first = int(arrived.cost.argmin())
             if self.best is None or arrived.cost[first] < self.best.cost[0]:
                 self.best = arrived.take(slice(first, first + 1))
-            # No cost is below 0, so what costs as much as the best walk cannot become better.
+            # No cost is below 0, so a walk that costs as much as the best one cannot become better.
             new = new.take(~done & (new.cost < self.best.cost[0]))
         layer = np.maximum((new.along / self.beam.layer).astype(np.intp), earliest)
         for reached in set(layer.tolist()):
             self.waiting.setdefault(reached, []).append(new.take(layer == reached))
 
     def found(self, stopped: str) -> Found:
-        """Trace the best walk back to its start; where none has arrived, the best of those under way."""
+        """Trace the best walk back to its start; where none has arrived, the best walk of the last layer."""
         if self.best is None and not stopped:
             reached = max(float(states.along.max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")

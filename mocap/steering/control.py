@@ -1,65 +1,49 @@
-"""Interactive control: a character that is told where to go while it walks [KGP02, 5.3]."""
+"""Interactive control: a character that gets a new command in any frame while it walks [KGP02, 5.3]."""
 
 import time
 from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.steering.look_ahead import Command, lengthen, look_ahead_by, start_walk
 
 
 class Pose(NamedTuple):
-    """One frame: `root_position` (3,), metres; `rotations` (J, 4); and whether a transition is under way."""
+    """One frame: root position (3,) in metres, rotations (J, 4), and whether a transition is under way."""
 
     root_position: Array
     rotations: Array
     blending: bool
 
 
-class Command(NamedTuple):
-    """What the character is told: a velocity on the ground, as complex z + ix, and a label's number or -1."""
-
-    velocity: complex
-    label: int
-
-
-class Walks(NamedTuple):
-    """Walks looked ahead: by which hop each began, where it has come, how long it is, and what it costs."""
-
-    first: Indices  # -1 for one that has not begun
-    node: Indices
-    turn: Points
-    frames: Indices
-    cost: Array
-
-
 class Controller:
-    """A character on a graph; each `step` gives its next pose.
+    """A character on a motion graph; each `step` takes a command and gives the next pose.
 
-    While it plays one hop it looks `ahead` seconds past that hop's end, a round of the search in each frame,
-    so that no step takes long. It keeps the `width` best walks, and in the end takes the first hop of the one
-    whose velocity is nearest to what is asked for: Σ ‖v - v'‖² Δt, plus `SEAM` for a transition and `LABEL`
-    for each second without the label.
+    While it plays one hop, it looks ahead from the end of this hop: in each frame all walks ahead grow by one
+    round, so that no step takes long. At the end of the hop it takes the first hop of the best walk. The cost
+    of a walk compares its velocity with the command, as `look_ahead` says.
 
-    A step leaves next to nothing to collect. But when Python's collector goes through a whole graph, for
-    some other work's sake, that takes 30 to 90 ms: who must not stop calls `gc.freeze()` once all is built.
+    A step makes little garbage. But when Python's collector visits a large graph, this takes 30 to 90 ms.
+    Where every step must be on time, call `gc.freeze()` after the graph is built.
 
     Parameters
     ----------
-    graph : pruned, so that there is always a way on.
+    graph : pruned, so that a walk never ends.
     start : the first node; by default the first of the graph.
     ahead : seconds to look ahead.
-    width : walks that go on in each round.
+    width : walks that stay in each round.
 
     Raises
     ------
-    NoWalk : for a start that the graph lacks, and where the graph comes to an end.
+    NoWalk : for a start that is not in the graph, and where the graph comes to an end.
 
     Examples
     --------
@@ -72,9 +56,6 @@ class Controller:
     Notebook: 08-path-synthesis
     """
 
-    SEAM = 0.1  # m²/s, as are all costs here
-    LABEL = 4.0
-
     def __init__(
         self,
         graph: MotionGraph | CompiledGraph,
@@ -84,28 +65,14 @@ class Controller:
         width: int = 64,
     ) -> None:
         self.graph = compile_graph(graph)
-        self.width, self.horizon = width, ahead * self.graph.fps
-        self.weights = cubic_weights(self.graph.source.window)
-        self._prepare()
-        self.edges: list[int] = []  # still to be played, the one under way first
-        self.frame = 0  # of that one
-        self.turn, self.move = 1 + 0j, 0j  # place its clip: p -> turn · p + move
-        # Where the hop under way ends: there the next one is chosen.
+        self.ahead = look_ahead_by(self.graph, ahead, width)
+        self.edges: list[int] = []  # still to be played; the first one is under way
+        self.frame = 0  # of the first edge
+        self.turn, self.move = 1 + 0j, 0j  # place its clip: p ↦ turn · p + move
+        # The node where the hop under way ends, and how its clip is turned there.
         self.node, self.end_turn = 0 if start is None else self.graph.index(start), self.turn
-        self.told = Command(0j, -1)
-        self._begin()
-
-    def _prepare(self) -> None:
-        """Work out for every hop how far it leads, what it costs, and for how long it lacks each label."""
-        graph, hops = self.graph, self.graph.hops
-        self.frames = hops.frames
-        origin = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
-        end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
-        self.leads: Points = end - graph.at[origin]
-        self.price = np.where(graph.blended[hops.last], self.SEAM, 0.0)
-        lacks = np.pad(np.cumsum(~graph.labels.bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
-        played: Indices = lacks[:, hops.starts + hops.counts] - lacks[:, hops.starts]  # (L, H, 2)
-        self.lacks: Array = played.sum(axis=-1) / graph.fps  # (L, H), seconds
+        self.command = Command(0j, -1)
+        self._restart()
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame.
@@ -113,64 +80,42 @@ class Controller:
         Parameters
         ----------
         heading : the direction to go in, radians; 0 is +z, π/2 is +x.
-        speed : metres a second.
+        speed : metres per second.
         label : the kind of motion, "" for any.
 
         Raises
         ------
         MocapError : for a heading or speed that is no finite number, or a speed below 0.
-        NoWalk : for a label that the graph lacks.
+        NoWalk : for a label that no clip of the graph has.
         """
-        command = self._command(heading, speed, label)
-        if command != self.told:
-            self.told = command
-            self._begin()
+        if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
+            raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
+        velocity = speed * complex(np.exp(1j * heading))
+        command = Command(velocity, self.graph.label_number(label))
+        if command != self.command:
+            self.command = command
+            self._restart()
         if self.edges and self.frame == self.graph.frames[self.edges[0]]:
             self._leave(self.edges.pop(0))
         if not self.edges:
             self._choose()
         elif not self.decided:
             self._look()
-        pose = self._pose(self.edges[0], self.frame)
+        pose = pose_on_edge(self.graph, self.edges[0], self.frame, self.turn, self.move)
         self.frame += 1
         return pose
 
-    def _command(self, heading: float, speed: float, label: str) -> Command:
-        if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
-            raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
-        velocity = speed * complex(np.exp(1j * heading))
-        return Command(velocity, self.graph.label_number(label))
-
-    def _begin(self) -> None:
-        """Start to look ahead, from where the hop under way ends."""
-        none = np.zeros(1, np.intp)
-        self.walks = Walks(none - 1, none + self.node, np.array([self.end_turn]), none, np.zeros(1))
-        self.decided = False
+    def _restart(self) -> None:
+        """Look ahead anew, from the end of the hop under way."""
+        self.walks, self.decided = start_walk(self.node, self.end_turn), False
 
     def _look(self) -> None:
-        """Go on by one round: every walk that is too short, by every hop."""
-        graph, walks, command = self.graph, self.walks, self.told
-        short = walks.frames < self.horizon
-        of, hop = graph.hops.leaving(walks.node[short])
-        of = np.flatnonzero(short)[of]
-        self.decided = not len(hop)
-        if self.decided:
-            return
-        seconds, last = self.frames[hop] / graph.fps, graph.hops.last[hop]
-        off = walks.turn[of] * self.leads[hop] - command.velocity * seconds
-        cost = (off.real**2 + off.imag**2) / seconds + self.price[hop]
-        if command.label >= 0:
-            cost += self.LABEL * self.lacks[command.label, hop]
-        first = np.where(walks.first[of] < 0, hop, walks.first[of])
-        frames = walks.frames[of] + self.frames[hop]
-        longer = Walks(
-            first, graph.target[last], walks.turn[of] * graph.turn[last], frames, walks.cost[of] + cost
-        )
-        both = (np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True))
-        self.walks = _best(Walks._make(both), self.width)
+        """Look ahead by one round; without longer walks the choice is clear."""
+        longer = lengthen(self.ahead, self.walks, self.command)
+        self.walks, self.decided = longer or self.walks, longer is None
 
     def _choose(self) -> None:
-        """Enter the first hop of the best walk, and begin to look past it."""
+        """Take the first hop of the best walk, and look ahead from its end."""
         while not self.decided:
             self._look()
         hop = int(self.walks.first[0])
@@ -180,44 +125,47 @@ class Controller:
         last = self.edges[-1]
         self.frame, self.node = 0, int(self.graph.target[last])
         self.end_turn = self.turn * complex(self.graph.turn[last])
-        self._begin()
+        self._restart()
 
     def _leave(self, edge: int) -> None:
         """Place the clip that an edge leads to."""
         self.move += self.turn * complex(self.graph.move[edge])
         self.turn *= complex(self.graph.turn[edge])
-        self.turn /= abs(self.turn)  # no drift, however long it walks
+        self.turn /= abs(self.turn)  # stays of length 1 on walks of any length
         self.frame = 0
 
-    def _pose(self, edge: int, frame: int) -> Pose:
-        """Take a frame of an edge from its clip, or blend it of two."""
-        graph, (start, end, _) = self.graph, self.graph.edges[edge]
-        here = self._placed(start[0], start[1] + frame, self.turn, self.move)
-        if not graph.blended[edge]:
-            return Pose(*here, blending=False)
-        turn = self.turn * complex(graph.turn[edge])
-        move = self.move + self.turn * complex(graph.move[edge])
-        there = self._placed(end[0], end[1] - len(self.weights) + frame, turn, move)
-        alpha = self.weights[frame]
-        root = alpha * here[0] + (1 - alpha) * there[0]
-        return Pose(root, rotations.slerp(there[1], here[1], np.array(alpha)), blending=True)
 
-    def _placed(self, clip: int, frame: int, turn: complex, move: complex) -> tuple[Array, Array]:
-        motion = self.graph.source.clips[clip]
-        place = PlanarTransform.from_complex(turn, move)
-        turns = motion.rotations[frame].copy()
-        turns[0] = place.apply_orientations(turns[0])
-        return place.apply_points(motion.root_positions[frame]), turns
+def pose_on_edge(graph: CompiledGraph, edge: int, frame: int, turn: complex, move: complex) -> Pose:
+    """Take a frame of an edge from its clip, or blend it from two clips in a transition.
+
+    `turn` and `move` place the clip that the edge leaves: p ↦ turn · p + move.
+    """
+    (clip, first), (other, end), _ = graph.edges[edge]
+    clips, window = graph.source.clips, graph.source.window
+    root, turns = _placed(clips[clip], first + frame, turn, move)
+    if not graph.blended[edge]:
+        return Pose(root, turns, blending=False)
+    move += turn * complex(graph.move[edge])
+    turn *= complex(graph.turn[edge])
+    there = _placed(clips[other], end - window + frame, turn, move)
+    alpha = cubic_weights(window)[frame]
+    mixed = alpha * root + (1 - alpha) * there[0]
+    return Pose(mixed, rotations.slerp(there[1], turns, np.array(alpha)), blending=True)
 
 
-def _best(walks: Walks, width: int) -> Walks:
-    """Keep the walks that cost least a frame."""
-    best = np.argsort(walks.cost / walks.frames)[:width]
-    return Walks._make(values[best] for values in walks)
+def _placed(motion: Motion, frame: int, turn: complex, move: complex) -> tuple[Array, Array]:
+    """Place one frame: root position and rotations."""
+    place = PlanarTransform.from_complex(turn, move)
+    turns = motion.rotations[frame].copy()
+    turns[0] = place.apply_orientations(turns[0])
+    return place.apply_points(motion.root_positions[frame]), turns
 
 
 class Delay(NamedTuple):
-    """How soon it obeys, `mean` and `slowest` (95 %), seconds; CPU time of a `step` and the `worst`, ms."""
+    """The delay until a character obeys, and the CPU time per step.
+
+    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms.
+    """
 
     mean: float
     slowest: float
@@ -228,17 +176,25 @@ class Delay(NamedTuple):
 def measure_delay(
     graph: MotionGraph | CompiledGraph, *, turns: int = 60, speed: float = 1.1, seed: int = 0
 ) -> Delay:
-    """Tell a character again and again to turn by 30 to 120 degrees, and measure how soon it does.
+    """Command a character to turn by 30 to 120 degrees many times, and measure how soon it obeys.
 
-    It obeys when its direction over the last third of a second is within 20 degrees of the one asked for;
-    a turn that takes longer than 8 s counts as 8 s.
+    It obeys when its direction over the last third of a second is within 20 degrees of the command. A turn
+    that takes longer than 8 s counts as 8 s.
 
     Parameters
     ----------
     graph : pruned.
-    turns : how many times.
-    speed : metres a second.
-    seed : of the turns.
+    turns : the number of turns.
+    speed : metres per second.
+    seed : of the random turns.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> 0 < measure_delay(graph, turns=1).mean <= 8
+    True
 
     Notebook: 08-path-synthesis
     """

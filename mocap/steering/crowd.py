@@ -1,4 +1,4 @@
-"""Crowds: many characters off one graph, each on a path of its own, kept apart [KGP02, 5.3]."""
+"""Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3]."""
 
 import warnings
 from collections.abc import Sequence
@@ -22,9 +22,9 @@ WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
 
 
 class Crowd(NamedTuple):
-    """Walks that begin together: each stands in its first pose for `waits` seconds, and in its last for ever.
+    """Walks that begin together: each character waits in its first pose for `waits` seconds.
 
-    `nearest` (K, K) tells how near any two come, metres between their roots; inf on the diagonal.
+    `nearest` (K, K) is the smallest distance of the roots of any two, metres; inf on the diagonal.
     """
 
     walks: list[Followed]
@@ -40,28 +40,39 @@ def walk_crowd(
     beam: Beam | None = None,
     pool: Executor | None = None,
 ) -> Crowd:
-    """Send a character along each path, none coming near another.
+    """Find a walk along each path, so that the characters keep apart.
 
-    First each walks as if alone; these searches run side by side in a `pool`. Then, one after the other,
-    whoever comes too near to one before searches again, with a price on the metres too near in each frame,
-    and where that does not help, lets the others pass before it sets out. So the first keeps to its path
-    best, and the last gives way to all.
+    First each walk is found as if alone; these searches run in parallel in a `pool`. Then the characters are
+    visited in order. One that comes too near to an earlier one searches again, with a price on each frame too
+    near. Where this does not help, it also waits before it starts. So the first follows its path best, and
+    the last gives way to all.
 
     Parameters
     ----------
     graph : pruned.
-    paths : one a character.
-    apart : metres between the roots of any two.
+    paths : one per character.
+    apart : the least distance between the roots of any two, metres.
     beam : how thoroughly to search.
     pool : a `concurrent.futures.ProcessPoolExecutor` for many characters; by default one after the other.
 
     Raises
     ------
-    NoWalk, MocapError : as by `steering.follow_path`.
+    NoWalk, MocapError : as for `steering.follow_path`, and for a distance that is not above 0.
 
     Warns
     -----
-    MocapWarning : where two come nearer than asked for, all the same.
+    MocapWarning : where two still come nearer than `apart`.
+
+    Examples
+    --------
+    Two paths 9 m apart:
+
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> crowd = walk_crowd(graph, [body.GroundPath([[x, 0], [x, 3]]) for x in (0, 9)])
+    >>> crowd.waits, bool(crowd.nearest[0, 1] > 8)
+    ([0.0, 0.0], True)
 
     Notebook: 08-path-synthesis
     """
@@ -90,7 +101,10 @@ def walk_crowd(
 def _give_way(
     graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float, beam: Beam
 ) -> tuple[Followed, float, Array]:
-    """Walk so as to keep away from some tracks, at the least wait that will do: walk, wait and track."""
+    """Find a walk that keeps away from the tracks `before`, with the shortest wait that is enough.
+
+    Returns the walk, its wait in seconds, and its track with the wait.
+    """
     wide = replace(beam, width=3 * (beam.width or 100), rescue=30.0)
     prices, found = Prices(crowding=60.0, stray=0.0), []
     for wait in WAITS:
@@ -106,11 +120,12 @@ def _give_way(
 
 
 def _clearance(track: Array, others: Sequence[Array]) -> float:
+    """Measure the smallest distance of a track from others, metres."""
     return min((_nearest(track, other) for other in others), default=np.inf)
 
 
 def _nearest(a: Array, b: Array) -> float:
-    """Measure how near two come while both are walking, or one has arrived and stays."""
+    """Measure the smallest distance of two tracks, metres; the shorter one stays at its end."""
     frames = np.arange(max(len(a), len(b)))
     apart = a[np.minimum(frames, len(a) - 1)] - b[np.minimum(frames, len(b) - 1)]
     return float(np.hypot(*apart.T).min())

@@ -16,7 +16,7 @@ from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_a
 
 
 class PathState(NamedTuple):
-    """A walk along a path: its clip is placed by p -> turn · p + move, and so far along the path it is."""
+    """A walk's state: its clip is placed by p ↦ turn · p + move, and it is `along` metres along its path."""
 
     turn: complex
     move: complex
@@ -24,7 +24,10 @@ class PathState(NamedTuple):
 
 
 class PathCost:
-    """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk halts when P' is as long as P."""
+    """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk ends when P' is as long as P.
+
+    `cost` and `done` are the `step` and the `done` of a `synthesis.Problem`.
+    """
 
     def __init__(self, graph: CompiledGraph, route: Route) -> None:
         self.graph, self.route = graph, route
@@ -32,7 +35,7 @@ class PathCost:
         self.step = np.maximum(graph.tracks.step, route.least / graph.fps)
 
     def cost(self, state: PathState, edge: SearchEdge) -> tuple[float, PathState]:
-        """Play one edge."""
+        """Give the cost of an edge after a walk in this state, and the next state."""
         graph, e = self.graph, self.number[edge]
         rows = slice(graph.tracks.first[e], graph.tracks.first[e] + graph.frames[e])
         along = state.along + np.cumsum(self.step[rows])
@@ -41,7 +44,7 @@ class PathCost:
         return float((off**2).sum()), PathState(turn, move, float(along[-1]))
 
     def done(self, state: PathState) -> bool:
-        """Tell whether the path is walked to its end."""
+        """Say whether the walk has reached the end of the path."""
         return state.along >= self.route.length
 
 
@@ -53,18 +56,32 @@ def follow_as_2002(
     look: tuple[int, int] = (90, 28),
     budget: Budget | None = None,
 ) -> Followed:
-    """Follow a path by the paper's own search, to compare with `steering.follow_path`.
+    """Follow a path by the paper's branch and bound, to compare with `steering.follow_path`.
 
     Parameters
     ----------
-    graph, path : as there.
-    wishes : `start` must be given; labels and times are not heeded.
-    look : frames looked ahead and frames kept.
-    budget : for each stretch of the search.
+    graph, path : as for `steering.follow_path`.
+    wishes : give a `start`, else the walk starts at the first node; labels and times are ignored.
+    look : n and m, the frames to look ahead and the frames to keep; as for `synthesis.search_ahead`.
+    budget : of each stretch of the search.
+
+    Returns
+    -------
+    The walk, and how well it follows the path.
 
     Raises
     ------
-    NoWalk, MocapError : as there.
+    NoWalk, MocapError : as for `steering.follow_path`, and where the budget ends before the first step.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), Wishes(start=(0, 10))
+    >>> followed = follow_as_2002(graph, path, wishes, budget=Budget(nodes=100))
+    >>> followed.progress, followed.found.stopped
+    (1.0, 'out of nodes')
 
     Notebook: 08-path-synthesis
     """

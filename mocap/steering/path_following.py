@@ -1,4 +1,4 @@
-"""Walking along a path drawn on the ground [KGP02, 5.1], and how well it went."""
+"""Find a walk along a path on the ground [KGP02, 5.1], and measure how well it follows the path."""
 
 import time
 import warnings
@@ -24,13 +24,19 @@ from mocap.steering.search_states import States, start_states
 from mocap.synthesis.walk_to_motion import to_motion
 
 ASTRAY = 0.15  # metres from the path at which a walk has left it
-NEAR = 0.04  # metres off on average,
-SEAMS = 1.0  # and transitions a second, up to which a path is well followed
-AGAIN = 1.25  # how many times as much, or as little, a seam costs in a repeated search
+NEAR = 0.04  # metres from the path on average, at most, for a path that is followed well
+SEAMS = 1.0  # transitions per second, at most, for a path that is followed well
+AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
 
 class Departure(NamedTuple):
-    """Where a walk leaves its path: from and to how far along it, and how far at worst, all in metres."""
+    """A stretch where a walk is off its path: its start and end along the path, and the worst distance.
+
+    Examples
+    --------
+    >>> Departure(start=2.0, end=2.5, worst=0.2).end
+    2.5
+    """
 
     start: float
     end: float
@@ -39,18 +45,18 @@ class Departure(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Followed:
-    """A walk along a path, and how well it keeps to it.
+    """A walk along a path, and how well it follows the path; `follow_path` shows an example.
 
     Parameters
     ----------
-    graph, path : what was walked through, and along.
+    graph, path : the graph and the path.
     walk : its edges.
     place : lays the walk's first clip at the start of the path.
     track : shape (F, 2), where the root is on the ground, (x, z) in metres.
-    along : shape (F,), metres of path by frame.
-    off : shape (F,), metres from the path by frame: the nearest point of it within half a metre of `along`.
+    along : shape (F,), metres along the path in each frame.
+    off : shape (F,), metres from the path in each frame: from its nearest point within 0.5 m of `along`.
     unlabelled : shape (F,), the frames without the label asked for.
-    found : the search's own account.
+    found : the result of the search.
     """
 
     graph: MotionGraph
@@ -64,33 +70,33 @@ class Followed:
     found: Found
 
     def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
-        """Play the walk where it follows the path; `clean` as for `synthesis.to_motion`."""
+        """Turn the walk into a motion along the path; `clean` as for `synthesis.to_motion`."""
         return to_motion(self.graph, self.walk, name=name, place=self.place, clean=clean)
 
     @property
     def seconds(self) -> float:
-        """How long the motion lasts."""
+        """The duration of the motion."""
         return len(self.off) / self.graph.clips[0].fps
 
     @property
     def seams_a_second(self) -> float:
-        """Transitions in a second of motion."""
+        """Transitions per second of motion."""
         kinds = [self.graph.graph.edges[edge]["kind"] for edge in self.walk]
         return kinds.count("transition") / self.seconds
 
     @property
     def excess(self) -> float:
-        """The largest of its mean and worst distance and its seams a second, over 4 cm, 15 cm and 1."""
+        """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
         return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_a_second / SEAMS))
 
     @property
     def progress(self) -> float:
-        """The share of the path that was walked, 1 for all of it."""
+        """The part of the path that was walked, 1 for all of it."""
         return float(min(1.0, self.along[-1] / self.path.length))
 
     @property
     def departures(self) -> list[Departure]:
-        """List the stretches more than 15 cm off the path."""
+        """The stretches more than 15 cm off the path."""
         astray = np.concatenate([[False], self.off > ASTRAY, [False]])
         starts, ends = np.flatnonzero(np.diff(astray)).reshape(-1, 2).T
         return [
@@ -99,15 +105,15 @@ class Followed:
         ]
 
     def report(self) -> str:
-        """Tell in one line how well the walk keeps to the path."""
-        told = (
+        """Say in one line how well the walk follows the path."""
+        line = (
             f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
             f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst, "
             f"{self.seams_a_second:.2f} seams a second"
         )
         if self.unlabelled.any():
-            told += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
-        return told + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
+            line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
+        return line + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
 
 
 def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
@@ -121,11 +127,10 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
 ) -> Followed:
     """Find a walk whose root, seen from above, follows a path.
 
-    The search is that of `beam_search`; its time is linear in the path's length. No one price of a seam suits
-    all paths. So where seams come too often, or the walk strays too far (`Followed.excess` above 1), the
-    search is repeated with a wider beam, and with a seam that costs 1.25 times as much, or as little, as at
-    first. The best of the walks is taken. Where no clip turns as the path does, the walk cuts the corner and
-    comes back; a warning says where.
+    The search is a beam search; its time is linear in the path's length. No single price of a seam suits all
+    paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the search
+    is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk is
+    taken. Where no clip turns as the path does, the walk cuts the corner and returns; a warning says where.
 
     Parameters
     ----------
@@ -133,16 +138,16 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     path : where to walk.
     wishes : labels, times and the start.
     beam : how thoroughly to search.
-    prices : how much seams and wishes count against the distance.
-    tries : how many searches there may be; 1 for just one, with this beam and at these prices.
+    prices : what deviations cost.
+    tries : the largest number of searches; 1 for one search with this beam and these prices.
 
     Returns
     -------
-    The walk, and how well it keeps to the path.
+    The walk, and how well it follows the path.
 
     Raises
     ------
-    NoWalk : for a label that the graph lacks or that cannot be reached, a start outside it, or a dead end.
+    NoWalk : for a label that no walk can reach, a start that is not in the graph, or a dead end.
     MocapError : for a path longer than these clips walk in an hour, and wishes that make no sense.
 
     Warns
@@ -172,13 +177,13 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
 
     beam = replace(beam or Beam(), width=(beam or Beam()).width_on(route))
     followed = _best_of(search, beam, prices or Prices(), tries)
-    if not wishes.others:  # else it gave way
+    if not wishes.others:  # with others it leaves the path to give way
         _warn(followed.departures)
     return followed
 
 
 def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Prices, tries: int) -> Followed:
-    """Search; while the walk is out of bounds, search again with a wider beam and at a better price."""
+    """Search; while `excess` is above 1, search again with a wider beam and another price of a seam."""
     begun = time.monotonic()
     best = last = search(beam, prices)
     for again in range(1, tries):
@@ -189,14 +194,14 @@ def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Pri
         wider = replace(beam, width=round((1 + again / 2) * (beam.width or 0)), seconds=left)
         try:
             last = search(wider, replace(prices, seam=seam))
-        except NoWalk:  # out of time at once
+        except NoWalk:  # the time was over before the first step
             return best
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
     return best
 
 
 def _warn(departures: Sequence[Departure]) -> None:
-    """Tell where a walk leaves its path."""
+    """Warn where a walk leaves its path."""
     if departures:
         worst = max(departures, key=lambda d: d.worst)
         warnings.warn(
@@ -208,7 +213,7 @@ def _warn(departures: Sequence[Departure]) -> None:
 
 
 def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
-    """Stand at the start of the route, at every node or the one asked for, about to go the way it leads."""
+    """Start at the first point of the route, at every node or the one asked for, in the route's direction."""
     nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
     first = route.points[: int(0.3 / route.spacing) + 2]
     heading = float(np.angle(first[-1] - first[0])) if wishes.heading is None else wishes.heading
@@ -218,7 +223,7 @@ def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
 
 
 def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices) -> None:
-    """Raise `NoWalk` unless the labels can be had one after the other."""
+    """Raise `NoWalk` unless a walk can reach the labels one after the other."""
     source = graph.source.graph
     nodes = {graph.nodes[start] for start in starts}
     for label in filter(None, labels):
@@ -229,7 +234,7 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
 
 
 def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) -> Followed:
-    """Measure how far a walk is from its path, and where it lacks its label."""
+    """Measure how far a walk is from its path, and find the frames without the label asked for."""
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
     label = route.label[np.minimum(found.along / route.spacing, len(route.points) - 1).astype(np.intp)]
     bears = graph.labels.bears[label, rows] if graph.labels.names else np.zeros(len(rows), bool)
@@ -247,7 +252,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
 
 
 def _distance(route: Route, body: Points, along: Array) -> Array:
-    """Measure how far the body is from the path within half a metre of where it should be."""
+    """Measure the distance of the body from the path within 0.5 m of where it should be."""
     reach = int(0.5 / route.spacing) + 1
     near = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
     start = route.points[np.clip(near, 0, len(route.points) - 2)]  # (F, pieces)

@@ -1,4 +1,4 @@
-"""What is wished for along a path, and what it costs to go without."""
+"""The path objective: a path, the wishes along it, and the price of each deviation from them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -13,23 +13,30 @@ from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
 
-SPACING = 0.02  # metres between the points of a route
+SPACING = 0.02  # metres between the points of a route, at most
 
 
 @dataclass(frozen=True)
 class Wishes:
-    """What is asked for beside the path.
+    """What a walk is asked for beside the path.
 
     Parameters
     ----------
-    labels : (metres, label): from so far along the path on, what kind of motion, as in
+    labels : (metres, label): the kind of motion from this place on the path, as in
         [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
-    times : (metres, seconds): when to pass there; between two such places, at a steady pace.
-    heading : the direction to start in, radians; by default the path's own.
-    start : the node to start at; by default whichever is best.
-    least : progress in metres a second that even standing counts as, so that no walk stands for ever.
-    others : where others are on the ground in each frame, shape (T, 2) each; at the end they stay.
+    times : (metres, seconds): when to pass a place on the path; between two places the pace is steady.
+    heading : the direction to start in, radians; by default that of the path.
+    start : the node to start at; by default the best one.
+    least : the least progress in metres per second; standing counts as this, so that no walk stands for ever.
+    others : tracks of others on the ground, shape (T, 2) each, one row per frame; each stays at its end.
     apart : metres to keep away from them.
+
+    Examples
+    --------
+    Sneak from 6 m along the path on, and pass 8 m at 10 s:
+
+    >>> Wishes(labels=[(6, "sneak")], times=[(0, 0), (8, 10)]).apart
+    0.8
 
     Notebook: 08-path-synthesis
     """
@@ -45,16 +52,23 @@ class Wishes:
 
 @dataclass(frozen=True)
 class Prices:
-    """What counts beside the squared distance from the path, in m² as if in one frame.
+    """What deviations cost; the unit is m², because a frame that is d metres off the path costs d².
 
     Parameters
     ----------
-    seam : a transition.
-    match : times the transition's squared distance D: as if the body were off by it for so many frames.
-    stray : times the fourth power of the distance in each frame, 1/m²: 100 doubles what 10 cm cost.
-    label : a frame without the label asked for.
+    seam : for each transition.
+    match : times D², for a transition of distance D; 30 is the price of 30 frames that are D off the path.
+    stray : times d⁴ in each frame, 1/m²; with 100, the cost of a frame 10 cm off the path is doubled.
+    label : for each frame without the label asked for.
     late : times the square of the seconds late or early, in each frame.
     crowding : times the square of the metres too near to another, in each frame.
+
+    Examples
+    --------
+    Fewer transitions, further from the path:
+
+    >>> Prices(seam=1.0)
+    Prices(seam=1.0, match=30.0, stray=100.0, label=0.1, late=0.2, crowding=1.0)
 
     Notebook: 08-path-synthesis
     """
@@ -69,16 +83,23 @@ class Prices:
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """What is wished for along a path, at n points evenly spaced.
+    """A path and the wishes along it, at n evenly spaced points.
 
     Parameters
     ----------
-    points : shape (n,), where to be, as complex z + ix.
+    points : shape (n,), the path on the ground as complex z + ix.
     spacing : metres of path from point to point.
-    label : shape (n,), the number of the label to bear there, -1 for any.
-    clock : shape (n,), when to be there, in seconds; nan for any time.
-    least : progress in metres a second that even standing counts as; [KGP02, 5.1] calls it γ.
-    others : shape (K, T), where K others are in each frame, to be kept away from by `apart` metres.
+    label : shape (n,), the number of the label asked for, -1 for any.
+    clock : shape (n,), the time to be there, seconds; nan for any time.
+    least : the least progress, metres per second; γ in [KGP02, 5.1].
+    others : shape (K, T), where K others are in each frame.
+    apart : metres to keep away from them.
+
+    Examples
+    --------
+    >>> route = Route(np.array([0, 1, 2j + 1]), 1.0, np.full(3, -1), np.full(3, np.nan))
+    >>> route.length, route.at(np.array([0.5, 9.0])).tolist(), route.bare
+    (2.0, [(0.5+0j), (1+2j)], True)
     """
 
     points: Points
@@ -95,40 +116,49 @@ class Route:
         return (len(self.points) - 1) * self.spacing
 
     def at(self, along: Array) -> Points:
-        """Give the points so many metres along; past the end the last one [KGP02, 5.1]."""
+        """Interpolate the points at some metres along; past the end it is the last point [KGP02, 5.1]."""
         place = np.clip(along / self.spacing, 0, len(self.points) - 1)
         before = np.minimum(place.astype(np.intp), len(self.points) - 2)
         start = self.points[before]
         return np.asarray(start + (place - before) * (self.points[before + 1] - start))
 
     def near(self, along: Array) -> Points:
-        """Give the sample before, which is quicker."""
+        """Give the route's point before each place, which is faster than to interpolate."""
         return np.asarray(self.points[self.point(along)])
 
     def point(self, along: Array) -> Indices:
-        """Find the number of the sample before; past the end the last."""
+        """Give the number of the route's point before each place; past the end the last one."""
         place = np.maximum(along / self.spacing, 0)
         return np.minimum(place.astype(np.intp), len(self.points) - 1)
 
     @cached_property
     def ways(self) -> Points:
-        """The directions in which the path goes on from its points, of length 1."""
+        """The direction of the path after each point, as complex numbers of length 1."""
         steps = np.diff(self.points)
         return np.asarray(steps[[*range(len(steps)), -1]] / np.abs(steps[[*range(len(steps)), -1]]))
 
     @cached_property
     def bare(self) -> bool:
-        """Whether nothing but the path itself is wished for."""
+        """Whether the path is the only wish."""
         return not len(self.others) and bool((self.label < 0).all() and np.isnan(self.clock).all())
 
 
 def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
-    """Lay out along a path what is wished for there.
+    """Lay out a path and the wishes along it as a route.
 
     Raises
     ------
     MocapError : for a path longer than these clips walk in an hour, and for wishes that make no sense.
-    NoWalk : for a label that the graph lacks.
+    NoWalk : for a label that no clip of the graph has.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> route = make_route(graph, GroundPath([[0, 0], [0, 6]]), Wishes(labels=[(4, "walk")]))
+    >>> route.label[route.point(np.array([3.9, 4.1]))].tolist()
+    [-1, 0]
     """
     _check_length(graph, path)
     if not (np.isfinite(wishes.least) and wishes.least > 0):
@@ -147,7 +177,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
 
 
 def _together(tracks: Sequence[Array]) -> Points:
-    """Put the tracks of others into one array (K, T), as long as the longest: who has arrived, stays."""
+    """Put the tracks of others into one array (K, T), as long as the longest; others stay at their end."""
     frames = np.arange(max(map(len, tracks), default=1))
     stay = [track[np.minimum(frames, len(track) - 1)] for track in tracks]
     return np.array([on_ground(track) for track in stay], complex).reshape(-1, len(frames))
@@ -163,7 +193,7 @@ def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
 
 
 def _clock(along: Array, wishes: Wishes) -> Array:
-    """Interpolate the times asked for; beyond the first and the last any time will do."""
+    """Interpolate the times asked for; nan (any time) before the first and after the last."""
     if not wishes.times:
         return np.full(len(along), np.nan)
     places, times = np.array(sorted(wishes.times), float).T

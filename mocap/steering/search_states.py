@@ -1,4 +1,4 @@
-"""Walks under way as arrays, and the three things a beam search does with them: expand, score, prune.
+"""The walks of a beam search as arrays, and the three steps of the search: expand, score, prune.
 
 All walks of a layer are handled at once: each field of `States` holds one number per walk.
 """
@@ -18,12 +18,20 @@ from mocap.steering.path_objective import Prices, Route
 
 
 class States(NamedTuple):
-    """N walks under way: where each stands, and what it cost."""
+    """N unfinished walks: where each ends, and its cost so far; each field has shape (N,).
+
+    Examples
+    --------
+    >>> zero = np.zeros(2, np.intp)
+    >>> walks = States(zero, zero + 1j, zero + 0j, zero + 0.0, zero, np.array([4.0, 3.0]), zero, zero - 1)
+    >>> walks.take(walks.cost.argsort()).cost
+    array([3., 4.])
+    """
 
     node: Indices
     turn: Points  # with move, places the node's clip: p ↦ turn · p + move
     move: Points
-    along: Array  # metres of path
+    along: Array  # metres along the path
     frames: Indices
     cost: Array
     trail: Indices  # the number of the state before
@@ -45,12 +53,12 @@ class SearchSpace:
 
     Parameters
     ----------
-    graph, route, prices : where to walk, what is wished for, and what it costs to go without.
-    along : shape (T,), metres of path over the frames of all edges in a row.
-    price : shape (H,), what the transition of each hop costs.
-    length : shape (H,), metres of path that each hop is long.
-    since : shape (H, 2), what to take off `along` to count from the start of a hop.
-    ahead : shape (N, 3), metres from each node to where it will be after `AHEAD` seconds.
+    graph, route, prices : the graph, the wishes, and the price of each deviation.
+    along : shape (T,), running sum of the progress, metres, over the frames of all edges.
+    price : shape (H,), the price of each hop's transition.
+    length : shape (H,), the progress over each hop, metres.
+    since : shape (H, 2), the value of `along` to subtract, so that it counts from the start of a hop.
+    ahead : shape (N, 3), the progress from each node in the next `AHEAD` seconds, metres.
     """
 
     graph: CompiledGraph
@@ -64,7 +72,7 @@ class SearchSpace:
 
 
 def search_space(graph: CompiledGraph, route: Route, prices: Prices) -> SearchSpace:
-    """Work out what each hop costs, and how far along the path it leads."""
+    """Compute the price of each hop's transition, and its progress along the path."""
     hops = graph.hops
     along = np.cumsum(np.maximum(graph.tracks.step, route.least / graph.fps))
     before = np.concatenate([[0.0], along])
@@ -76,7 +84,19 @@ def search_space(graph: CompiledGraph, route: Route, prices: Prices) -> SearchSp
 
 
 def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: float) -> States:
-    """Stand at each of some nodes, over a place and about to move in a direction (radians)."""
+    """Start a walk at each of some nodes, at one place and in one direction (radians).
+
+    Examples
+    --------
+    At the first node, over the point x = 2, z = 1, about to go towards +x:
+
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> start = start_states(graph, np.array([0]), 1 + 2j, np.pi / 2)
+    >>> start.turn * graph.at[:1] + start.move
+    array([1.+2.j])
+    """
     none = np.zeros(len(nodes), np.intp)
     turn = np.exp(1j * (heading - graph.going[nodes]))
     move = place - turn * graph.at[nodes]
@@ -86,19 +106,31 @@ def start_states(graph: CompiledGraph, nodes: Indices, place: complex, heading: 
 def expand(space: SearchSpace, states: States, number: int) -> States:
     """Lengthen every walk by every hop that leaves its node.
 
-    The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², and the prices.
-    One departure: after each hop s slides half-way to the point abreast, so that a walk which cuts a corner
-    does not have to walk the metres that it saved.
+    The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the prices.
+    One departure from the paper: after each hop s slides half-way to the point of the path beside the body,
+    so that a walk which cuts a corner need not walk the metres that it saved.
 
     Parameters
     ----------
-    space : where to search.
+    space : the search.
     states : the walks.
-    number : of the first of them in the history of the search; the others follow.
+    number : the number of the first walk in the history of the search; the others follow it.
 
     Returns
     -------
     The longer walks.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> from mocap.steering.path_objective import make_route, Wishes
+    >>> route = make_route(graph, body.GroundPath([[0, 0], [0, 6]]), Wishes())
+    >>> space = search_space(graph, route, Prices())
+    >>> longer = expand(space, start_states(graph, np.array([0]), 0j, 0.0), 0)
+    >>> len(longer.node) == int(graph.hops.first[1]), bool((longer.frames > 0).all())
+    (True, True)
     """
     graph = space.graph
     of, hop = graph.hops.leaving(states.node)
@@ -117,9 +149,9 @@ def expand(space: SearchSpace, states: States, number: int) -> States:
 
 
 def frames_along(space: SearchSpace, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
-    """List the frames that some hops play: their rows, which hop each belongs to, and metres of path.
+    """List the frames that some hops play: their rows, which hop each belongs to, and metres along the path.
 
-    `start` (n,) are the metres of path at which each of the n hops begins.
+    `start` (n,) are the metres along the path at which each of the n hops begins.
     """
     row, of = space.graph.hops.rows(hop)
     since = np.repeat(space.since[hop].ravel(), space.graph.hops.counts[hop].ravel())
@@ -127,9 +159,9 @@ def frames_along(space: SearchSpace, hop: Indices, start: Array) -> tuple[Indice
 
 
 def hop_costs(space: SearchSpace, states: States, chosen: Indices, hop: Indices) -> Array:
-    """Sum up over the frames of n hops how far they are from what is wished for, shape (n,).
+    """Sum the costs of the frames of n hops, shape (n,): distance from the path, and missed wishes.
 
-    The walks of `states` with the numbers `chosen` (n,) take the hops with the numbers `hop` (n,).
+    The walks `states.take(chosen)` take the hops with the numbers `hop` (n,).
     """
     graph, route, prices = space.graph, space.route, space.prices
     if not len(hop):
@@ -152,7 +184,7 @@ def hop_costs(space: SearchSpace, states: States, chosen: Indices, hop: Indices)
 
 
 def crowding(space: SearchSpace, body: Points, frame: Indices) -> Array:
-    """Price how much too near a body is to others."""
+    """Compute the cost of bodies that are too near to others, of the shape of `body`."""
     price = np.zeros(body.shape)
     for other in space.route.others:
         near = space.route.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
@@ -161,7 +193,7 @@ def crowding(space: SearchSpace, body: Points, frame: Indices) -> Array:
 
 
 def slide(space: SearchSpace, states: States, most: Array) -> Array:
-    """Measure half the way along the path to where it passes the body, at most `most` metres (N,)."""
+    """Measure half the way along the path to the point beside the body, at most `most` metres (N,)."""
     body = states.move + states.turn * space.graph.at[states.node]
     way = space.route.ways[space.route.point(states.along)]
     abreast = ((body - space.route.near(states.along)) * way.conj()).real
@@ -169,15 +201,15 @@ def slide(space: SearchSpace, states: States, most: Array) -> Array:
 
 
 def score(space: SearchSpace, states: States, rescue: float) -> Array:
-    """Rate walks by what they cost, and what it would cost to let their clips play on; small is good.
+    """Rate walks by their cost plus the expected cost if their clips play on; small is good.
 
-    Without the second part a walk that has just paid for a turn looks worse than one about to leave the path.
-    It counts no more than `rescue` (m²): by then a transition could have saved the walk.
+    Without the second term a walk that has just paid for a turn looks worse than one about to leave the path.
+    The second term is at most `rescue` (m²), because a transition can still save the walk.
     """
     graph, node = space.graph, states.node
     ahead = states.move[:, None] + states.turn[:, None] * graph.ahead[node]
     off = _square(ahead - space.route.near(states.along[:, None] + space.ahead[node]))
-    if len(space.route.others):  # to give way takes longer: look twice and thrice as far
+    if len(space.route.others):  # to give way takes longer: look up to three times as far
         body = states.move + states.turn * graph.at[node]
         further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None]) * [0, 1, 2]
         then = np.arange(1, 4) * round(graph.fps * AHEAD[-1])
@@ -187,12 +219,12 @@ def score(space: SearchSpace, states: States, rescue: float) -> Array:
 
 
 def prune(states: States, scores: Array, cells: Indices, width: int) -> States:
-    """Keep the best of the walks that stand alike, and of these the `width` best.
+    """Keep the best one of the walks that stand alike, and of these the `width` best.
 
     Parameters
     ----------
-    states, scores : N walks, and how good each is; small is good.
-    cells : shape (C, N), whole numbers that are the same for walks that stand alike, as `standing` gives.
+    states, scores : N walks and their scores; small is good.
+    cells : shape (C, N), whole numbers; walks with the same column stand alike. See `standing`.
     width : how many to keep.
 
     Examples
@@ -212,9 +244,9 @@ def prune(states: States, scores: Array, cells: Indices, width: int) -> States:
 
 
 def standing(space: SearchSpace, states: States, place: float, turn: float) -> Indices:
-    """Give where walks stand in whole numbers (5, N): node, cells of `place` metres, of `turn` radians, time.
+    """Round the state of walks to whole numbers (5, N): node, cells of `place` metres, of `turn` rad, time.
 
-    Time counts only where others walk, who are somewhere else a moment later.
+    Time counts only where there are others, because they move.
     """
     body = (states.move + states.turn * space.graph.at[states.node]) / place
     clock = states.frames * (4 / space.graph.fps) * bool(len(space.route.others))

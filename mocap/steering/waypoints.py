@@ -1,4 +1,4 @@
-"""Keyframing at a high level: what kind of motion, where, and when [KGP02, 5.3]."""
+"""High-level keyframing: a walk through waypoints, each with a place, a label and a time [KGP02, 5.3]."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -16,7 +16,14 @@ from mocap.steering.path_objective import Prices, Wishes
 
 
 class Waypoint(NamedTuple):
-    """A place (x, z) in metres, the label of the motion from there on, "" for any, and when to be there.
+    """A place (x, z) in metres, the label of the motion from there on, and the time to be there.
+
+    The label "" stands for any motion, None for any time.
+
+    Examples
+    --------
+    >>> Waypoint(0.0, 4.0, "sneak", seconds=5.0)
+    Waypoint(x=0.0, z=4.0, label='sneak', seconds=5.0)
 
     Notebook: 08-path-synthesis
     """
@@ -28,7 +35,7 @@ class Waypoint(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """How a waypoint was met: how many metres off, when, and how late (nan where no time was asked for)."""
+    """How a waypoint was met: metres `off`, the time, and how many seconds `late` (nan without a time)."""
 
     off: float
     seconds: float
@@ -36,7 +43,7 @@ class Arrival(NamedTuple):
 
 
 class WaypointWalk(NamedTuple):
-    """A walk by waypoints, and how each of them was met."""
+    """A walk through waypoints, and how each of them was met."""
 
     followed: Followed
     arrivals: list[Arrival]
@@ -49,26 +56,35 @@ def through_waypoints(
     beam: Beam | None = None,
     prices: Prices | None = None,
 ) -> WaypointWalk:
-    """Walk through some places, in the manner and at the times asked for.
+    """Find a walk through waypoints, with their labels and at their times.
 
-    The path between is a spline. Where a time cannot be kept at the speeds that the clips have, the walk
-    comes as near to it as it can, and `arrivals` tells how late it is.
+    The path between them is a spline. Where the clips are too slow or too fast for a time, the walk comes as
+    near to it as it can, and `arrivals` gives the delay.
 
     Parameters
     ----------
     graph : pruned.
     waypoints : two or more; times count from the start of the motion.
-    beam, prices : as for `steering.follow_path`; `prices.late` is what lateness costs.
+    beam, prices : as for `steering.follow_path`; `prices.late` is the price of a delay.
 
     Raises
     ------
-    NoWalk, MocapError : as there.
+    NoWalk, MocapError : as for `steering.follow_path`, and for a later waypoint at 0 s.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> found = through_waypoints(graph, [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0)])
+    >>> [bool(arrival.off < 0.3) for arrival in found.arrivals]
+    [True, True]
 
     Notebook: 08-path-synthesis
     """
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)
-    along = _metres(path, points)
+    along = _places_along(path, points)
     labels = [(place, point.label) for place, point in zip(along, waypoints, strict=True)]
     times = [(place, p.seconds) for place, p in zip(along, waypoints, strict=True) if p.seconds is not None]
     if times and waypoints[0].seconds is None:
@@ -80,18 +96,19 @@ def through_waypoints(
     return WaypointWalk(followed, [_arrival(followed, a, p) for a, p in zip(along, waypoints, strict=True)])
 
 
-def _metres(path: GroundPath, points: Array) -> list[float]:
-    """Find how far along its path each waypoint is, each past the one before."""
+def _places_along(path: GroundPath, points: Array) -> list[float]:
+    """Find the metres along the path at which it passes each waypoint, in their order."""
     found, first = [0], 0
     for point in points[1:-1]:
         off = np.hypot(*(path.points[first:] - point).T)
-        near = np.flatnonzero(off < off.min() + 0.02)[0]  # where the path comes there first
+        near = np.flatnonzero(off < off.min() + 0.02)[0]  # the first pass of several
         first += int(near)
         found.append(first)
     return [*path.along[found].tolist(), path.length]
 
 
 def _arrival(followed: Followed, along: float, point: Waypoint) -> Arrival:
+    """Measure how a walk meets a waypoint that is `along` metres along the path."""
     frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
     seconds = frame / followed.graph.clips[0].fps
     off = float(np.hypot(*(followed.track[frame] - [point.x, point.z])))

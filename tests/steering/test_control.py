@@ -22,7 +22,7 @@ def played(controller, frames, *command):
 
 
 def test_its_poses_are_those_of_the_walk_it_takes():
-    controller, walk, edges = Controller(GRAPH), [], None
+    controller, walk = Controller(GRAPH), []
     poses = []
     for frame in range(300):
         poses.append(controller.step(0.01 * frame, 1.0))
@@ -33,7 +33,20 @@ def test_its_poses_are_those_of_the_walk_it_takes():
     turns = np.array([pose.rotations for pose in poses])
     assert roots == pytest.approx(motion.root_positions[:300], abs=1e-9)
     assert np.abs((turns * motion.rotations[:300]).sum(-1)) == pytest.approx(np.ones(turns.shape[:2]))
-    assert edges is None
+
+
+def test_poses_are_those_of_a_recorded_run():
+    """The root after each 100 frames, and the blended frames among them, as first recorded."""
+    controller = Controller(sneaking())
+    recorded = [
+        ((0.0, ""), [0.6276572786850874, 0.9903364345223249, 2.7591273312786373], 30),
+        ((1.0, "sneak"), [2.0111468538834996, 0.950784457156631, 4.447828774434011], 21),
+        ((-1.0, "walk"), [3.553206110576587, 0.9846010273002092, 5.53198302007813], 19),
+    ]
+    for (heading, label), root, blended in recorded:
+        poses = [controller.step(heading, 1.0, label) for _ in range(100)]
+        assert poses[-1].root_position == pytest.approx(root, abs=1e-9)
+        assert sum(pose.blending for pose in poses) == blended
 
 
 def test_it_goes_where_it_is_told():

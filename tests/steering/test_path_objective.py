@@ -5,7 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.steering.path_objective import Route
+from mocap.body.ground_path import GroundPath
+from mocap.errors import MocapError
+from mocap.steering.path_objective import Route, Wishes, make_route
+from tests.bundled import walking
 from tests.strategies import seeds
 
 
@@ -21,3 +24,11 @@ def test_points_are_met_and_lines_join_them(seed, count):
     assert route.near(places + 0.05) == pytest.approx(points)
     assert np.abs(route.ways) == pytest.approx(np.ones(count))
     assert route.bare
+
+
+def test_a_path_may_be_as_long_as_the_clips_walk_in_an_hour():
+    graph = walking()
+    speeds = graph.tracks.step[graph.tracks.first[~graph.blended]] * graph.fps
+    make_route(graph, GroundPath([[0, 0], [0, 3600 * speeds.mean()]]), Wishes())
+    with pytest.raises(MocapError, match="in an hour"):
+        make_route(graph, GroundPath([[0, 0], [0, 3600 * speeds.max()]]), Wishes())

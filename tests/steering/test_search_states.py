@@ -8,9 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.ground_path import s_curve
+from mocap.graphs.compiled_graph import AHEAD
 from mocap.steering.path_objective import Prices, Wishes, make_route
 from mocap.steering.search_states import (
     States,
+    crowding,
     expand,
     hop_costs,
     prune,
@@ -123,3 +125,29 @@ def test_looking_ahead_a_walk_sees_others_in_its_way():
         scores.append(score(space, start_states(GRAPH, nodes, 0j, 0.0), np.inf))
     assert (scores[1] >= scores[0]).all()
     assert (scores[1] > scores[0] + 1.0).mean() > 0.5
+
+
+def test_a_body_pays_for_the_square_of_how_much_it_is_too_near():
+    """To another one that stands still at its end, 5 m ahead, from frame 1 on."""
+    wishes = Wishes(others=[np.array([[0.0, 2.0], [0.0, 5.0]])], apart=0.8)
+    space = space_of(wishes=wishes, prices=Prices(crowding=50.0))
+    body, frame = np.array([2.5, 2.5, 5 + 0.5j, 5.0, 9.0]) + 0j, np.array([0, 1, 1, 9, 9])
+    too_near = np.array([0.3, 0.0, 0.3, 0.8, 0.0])
+    assert crowding(space, body, frame) == pytest.approx(50 * too_near**2)
+
+
+@pytest.mark.parametrize(("times", "seen"), [(1, 1), (2, 1), (3, 1), (4, 0)])
+def test_others_are_seen_up_to_three_times_as_far_ahead_as_the_clip(times, seen):
+    """Someone is there only at the moment at which the walk would be, if it went straight on."""
+    walk = start_states(GRAPH, np.array([5]), 0j, 0.0)
+    body, end = (walk.move + walk.turn * points[5] for points in (GRAPH.at, GRAPH.ahead[:, -1]))
+    frame = times * round(GRAPH.fps * AHEAD[-1])
+    other = np.full((frame + 2, 2), 1000.0)
+    place = (body + times * (end - body))[0]
+    other[frame] = place.imag, place.real
+    found = []
+    for others in ((), [other]):
+        space = space_of(wishes=Wishes(others=others, apart=0.3), prices=Prices(crowding=50.0))
+        found.append(score(space, walk, np.inf)[0])
+    # The last point ahead stands for the frames since the one before.
+    assert found[1] - found[0] == pytest.approx(seen * 50 * 0.3**2 * GRAPH.fps * AHEAD[0])
