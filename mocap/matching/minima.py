@@ -38,7 +38,7 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> NDArray[np.intp]:
     if values.size and np.isnan(values.min()):
         raise MocapError(f"The grid holds NaN at {np.argwhere(np.isnan(values))[0].tolist()}.")
     padded = np.pad(values.astype(np.result_type(values, np.float32), copy=False), 1, constant_values=np.inf)
-    rows, columns = np.divmod(np.flatnonzero(values < below), max(values.shape[1], 1))
+    rows, columns = np.divmod(np.flatnonzero(values < below), values.shape[1])
     # Most candidates are out after the first neighbour, so each step looks only at those that are left.
     for row, column in ((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)):
         value, neighbour = values[rows, columns], padded[rows + 1 + row, columns + 1 + column]

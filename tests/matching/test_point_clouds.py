@@ -100,6 +100,12 @@ def test_coincident_joints_are_one_point():
     assert distinct_joints(hips) == [0, 3, 4]
 
 
+def test_a_joint_that_is_its_parent_is_no_point_of_its_own():
+    """Not the second joint's child either, and joints along each axis are."""
+    offsets = [[0, 0, 0], [1, 0, 0], [0, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]]
+    assert distinct_joints(Skeleton([*"abcdef"], [-1, 0, 1, 2, 2, 1], offsets)) == [0, 1, 3, 4, 5]
+
+
 @pytest.mark.parametrize(("gap", "points"), [(4e-10, [0, 1]), (6e-10, [0, 1, 2])])
 def test_joints_coincide_within_a_nanometre(gap, points):
     fork = Skeleton(["root", "l", "r"], [-1, 0, 0], [[0, 0, 0], [0, 1, 0], [0, 1, gap]])

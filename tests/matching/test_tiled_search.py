@@ -30,18 +30,19 @@ def clouds(lengths, window, seed):
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(seeds, st.lists(st.integers(4, 30), min_size=1, max_size=4), st.integers(1, 4), st.integers(3, 20))
-def test_blocks_and_tiles_do_not_show(seed, lengths, window, block):
+@pytest.mark.parametrize("below", [1.0, 3.0])
+def test_blocks_and_tiles_do_not_show(below, seed, lengths, window, block):
     """Minima at every border are found once, whichever way the grid is cut."""
     whole = clouds(lengths, window, seed)
     count = sum(lengths) - window + 1
     grid = cloud_distances(*[whole.part(slice(0, count))] * 2, np.full(window, 1 / window))
-    expected = [[i, j] for i, j in local_minima(grid, 0.8**2).tolist() if j - i >= window]
+    expected = [[i, j] for i, j in local_minima(grid, below**2).tolist() if j - i >= window]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tiled_search, "BLOCK", block)
         patch.setattr(distance_grids, "TILE", (5, 7))
-        found = find_minima(whole, 0.8)
+        found = find_minima(whole, below)
     order = np.lexsort(found[1::-1])
     i, j = found[:2].astype(int)
     assert np.stack([i, j], 1)[order].tolist() == expected
@@ -62,6 +63,7 @@ def test_no_more_is_measured_than_tiles_and_their_neighbours(monkeypatch):
     monkeypatch.setattr(distance_grids, "TILE", (3, 4))
     find_minima(clouds([30], 2, 0), 0.8)
     assert (max(rows for rows, _ in shapes), max(columns for _, columns in shapes)) == (5, 6)
+    assert len(shapes) == 3 * 12 + 7 + 7 + 6  # of the blocks on the diagonal, only the tiles above it
 
 
 class Late:
@@ -87,8 +89,9 @@ def test_only_a_few_blocks_are_out_at_once(monkeypatch):
     monkeypatch.setattr(tiled_search, "BLOCK", 4)
     monkeypatch.setattr(tiled_search, "AHEAD", 5)
     whole, executor = clouds([30], 2, 0), Late()
-    expected = find_minima(whole, 0.8)
-    assert np.array_equal(find_minima(whole, 0.8, executor=executor), expected)
+    expected = find_minima(whole, 2.0)
+    assert expected.shape[1] > 3
+    assert np.array_equal(find_minima(whole, 2.0, executor=executor), expected)
     assert (executor.most, executor.done, executor.out) == (5, 36, 0)
 
 
