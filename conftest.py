@@ -6,9 +6,13 @@ test asks the network for them.
 """
 
 import os
+from collections import defaultdict
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from nbformat.v4 import new_code_cell
+from nbval.plugin import IPyNbCell, IPyNbFile
 
 REAL = Path(os.environ.get("MOCAP_REAL_DATA", Path(__file__).parents[1] / "shared" / "data")).resolve()
 THERE = all((REAL / folder).is_dir() for folder in ("cmu", "hw3"))
@@ -16,6 +20,29 @@ MISSING = None if THERE else f"no real clips at {REAL}; name their folder in MOC
 
 if not MISSING:
     os.environ["MOCAP_DATA"] = str(REAL / "cmu")  # for the kernels of the notebooks, which inherit it
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
+    """Add a first and a last cell to each notebook that nbval runs, which drive its experiments."""
+    report = yield
+    if isinstance(collector, IPyNbFile) and report.passed:
+        tags = [(cell.source, tag) for cell in collector.nb.cells for tag in cell.metadata.get("tags", ())]
+        names = {source: tag for source, tag in tags if tag.startswith("experiment:")}
+        watch = (
+            f"import sys\nsys.path.append({str(Path(__file__).parent)!r})\n"
+            f"from tests.course import driving\ndriving.watch({names!r})"
+        )
+        last = len(report.result)
+        report.result.insert(0, _cell(collector, "experiments, before", -1, watch))
+        report.result.append(_cell(collector, "experiments", last, "driving.drive_all()"))
+    return report
+
+
+def _cell(notebook: IPyNbFile, name: str, number: int, source: str) -> IPyNbCell:
+    options = defaultdict(bool)  # whatever the cell prints is right
+    cell = new_code_cell(source)
+    return IPyNbCell.from_parent(notebook, name=name, cell_num=number, cell=cell, options=options)
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,9 @@ from mocap.course.notebooks import library, read, tagged
 from mocap.errors import MocapError
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for those who teach
-SECONDS = 30  # that a student's cell may take
+SECONDS = 30  # time limit of an exercise
+CHECKS = "from mocap.course import checks"
+STARTING = {"seconds": 120}  # time limit of the cells before the exercises, which import much
 
 
 def hand_out(notebooks: Path, out: Path) -> list[Path]:
@@ -106,28 +108,29 @@ def _said(notebook: Any, exercises: dict[str, Any]) -> dict[str, str]:  # noqa: 
 
 
 def _run(setup: str, exercises: dict[str, Any]) -> dict[str, str]:
-    """Run exercises in one process, up to the first that does not end or ends the process."""
+    """Run exercises in one process, up to the first that does not end or that ends the process."""
     from nbclient import NotebookClient
     from nbclient.exceptions import CellTimeoutError, DeadKernelError
     from nbformat.v4 import new_code_cell, new_notebook
 
-    cells = [new_code_cell(setup)]
+    cells = [new_code_cell(source, metadata=STARTING) for source in (f"{CHECKS}; checks.all_checks()", setup)]
     for name, cell in exercises.items():
         verdict = f"checks.all_checks()[{name!r}].verdict(globals().get({name!r}, lambda *_: ...)).__str__()"
-        cells += [new_code_cell(cell.source), new_code_cell(f"from mocap.course import checks\n{verdict}")]
+        cells += [new_code_cell(cell.source), new_code_cell(f"{CHECKS}\n{verdict}")]
     run, started = new_notebook(cells=cells), [0]
-    client = NotebookClient(run, timeout=SECONDS, allow_errors=True, shutdown_kernel="immediate")
+    client = NotebookClient(run, allow_errors=True, shutdown_kernel="immediate")
+    client.timeout_func = lambda cell: cell.metadata.get("seconds", SECONDS)
     client.on_cell_start = lambda cell, cell_index: started.append(cell_index)
     names, ended = list(exercises), ""
     try:
         client.execute()
     except CellTimeoutError:
-        ended = f"✗ stopped after {SECONDS} s"
+        ended = f"✗ stopped after {client.timeout_func(cells[started[-1]])} s"
     except DeadKernelError:
         ended = "✗ ends Python itself"
-    done = (started[-1] - 1) // 2 if ended else len(names)
-    said = [_verdict(*run.cells[2 * n + 1 : 2 * n + 3]) for n in range(done)]
-    at_fault = names if started[-1] == 0 else names[done : done + 1]
+    done = started[-1] // 2 - 1 if ended else len(names)
+    said = [_verdict(*run.cells[2 * n + 2 : 2 * n + 4]) for n in range(max(done, 0))]
+    at_fault = names if done < 0 else names[done : done + 1]
     return dict(zip(names, said, strict=False)) | dict.fromkeys(at_fault, ended)
 
 

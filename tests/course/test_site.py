@@ -1,14 +1,12 @@
-"""The course as pages, and in JupyterLite."""
+"""The course as pages."""
 
 import json
 import re
 from html.parser import HTMLParser
 
-import nbformat
 import pytest
 
 from mocap.cli.main import main
-from mocap.course import lite, notebooks
 from mocap.course.lab import stored
 from mocap.course.site import build_site
 from mocap.errors import MocapError
@@ -82,57 +80,3 @@ def test_the_search_finds_text_under_its_heading(site):
 def test_a_folder_without_notebooks_is_told(tmp_path):
     with pytest.raises(MocapError, match="holds no notebooks"):
         build_site(tmp_path, tmp_path / "out")
-
-
-def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
-    pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install 'mocap[lite]'")
-    assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0
-    assert (tmp_path / "lite" / "lab" / "index.html").exists()
-    assert not (stored().parent / ".jupyterlite.doit.db").exists()
-    (wheel,) = (tmp_path / "lite" / "pypi").glob("mocap-*.whl")
-    assert wheel.stat().st_size > 1e5
-    first = nbformat.read(tmp_path / "lite" / "files" / "00-quickstart.ipynb", 4)
-    assert first.cells[1].source.startswith("%pip install -q mocap")
-
-
-def test_without_jupyterlite_or_a_checkout_one_sentence_says_what_to_do(tmp_path, monkeypatch):
-    with pytest.raises(MocapError, match="checkout" if lite.found() else "mocap\\[lite\\]"):
-        lite.build_lite(tmp_path / "notebooks", tmp_path / "out")
-    monkeypatch.setattr(lite, "found", lambda: False)
-    with pytest.raises(MocapError, match="mocap\\[lite\\]"):
-        lite.build_lite(tmp_path, tmp_path / "out")
-
-
-def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path):
-    new = nbformat.v4
-    cells = [
-        new.new_code_cell("old", metadata={"tags": ["source:body.rotations.about_y"], "scrolled": True}),
-        new.new_code_cell("for i in range(3):\n    print(i, flush=True)"),
-        new.new_code_cell(
-            "import ipywidgets\nfrom mocap.widgets import explore\nimport matplotlib.pyplot as plt\n"
-            "explore(lambda x=1: plt.figure(), alt='Nothing.', x=(0, 2))"
-        ),
-    ]
-    path = tmp_path / "n.ipynb"
-    nbformat.write(new.new_notebook(cells=cells, metadata={"widgets": {"big": 1}}), path)
-    assert main(["course", "run", str(path)]) == 0
-    notebook = notebooks.read(path)
-    assert notebook.metadata == {"kernelspec": notebooks.KERNEL, "language_info": {"name": "python"}}
-    assert notebook.cells[0].source == notebooks.shown_source("body.rotations.about_y")
-    assert notebook.cells[0].metadata == {"tags": ["source:body.rotations.about_y"]}
-    (stream,) = notebook.cells[1].outputs
-    assert stream.text == "0\n1\n2\n"
-    (shown,) = notebook.cells[2].outputs
-    assert set(shown.data) == {"image/png", "text/html", "text/plain"}
-
-
-@pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
-def test_what_is_no_notebook_is_told(text, tmp_path):
-    (tmp_path / "n.ipynb").write_text(text)
-    with pytest.raises(MocapError, match=r"n\.ipynb: is not a notebook"):
-        notebooks.read(tmp_path / "n.ipynb")
-
-
-def test_a_notebook_that_is_not_there_is_told(tmp_path):
-    with pytest.raises(MocapError, match=r"n\.ipynb: No such file"):
-        notebooks.read(tmp_path / "n.ipynb")

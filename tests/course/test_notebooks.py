@@ -1,26 +1,21 @@
-"""The course: what every notebook has, that its code is the package's, and that all in it works."""
+"""The notebooks: what each has, that its code is the package's, and that its exercises work."""
 
 import ast
-import contextlib
 import html
-import io
-import itertools
 import re
 from functools import cache
 from operator import attrgetter
 from pathlib import Path
 
-import matplotlib.pyplot as plt
+import nbformat
 import pytest
 import requests
 from IPython.core.interactiveshell import InteractiveShell
 
 import mocap
+from mocap.cli.main import main
 from mocap.course import checks, notebooks
-from mocap.widgets.experiments import Experiment
-from mocap.widgets.live_player import _live_player
-from mocap.widgets.player import Player
-from mocap.widgets.pointing import Pointed
+from mocap.errors import MocapError
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"
@@ -232,69 +227,6 @@ def test_each_experiment_is_opened_by_a_prediction(name):
         )
 
 
-def last_value(source, space):
-    """Run a cell, and give the value of its last line, as a notebook shows it."""
-    tree = ast.parse(source)
-    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
-    exec(compile(tree, "cell", "exec"), space)
-    return eval(compile(ast.Expression(last.value), "cell", "eval"), space) if last else None
-
-
-@pytest.mark.no_cover  # it takes half as long again; the modules have tests of their own
-@every_notebook
-def test_experiments_work_over_the_whole_range_of_their_controls(name, monkeypatch, request):
-    if name == "10-real-data":
-        request.getfixturevalue("real_data")
-    monkeypatch.chdir(FOLDER)
-    experiments = [cell for _, cell in notebooks.tagged(read(name), "experiment")]
-    space, shown = {"__name__": "__main__"}, []
-    for cell in read(name).cells:
-        if cell.cell_type == "code":
-            with contextlib.redirect_stdout(io.StringIO()):
-                value = last_value(cell.source, space)
-            shown += [value] if any(cell is experiment for experiment in experiments) else []
-    for experiment in shown:  # after all cells, as a reader does who ran them all: names may have been reused
-        drive(experiment)
-    plt.close("all")
-
-
-def drive(shown):
-    if isinstance(shown, Experiment):
-        for values in settings(shown):
-            shown.set(**values)
-    elif isinstance(shown, _live_player()):
-        for frame in (0, shown.scene["frames"] - 1, shown.scene["frames"] // 2):
-            shown.frame = frame
-        if shown.scene.get("drawable"):
-            shown.path = [[0, 0], [1, 0.2], [2, 1], [2.5, 2], [2.5, 3]]
-            assert shown.error is None, shown.message
-    else:
-        assert isinstance(shown, Player)
-        assert shown.scene["frames"] > 1
-
-
-def settings(experiment):
-    """Give every end and middle of each control while the others rest, then all ends at once."""
-    ends = {}
-    for name, control in experiment.controls.items():
-        if hasattr(control, "options"):
-            ends[name] = [value for _, value in control._options_full]
-        elif hasattr(control, "min"):
-            middle = type(control.value)((control.min + control.max) / 2)
-            ends[name] = [control.min, middle, control.max]
-        elif isinstance(control, Pointed):
-            rows, columns = control.shape
-            ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
-        else:
-            ends[name] = [False, True]
-    rest = experiment.values()
-    for name, values in ends.items():
-        for value in values:
-            yield rest | {name: value}
-    for corner in itertools.islice(itertools.product(*([v[0], v[-1]] for v in ends.values())), 8):
-        yield dict(zip(ends, corner, strict=True))
-
-
 def test_without_clips_and_network_real_data_steps_aside_in_one_sentence(monkeypatch, tmp_path, capsys):
     def unplugged(*_):
         raise requests.ConnectionError
@@ -312,6 +244,44 @@ def test_without_clips_and_network_real_data_steps_aside_in_one_sentence(monkeyp
     said = capsys.readouterr()
     assert re.fullmatch(r"The cells below do nothing until .*: .* MOCAP_DATA names\.\n", said.out)
     assert said.err == ""
+
+
+# Reading and running
+
+
+def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path):
+    new = nbformat.v4
+    cells = [
+        new.new_code_cell("old", metadata={"tags": ["source:body.rotations.about_y"], "scrolled": True}),
+        new.new_code_cell("for i in range(3):\n    print(i, flush=True)"),
+        new.new_code_cell(
+            "import ipywidgets\nfrom mocap.widgets import explore\nimport matplotlib.pyplot as plt\n"
+            "explore(lambda x=1: plt.figure(), alt='Nothing.', x=(0, 2))"
+        ),
+    ]
+    path = tmp_path / "n.ipynb"
+    nbformat.write(new.new_notebook(cells=cells, metadata={"widgets": {"big": 1}}), path)
+    assert main(["course", "run", str(path)]) == 0
+    notebook = notebooks.read(path)
+    assert notebook.metadata == {"kernelspec": notebooks.KERNEL, "language_info": {"name": "python"}}
+    assert notebook.cells[0].source == notebooks.shown_source("body.rotations.about_y")
+    assert notebook.cells[0].metadata == {"tags": ["source:body.rotations.about_y"]}
+    (stream,) = notebook.cells[1].outputs
+    assert stream.text == "0\n1\n2\n"
+    (shown,) = notebook.cells[2].outputs
+    assert set(shown.data) == {"image/png", "text/html", "text/plain"}
+
+
+@pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
+def test_what_is_no_notebook_is_told(text, tmp_path):
+    (tmp_path / "n.ipynb").write_text(text)
+    with pytest.raises(MocapError, match=r"n\.ipynb: is not a notebook"):
+        notebooks.read(tmp_path / "n.ipynb")
+
+
+def test_a_notebook_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(MocapError, match=r"n\.ipynb: No such file"):
+        notebooks.read(tmp_path / "n.ipynb")
 
 
 # Glossary and formulas

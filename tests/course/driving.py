@@ -1,0 +1,68 @@
+"""Moves each control of a notebook's experiments over its whole range, in the notebook's own kernel.
+
+`conftest.py` adds a first cell and a last one to every notebook that nbval runs. The first keeps what the
+experiments show; the last drives them after all cells, as a reader would: names may have been used again.
+So no notebook has to run a second time.
+"""
+
+import itertools
+import warnings
+
+from IPython import get_ipython
+
+from mocap import widgets
+
+displayed = {}
+
+
+def watch(names):
+    """Keep what each cell shows that `names` has, by its source."""
+
+    def keep(result):
+        if result.info.raw_cell in names:
+            displayed[names[result.info.raw_cell]] = result.result
+
+    get_ipython().events.register("post_run_cell", keep)
+
+
+def drive_all():
+    warnings.filterwarnings("error", module="mocap", append=True)  # as in pyproject.toml
+    for name, experiment in displayed.items():
+        print(name)  # the last one printed is the one that failed
+        drive(experiment)
+
+
+def drive(shown):
+    if isinstance(shown, widgets.Experiment):
+        for values in settings(shown):
+            shown.set(**values)
+    elif isinstance(shown, widgets.Player):
+        assert shown.scene["frames"] > 1
+    else:  # a player that reports back
+        for frame in (0, shown.scene["frames"] - 1, shown.scene["frames"] // 2):
+            shown.frame = frame
+        if shown.scene.get("drawable"):
+            shown.path = [[0, 0], [1, 0.2], [2, 1], [2.5, 2], [2.5, 3]]
+            assert shown.error is None, shown.message
+
+
+def settings(experiment):
+    """Give every end and middle of each control while the others rest, then all ends at once."""
+    ends = {}
+    for name, control in experiment.controls.items():
+        if hasattr(control, "options"):
+            ends[name] = [value for _, value in control._options_full]
+        elif hasattr(control, "min"):
+            middle = type(control.value)((control.min + control.max) / 2)
+            ends[name] = [control.min, middle, control.max]
+        elif isinstance(control, widgets.Pointed):
+            rows, columns = control.shape
+            ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
+        else:
+            ends[name] = [False, True]
+    rest = experiment.values()
+    for name, values in ends.items():
+        for value in values:
+            yield rest | {name: value}
+    for corner in itertools.islice(itertools.product(*([v[0], v[-1]] for v in ends.values())), 8):
+        yield dict(zip(ends, corner, strict=True))
