@@ -163,7 +163,7 @@ def _angle_gaps(a: Array, b: Array) -> Array:
     square = np.zeros((len(a), len(b)))
     for column_a, column_b in zip(a.T / 360, b.T / 360, strict=True):
         turns = column_a[:, None] - column_b
-        if max(np.ptp(column_a), np.ptp(column_b), np.abs(turns).max()) > 0.5:
+        if np.abs(turns).max() > 0.5:
             turns -= np.rint(turns)
         square += np.multiply(turns, turns, out=turns)
     return 360 * np.sqrt(square)

@@ -113,9 +113,22 @@ def test_the_euler_grid_takes_weights_by_name():
     assert euler_grid(a, a, window=2, weights={"ltibia": 2.0, "unknown": 5.0}) == pytest.approx(2 * one)
     with pytest.raises(MocapError, match="none of the bones with a weight: lowerback"):
         euler_grid(wave(9), wave(9), window=2)
-    for bad in (-1.0, np.nan):
+    for bad in (-1.0, np.nan, np.inf):
         with pytest.raises(MocapError, match=f"got {{'ltibia': {bad}}}"):
-            euler_grid(a, a, window=2, weights={"ltibia": bad})
+            euler_grid(a, a, window=2, weights={"lfemur": 1.0, "ltibia": bad})
+
+
+def test_the_euler_grid_leaves_out_the_root_bones_without_angles_and_weights_of_0():
+    a, _ = body_motion(0, 9)
+    weights = {"root": 1.0, "ltibia": 1.0, "rhumerus": 0.0, "rhumerus_end": 1.0}
+    one = euler_grid(a, a, window=2, weights={"ltibia": 1.0})
+    assert np.array_equal(euler_grid(a, a, window=2, weights=weights), one)
+
+
+def test_the_homework_weighs_left_and_right_alike():
+    for name, weight in HOMEWORK_WEIGHTS.items():
+        assert HOMEWORK_WEIGHTS.get("r" + name[1:], weight) == weight
+    assert sum(HOMEWORK_WEIGHTS.values()) == pytest.approx(460 / 480)  # so it is there: not quite 1
 
 
 def test_the_pose_grid_adds_up_joints():
@@ -149,6 +162,23 @@ def test_one_frame_does_not_tell_forwards_from_backwards():
     assert pose_grid(forwards, backwards, window=1, velocities=0.2)[middle] > 0.1
 
 
+@pytest.mark.parametrize("velocities", [0.0, 0.5, 2.0])
+def test_the_pose_grid_weighs_differences_of_velocity(velocities):
+    """Two joints turn faster and faster about x; the root turns anyhow, and does not count."""
+    frames = np.arange(5.0)[:, None]
+    angles = [0.01 * frames**2 * [1, 2], 0.3 - 0.02 * frames**2 * [2, 1]]
+    speeds = [30 * np.diff(angle, axis=0)[[0, 1, 2, 3, 3]] for angle in angles]  # the last one stands twice
+    bones = Skeleton(["root", "l", "r"], [-1, 0, 0], np.zeros((3, 3)))
+    turns = np.zeros((2, 5, 3, 3))
+    turns[:, :, 0] = np.random.default_rng(0).normal(size=(2, 5, 3))
+    turns[:, :, 1:, 0] = angles
+    clips = [Motion(bones, np.zeros((5, 3)), rotations.from_rotvec(turn), 30.0) for turn in turns]
+    grid = pose_grid(*clips, window=1, form="log", velocities=velocities)
+    for i, j in np.ndindex(5, 5):
+        gaps = angles[0][i] - angles[1][j], velocities * (speeds[0][i] - speeds[1][j])
+        assert grid[i, j] == pytest.approx(np.linalg.norm(gaps))
+
+
 def test_pose_grid_refuses_what_it_does_not_know():
     a = wave(5)
     with pytest.raises(MocapError, match="got 'matrix'"):
@@ -158,3 +188,4 @@ def test_pose_grid_refuses_what_it_does_not_know():
             pose_grid(a, a, window=2, velocities=bad)
     with pytest.raises(MocapError, match="one frame, and so no velocities"):
         pose_grid(a[:1], a[:1], window=1, velocities=1.0)
+    assert pose_grid(a[:2], a[:2], window=2, velocities=1.0) == pytest.approx(0, abs=1e-6)
