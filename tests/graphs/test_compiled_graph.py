@@ -1,11 +1,13 @@
 """A compiled graph says of every edge and hop what the graph itself says."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.errors import NoWalk
-from mocap.graphs.compiled_graph import compile_graph, walk_track
+from mocap.graphs.compiled_graph import AHEAD, compile_graph, walk_track
 from mocap.graphs.motion_graph import from_transitions
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
@@ -93,3 +95,16 @@ def test_it_is_compiled_once_and_never_empty():
     empty.graph.remove_edges_from(list(empty.graph.edges))
     with pytest.raises(NoWalk, match="no edges"):
         compile_graph(empty)
+
+
+def test_each_look_ahead_stands_for_as_many_frames():
+    assert np.diff([0, *AHEAD]) == pytest.approx(AHEAD[0])
+
+
+def test_ahead_of_a_node_the_root_goes_on_as_it_went_past_the_end_too():
+    speed = np.array([0.3, 0.0, 1.2])  # x, y, z in metres per second
+    glide = replace(wave(50), root_positions=np.arange(50)[:, None] / 40 * speed, fps=40.0)
+    graph = compile_graph(from_transitions([glide], [], window=5))
+    seconds = np.array([[0.0], [50 / 40]]) + AHEAD  # the clip's start and its end
+    assert graph.ahead == pytest.approx(seconds * (1.2 + 0.3j))
+    assert graph.going == pytest.approx(np.arctan2(0.3, 1.2))
