@@ -15,7 +15,9 @@ from mocap.files.text import read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 BETWEEN = " ,\t\n"  # what parts numbers, besides their signs
-TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "Z": 0}  # numbers of a command
+TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}  # numbers
+_NEXT = rf"(?>{NUMBER.pattern})[{BETWEEN}]*+"  # a whole number, and what parts it from the next
+ARC = re.compile(rf"[{BETWEEN}]*+({_NEXT * 3})([01])[{BETWEEN}]*+([01])[{BETWEEN}]*+({_NEXT * 2})")
 CURVE = np.linspace(0, 1, 33)[1:]  # a curve becomes 32 straight pieces
 DRAWN = {"path", "polyline", "polygon", "line"}
 UNDRAWN = {"clipPath", "defs", "marker", "mask", "pattern", "symbol"}
@@ -27,8 +29,7 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks; a first line
     that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line`
     is taken, with its `transform` and those of the groups around it; the picture is the ground seen from
-    above, so its right is -x and its top +z. Straight lines and Bézier curves are read. Elliptic arcs are
-    not: a drawing program can convert them to curves.
+    above, so its right is -x and its top +z.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
 
     Returns
     -------
-    The path, with 32 pieces for each curve.
+    The path, with 32 pieces for each curve, and 128 for each arc.
 
     Raises
     ------
@@ -170,6 +171,8 @@ def _outline(path: Path, text: str) -> Array:
                 points = np.array([[here[0], base[1] + numbers[0]]])
             case "Z":
                 points = start[None]
+            case "A":
+                points = _arc(here, numbers, base + numbers[5:])
             case _:
                 points = base + numbers.reshape(-1, 2)
         if kind in "ST":  # the control point not given mirrors the last one
@@ -194,11 +197,44 @@ def _commands(path: Path, text: str) -> Iterator[tuple[str, Array]]:
         if letter.upper() not in TAKES:
             raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{letter}'")
         count = TAKES[letter.upper()]
+        if count == 7:  # the two flags of an arc may stand without anything between: 01
+            arguments = _parted(arguments)
         numbers = _numbers(path, arguments, f"numbers for '{letter}'")
         blocks = len(numbers) // count if count else 1
         if blocks == 0 or blocks * count != len(numbers):
             expected = f"{count} numbers for '{letter}'"
             raise FormatError(path, None, expected, f"'{arguments.strip(BETWEEN)}'")
         for block in numbers.reshape(blocks, count):
+            if count == 7 and not set(block[3:5]) <= {0, 1}:
+                raise FormatError(path, None, f"flags 0 or 1 for '{letter}'", f"'{arguments.strip(BETWEEN)}'")
             yield letter, block
             letter = {"M": "L", "m": "l"}.get(letter, letter)
+
+
+def _parted(arguments: str) -> str:
+    """Put blanks around the flags of arcs, as far as arcs can be read."""
+    parts: list[str] = []
+    at = 0
+    while found := ARC.match(arguments, at):
+        parts += found.groups()
+        at = found.end()
+    return " ".join([*parts, arguments[at:]])
+
+
+def _arc(here: Array, numbers: Array, end: Array) -> Array:
+    """Draw an elliptic arc from its end points, without the first [SVG 1.1, F.6.5 and F.6.6]."""
+    (rx, ry), (tilt, large, sweep) = np.abs(numbers[:2]), numbers[2:5]
+    if rx * ry == 0 or (here == end).all():
+        return end[None]
+    # Upright and divided by its radii, as complex numbers x + iy, the ellipse is a circle of radius 1.
+    tilted = np.exp(1j * np.radians(tilt))
+    upright = np.array([complex(*here), complex(*end)]) / tilted
+    first, last = upright.real / rx + 1j * upright.imag / ry
+    half = (last - first) / 2
+    grow = max(1.0, abs(half))  # where the radii are too short to reach
+    aside = 1j * half / abs(half) * np.sqrt(grow**2 - abs(half) ** 2)
+    centre = (first + last) / 2 + (aside if large != sweep else -aside)
+    angle = np.angle((last - centre) / (first - centre)) % (2 * np.pi) - (0 if sweep else 2 * np.pi)
+    circle = centre + (first - centre) * np.exp(1j * angle * np.linspace(0, 1, 129)[1:])
+    ellipse = (circle.real * rx + 1j * circle.imag * ry) * tilted
+    return np.vstack([np.stack([ellipse.real, ellipse.imag], axis=1)[:-1], end])

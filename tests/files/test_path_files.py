@@ -50,6 +50,39 @@ def test_curves_are_the_curves_they_are(tmp_path):
     )
 
 
+@pytest.mark.parametrize("sweep", [0, 1])
+@pytest.mark.parametrize("large", [0, 1])
+def test_arcs_are_parts_of_their_circles(tmp_path, large, sweep):
+    """Of the two circles of radius 2 through (0, 0) and (-2, 0), each has a short and a long arc."""
+    path = load_path(svg(tmp_path, f'<path d="M0 0a-200 200 30 {large}{sweep}200 0"/>'))
+    furthest = (2 + np.sqrt(3) * (1 if large else -1)) * (1 if sweep else -1)  # clockwise is first up
+    centre = [-1, furthest - (2 if sweep else -2)]
+    assert np.hypot(*(path.points - centre).T) == pytest.approx(2)
+    assert path.points[len(path.points) // 2] == pytest.approx([-1, furthest])
+    assert path.points[-1].tolist() == [-2, 0]
+    assert path.length == pytest.approx(2 * np.pi / 3 * (5 if large else 1), rel=1e-3)
+
+
+@pytest.mark.parametrize("flags", ["0 0", "0 1", "1 0", "1 1"])
+def test_an_elliptic_arc_is_a_circular_one_tilted_and_squeezed(tmp_path, flags):
+    circular = (
+        f'<g transform="rotate(40)"><path transform="scale(2, .5)" d="M0 0A90 90 0 {flags} 60 80"/></g>'
+    )
+    c, s = np.cos(np.radians(40)), np.sin(np.radians(40))
+    end = [c * 120 - s * 40, s * 120 + c * 40]
+    elliptic = f'<path d="M0 0A180 45 40 {flags} {end[0]} {end[1]}"/>'
+    points = load_path(svg(tmp_path, circular)).points
+    assert load_path(svg(tmp_path, elliptic)).points == pytest.approx(points)
+
+
+def test_arcs_that_cannot_be_are_fixed(tmp_path):
+    """Radii too short to reach grow; of radius 0 it is a line; to the same point it is nothing."""
+    half = load_path(svg(tmp_path, '<path d="M0 0A1 1 0 0 1 200 0"/>'))
+    assert half.length == pytest.approx(np.pi, rel=1e-3)
+    straight = load_path(svg(tmp_path, '<path d="M0 0A0 9 0 0 1 200 0A9 9 0 1 1 200 0"/>'))
+    assert straight.points.tolist() == [[0, 0], [-2, 0]]
+
+
 @pytest.mark.parametrize(("smooth", "plain"), [("T 9 0", "Q 5 5 9 0"), ("S 7 7 9 0", "C 5 5 7 7 9 0")])
 @pytest.mark.parametrize("before", ["L 5 5", "C 1 2 3 4 5 5", "Q 1 2 5 5"])
 def test_only_a_curve_of_the_same_kind_is_mirrored(tmp_path, before, smooth, plain):
@@ -97,9 +130,9 @@ def test_groups_carry_what_is_in_them(tmp_path):
         ('<path d="M 0 0 C 1 2 3 4 5 6 7"/>', "6 numbers for 'C', got '1 2 3 4 5 6 7'"),
         ('<path d="M 0 0 L"/>', "2 numbers for 'L', got ''"),
         ('<path d="M 0 0 L 5 *"/>', "numbers for 'L', got '5 [*]'"),
-        ('<path d="M 0 0 B 5 5"/>', "the commands M L H V C S Q T Z, got 'B'"),
+        ('<path d="M 0 0 B 5 5"/>', "the commands M L H V C S Q T A Z, got 'B'"),
         ('<path d="M 0 0 L 5 5 z 9 9"/>', "0 numbers for 'z', got '9 9'"),
-        ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "the commands M L H V C S Q T Z, got 'A'"),
+        ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "flags 0 or 1 for 'A', got '5 5 0 2 1 9 9'"),
         ('<path transform="scale(1, 2, 3)" d="M 0 0 L 5 5"/>', r"a transform, got 'scale\(1, 2, 3\)'"),
         ('<path transform="perspective(9)" d="M 0 0 L 5 5"/>', "a transform, got 'perspective"),
         ('<g transform="scale 2"><path d="M 0 0 L 5 5"/></g>', "a transform, got 'scale 2'"),
@@ -151,6 +184,8 @@ BOMB = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
         (f'<path d="M 0 0 C {"1" * 200_000}"/>', "numbers for 'C', all below"),
         (f'<path d="M 0 0 L {"1 " * 100_001}"/>', "2 numbers for 'L', got '1 1 .* .200001 characters"),
         (f'<path d="{"M 0 0 " * 30_000} x"/>', "two points"),
+        (f'<path d="M 0 0 A {"1" * 200_000}"/>', "numbers for 'A', all below"),
+        (f'<path d="M 0 0 A {"1 " * 100_001}"/>', "7 numbers for 'A', got '1 1 .* characters"),
         (f'<path transform="{"translate(1)  " * 9999}!" d="M 0 0 L 1 1"/>', "a transform, got '!'"),
         (f'<polyline points="{" " * 100_000}x"/>', "numbers for a polyline, got 'x'"),
     ],
