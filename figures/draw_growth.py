@@ -1,8 +1,8 @@
 """Measure how the search for transitions grows with the number of frames, and draw it.
 
 `python figures/draw_growth.py FOLDER`, where FOLDER holds subject 16 of the CMU database, `16.asf` and its
-`.amc` files. All its clips at 30 Hz, from each of four starting frames, then repeated up to the number of
-frames. Each size runs in a process of its own, so that its memory is its own; two threads work.
+`.amc` files. The clips are those at 30 Hz, from each of four starting frames, repeated up to the number of
+frames. Each size runs in a process of its own, so that its memory can be measured; two threads work.
 """
 
 import json
@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import mocap
-from mocap.matching.transitions import find_transitions
+from mocap.matching import find_transitions
 
 FOLDER = Path(__file__).parent
 SIZES = (5_000, 10_000, 20_000, 40_000, 80_000, 200_000)
@@ -29,7 +29,7 @@ CMU = 650_000  # frames of the whole database at 30 Hz
 
 
 def clips_of(folder: Path, frames: int) -> list[mocap.Motion]:
-    """Repeat a folder's clips until there are so many frames."""
+    """Repeat a folder's clips until they have at least this many frames."""
     takes = [mocap.load(path) for path in sorted(folder.glob("*.amc"))]
     short = [take[start::4] for start in range(4) for take in takes if len(take) > 60]
     clips: list[mocap.Motion] = []
@@ -39,7 +39,7 @@ def clips_of(folder: Path, frames: int) -> list[mocap.Motion]:
 
 
 def measure(folder: Path, frames: int) -> dict[str, float]:
-    """Find the transitions below 2 cm; tell the seconds, and the megabytes that the process ever took."""
+    """Find the transitions below 2 cm; measure the seconds, and the most megabytes that the process took."""
     clips = clips_of(folder, frames)
     start, busy = time.perf_counter(), time.process_time()
     with ThreadPoolExecutor(2) as pool:
@@ -51,7 +51,7 @@ def measure(folder: Path, frames: int) -> dict[str, float]:
 
 
 def draw(runs: list[dict[str, float]]) -> None:
-    """Draw the cores' seconds and the memory against frames, and where the square law leads."""
+    """Draw CPU seconds and memory against frames, and the square law up to the whole database."""
     frames, busy, memory = (np.array([run[key] for run in runs]) for key in ("frames", "cpu", "memory"))
     law = busy[-1] / frames[-1] ** 2
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
@@ -59,8 +59,8 @@ def draw(runs: list[dict[str, float]]) -> None:
     axes[0].plot(span, law * span**2, color="#999999", linewidth=1, label="as the square of the frames")
     axes[0].plot(frames, busy, "o", color="#0072B2", label="measured")
     axes[0].plot(CMU, law * CMU**2, "o", mfc="none", color="#D55E00")
-    told = f"the whole CMU database:\n{law * CMU**2 / 60:.0f} core minutes"
-    axes[0].annotate(told, (CMU, law * CMU**2), (-9, 0), textcoords="offset points", ha="right", va="center")
+    label = f"the whole CMU database:\n{law * CMU**2 / 60:.0f} core minutes"
+    axes[0].annotate(label, (CMU, law * CMU**2), (-9, 0), textcoords="offset points", ha="right", va="center")
     axes[0].plot(6000, 25 * 60, "s", color="#CC79A7", label="Kovar et al., 2002")
     axes[0].set(
         xscale="log",

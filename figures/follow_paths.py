@@ -1,7 +1,7 @@
-"""Walk along paths and tell how well it went: `python figures/follow_paths.py [FOLDER OF CMU SUBJECT 16]`.
+"""Follow paths, and measure how well: `python figures/follow_paths.py [FOLDER OF CMU SUBJECT 16]`.
 
-Writes `following.md`, a table, and the pictures `following.png` and `trade_off.png` beside this file. Times
-are CPU seconds, the least of three runs, as shares of the motion's duration.
+Writes the tables `following.md` and the pictures `following.png` and `trade_off.png` beside this script.
+Times are CPU seconds, the least of three runs, as shares of the motion's duration.
 """
 
 import gc
@@ -21,19 +21,21 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import mocap
-from mocap.body.ground_path import SHAPES, GroundPath, arcs, circle, s_curve, spline
-from mocap.datasets import samples
-from mocap.graphs import motion_graph, pruning
-from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
-from mocap.quality.seam_measures import seam_quality, spread
-from mocap.steering.beam_search import Beam
-from mocap.steering.control import measure_delay
-from mocap.steering.crowd import walk_crowd
-from mocap.steering.paper_search import follow_as_2002
-from mocap.steering.path_following import Followed, follow_path
-from mocap.steering.path_objective import Prices, Wishes
-from mocap.synthesis.bounded_search import Budget
-from mocap.synthesis.walk_to_motion import with_plants
+from mocap import datasets, graphs
+from mocap.body import SHAPES, GroundPath, arcs, circle, s_curve, spline
+from mocap.graphs import CompiledGraph
+from mocap.quality import seam_quality, spread
+from mocap.steering import (
+    Beam,
+    Followed,
+    Prices,
+    Wishes,
+    follow_as_2002,
+    follow_path,
+    measure_delay,
+    walk_crowd,
+)
+from mocap.synthesis import Budget, with_plants
 
 FOLDER = Path(__file__).parent
 OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
@@ -41,21 +43,21 @@ CMU = (*range(11, 35), 47, 58)
 BLACK, YELLOW = "#000000", "#E69F00"
 
 
-def graphs() -> dict[str, CompiledGraph]:
+def compiled() -> dict[str, CompiledGraph]:
     """Build the graphs of the bundled clips and, where their folder is given, of CMU's."""
-    clips = {"bundled clips": [samples.sample(name) for name in OWN]}
+    clips = {"bundled clips": [datasets.sample(name) for name in OWN]}
     if len(sys.argv) > 1:
         clips["CMU 16, walks"] = [mocap.load(Path(sys.argv[1], f"16_{trial:02}.amc")) for trial in CMU]
-    return {name: compile_graph(_graph(found)) for name, found in clips.items()}
+    return {name: graphs.compile_graph(_graph(found)) for name, found in clips.items()}
 
 
-def _graph(clips: list[mocap.Motion]) -> motion_graph.MotionGraph:
+def _graph(clips: list[mocap.Motion]) -> graphs.MotionGraph:
     clips = [mocap.resample(clip, 30) for clip in clips]
-    return with_plants(pruning.prune(motion_graph.build(clips, window=10, threshold=0.04)))
+    return with_plants(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
 
 
 def timed(work: Callable[[], Followed], runs: int = 3) -> tuple[Followed, float]:
-    """Do it some times; give the result and the least CPU time."""
+    """Do the work a few times; return its result and the least CPU time."""
     times = []
     for _ in range(runs):
         start = time.process_time()
@@ -83,7 +85,7 @@ HEAD = [
 
 
 def table_of_shapes(name: str, graph: CompiledGraph, axes: list[Axes]) -> list[str]:
-    """Follow every shape, and draw it: the path asked for in black, the walked one in yellow."""
+    """Follow every shape, and draw it: the path that was asked for in black, the walk in yellow."""
     lines = [f"## {name}", "", *HEAD]
     for (shape, draw), ax in zip(SHAPES.items(), axes, strict=True):
         followed, seconds = timed(lambda draw=draw: follow_path(graph, draw()))
@@ -101,7 +103,7 @@ def table_of_shapes(name: str, graph: CompiledGraph, axes: list[Axes]) -> list[s
 
 
 def random_line(seed: int) -> GroundPath:
-    """Draw a line that no price was chosen by: arcs of 1.2 to 5 m radius, or a spline of 4 to 8 pieces."""
+    """Make a random line: arcs of 1.2 to 5 m radius, or a spline of 4 to 8 pieces."""
     random = np.random.default_rng(seed)
     count, arcs_only = random.integers(4, 9), seed % 2
     if arcs_only:
@@ -114,7 +116,7 @@ def random_line(seed: int) -> GroundPath:
 
 
 def unseen(found: dict[str, CompiledGraph]) -> list[str]:
-    """Follow lines drawn at random, and circles and S-curves of other sizes; tell how many are in bounds."""
+    """Follow lines by which no weight was chosen; count those that are followed within the bounds."""
     sets = {
         "40 random lines": [random_line(seed) for seed in range(500, 540)],
         "S-curves of 7 to 30 m": [s_curve(length) for length in (7.0, 8.5, 11, 13, 15, 17, 23, 26, 28, 30)],
@@ -130,7 +132,7 @@ def unseen(found: dict[str, CompiledGraph]) -> list[str]:
 
 
 def against_the_paper(graph: CompiledGraph) -> list[str]:
-    """Follow the S-curve by the paper's search, with more and more walks tried, and by ours."""
+    """Follow the S-curve by the paper's search, with more and more walks expanded, and by ours."""
     best, seconds = timed(lambda: follow_path(graph, s_curve()))
     lines = [*HEAD, row("layers, K = 50", best, seconds)]
     for width in (10, 30, 100, 300):
@@ -146,7 +148,7 @@ def against_the_paper(graph: CompiledGraph) -> list[str]:
 
 
 def trade_off(found: dict[str, CompiledGraph]) -> list[str]:
-    """Draw how far off the path walks are with fewer and fewer seams; tell it, too."""
+    """Draw how far from the path walks are when they have fewer seams, and write the table."""
     figure, ax = plt.subplots(figsize=(5, 3.6), layout="constrained")
     lines = ["| price of a seam, m² | " + " | ".join(f"{name}: seams/s, cm" for name in found) + " |"]
     lines.append("|---" * (len(found) + 1) + "|")
@@ -165,7 +167,7 @@ def trade_off(found: dict[str, CompiledGraph]) -> list[str]:
 
 
 def _mean(graph: CompiledGraph, price: float) -> tuple[float, float]:
-    """Average seams a second and centimetres off over the shapes."""
+    """Average seams per second, and centimetres from the path, over the shapes."""
     beam, prices = Beam(width=100, rescue=max(1.5, 2 * price)), Prices(seam=price)
     walks = [follow_path(graph, draw(), beam=beam, prices=prices, tries=1) for draw in SHAPES.values()]
     off = [walk.off.mean() for walk in walks]
@@ -174,7 +176,7 @@ def _mean(graph: CompiledGraph, price: float) -> tuple[float, float]:
 
 def others(name: str, graph: CompiledGraph) -> str:
     """Measure control and a crowd."""
-    gc.freeze()  # what was measured before is not gone through in the middle of a step
+    gc.freeze()  # so that the collector does not visit older objects in the middle of a step
     delay = measure_delay(graph)
     paths = [GroundPath(ends) for ends in ([[0, 0], [0, 8]], [[4, 4], [-4, 4]], [[0.2, 8], [0.2, 0]])]
     alone = [follow_path(graph, path) for path in paths]
@@ -190,7 +192,7 @@ def others(name: str, graph: CompiledGraph) -> str:
 def main() -> None:
     """Measure, draw, write."""
     warnings.simplefilter("ignore", mocap.MocapWarning)
-    found = graphs()
+    found = compiled()
     figure, axes = plt.subplots(
         len(found), len(SHAPES), figsize=(12, 3 * len(found)), squeeze=False, layout="constrained"
     )

@@ -1,13 +1,15 @@
-"""The pictures of the README and of the notebooks' headers, all from the bundled clips.
+"""Draw the pictures of the README and of the notebooks' headers, all from the bundled clips.
 
-Each function draws one and gives its figure. `draw_all` writes them, with what was drawn in numbers beside
-the pixels, so that a test can find a stale one whatever version of matplotlib drew it.
+`python figures/gallery.py` writes them as PNG files beside this script, from whichever folder it is run.
+
+Each function draws one picture and returns its figure. `draw_all` writes them, and stores in each file what
+was drawn as numbers, so that a test finds a stale picture, whichever version of matplotlib drew it.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -25,72 +27,69 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
 from PIL import Image
 
-from mocap._shared.atomic import replacing
-from mocap.body import ground_path, rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
-from mocap.datasets import samples
-from mocap.datasets.walking_body import SKELETON
-from mocap.errors import MocapError
-from mocap.feet.footprints import find_footprints
-from mocap.graphs import motion_graph, pruning
-from mocap.graphs.motion_graph import MotionGraph
-from mocap.matching import distance_grids, transitions
-from mocap.matching.minima import local_minima
-from mocap.plotting import axes, charts, graph_drawing, stick_figures
-from mocap.plotting.search_tree import TreePicture, grow_tree
-from mocap.plotting.stick_figures import bones
-from mocap.plotting.style import ASKED, COLOURS
-from mocap.steering.path_following import follow_path
-from mocap.synthesis import random_walks, walk_to_motion, walks
-from mocap.synthesis.bounded_search import Problem, SearchEdge
+from mocap import (
+    MocapError,
+    Motion,
+    datasets,
+    feet,
+    graphs,
+    matching,
+    plotting,
+    resample,
+    steering,
+    synthesis,
+)
+from mocap.body import GroundPath, figure_eight, joint_positions, rotations
+from mocap.plotting import ASKED, COLOURS, TreePicture
 
 Array = NDArray[np.float64]
+Edge = tuple[Hashable, Hashable, int]
 
 WINDOW = 10  # frames at 30 Hz
 
 
 @cache
-def _graph() -> MotionGraph:
-    clips = [resample(samples.sample(name), 30) for name in samples.SAMPLES]
-    return pruning.prune(motion_graph.build(clips, window=WINDOW, threshold=0.04))
+def _graph() -> graphs.MotionGraph:
+    clips = [resample(datasets.sample(name), 30) for name in datasets.SAMPLES]
+    return graphs.prune(graphs.build(clips, window=WINDOW, threshold=0.04))
 
 
 def draw_walk() -> Figure:
     """Draw a new walk: poses along its path."""
     graph = _graph()
-    walk = walk_to_motion.to_motion(graph, random_walks.random_walk(graph, seconds=9, seed=3515))
+    walk = synthesis.to_motion(graph, synthesis.random_walk(graph, seconds=9, seed=3515))
     low, high = (f(walk.root_positions[:, [0, 2]], axis=0) for f in (np.min, np.max))
     figure = plt.figure(figsize=(9, 4))
     ax: Axes3D = figure.add_axes((0, -0.6, 1, 2.2), projection="3d")
-    axes.ground_axes((low + high) / 2, max(high - low) / 2 + 0.9, ax=ax)
+    plotting.ground_axes((low + high) / 2, max(high - low) / 2 + 0.9, ax=ax)
     ax.view_init(elev=15, azim=-97)
-    stick_figures.stick_figure(walk, range((len(walk) - 1) % 18, len(walk), 18), ax=ax)
+    plotting.stick_figure(walk, range((len(walk) - 1) % 18, len(walk), 18), ax=ax)
     return figure
 
 
 def draw_skeleton() -> Figure:
     """Draw the bundled clips' body from the front, arms and toes spread, with the names of its joints."""
-    turns = np.tile(rotations.IDENTITY, (1, len(SKELETON), 1))
+    body = datasets.sample("walk_straight").skeleton
+    turns = np.tile(rotations.IDENTITY, (1, len(body), 1))
     for side, sign in (("l", 1), ("r", -1)):
-        turns[0, SKELETON.index(f"{side}humerus")] = rotations.from_rotvec([0, 0, 1.75 * sign])
-        turns[0, SKELETON.index(f"{side}femur")] = rotations.about_y(1.2 * sign)
-        turns[0, SKELETON.index(f"{side}thumb")] = rotations.from_rotvec([0, 0, -0.8 * sign])
-    points = joint_positions(Motion(SKELETON, np.array([[0, 0.96, 0]]), turns, 1.0))[0, :, :2]
+        turns[0, body.index(f"{side}humerus")] = rotations.from_rotvec([0, 0, 1.75 * sign])
+        turns[0, body.index(f"{side}femur")] = rotations.about_y(1.2 * sign)
+        turns[0, body.index(f"{side}thumb")] = rotations.from_rotvec([0, 0, -0.8 * sign])
+    points = joint_positions(Motion(body, np.array([[0, 0.96, 0]]), turns, 1.0))[0, :, :2]
     figure = plt.figure(figsize=(8, 6.4), layout="constrained")
     ax = figure.add_subplot()
-    for start, end, side in zip(*bones(SKELETON), strict=True):
+    for start, end, side in zip(*plotting.bones(body), strict=True):
         ax.plot(*points[[start, end]].T, "o-", color=COLOURS[side], linewidth=3, markersize=5)
     for place in np.unique(points.round(6), axis=0):
         here = np.flatnonzero(np.abs(points - place).max(axis=1) < 1e-5)
-        _name_joints(ax, place, ", ".join(SKELETON.names[int(joint)] for joint in here))
+        _name_joints(ax, place, ", ".join(body.names[int(joint)] for joint in here))
     ax.set(aspect="equal", xlim=(-1.2, 1.2))
     ax.set_axis_off()
     return figure
 
 
 def _name_joints(ax: Axes, place: Array, names: str) -> None:
-    """Write names beside a place: slanted over the arms and under the toes, else level."""
+    """Write names beside a place: slanted above the arms and below the toes, level elsewhere."""
     x, y = place
     away = 1 if x > -0.01 else -1
     up, slant = -9 * names.startswith("lowerneck"), 0
@@ -114,60 +113,59 @@ def _name_joints(ax: Axes, place: Array, names: str) -> None:
 
 def draw_nodes() -> Figure:
     """Draw two clips with nodes inserted where transitions leave and enter."""
-    clips = [resample(samples.sample(name), 30)[:240] for name in ("walk_circle", "walk_curve_1")]
-    found = transitions.find_transitions(clips, window=WINDOW, below=0.04)
+    clips = [resample(datasets.sample(name), 30)[:240] for name in ("walk_circle", "walk_curve_1")]
+    found = matching.find_transitions(clips, window=WINDOW, below=0.04)
     best = sorted((t for t in found if t.source != t.target), key=lambda t: t.cost)[:8]
     figure = plt.figure(figsize=(8, 2.4), layout="constrained")
-    arcs = graph_drawing.timeline(
-        motion_graph.from_transitions(clips, best, window=WINDOW), ax=figure.add_subplot()
-    )
+    graph = graphs.from_transitions(clips, best, window=WINDOW)
+    arcs = plotting.timeline(graph, ax=figure.add_subplot())
     arcs.set(alpha=1, linewidths=1.6)
     return figure
 
 
 def draw_distances() -> Figure:
     """Draw the distance image of two clips with its minima."""
-    first, second = (resample(samples.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2"))
-    grid = distance_grids.distance_grid(first, second, window=WINDOW)
-    minima = local_minima(grid, 0.05**2)
+    first, second = (resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2"))
+    grid = matching.distance_grid(first, second, window=WINDOW)
+    minima = matching.local_minima(grid, 0.05**2)
     names = (first.name, second.name)
-    charts.distance_image(grid, fps=30, minima=minima, names=names)
+    plotting.distance_image(grid, fps=30, minima=minima, names=names)
     return plt.gcf()
 
 
 def draw_pruning() -> Figure:
     """Draw the graph of eight nodes before and after pruning."""
-    graph = pruning.notes_example()
+    graph = graphs.notes_example()
     corners = [(0, 1), (1, 2), (1, 0), (-0.2, -0.6), (3.6, 2.4), (2.2, 2), (3, 1), (2.2, 0)]
     places = dict(zip(range(1, 9), corners, strict=True))
     figure = plt.figure(figsize=(8, 3.4), layout="constrained")
     before, after = figure.subplots(1, 2)
-    graph_drawing.node_link(graph, places=places, ax=before)
-    graph_drawing.node_link(graph, places=places, kept=pruning.prune_graph(graph).graph, ax=after)
+    plotting.node_link(graph, places=places, ax=before)
+    plotting.node_link(graph, places=places, kept=graphs.prune_graph(graph).graph, ax=after)
     before.set_title("before pruning", y=0.94)
     after.set_title("after: 4 is a sink, 5 a dead end", y=0.94)
     return figure
 
 
 def draw_path() -> Figure:
-    """Draw a path asked for, black, and the walk that follows it, yellow, with its footprints."""
-    path = ground_path.figure_eight()
-    walk = follow_path(_graph(), path).motion()
-    charts.asked_and_walked(path.points, walk)
-    charts.footprints(find_footprints(walk), ax=plt.gca())
+    """Draw a path that was asked for, black, and the walk that follows it, yellow, with its footprints."""
+    path = figure_eight()
+    walk = steering.follow_path(_graph(), path).motion()
+    plotting.asked_and_walked(path.points, walk)
+    plotting.footprints(feet.find_footprints(walk), ax=plt.gca())
     return plt.gcf()
 
 
 def draw_seam() -> Figure:
     """Draw the feet's heights across the seams of a walk."""
     graph = _graph()
-    edges = random_walks.random_walk(graph, seconds=6, seed=3)
-    walk = walk_to_motion.to_motion(graph, edges)
-    feet = [walk.skeleton.index(name) for name in ("lfoot", "rfoot")]
-    heights = 100 * joint_positions(walk)[:, feet, 1]
-    seams = [(seam.frame, seam.frame + WINDOW) for seam in walks.seams(graph, edges)]
+    edges = synthesis.random_walk(graph, seconds=6, seed=3)
+    walk = synthesis.to_motion(graph, edges)
+    ankles = [walk.skeleton.index(name) for name in ("lfoot", "rfoot")]
+    heights = 100 * joint_positions(walk)[:, ankles, 1]
+    seams = [(seam.frame, seam.frame + WINDOW) for seam in synthesis.seams(graph, edges)]
     labels = ["left ankle (cm)", "right ankle (cm)"]
-    charts.joint_curve(heights, fps=30, seams=seams, labels=labels)
+    plotting.joint_curve(heights, fps=30, seams=seams, labels=labels)
     return plt.gcf()
 
 
@@ -178,24 +176,25 @@ def draw_match() -> Figure:
     start, end, edge = min((e for e in found if e[0][0] != e[1][0]), key=lambda e: e[2]["cost"])
     first = graph.clips[start[0]][start[1] : start[1] + WINDOW]
     second = edge["transform"].apply_motion(graph.clips[end[0]][end[1] - WINDOW : end[1]])
-    stick_figures.laid_over(first, second, every=WINDOW - 1)
+    plotting.laid_over(first, second, every=WINDOW - 1)
     return plt.gcf()
 
 
 def draw_search() -> Figure:
     """Draw a search for five steps along a path that turns back: its tree, and the same on the ground."""
-    path = ground_path.GroundPath(np.array([(0, 0), (0, 2.1), (0.7, 2.1), (0.7, 0)]))
+    path = GroundPath(np.array([(0, 0), (0, 2.1), (0.7, 2.1), (0.7, 0)]))
     graph = nx.MultiDiGraph([("left", "right")] * 3 + [("right", "left")] * 3)
     nx.set_edge_attributes(graph, 18, "frames")
 
-    def step(state: tuple[complex, float, int], edge: SearchEdge) -> tuple[float, Any]:
+    def step(state: tuple[complex, float, int], edge: Edge) -> tuple[float, Any]:
         at, heading, steps = state
         heading += np.pi / 6 * (edge[2] - 1)
         at += 0.7 * np.exp(1j * heading)
         x, z = path.at(0.7 * (steps + 1))
         return abs(at - complex(z, x)) ** 2, (at, heading, steps + 1)
 
-    tree = grow_tree(Problem(graph, step, lambda state: state[2] == 5), "left", (0j, 0.0, 0))
+    problem = synthesis.Problem(graph, step, lambda state: state[2] == 5)
+    tree = plotting.grow_tree(problem, "left", (0j, 0.0, 0))
     figure = plt.figure(figsize=(10, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
     TreePicture(tree, ax=left).after()
@@ -220,30 +219,29 @@ PICTURES: dict[str, Callable[[], Figure]] = {
 
 
 def draw_all(folder: Path) -> list[Path]:
-    """Draw every picture anew, as PNG, with its `fingerprint` inside.
+    """Draw every picture anew, as a PNG with its `fingerprint` inside.
 
     Parameters
     ----------
-    folder : where to write; it must be there.
+    folder : where to write; it must exist.
 
     Returns
     -------
     The files.
     """
     written = []
-    with plt.rc_context({"figure.dpi": 110, "svg.hashsalt": "mocap"}):
+    with plt.rc_context({"figure.dpi": 110}):
         for name, draw in PICTURES.items():
             figure = draw()
             drawn = {"Software": None, "Description": json.dumps(fingerprint(figure))}
-            with replacing(folder / f"{name}.png") as beside:
-                figure.savefig(beside, dpi=110, metadata=drawn)
-            plt.close(figure)
             written.append(folder / f"{name}.png")
+            figure.savefig(written[-1], dpi=110, metadata=drawn)
+            plt.close(figure)
     return written
 
 
 def fingerprint(figure: Figure) -> dict[str, list[float]]:
-    """Sum up what a figure's lines, bundles of lines and images show: how many numbers, mean, deviation."""
+    """Sum up what a figure's lines and images show: how many numbers, their mean, their deviation."""
     readings: dict[type, Callable[[Any], Any]] = {
         Line2D: lambda line: [line.get_xydata()],
         LineCollection: lambda lines: lines.get_segments(),
@@ -261,11 +259,11 @@ def fingerprint(figure: Figure) -> dict[str, list[float]]:
 
 
 def drawn_in(path: Path) -> dict[str, list[float]]:
-    """Read the fingerprint in a picture that `draw_all` wrote.
+    """Read the fingerprint from a picture that `draw_all` wrote.
 
     Raises
     ------
-    MocapError : for a file that is missing, or holds none.
+    MocapError : for a file that is missing or has no fingerprint.
     """
     try:
         with Image.open(path) as picture:

@@ -1,4 +1,4 @@
-"""The pictures in figures/ are those that the package draws now."""
+"""The pictures in figures/ are those that `figures/gallery.py` draws now."""
 
 from pathlib import Path
 
