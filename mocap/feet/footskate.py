@@ -139,7 +139,7 @@ def _within_bounds(
 
 
 def _beyond_reach(tracks: Sequence[LegTrack], targets: Sequence[FootTarget], rise: Array) -> list[Excess]:
-    """Measure by how much each leg is too short where it is planted, metres."""
+    """Measure for each leg by how much it is too short where it is planted, metres."""
     excesses = []
     for number, (track, target) in enumerate(zip(tracks, targets, strict=True)):
         wanted = target.ankle - track.hip - rise[:, None] * UP

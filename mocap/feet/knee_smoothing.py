@@ -5,6 +5,7 @@ foot stands still, a knee that is nearly straight makes a centimetre of the mill
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -39,7 +40,23 @@ STEP = 1e-4  # metres, for slopes; half or twice as much makes no difference
 # millimetre.
 LOST_IN_POSES = 1e-7
 
-Aimed = tuple[LegTrack, FootTarget]  # a leg, and where its ankle must be
+
+class Aimed(NamedTuple):
+    """A leg, where its ankle must be, and the direction from there to the hip, (F, 3)."""
+
+    track: LegTrack
+    target: FootTarget
+    inward: Array
+
+    def ankle(self, shift: Array) -> Array:
+        """Move the ankle's target towards the hip by `shift` (F,), metres."""
+        return np.asarray(self.target.ankle + shift[:, None] * self.inward)
+
+    def knee(self, rise: Array, shift: Array) -> Array:
+        """Find the knee, (F, 3), when the root has risen and the ankle's target is shifted."""
+        hip = self.track.hip + rise[:, None] * UP
+        swing = bend_and_swing(self.track, self.ankle(shift) - hip)[1]
+        return np.asarray(hip + rotations.rotate(swing, self.track.bones[0]))
 
 
 def smooth_knees(
@@ -64,12 +81,12 @@ def smooth_knees(
     """
     if len(rise) < 3:
         return list(targets), rise, np.zeros(len(rise))
-    legs = list(zip(tracks, targets, strict=True))
+    legs = [_aim(track, target) for track, target in zip(tracks, targets, strict=True)]
     free = np.array([np.ones(len(rise), bool), *(~target.planted for target in targets)])  # (1 + L, F)
     ceiling, bound = _ceiling(legs), _bound(tracks)
     change = np.zeros(free.shape)
     for left in reversed(range(PASSES)):
-        knees = np.stack([_knee(leg, rise + change[0], x) for leg, x in zip(legs, change[1:], strict=True)])
+        knees = np.stack([leg.knee(rise + change[0], x) for leg, x in zip(legs, change[1:], strict=True)])
         sizes = np.linalg.norm(np.diff(knees, 2, axis=1), axis=-1)
         if not left or not np.any(sizes > bound):
             break
@@ -77,15 +94,21 @@ def smooth_knees(
         slopes = _slopes(legs, knees, rise, change) * free[:, None, :, None]
         change += _solve_changes(knees, slopes, excess, change)
         change[0] = np.minimum(rise + change[0], ceiling) - rise
-    moved = [leg[1]._replace(ankle=_moved_inwards(leg, x)) for leg, x in zip(legs, change[1:], strict=True)]
+    moved = [leg.target._replace(ankle=leg.ankle(x)) for leg, x in zip(legs, change[1:], strict=True)]
     return moved, rise + change[0], np.pad((sizes / bound).max(axis=0) - 1, 1, constant_values=-1.0)
+
+
+def _aim(track: LegTrack, target: FootTarget) -> Aimed:
+    """Add the direction from an ankle's target to its hip."""
+    inward = track.hip - target.ankle
+    return Aimed(track, target, inward / np.linalg.norm(inward, axis=-1, keepdims=True))
 
 
 def _ceiling(legs: Sequence[Aimed]) -> Array:
     """Find how far the root may rise at most, (F,), metres, for planted feet to be reached."""
     highest = [
         np.where(target.planted, track.highest(target.ankle, track.hinge.reach), np.inf)
-        for track, target in legs
+        for track, target, _ in legs
     ]
     return np.asarray(np.min(highest, axis=0))
 
@@ -96,28 +119,12 @@ def _bound(tracks: Sequence[LegTrack]) -> Array:
     return np.asarray(np.maximum(np.percentile(own, USUAL, method="lower"), own) + LOST_IN_POSES)
 
 
-def _moved_inwards(leg: Aimed, shift: Array) -> Array:
-    """Move an ankle's target towards its hip by `shift` (F,), metres."""
-    track, target = leg
-    inward = track.hip - target.ankle
-    inward = inward / np.linalg.norm(inward, axis=-1, keepdims=True)
-    return np.asarray(target.ankle + shift[:, None] * inward)
-
-
-def _knee(leg: Aimed, rise: Array, shift: Array) -> Array:
-    """Find the knee, (F, 3), when the root has risen and the ankle's target is moved inwards."""
-    track = leg[0]
-    hip = track.hip + rise[:, None] * UP
-    swing = bend_and_swing(track, _moved_inwards(leg, shift) - hip)[1]
-    return np.asarray(hip + rotations.rotate(swing, track.bones[0]))
-
-
 def _slopes(legs: Sequence[Aimed], knees: Array, rise: Array, change: Array) -> Array:
     """Measure how far each knee moves for each change, shape (1 + L, L, F, 3): the rise, then the ankles."""
     slopes = np.zeros((1 + len(legs), *knees.shape))
     for n, leg in enumerate(legs):
-        lower = _knee(leg, rise + change[0] - STEP, change[1 + n])
-        inner = _knee(leg, rise + change[0], change[1 + n] + STEP)
+        lower = leg.knee(rise + change[0] - STEP, change[1 + n])
+        inner = leg.knee(rise + change[0], change[1 + n] + STEP)
         slopes[0, n], slopes[1 + n, n] = (knees[n] - lower) / STEP, (inner - knees[n]) / STEP
     return slopes
 
@@ -125,6 +132,8 @@ def _slopes(legs: Sequence[Aimed], knees: Array, rise: Array, change: Array) -> 
 def _solve_changes(knees: Array, slopes: Array, excess: Array, change: Array) -> Array:
     """Solve for changes (1 + L, F) that take the share `excess` (L, F - 2) off the knees' accelerations."""
     kinds, frames = change.shape
+    # A sparse matrix from all changes to all second differences: each row is a coordinate of a knee in a frame,
+    # and depends on the changes in that frame and in the two next to it.
     windows = sliding_window_view(slopes, 3, axis=2) * [1.0, -2.0, 1.0]  # (1 + L, L, F - 2, 3, 3 frames)
     kind, _, frame, _, tap = np.ogrid[tuple(map(slice, windows.shape))]
     column = np.broadcast_to(kind * frames + frame + tap, windows.shape)
