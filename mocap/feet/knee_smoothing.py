@@ -132,8 +132,8 @@ def _slopes(legs: Sequence[Aimed], knees: Array, rise: Array, change: Array) -> 
 def _solve_changes(knees: Array, slopes: Array, excess: Array, change: Array) -> Array:
     """Solve for changes (1 + L, F) that take the share `excess` (L, F - 2) off the knees' accelerations."""
     kinds, frames = change.shape
-    # A sparse matrix from all changes to all second differences: each row is a coordinate of a knee in a frame,
-    # and depends on the changes in that frame and in the two next to it.
+    # A sparse matrix from all changes to all second differences: each row is a coordinate of a knee in a
+    # frame, and depends on the changes in that frame and in the two next to it.
     windows = sliding_window_view(slopes, 3, axis=2) * [1.0, -2.0, 1.0]  # (1 + L, L, F - 2, 3, 3 frames)
     kind, _, frame, _, tap = np.ogrid[tuple(map(slice, windows.shape))]
     column = np.broadcast_to(kind * frames + frame + tap, windows.shape)
