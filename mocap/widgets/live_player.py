@@ -71,7 +71,7 @@ def _live_player() -> type[Any]:
 
 
 def linked(player: Player) -> Any:  # noqa: ANN401
-    """Link a player to Python: set its `frame` to go to a frame, observe it to follow the reader.
+    """Link a player to Python: set its `frame` to move it, observe its `frame` to follow the reader.
 
     Parameters
     ----------
