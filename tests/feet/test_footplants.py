@@ -147,3 +147,7 @@ def test_too_short_a_clip_and_legs_without_names_are_errors():
         mark_plants(sample("jog")[:12])
     with pytest.raises(MocapError, match="No legs found"):
         mark_plants(random_motion(0, frames=40))
+
+
+def test_the_shortest_clip_that_can_be_marked_is_a_frame_longer_than_the_longest_that_cannot():
+    assert len(mark_plants(sample("jog")[:13])) == 13

@@ -1,14 +1,17 @@
 """The root moves only as far as both legs need to reach, and not at all where they reach already."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.optimize import minimize_scalar
 
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet.ankle_targets import FootTarget
 from mocap.feet.leg_track import UP, LegTrack
-from mocap.feet.root_height import root_rise
+from mocap.feet.root_height import HEAVY, STRAIGHT, root_rise
 
 WALK = sample("walk_straight")[200:500]
 POSES = forward_kinematics(WALK)
@@ -42,3 +45,32 @@ def test_no_knee_becomes_straighter_than_it_was_or_than_eight_degrees(way):
     for track, target in zip(TRACKS, wanted, strict=True):
         after = np.linalg.norm(target.ankle - track.hip - rise[:, None] * UP, axis=-1)
         assert np.all(after <= track.limit + 1e-9)
+
+
+def test_the_rise_is_the_least_squares_solution():
+    """Against what a minimiser finds, frame by frame, where no leg is at its limit."""
+    wanted = targets([0, 0.004, 0.002], [0, 0.006, 0])
+    rise = root_rise(TRACKS, wanted)
+
+    def cost(h, frame):
+        total = HEAVY * h**2
+        for track, target in zip(TRACKS, wanted, strict=True):
+            apart = (track.hip - target.ankle)[frame]
+            length = np.linalg.norm(apart)
+            longer = length + apart[1] / length * h - track.distance[frame]
+            total += longer**2 / (np.sin(track.hinge.straight[frame]) ** 2 + np.sin(STRAIGHT) ** 2)
+        return total
+
+    found = [minimize_scalar(cost, args=(frame,), tol=1e-12).x for frame in range(0, len(WALK), 20)]
+    assert rise[::20] == pytest.approx(found, abs=1e-7)
+
+
+def test_backwards_the_root_rises_as_it_does_forwards():
+    back = replace(
+        WALK, root_positions=WALK.root_positions[::-1], rotations=WALK.rotations[::-1], contacts={}
+    )
+    poses = forward_kinematics(back)
+    tracks = [LegTrack(back, track.leg, poses) for track in TRACKS]
+    wanted = targets([0, -0.03, 0], 0.0)
+    reversed_ = [FootTarget(*(field[::-1] for field in target)) for target in wanted]
+    assert root_rise(tracks, reversed_)[::-1] == pytest.approx(root_rise(TRACKS, wanted), abs=1e-12)

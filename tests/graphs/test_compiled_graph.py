@@ -25,6 +25,7 @@ def test_every_edge_is_there_once():
         assert GRAPH.nodes[GRAPH.target[number]] == GRAPH.edges[number][1]
         assert GRAPH.frames[number] == edge["frames"]
         assert GRAPH.blended[number] == (edge["kind"] == "transition")
+        assert GRAPH.cost[number] == edge.get("cost", 0)
 
 
 def test_the_track_is_the_root_of_the_motion():
