@@ -1,6 +1,6 @@
 """Feet that stand: find footplants, and clean up footskate in the five steps of [KSG02].
 
-Captured feet creep while they stand, and blended feet slide. `clean_up` gives each plant one place and bends
+Captured feet drift while they stand, and blended feet slide. `clean_up` gives each plant one place and bends
 the legs so that the foot stays there. The files below follow the steps of the paper.
 
 Reading order (notebook 04)

@@ -1,6 +1,6 @@
 """Feet that stay where they stand: footskate cleaned up in the five steps of [KSG02].
 
-Captured feet creep while they stand, and blended feet slide. So each plant gets one place (1); the places say
+Captured feet drift while they stand, and blended feet slide. So each plant gets one place (1); the places say
 where the ankle must be (2); the root moves so that both legs reach (3); the legs bend (4); and around each
 plant the corrections come and go smoothly (5).
 

@@ -28,12 +28,12 @@ def test_a_foot_that_stands_still_stays_as_it_is():
 
 
 def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():
-    # On the back, the leg stretched out level; the hip creeps away from the foot by a centimetre.
+    # On the back, the leg stretched out level; the hip moves away from the foot by a centimetre.
     positions = POSES.positions[:1].repeat(len(WALK), axis=0).copy()
     thigh, shank, foot = LEFT.lengths(WALK.skeleton)
-    creep = np.linspace(0, 0.01, len(WALK))[:, None] * [1.0, 0, 0]
+    moved = np.linspace(0, 0.01, len(WALK))[:, None] * [1.0, 0, 0]
     matrices = np.broadcast_to(np.eye(3), POSES.matrices.shape)
-    positions[:, LEFT.hip] = creep + np.array([0, 0.1, 0])
+    positions[:, LEFT.hip] = moved + np.array([0, 0.1, 0])
     positions[:, LEFT.knee] = positions[:, LEFT.hip] + thigh * np.array([-np.cos(0.05), np.sin(0.05), 0])
     positions[:, LEFT.ankle] = positions[:, LEFT.knee] + shank * np.array([-np.cos(0.05), -np.sin(0.05), 0])
     positions[:, LEFT.ball] = positions[:, LEFT.ankle] + [0, foot, 0]
@@ -41,7 +41,9 @@ def test_plants_of_a_leg_that_lies_are_drawn_within_its_reach():
     target = foot_target(lying, np.ones_like(MARKS))
     before = np.linalg.norm(positions[:, LEFT.ankle] - positions[:, LEFT.hip], axis=-1)
     assert np.ptp(target.ankle, axis=0) == pytest.approx(0, abs=1e-12)
-    assert np.linalg.norm(target.ankle - positions[:, LEFT.hip], axis=-1).max() <= before.max() + 1e-9
+    after = np.linalg.norm(target.ankle - positions[:, LEFT.hip], axis=-1)
+    assert after.max() <= before.max() + 1e-9
+    assert np.all(after <= lying.limit)
     assert np.linalg.norm(positions[:, LEFT.ankle].mean(axis=0) - positions[-1, LEFT.hip]) > before.max()
 
 

@@ -126,7 +126,7 @@ RUNS = (35, 38, 42, 45, 52, 56)
 @pytest.mark.filterwarnings("ignore:.*let go")  # tested below
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 @pytest.mark.parametrize(("trials", "least"), [(WALKS, 0.97), (RUNS, 0.9)])
-def test_captured_feet_creep_and_afterwards_stand(real_data, trials, least, fps):
+def test_captured_feet_drift_and_afterwards_stand(real_data, trials, least, fps):
     held, asked = 0, 0
     for trial in trials:
         clip = mark_plants(resample(load(real_data / "cmu" / "16" / f"16_{trial}.amc"), fps))
