@@ -1,20 +1,20 @@
-"""Motion graphs: every way through some clips that looks like one motion [KGP02].
+"""Motion graphs: all ways through some clips that look like one motion [KGP02].
 
-`build` finds the transitions and cuts the clips where they touch; `prune` keeps the part that a walk never
-has to leave. The graph itself is a `networkx.MultiDiGraph` of nodes (clip, frame).
+`build` finds the transitions and cuts the clips where transitions leave and enter. `prune` keeps the part in
+which a walk never ends. The graph itself is a `networkx.MultiDiGraph` of nodes (clip, frame).
 
 Reading order (notebooks 05, 06)
 --------------------------------
  1. `motion_graph`: clips, choice points and transitions as one graph
- 2. `components`: strongly connected components, and what can be reached
- 3. `pruning`: cut what a walk could not leave, and say why
- 4. `thresholds`: which threshold?
- 5. `choice_points`: fewer, fuller choice points
- 6. `graph_summary`: what a graph can play
- 7. `storage`: one file for a graph: .npz; GraphML for other tools
- 8. `edge_tables`: what each edge plays, and each hop, as arrays
+ 2. `components`: strongly connected components, and reachable nodes
+ 3. `pruning`: remove dead ends and sinks, with a reason for each edge
+ 4. `thresholds`: the size of the graph at each threshold
+ 5. `choice_points`: merge choice points that are close together
+ 6. `graph_summary`: what a graph can play, in numbers
+ 7. `storage`: save a graph to .npz, or to GraphML for other tools
+ 8. `edge_tables`: the frames that each edge and each hop plays, as arrays
  9. `compiled_graph`: a whole graph as arrays, for searches
-10. `homework_graph`: the homework's simpler graph
+10. `homework_graph`: the homework's simpler graph of segments
 
 References
 ----------

@@ -1,9 +1,9 @@
-"""Fewer, fuller choice points: those a few frames apart become one, where that loses nothing.
+"""Merge choice points that are a few frames apart, so that each of them offers more transitions.
 
-Local minima scatter: where two clips stay alike for a while, transitions leave from a handful of frames in a
-row. Moved to one frame they cost a little more, and a walk that comes by meets all of them at once. A
-transition may leave its clip later than before, or enter the other earlier, but never the other way round:
-so each walk of the old graph has its counterpart in the new one, and no frame of a clip is lost.
+Where two clips stay alike for a while, several local minima lie side by side, and transitions leave from
+several frames in a row. Moved to one frame they cost a little more, but a walk meets all of them at once. A
+transition may leave its clip later than before, or enter the other clip earlier, never the reverse. So each
+walk of the old graph has its counterpart in the new one, and no frame of a clip is lost.
 """
 
 from collections.abc import Iterator, Sequence
@@ -19,24 +19,36 @@ from mocap.matching.transitions import Transition
 
 Ends = tuple[Node, Node]
 
-AT_ONCE = 2048  # transitions measured together: bounds the memory
+AT_ONCE = 2048  # transitions measured together, to limit the memory
 
 
 def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: float) -> MotionGraph:
-    """Merge the choice points of a clip that lie within a few frames, where that loses nothing.
+    """Merge the choice points of a clip that are within a few frames, where every old walk stays possible.
 
-    The transitions moved are aligned and measured anew. Where one would cost `threshold` or more, run over
-    the end of its clip, or blend windows that overlap, the point farther from its goal stays where it was.
+    The moved transitions are aligned and measured again. Where one would cost `threshold` or more, run over
+    the end of its clip, or blend windows that overlap, the point that moved further goes back to its frame.
 
     Parameters
     ----------
-    motion_graph : not yet pruned, since the ends of the clips come back.
+    motion_graph : the graph before pruning, because the ends of the clips come back.
     within : the largest number of frames between the first and the last point of a group.
-    threshold : the RMS distance that no moved transition may reach, metres; as for `graphs.build`.
+    threshold : moved transitions stay below this RMS distance, metres; as for `graphs.build`.
 
     Returns
     -------
-    A graph over the same clips; transitions that have come to lie between the same points are one.
+    A graph over the same clips; transitions between the same two points become one.
+
+    Raises
+    ------
+    MocapError : for a threshold that is not above 0.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.build(clips, window=10, threshold=0.03)
+    >>> len(merge_choice_points(graph, within=3, threshold=0.04).graph) < len(graph.graph)
+    True
 
     Notebook: 05-motion-graph
     """
@@ -67,7 +79,7 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
 
 
 def _goals(ways: Sequence[Ends], within: int) -> dict[Node, Node]:
-    """Send each choice point to one that no point of its group left later, and none entered earlier."""
+    """Map each choice point to that of its group where the last transition leaves, else to the first one."""
     left, entered = ({ends[side] for ends in ways} for side in (0, 1))
     groups: list[list[Node]] = []
     for node in sorted(left | entered):
@@ -83,6 +95,7 @@ def _goals(ways: Sequence[Ends], within: int) -> dict[Node, Node]:
 
 
 def _fits(clips: Sequence[Motion], window: int, leave: Node, enter: Node) -> bool:
+    """Check that a transition lies inside its clips, and that its two windows do not overlap."""
     inside = leave[1] + window <= len(clips[leave[0]]) and enter[1] >= window
     return inside and (leave[0] != enter[0] or abs(enter[1] - window - leave[1]) >= window)
 
@@ -90,7 +103,7 @@ def _fits(clips: Sequence[Motion], window: int, leave: Node, enter: Node) -> boo
 def _measured(
     clips: Sequence[Motion], window: int, ends: Sequence[Ends]
 ) -> Iterator[tuple[Ends, Transition]]:
-    """Align the windows of transitions from node to node, and tell the RMS distance that is left."""
+    """Align the windows of transitions from node to node, and measure the RMS distance that remains."""
     clouds = [point_cloud(clip).reshape(len(clip), -1) for clip in clips]
     for first in range(0, len(ends), AT_ONCE):
         part = ends[first : first + AT_ONCE]

@@ -1,6 +1,6 @@
 """A motion graph as arrays, for searches that look at thousands of edges at once.
 
-Ground points are complex numbers z + ix and planar transforms p ↦ turn · p + move, as `body.planar` says.
+Ground points are complex numbers z + ix, and planar transforms are p ↦ turn · p + move, as in `body.planar`.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Tracks:
 
 @dataclass(frozen=True, eq=False)
 class LabelTable:
-    """Which of the T frames of all edges bear which of L labels: `bears` (L, T), in the order of `names`."""
+    """The labels of the T frames of all edges: `bears` has shape (L, T), in the order of the L `names`."""
 
     names: list[str]
     bears: Mask
@@ -54,7 +54,7 @@ class LabelTable:
 
 @dataclass(frozen=True, eq=False)
 class CompiledGraph:
-    """A motion graph with N nodes, E edges of T frames together, and H hops.
+    """A motion graph as arrays, with N nodes, E edges of T frames together, and H hops.
 
     Parameters
     ----------
@@ -64,9 +64,9 @@ class CompiledGraph:
     target, frames, cost, blended : shape (E,), as in the graph; `blended` are the transitions.
     turn, move : shape (E,), the transform of a transition, else 1 and 0.
     at : shape (N,), where the root is at a node, in the coordinates of its clip.
-    ahead : shape (N, 3), where it is after `AHEAD` seconds if the clip goes on (past its end, as before).
-    going : shape (N,), the direction it moves in, or where it stands, faces (radians).
-    tracks, hops, labels : what the edges' frames do, what leaves each node, and which frames bear a label.
+    ahead : shape (N, 3), where it is after `AHEAD` seconds of clip; past the clip's end its velocity stays.
+    going : shape (N,), the direction of its movement, or where it stands still, its heading (radians).
+    tracks, hops, labels : the root in each frame, the hops from each node, and the labels of each frame.
     """
 
     source: MotionGraph
@@ -104,7 +104,7 @@ class CompiledGraph:
 
 
 def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
-    """Turn a graph into arrays; one that is compiled already comes back as it is.
+    """Turn a graph into arrays; a compiled graph comes back as it is.
 
     Raises
     ------
@@ -164,19 +164,19 @@ def _tracks(edges: EdgeTable, frames: FrameTable, roots: _Roots) -> Tracks:
 
 
 def _labels(graph: MotionGraph, frames: FrameTable) -> LabelTable:
-    """List which frames bear which label; in a transition, those of the clip with the larger weight."""
+    """List the labels of the frames; in a transition they come from the clip with the larger weight."""
     marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
     names = sorted(marks)
     return LabelTable(names, np.array([marks[name] for name in names], bool).reshape(-1, len(frames.edge)))
 
 
 def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:
-    """Place the root on the ground in every frame of a walk, and give these frames' rows among all.
+    """Compute where the root is on the ground in every frame of a walk, and the rows of these frames.
 
     Parameters
     ----------
     graph : the compiled graph.
-    edges : numbers of edges, each starting where the one before ends.
+    edges : numbers of edges; each starts where the one before ends.
     turn, move : place the first edge's clip: p ↦ turn · p + move.
 
     Returns
@@ -191,7 +191,7 @@ def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: comple
 
 
 class _Roots:
-    """Where the root of each clip's frames is on the ground; outside the clip it stands."""
+    """Where the root is on the ground in each frame of the clips; outside a clip it stands still."""
 
     def __init__(self, graph: MotionGraph) -> None:
         self.last = np.array([len(clip) - 1 for clip in graph.clips])
@@ -214,7 +214,7 @@ class _Roots:
         return np.stack(found, axis=1)
 
     def going(self, frames: Indices, fps: float) -> Array:
-        """Give the direction of the next moments, or the root's heading where it stands."""
+        """Give the direction of movement after each frame, or the root's heading where it stands still."""
         way = self.ahead(frames, fps)[:, -1] - self[frames]
         return np.where(np.abs(way) > 0.1, np.angle(way), heading(self.turns[self._rows(frames)]))
 

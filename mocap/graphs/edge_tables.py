@@ -1,4 +1,4 @@
-"""What each edge of a motion graph plays, and each hop, as arrays: one row per edge, per frame, per hop."""
+"""The frames that each edge and each hop of a motion graph plays, as arrays: a row per edge, frame or hop."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 
 Edge = tuple[Node, Node, int]
 
-HOP = 1 / 6  # seconds
+HOP = 1 / 6  # seconds of clip, after which a hop ends
 
 
 class EdgeTable(NamedTuple):
-    """Edges as arrays of one length: a stretch of clip has cost 0 and the identity as its `transform`."""
+    """E edges as arrays; a stretch of clip has cost 0 and the identity as its `transform`."""
 
     leaves: Indices  # (E, 2): clip and frame
     enters: Indices  # (E, 2)
@@ -33,7 +33,7 @@ class EdgeTable(NamedTuple):
 
 
 class FrameTable(NamedTuple):
-    """What the frames of some edges are made of: `alpha` times frame `here`, the rest of frame `there`."""
+    """The frames of some edges as blends: `alpha` times frame `here` plus `1 - alpha` times frame `there`."""
 
     edge: Indices  # (F,): which of the edges a frame belongs to
     here: Indices  # (F, 2): clip and frame
@@ -42,12 +42,20 @@ class FrameTable(NamedTuple):
 
     @property
     def owner(self) -> Indices:
-        """Whose labels and contacts each frame bears: the frame with the larger weight, (F, 2)."""
+        """The clip frame with the larger weight, (F, 2): its labels and contacts are those of the blend."""
         return np.where(self.alpha[:, None] >= 0.5, self.here, self.there)
 
 
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
-    """Raise `NoWalk` for a node that the graph lacks.
+    """Raise `NoWalk` for a node that is not in the graph.
+
+    Examples
+    --------
+    >>> from mocap import datasets, graphs
+    >>> graph = graphs.from_transitions([datasets.sample("walk_curve_1")], [], window=10)
+    >>> require_node(graph, (0, 7))
+    Traceback (most recent call last):
+    mocap.errors.NoWalk: The graph has no node (0, 7); the nearest is (0, 0).
 
     Notebook: 07-walks-and-search
     """
@@ -61,7 +69,17 @@ def require_node(motion_graph: MotionGraph, node: Node) -> None:
 
 
 def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
-    """Gather what the graph knows of some edges.
+    """Gather the data of some edges of a graph in arrays.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions([clip], [back], window=10)
+    >>> edges = edge_table(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)])
+    >>> edges.frames.tolist(), edges.blended.tolist(), edges.cost.tolist()
+    ([40, 10], [False, True], [0.0, 0.02])
 
     Notebook: 07-walks-and-search
     """
@@ -78,10 +96,22 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
 
 
 def frame_table(edges: EdgeTable, window: int) -> FrameTable:
-    """Tell what every frame of some edges is made of [KGP02, Eqs. 5-7].
+    """List the clip frames and the weight of which each frame of some edges is made [KGP02, Eqs. 5-7].
 
-    Two blends never share a frame: a transition enters its clip at the frame after its window, and the next
-    one leaves from there at the earliest.
+    No frame is part of two blends: a transition enters its clip at the frame after its window, and the next
+    transition leaves at this frame or later.
+
+    Examples
+    --------
+    A transition of 10 frames from frame 60 into frame 20 blends frames 60 to 69 with frames 10 to 19:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions([clip], [back], window=10)
+    >>> table = frame_table(edge_table(graph, [((0, 60), (0, 20), 0)]), window=10)
+    >>> table.here[0].tolist(), table.there[0].tolist(), table.there[-1].tolist()
+    ([0, 60], [0, 10], [0, 19])
     """
     edge = np.repeat(np.arange(len(edges.frames)), edges.frames)
     step = ranges(np.zeros_like(edges.frames), edges.frames)  # frames since the edge's first
@@ -96,18 +126,29 @@ def frame_table(edges: EdgeTable, window: int) -> FrameTable:
 
 @dataclass(frozen=True, eq=False)
 class Hops:
-    """All H hops of a compiled graph, sorted by the node that they leave.
+    """All H hops of a compiled graph with N nodes, sorted by the node that they leave.
 
-    A hop rides along the clip until it takes a transition, or has lasted `HOP` seconds. To step by edges, of
-    a frame or two each, would come to the same walks.
+    A hop stays on the clip until it takes a transition or has lasted `HOP` seconds. Single edges, of a frame
+    or two each, would give the same walks in many more steps.
 
     Parameters
     ----------
     first : shape (N + 1,), hops `first[n]` to `first[n + 1]` leave node n.
-    ride, rides : shape (H,), the first stretch of clip that a hop rides along, and how many stretches.
-    last : shape (H,), the edge that ends it: a transition, or the last stretch of the ride.
-    starts, counts : shape (H, 2), the rows of frames that it plays, among those of all edges one after the
-        other: first those of the ride before its last edge, then those of the last edge.
+    ride, rides : shape (H,), the first stretch of clip of a hop, and the number of those before `last`.
+    last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
+    starts, counts : shape (H, 2), the rows of frames that a hop plays, in the list of the frames of all edges:
+        first those of the stretches before the last edge, then those of the last edge.
+
+    Examples
+    --------
+    Every hop from node 0 of this graph lasts at least 1/6 s, 5 frames:
+
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> of, hops = graph.hops.leaving(np.array([0]))
+    >>> bool((graph.hops.frames[hops] >= 5).all())
+    True
     """
 
     first: Indices
@@ -119,17 +160,17 @@ class Hops:
 
     @cached_property
     def frames(self) -> Indices:
-        """How many frames each hop plays, shape (H,)."""
+        """The number of frames that each hop plays, shape (H,)."""
         return np.asarray(self.counts.sum(axis=1))
 
     def leaving(self, nodes: Indices) -> tuple[Indices, Indices]:
-        """List every hop from some nodes: which of the nodes it leaves, and its number."""
+        """List all hops that leave some nodes: the index of each one's node in `nodes`, and its number."""
         first = self.first[nodes]
         count = self.first[nodes + 1] - first
         return np.repeat(np.arange(len(nodes)), count), ranges(first, count)
 
     def rows(self, hops: Indices) -> tuple[Indices, Indices]:
-        """List the rows of all frames that some hops play, and which of the hops each belongs to."""
+        """List the rows of all frames that some hops play, and the index in `hops` that each belongs to."""
         rows = ranges(self.starts[hops].ravel(), self.counts[hops].ravel())
         return rows, np.repeat(np.arange(len(hops)), self.counts[hops].sum(axis=1))
 
@@ -141,7 +182,7 @@ class Hops:
 
 
 def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops:
-    """Find the hops: from every node ride on, stretch by stretch, and leave by each transition on the way.
+    """Find the hops: from every node follow the clip, and leave by each transition on the way.
 
     A stretch of clip leads from node n to node n + 1, because the nodes are sorted.
 
@@ -149,14 +190,14 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
     ----------
     edges : the stretches of clip, in the order of the nodes they leave, then the transitions.
     leaves : shape (E,), the number of the node that each edge leaves.
-    nodes : how many there are.
+    nodes : the number of nodes.
     fps : frames per second.
     """
     rides = np.flatnonzero(~edges.blended)
     onward = np.full(nodes + 1, -1)  # the stretch that leaves each node
     onward[leaves[rides]] = rides
     first = np.searchsorted(leaves[len(rides) :], np.arange(nodes + 1)) + len(rides)
-    # Of those still riding: where they are, and for how many frames they have been.
+    # The hops that still follow their clip: the node where they are, and the frames so far.
     here, ridden = np.arange(nodes), np.zeros(nodes, np.intp)
     origin, count, found = np.arange(nodes), 0, []
     while len(here):
@@ -166,7 +207,7 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
         riding = onward[here] >= 0
         origin, here, stretch = origin[riding], here[riding] + 1, onward[here[riding]]
         ridden, count = ridden[riding] + edges.frames[stretch], count + 1
-        # A ride ends when it has lasted long enough, or its clip goes no further.
+        # A hop ends when it has lasted long enough, or its clip ends.
         over = (ridden >= HOP * fps) | ((onward[here] < 0) & (first[here] == first[here + 1]))
         found.append((origin[over], np.full(over.sum(), count - 1), stretch[over]))
         here, origin, ridden = here[~over], origin[~over], ridden[~over]
@@ -178,7 +219,7 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
 
 
 def _played(edges: EdgeTable, ride: Indices, rides: Indices, last: Indices) -> tuple[Indices, Indices]:
-    """Find the rows of frames that hops play; the stretches of a ride follow one another."""
+    """Find the rows of frames that hops play; the stretches of a hop lie one after the other."""
     ends = np.cumsum(edges.frames)
     starts = np.stack([ends[ride] - edges.frames[ride], ends[last] - edges.frames[last]], axis=1)
     ridden = np.where(rides > 0, ends[ride + rides - 1] - starts[:, 0], 0)

@@ -1,4 +1,4 @@
-"""Reading a graph: what it can play, how soon a walk can turn off, which kinds of motion it can reach."""
+"""A graph in numbers: what it can play, how soon a walk can turn off, which kinds of motion it can reach."""
 
 from typing import NamedTuple
 
@@ -12,10 +12,12 @@ from mocap.graphs.pruning import name
 class Summary(NamedTuple):
     """What a motion graph can play.
 
-    `frames` of the clips, which last `seconds`; `nodes`, `edges`, `transitions` of them; `out_degree`, the
-    mean number of edges that leave a node; `mean_wait` and `worst_wait`, the seconds from a frame of a clip
-    until a transition leaves it, infinite where the clip ends first; `reachable`, for each label set the
-    others that a walk which starts with it can come to.
+    `frames` and `seconds` : what it plays of the clips.
+    `nodes`, `edges`, `transitions` : their numbers; transitions count as edges too.
+    `out_degree` : the mean number of edges that leave a node.
+    `mean_wait`, `worst_wait` : seconds from a frame of a clip until a transition leaves the clip; infinite
+    where the clip ends first.
+    `reachable` : for each label set the others that a walk can reach from it.
     """
 
     frames: int
@@ -29,7 +31,7 @@ class Summary(NamedTuple):
     reachable: dict[Labels, frozenset[Labels]]
 
     def table(self) -> str:
-        """Write it in lines for people."""
+        """Write the summary as lines of text."""
         wait = f"{self.mean_wait:.2f} s away on average, {self.worst_wait:.2f} s at worst"
         rows = [
             ("frames", f"{self.frames} of the clips, {self.seconds:.1f} s"),
@@ -51,7 +53,20 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     Parameters
     ----------
     graph : its `graph`, pruned or not.
-    fps : frames a second of its clips.
+    fps : frames per second of its clips.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions([clip], [back], window=10)
+    >>> graph = graphs.prune(graph)
+    >>> print(summary(graph.graph, fps=30).table())
+    frames       40 of the clips, 1.3 s
+    nodes        2, with 1.00 edges out of each
+    edges        2, of them 1 transitions
+    turn-off     0.68 s away on average, 1.33 s at worst
 
     Notebook: 05-motion-graph
     """
@@ -71,16 +86,16 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
 
 
 def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
-    """Count the frames of clip, and how many frames before a turn-off they are: on average, and at worst."""
+    """Count the frames of clip, and the frames from them to the next turn-off: on average, and at worst."""
     turn_offs = {node for node, _, kind in graph.edges(data="kind") if kind == "transition"}
     stretches = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
     ahead: dict[tuple[int, int], float] = {}  # from a node to the next turn-off
     frames, total, worst = 0, 0.0, 0.0
-    for start, end in sorted(stretches, reverse=True):  # so that what follows is known
+    for start, end in sorted(stretches, reverse=True):  # from the end, so that the next stretch is known
         after = 0.0 if end in turn_offs else ahead.get(end, np.inf)
         length = end[1] - start[1]
         ahead[start] = length + after
-        # The frames wait length + after, … 1 + after; the first not at all where it is a turn-off.
+        # The frames wait length + after, … 1 + after; a first frame that is a turn-off does not wait.
         skipped = 1 if start in turn_offs else 0
         frames += length
         if length > skipped:
@@ -90,7 +105,7 @@ def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
 
 
 def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
-    """Find for each label set of the clips which others a walk that starts with it can come to."""
+    """Find for each label set of the clips the others that a walk can reach from it."""
     starts: dict[Labels, set[tuple[int, int]]] = {}
     for start, _, edge in graph.edges(data=True):
         if edge["kind"] == "clip":

@@ -1,10 +1,10 @@
 """The homework's graph: clips cut into segments, joined where the end of one is like the start of another.
 
-A node is a segment, an edge says what may follow it. Where the homework's program slips, the mended way is
-the default and its own way an option: `weighting="distance"` makes the worse match the likelier one, and
-`drift=True` lays segments on one another in height too, so that a walk slowly rises or sinks. Three more
-slips are not kept, but `homework_slips` shows them: angles that flip on their way through Euler angles,
-segments after a transition that show the last frame of the one before again, and clips changed in place.
+A node is a segment; an edge leads to a segment that may follow it. Where the homework's program has a
+mistake, the default is correct and the mistake is an option: `weighting="distance"` makes the worse match
+more likely, and `drift=True` also shifts segments in height, so that a walk slowly rises or sinks. Three more
+mistakes are shown in `homework_slips` only: Euler angles that flip, segments that repeat the last frame of
+the one before, and clips that are changed in place.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ from mocap.matching.other_metrics import Metric, euler_grid
 
 
 def segments(frames: int, length: int) -> list[slice]:
-    """Cut a clip into slices of one length; what would be too short a last one goes to the one before.
+    """Cut a clip into slices of one length; the last slice also takes the frames that are left over.
 
     Raises
     ------
@@ -48,18 +48,18 @@ def segments(frames: int, length: int) -> list[slice]:
 def segment_distances(
     clips: Sequence[Motion], *, segment: int = 200, window: int = 50, metric: Metric = euler_grid
 ) -> NDArray[np.floating]:
-    """Compare how each segment of some clips ends with how each starts: the homework's matrix.
+    """Compare the end of each segment with the start of each segment: the homework's matrix.
 
     Parameters
     ----------
-    clips : motions of one skeleton and one frame rate, cut by `segments`; these count through all clips.
-    segment : frames in a segment, the last of a clip excepted.
-    window : frames at the end of one segment and at the start of the other that are compared.
-    metric : one of the grids of this module.
+    clips : motions of one skeleton and one frame rate, cut by `segments`; S segments together.
+    segment : frames in a segment; the last one of a clip can be longer.
+    window : frames to compare, at the end of one segment and at the start of the other.
+    metric : `euler_grid`, `root_grid` or `pose_grid` of `matching`.
 
     Returns
     -------
-    Shape (S, S), in the metric's unit: [i, j] lays the head of segment j on the tail of segment i.
+    Shape (S, S), in the metric's unit: [i, j] compares the end of segment i with the start of segment j.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def segment_distances(
 
 
 class Segment(NamedTuple):
-    """Frames [start, end) of a clip, which is told by its number."""
+    """Frames [start, end) of the clip with this number."""
 
     clip: int
     start: int
@@ -94,16 +94,16 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     *,
     metric: Metric = euler_grid,
 ) -> nx.DiGraph:
-    """Build the homework's graph: each segment is followed by its successor, or by one of another clip.
+    """Build the homework's graph: edges lead to the next segment, and to similar segments of other clips.
 
     Parameters
     ----------
     clips : motions of one skeleton and one rate.
     segment : frames in a segment.
-    window : frames compared, and later blended.
+    window : frames to compare, and later to blend.
     threshold : the distance, in the metric's unit, below which a segment of another clip may follow.
-    weighting : how those share what probability the successor leaves, which is a half where there is one:
-        "inverse", in proportion to 1 / D, or "distance", in proportion to D as the homework has it.
+    weighting : the successor in the clip gets probability 1/2, the others share the rest: "inverse" in
+        proportion to 1 / D, "distance" in proportion to D as in the homework.
     metric : the homework's program has `euler_grid`, its report `root_grid`; both are in `matching`.
 
     Returns
@@ -113,7 +113,8 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
 
     Raises
     ------
-    MocapError, SkeletonMismatch : for clips that do not go together or are too short, and senseless settings.
+    MocapError, SkeletonMismatch : for clips of different skeletons or rates, clips that are too short, and
+        settings out of range.
 
     Notebook: 05-motion-graph
     """
@@ -133,13 +134,20 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
 def connect(
     parts: Sequence[Segment], distances: NDArray[np.floating], threshold: float, weighting: str
 ) -> nx.DiGraph:
-    """Join segments by edges: to the one that follows in the clip, and to those of other clips that match.
+    """Join segments by edges: to the next one of the clip, and to those of other clips below the threshold.
 
     Parameters
     ----------
     parts : the segments of all clips, in order.
     distances : D, shape (S, S), as `graphs.segment_distances` gives it.
     threshold, weighting : as for `segment_graph`.
+
+    Examples
+    --------
+    >>> parts = [Segment(0, 0, 200), Segment(0, 200, 400), Segment(1, 0, 200)]
+    >>> distances = np.array([[9.0, 9, 100], [9, 9, 300], [100, 300, 9]])
+    >>> list(connect(parts, distances, 185, "inverse").edges(data="kind"))
+    [(0, 1, 'clip'), (0, 2, 'transition'), (2, 0, 'transition')]
 
     Notebook: 05-motion-graph
     """
@@ -158,7 +166,7 @@ def connect(
 
 
 def shares(costs: NDArray[np.floating], weighting: str) -> Array:
-    """Share 1 among some matches, in proportion to D or to 1 / D.
+    """Share the probability 1 among some matches, in proportion to D or to 1 / D.
 
     Parameters
     ----------
@@ -177,7 +185,7 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
 
 
 def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
-    """Raise unless each segment holds a window to enter by, one to leave by, and something between."""
+    """Raise unless each segment is longer than two windows: one to enter and one to leave."""
     if not clips:
         raise MocapError("A segment graph needs at least one clip.")
     if window < 2:
@@ -191,18 +199,18 @@ def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
 
 
 def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | None = None) -> list[int]:
-    """Walk from segment to segment by the edges' probabilities.
+    """Walk at random from segment to segment, with the probabilities of the edges.
 
     Parameters
     ----------
     graph : from `segment_graph`.
-    count : how many segments.
+    count : the number of segments.
     seed : the same seed gives the same walk.
-    start : the first segment; by default one drawn at random.
+    start : the first segment; by default a random one.
 
     Raises
     ------
-    NoWalk : for a start that the graph lacks, and for a walk that reaches a segment nothing follows.
+    NoWalk : for a start that is not in the graph, and for a walk that reaches a segment without successor.
 
     Notebook: 05-motion-graph
     """
@@ -224,25 +232,33 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
 def segment_motion(
     clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int], *, drift: bool = False
 ) -> Motion:
-    """Play a walk: successors follow as they are, others are laid on the window that they blend with.
+    """Play a walk: the next segment of the clip follows as it is, a segment after a transition is blended in.
 
-    The first frame of a segment that follows by a transition takes heading and place of the frame `window`
-    before the end. Over the window the pose goes over by `sine_weights`.
+    The first frame of a segment after a transition gets the heading and the place of the frame `window`
+    frames before the end. Over the window the poses are blended by `sine_weights`.
 
     Parameters
     ----------
-    clips : those the graph was built of.
+    clips : the clips of the graph.
     graph : from `segment_graph`.
     walk : segments, each with an edge to the next.
-    drift : take over the height of the frame too, as the homework does.
+    drift : also shift the height, as the homework does.
 
     Returns
     -------
-    All the segments' frames, less a window a transition.
+    The frames of all segments, minus one window per transition.
 
     Raises
     ------
-    NoWalk : for an empty walk, or one that jumps.
+    NoWalk : for an empty walk, or one that takes an edge that is not in the graph.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> clip = datasets.sample("walk_circle")[:400]
+    >>> graph = segment_graph([clip], segment=200)
+    >>> len(segment_motion([clip], graph, segment_walk(graph, 2, start=0)))
+    400
 
     Notebook: 05-motion-graph
     """
@@ -274,6 +290,6 @@ def _frames(clips: Sequence[Motion], graph: nx.DiGraph, node: int) -> Motion:
 
 
 def _placed(motion: Motion, place: PlanarTransform, lift: float) -> Motion:
-    """Move a segment; one that has never been moved stays bit for bit."""
+    """Move a segment; with the identity it stays bit for bit."""
     moved = motion if place is IDENTITY else place.apply_motion(motion)
     return replace(moved, root_positions=np.add(moved.root_positions, [0.0, lift, 0.0])) if lift else moved

@@ -1,8 +1,8 @@
-"""Motion graphs: every way through the clips that looks like one motion, as a `networkx` graph [KGP02].
+"""Motion graphs: all ways through the clips that look like one motion, as a `networkx` graph [KGP02].
 
 A node is a choice point (clip, frame): "the next frame is this one". An edge from it is either a stretch of
-that clip up to its next choice point, or a transition: `window` blended frames into another place. So each
-edge gives the frames [start, end) of a motion, and the frames of a walk are those of its edges in order.
+that clip up to its next choice point, or a transition: `window` blended frames that lead to another node. So
+each edge plays some frames, and the frames of a walk are those of its edges in order.
 """
 
 from collections.abc import Sequence
@@ -24,16 +24,25 @@ Node = tuple[int, int]
 
 @dataclass(frozen=True, eq=False)
 class MotionGraph:
-    """A graph over clips; it holds records, the frames stay in the clips.
+    """A graph over clips; its edges refer to frames, the frames stay in the clips.
 
     Parameters
     ----------
-    clips : the motions, which the nodes' first numbers count.
+    clips : the motions; the first number of a node is an index of this tuple.
     window : frames in a transition.
     graph : the `networkx.MultiDiGraph`. Nodes are pairs (clip, frame). Edges have `kind` ("clip" or
-        "transition"), `frames`, and `labels`, a frozenset of all labels that some frame bears which they
-        play or blend; transitions also `cost` (RMS distance, metres) and `transform`, which lays the clip
-        they lead to on the one they come from.
+        "transition"), `frames`, and `labels`, a frozenset of all labels of the frames that they play or
+        blend. Transitions also have `cost` (RMS distance, metres) and `transform`, which lays the clip they
+        enter on the clip they leave.
+
+    Examples
+    --------
+    A clip without transitions is one edge:
+
+    >>> from mocap import datasets
+    >>> alone = from_transitions([datasets.sample("walk_curve_1")], [], window=10)
+    >>> alone.count("clip"), alone.count("transition"), alone.frames == len(alone.clips[0])
+    (1, 0, True)
     """
 
     clips: tuple[Motion, ...]
@@ -48,7 +57,7 @@ class MotionGraph:
 
     @property
     def fps(self) -> float:
-        """Frames a second, of all clips."""
+        """Frames per second, of all clips."""
         return self.clips[0].fps
 
     def count(self, kind: str) -> int:
@@ -57,7 +66,7 @@ class MotionGraph:
 
     @property
     def frames(self) -> int:
-        """Frames of the clips that the graph can play."""
+        """The number of clip frames that the graph can play."""
         return sum(e["frames"] for _, _, e in self.graph.edges(data=True) if e["kind"] == "clip")
 
 
@@ -76,15 +85,25 @@ def build(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     ----------
     clips : motions of one skeleton and one frame rate, with different names.
     window : frames in a transition, about a third of a second.
-    threshold : the largest RMS distance of the points that a transition may bridge, metres; or one for each
-        pair of labels, as for `find_transitions`.
-    precision, progress, executor : how exactly the clips are compared, how that is shown, and where it is
-        done, as for `find_transitions`.
+    threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
+        each pair of labels, as for `matching.find_transitions`.
+    precision, progress, executor : the precision of the comparison, a progress bar, and where the work is
+        done, as for `matching.find_transitions`.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, or are shorter than the window. Clips
-        at different rates are not resampled unasked: `build([resample(clip, 30) for clip in clips], ...)`.
+    SkeletonMismatch, MocapError : for clips of different skeletons or rates, two clips of one name, or clips
+        shorter than the window. To join rates: `build([resample(clip, 30) for clip in clips], ...)`.
+
+    Examples
+    --------
+    A lower threshold gives fewer transitions:
+
+    >>> from mocap import body, datasets
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> loose, strict = (build(clips, window=10, threshold=metres) for metres in (0.04, 0.02))
+    >>> loose.count("transition") > strict.count("transition") > 0
+    True
 
     Notebook: 00-quickstart
     """
@@ -96,7 +115,13 @@ def build(  # noqa: PLR0913 (what to find, how exactly, and where to work)
 
 
 def labels_between(motion: Motion, start: int, end: int) -> Labels:
-    """Collect the labels that the frames [start, end) bear.
+    """Collect the labels of the frames [start, end).
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> labels_between(datasets.sample("walk_circle"), 0, 10)
+    frozenset({'walk'})
 
     Notebook: 05-motion-graph
     """
@@ -107,14 +132,25 @@ def labels_between(motion: Motion, start: int, end: int) -> Labels:
 def from_transitions(
     clips: Sequence[Motion], transitions: Sequence[Transition], *, window: int
 ) -> MotionGraph:
-    """Build the motion graph with just these transitions.
+    """Build the motion graph with exactly these transitions.
 
     A transition leaves its first clip at the frame where its window starts, and enters the second at
     the frame after the window ends [KGP02, 3.3].
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, and transitions outside them.
+    SkeletonMismatch, MocapError : for clips of different skeletons or rates, two clips of one name, and
+        transitions outside the clips.
+
+    Examples
+    --------
+    One transition from frame 60 back to frame 10; it enters after its window, at frame 20:
+
+    >>> from mocap import body, datasets, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> from_transitions([clip], [back], window=10)
+    MotionGraph(1 clips, 4 nodes, 4 edges, 1 of them transitions)
 
     Notebook: 05-motion-graph
     """
@@ -126,16 +162,25 @@ def from_transitions(
 
 
 def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], window: int) -> nx.MultiDiGraph:
-    """Cut clips where transitions leave and enter, and join the pieces: the heart of `from_transitions`.
+    """Cut clips where transitions leave and enter, and join the pieces; `from_transitions` calls this.
 
     Parameters
     ----------
-    clips, transitions : alike, and within the clips; nothing is checked here.
+    clips, transitions : as for `from_transitions`, but not checked.
     window : frames in a transition.
 
     Returns
     -------
     The graph of a `MotionGraph`.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> list(cut_and_join([clip[:90]], [back], 10).edges(data="kind"))
+    [((0, 0), (0, 20), 'clip'), ((0, 60), (0, 20), 'transition'), ((0, 60), (0, 90), 'clip'),
+     ((0, 20), (0, 60), 'clip')]
 
     Notebook: 05-motion-graph
     """

@@ -1,14 +1,13 @@
-"""Pruning: cut away what a walk could not leave, or not come back to [KGP02, 3.4].
+"""Pruning: remove the dead ends and sinks of a graph, so that a walk can go on for ever [KGP02, 3.4].
 
-A walk that shall go on for ever, anywhere it likes, needs a strongly connected graph: one in which every node
-reaches every other. So the largest strongly connected component is kept. To get every kind of motion that the
-clips are labelled with, it is kept once for each set of labels, of those edges that bear exactly these; then
-whatever leads from one kept node to another stays as well. The paper lets only transitions lead from kept
-component to kept component. Here a stretch of clip that passes from walking to running may, too: nobody
-blends it better than the performer did.
+A walk that never ends and can return to every place needs a strongly connected graph: every node reaches
+every other. So pruning keeps the largest strongly connected component. To keep every kind of motion, it can
+keep one component for each set of labels, made of the edges with exactly these labels, and all edges between
+the kept nodes. In the paper only transitions lead from one kept component to another. Here a stretch of clip
+can do this too, for example one that passes from walking to running: it is better than any blend.
 
-The functions take any `networkx.MultiDiGraph`. Of its edges they read `frames`, `kind` and, where they are
-asked to, `labels`.
+The functions take any `networkx.MultiDiGraph`. Its edges must have `frames` and `kind`, and `labels` for
+pruning by labels.
 """
 
 import warnings
@@ -40,14 +39,15 @@ from mocap.graphs.motion_graph import MotionGraph
 def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: int = 1) -> MotionGraph:
     """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
 
-    The largest is the one that can play most frames of the clips [KGP02, 3.4]; what is left out are dead
-    ends, and sinks that a walk could never leave again. `graphs.prune_graph` also tells why each edge went.
+    The largest component is the one that plays most frames of clip [KGP02, 3.4]. Dead ends are removed, and
+    sinks that a walk could never leave. `graphs.prune_graph` also gives a reason for each removed edge.
 
     Parameters
     ----------
-    motion_graph : left as it is.
-    by_labels : keep a component for every set of labels, made of edges with just these, and the ways between.
-    least_frames : a warning tells where fewer frames of clip stay.
+    motion_graph : the graph; it is not changed.
+    by_labels : keep one component for each set of labels, from the edges with exactly these, and the edges
+        between the components.
+    least_frames : the number of clip frames to stay; fewer give a warning.
 
     Raises
     ------
@@ -55,7 +55,17 @@ def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: i
 
     Warns
     -----
-    MocapWarning : for components with too few frames, and for those from which no way leads to another.
+    MocapWarning : for components with too few frames, and for components that do not reach another one.
+
+    Examples
+    --------
+    One transition back makes a cycle; the start and the end of the clip are not on it:
+
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> list(prune(graphs.from_transitions([clip], [back], window=10)).graph)
+    [(0, 60), (0, 20)]
 
     Notebook: 00-quickstart
     """
@@ -67,7 +77,13 @@ Edge = tuple[Hashable, Hashable, int]  # start, end, key
 
 
 class Reason(StrEnum):
-    """Why an edge goes: what is wrong with the node at one of its ends."""
+    """Why an edge is removed: the reason is the state of the node at one of its ends.
+
+    Examples
+    --------
+    >>> print(Reason.DEAD_END)
+    dead end: on no cycle
+    """
 
     DEAD_END = "dead end: on no cycle"
     SINK = "sink: on a cycle, but reaches nothing that stays"
@@ -77,15 +93,15 @@ class Reason(StrEnum):
 
 @dataclass(frozen=True)
 class Pruning:
-    """What pruning left, and what it took.
+    """The result of pruning: what stays, and what is removed; `prune_graph` shows an example.
 
     Parameters
     ----------
     graph : the nodes and edges that stay.
-    components : for each label set the nodes of its kept component, none where it has no cycle; without
-        labels, one entry for the empty set.
-    removed : every edge that went, and why.
-    orphans : the nodes that went with their last edge.
+    components : for each label set with a cycle the nodes of its kept component; without labels, one entry
+        for the empty set.
+    removed : every removed edge, and the reason.
+    orphans : the removed nodes.
     """
 
     graph: nx.MultiDiGraph
@@ -94,7 +110,7 @@ class Pruning:
     orphans: tuple[Hashable, ...]
 
     def report(self) -> str:
-        """Tell in a few lines what stays, and how many edges went for which reason."""
+        """Say in a few lines what stays, and how many edges are removed for which reason."""
         lines = [f"kept {self.graph.number_of_nodes()} nodes and {self.graph.number_of_edges()} edges"]
         if len(self.components) > 1:
             lines += [f"  {len(nodes)} nodes: {name(labels)}" for labels, nodes in self.components.items()]
@@ -105,7 +121,12 @@ class Pruning:
 
 
 def name(labels: Labels) -> str:
-    """Write a label set, as in "turn+walk".
+    """Write a label set as text.
+
+    Examples
+    --------
+    >>> name(frozenset({"walk", "turn"})), name(NO_LABELS)
+    ('turn+walk', 'no label')
 
     Notebook: 06-pruning
     """
@@ -113,7 +134,7 @@ def name(labels: Labels) -> str:
 
 
 def notes_example() -> nx.MultiDiGraph:
-    """Give the eight-node graph of the notes, after [KGP02, Fig. 4]: node 5 is a dead end, node 4 a sink.
+    """Return the eight-node graph of the notes, after [KGP02, Fig. 4]: node 5 is a dead end, node 4 a sink.
 
     Examples
     --------
@@ -131,21 +152,21 @@ def notes_example() -> nx.MultiDiGraph:
 
 @uncollected()
 def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames: int = 1) -> Pruning:
-    """Keep the largest strongly connected component, of all edges or of every label set's.
+    """Keep the largest strongly connected component, of all edges or of each label set.
 
-    Largest is the one whose stretches of clip have most frames. The time is linear in the edges; by labels,
-    in the edges times the label sets that stay.
+    The largest component is the one whose stretches of clip have most frames. The time is linear in the
+    edges; by labels, in the edges times the label sets that stay.
 
     Parameters
     ----------
-    graph : left as it is.
-    by_labels : keep a component for each label set, and the edges between these.
-    least_frames : a warning tells of every label set whose component has fewer frames of clip. Sets that are
-        no more than smaller sets put together do not count: they mark the passages from kind to kind.
+    graph : the graph; it is not changed.
+    by_labels : keep one component for each label set, and the edges between them.
+    least_frames : every label set whose component has fewer frames of clip gives a warning. Sets that are the
+        union of smaller sets do not count: they mark the passages from one kind of motion to another.
 
     Returns
     -------
-    What stays, a graph of its own, in which no walk ever ends; and what went.
+    What stays, as a new graph in which no walk ever ends; and what is removed.
 
     Raises
     ------
@@ -155,6 +176,15 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     -----
     MocapWarning : for label sets with too few frames, and for ordered pairs without a way from the first
         component to the second.
+
+    Examples
+    --------
+    >>> for edge, reason in sorted(prune_graph(notes_example()).removed.items()):
+    ...     print(edge, reason.name)
+    (3, 4, 0) SINK
+    (4, 4, 0) SINK
+    (6, 5, 0) DEAD_END
+    (7, 5, 0) DEAD_END
 
     Notebook: 06-pruning
     """
@@ -168,7 +198,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     pruned = induced(graph, kept)
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in (*_too_short(frames, least_frames), *_missing_ways(pruned, components)):
-        warnings.warn(message, MocapWarning, stacklevel=4)  # whoever called `graphs.prune`
+        warnings.warn(message, MocapWarning, stacklevel=4)  # points at the caller of `graphs.prune`
     reasons = _reasons(graph, ways, kept)
     removed = {
         (start, end, key): reasons[start if end in kept else end]
@@ -179,7 +209,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
 
 
 def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashable, Reason]:
-    """Say of every node that goes what is wrong with it."""
+    """Give the reason for every node that is removed."""
     part = component_numbers(ways, len(graph))
     on_cycle = np.bincount(part)[part] > 1
     on_cycle[ways[ways[:, 0] == ways[:, 1], 0]] = True
@@ -193,7 +223,7 @@ def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashabl
 
 
 def _reason(on_cycle: bool, before: bool, after: bool) -> Reason:
-    """Judge a node by whether it is on a cycle, leads to what is kept, and can be reached from there."""
+    """Give the reason for a node that is on a cycle or not, and before or after the kept nodes or not."""
     if not on_cycle:
         return Reason.DEAD_END
     if not before:
@@ -202,7 +232,7 @@ def _reason(on_cycle: bool, before: bool, after: bool) -> Reason:
 
 
 def _too_short(frames: Mapping[Labels, int], least: int) -> Iterator[str]:
-    """Name the label sets of which fewer frames stay than asked for."""
+    """Write a message for each label set of which fewer frames stay than asked for."""
     for labels, count in frames.items():
         together = NO_LABELS.union(*(other for other in frames if other < labels))
         if count < least and (labels != together or not labels):
@@ -211,7 +241,7 @@ def _too_short(frames: Mapping[Labels, int], least: int) -> Iterator[str]:
 
 
 def _missing_ways(graph: nx.MultiDiGraph, components: Mapping[Labels, Nodes]) -> Iterator[str]:
-    """Name the ordered pairs of kept components without a way from the first to the second."""
+    """Write a message for each ordered pair of components without a way from the first to the second."""
     ways = {labels: reached(graph, nodes) for labels, nodes in components.items()}
     for here, there in permutations(components, 2):
         if not components[there] & ways[here]:

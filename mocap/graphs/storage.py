@@ -1,6 +1,6 @@
-"""A motion graph in one file: its records as plain arrays in an `.npz`, the clips by name and fingerprint.
+"""Save a motion graph to one file: nodes and edges as arrays in an `.npz`, clips by name and fingerprint.
 
-The file holds no frame of any clip, and no code: reading one from a stranger runs nothing.
+The file holds no frames of the clips and no code: it is safe to read a file from a stranger.
 """
 
 import hashlib
@@ -25,8 +25,8 @@ from mocap.graphs.motion_graph import MotionGraph
 FORMAT = "mocap motion graph"
 VERSION = 1
 
-# Every array of the file: its kind of numbers, and its shape in terms of the clips C, nodes N, edges E,
-# transitions T and labels L.
+# Every array of the file: its kind in NumPy, and its shape, with C clips, N nodes, E edges, T transitions and
+# L labels.
 ARRAYS = {
     "fps": ("f", ()),
     "window": ("i", ()),
@@ -44,7 +44,7 @@ ARRAYS = {
 
 
 class GraphFile(NamedTuple):
-    """What a file tells without its clips: their rate, names, lengths and fingerprints, and the graph."""
+    """The content of a file: the rate, names, lengths and fingerprints of the clips, and the graph."""
 
     fps: float
     window: int
@@ -55,7 +55,7 @@ class GraphFile(NamedTuple):
 
 
 def fingerprint(motion: Motion) -> str:
-    """Sum up all that a graph depends on in a clip: skeleton, poses, rate and labels (SHA-256)."""
+    """Hash all that a graph needs of a clip: skeleton, poses, rate and labels (SHA-256)."""
     skeleton = motion.skeleton
     digest = hashlib.sha256(repr((skeleton.names, motion.fps, sorted(motion.labels))).encode())
     marks = [motion.labels[label] for label in sorted(motion.labels)]
@@ -66,13 +66,13 @@ def fingerprint(motion: Motion) -> str:
 
 
 def require_suffix(path: str | Path, suffix: str) -> None:
-    """Raise unless a file to write has the right suffix; its capital letters are fine."""
+    """Raise unless a file to write has this suffix, in small or capital letters."""
     if Path(path).suffix.lower() != suffix:
         raise MocapError(f"This graph is written as {suffix}, got '{path}'.")
 
 
 def save(motion_graph: MotionGraph, path: str | Path) -> None:
-    """Write a motion graph to an `.npz` file; a file that exists is replaced once the new one is whole.
+    """Write a motion graph to an `.npz` file; an old file is replaced when the new one is complete.
 
     Parameters
     ----------
@@ -82,6 +82,16 @@ def save(motion_graph: MotionGraph, path: str | Path) -> None:
     Raises
     ------
     MocapError : for another suffix, and where the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from mocap import graphs
+    >>> clips = [sample("walk_circle")]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(graphs.from_transitions(clips, [], window=10), f"{folder}/walks.npz")
+    ...     load(f"{folder}/walks.npz", clips)
+    MotionGraph(1 clips, 2 nodes, 1 edges, 0 of them transitions)
 
     Notebook: 05-motion-graph
     """
@@ -116,12 +126,12 @@ def save(motion_graph: MotionGraph, path: str | Path) -> None:
 
 
 def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
-    """Read a motion graph, and give it its clips back.
+    """Read a motion graph, and join it with its clips; `save` shows an example.
 
     Parameters
     ----------
     path : a file from `save`.
-    clips : the motions that it was built of, in any order, others among them or not.
+    clips : the motions that it was built of, in any order; other motions are ignored.
 
     Returns
     -------
@@ -129,8 +139,8 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
 
     Raises
     ------
-    FormatError : for a file that is no motion graph, is damaged, or of a newer version.
-    MocapError : for a clip that is missing, or not what it was.
+    FormatError : for a file that is no motion graph, is damaged, or has a newer version.
+    MocapError : for a clip that is missing or has changed.
 
     Notebook: 05-motion-graph
     """
@@ -148,7 +158,7 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
 
 
 def read(path: str | Path) -> GraphFile:
-    """Read what a file tells without its clips.
+    """Read a file without its clips.
 
     Raises
     ------
@@ -176,17 +186,17 @@ def read(path: str | Path) -> GraphFile:
 
 
 def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Progress = iter) -> list[Motion]:
-    """Find the clips that a saved graph was built of: bundled ones, or files of their names beside it.
+    """Load the clips that a saved graph was built of: bundled samples, or files with their names beside it.
 
     Parameters
     ----------
     path : a file from `save`.
     skeleton : the `.asf` file of `.amc` clips; by default the one beside them that fits.
-    progress : wraps the clips' names while the files are read.
+    progress : wraps the names of the clips, to show a bar.
 
     Returns
     -------
-    The clips at their own rates: resample them to the graph's before you give them to `load`.
+    The clips at their own rates: resample them to that of the graph before you give them to `load`.
 
     Raises
     ------
@@ -203,7 +213,7 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
 
 
 def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
-    """Open the archive, check what it says it is, and take out its arrays."""
+    """Open the archive, check its kind and version, and read its arrays."""
     ours = f"a motion graph saved by mocap, version {VERSION}"
     try:
         with np.load(path, allow_pickle=False) as archive:
@@ -211,7 +221,7 @@ def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
             arrays = {key: archive[key] for key in ARRAYS if key in archive}
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    except Exception as error:  # whatever NumPy stumbles over, it is no file of ours
+    except Exception as error:  # NumPy raises many kinds of errors for other files
         raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
     if kind != FORMAT:
         raise FormatError(path, None, ours, "an .npz of another kind")
@@ -223,7 +233,7 @@ def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
 
 
 def _check(path: str | Path, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Raise unless every array has its kind and shape, and no number says what cannot be."""
+    """Raise unless every array has its kind and shape, and its numbers make sense."""
     sizes: dict[str, int] = {}
     for key, (kind, shape) in ARRAYS.items():
         array = arrays[key]
@@ -238,7 +248,7 @@ def _check(path: str | Path, arrays: Mapping[str, NDArray[Any]]) -> None:
 
 
 def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]]:
-    """Go through what must hold; each rule leans on those before it."""
+    """Yield what must hold; each rule needs those before it."""
     window, lengths, nodes = arrays["window"], arrays["frames"], arrays["nodes"]
     edges, is_transition = arrays["edges"], arrays["is_transition"]
     yield "window and rate are above 0", window > 0 and 0 < arrays["fps"] < np.inf
@@ -260,8 +270,8 @@ def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]
 def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
     """Write a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap does not read it.
 
-    Nodes bear `clip`, `frame` and `seconds`; edges `kind`, `frames`, `labels`, and transitions `cost` (m),
-    `angle` (rad), `x` and `z` (m).
+    Nodes have `clip`, `frame` and `seconds`; edges have `kind`, `frames` and `labels`; transitions also have
+    `cost` (m), `angle` (rad), `x` and `z` (m).
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Which threshold? What the motion graph would be at each of many, from one list of transitions."""
+"""Which threshold? The size and quality of the motion graph at many of them, from one list of transitions."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -13,10 +13,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.components import largest_component
-from mocap.graphs.motion_graph import (
-    MotionGraph,
-    from_transitions,
-)
+from mocap.graphs.motion_graph import MotionGraph, from_transitions
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transitions, find_transitions
 
@@ -26,16 +23,21 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
 
     Raises
     ------
-    NoWalk : where there is none at any threshold.
+    NoWalk : where no threshold gives a cycle.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> bool(smallest_threshold([body.resample(datasets.sample("walk_curve_1"), 30)], window=10) < 0.04)
+    True
 
     Notebook: 05-motion-graph
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]
     low, high = 0, len(found)
-    while (
-        low < high
-    ):  # invariant: the first `high` transitions make a cycle, or high is all; the first `low` do not
+    # Invariant: the first `low` transitions make no cycle; the first `high` + 1 do, or `high` is all of them.
+    while low < high:
         middle = (low + high) // 2
         if _has_cycle(from_transitions(clips, found[: middle + 1], window=window)):
             high = middle
@@ -52,17 +54,17 @@ def _has_cycle(motion_graph: MotionGraph) -> bool:
 
 Counts = NDArray[np.intp]
 
-AT_ONCE = 4096  # transitions measured together: bounds the memory
+AT_ONCE = 4096  # transitions measured together, to limit the memory
 
 
 class ThresholdCurve(NamedTuple):
-    """What a motion graph would be at each threshold, shape (T,) each.
+    """The motion graph at each of T thresholds, shape (T,) each; `threshold_curve` shows an example.
 
     threshold : metres.
-    transitions, nodes, edges : how many of each the whole graph would have.
-    frames : frames of the clips that the largest strongly connected component could play.
-    cost : the mean of the transitions' costs, metres; 0 without transitions.
-    jump : the mean of their `velocity_jumps`, metres a second: how much the seams are felt.
+    transitions, nodes, edges : the numbers of these in the whole graph.
+    frames : frames of the clips that the largest strongly connected component can play.
+    cost : the mean cost of the transitions, metres; 0 without transitions.
+    jump : the mean of their `velocity_jumps`, metres per second: how visible the seams are.
     """
 
     threshold: Array
@@ -78,11 +80,11 @@ class ThresholdCurve(NamedTuple):
 
         Parameters
         ----------
-        keep : how much of what it plays at the best of the thresholds.
+        keep : the part to play, of the frames that it plays at the best threshold.
 
         Raises
         ------
-        NoWalk : where no threshold leaves a component that plays anything.
+        NoWalk : where the graph has no cycle at any threshold.
         """
         if not 0 < keep <= 1:
             raise MocapError(f"keep must be a share above 0 and at most 1, got {keep}.")
@@ -98,18 +100,17 @@ def threshold_curve(
     window: int,
     thresholds: ArrayLike | None = None,
 ) -> ThresholdCurve:
-    """Tell for many thresholds how large the motion graph would be, and how much of it would be kept.
+    """Compute for many thresholds how large the motion graph is, and how much of it pruning keeps.
 
-    The transitions are sorted by cost once, and those below a threshold are the first ones, so that means are
-    running sums; components take time linear in the edges. So a curve costs no more than as many prunings,
-    and no search.
+    The transitions are sorted by cost once. Those below a threshold come first, so all means are running
+    sums. Components take time linear in the edges. So a curve takes as long as T prunings, without a search.
 
     Parameters
     ----------
     clips : the motions.
     transitions : found between them with the loosest threshold of interest.
     window : frames in a transition.
-    thresholds : shape (T,), metres; by default 30, evenly up to just above the dearest transition.
+    thresholds : shape (T,), metres; by default 30, evenly spaced up to just above the highest cost.
 
     Returns
     -------
@@ -117,8 +118,8 @@ def threshold_curve(
 
     Raises
     ------
-    NoWalk : for no transitions at all, unless `thresholds` are given.
-    MocapError : for transitions that the clips do not have, and thresholds that are not numbers.
+    NoWalk : where there are no transitions, unless `thresholds` are given.
+    MocapError : for transitions outside the clips, and thresholds that are not numbers.
 
     Examples
     --------
@@ -159,10 +160,10 @@ def threshold_curve(
 def _places(
     clips: Sequence[Motion], transitions: Transitions, window: int
 ) -> tuple[Counts, Counts, Counts, Counts]:
-    """Give numbers to the nodes of the graph with all transitions, in the order of clips and time.
+    """Give numbers to the nodes of the graph with all transitions, in the order of clips and frames.
 
-    What comes out: each node's place on a line on which the clips follow each other; and the numbers of the
-    clips' starts and ends, of where each transition leaves, and of where it enters.
+    Returns each node's place on a line on which the clips follow one another, then the node numbers of the
+    clips' starts and ends, of the nodes that the transitions leave, and of those that they enter.
     """
     lengths = np.array([len(clip) for clip in clips])
     inside = np.ones(len(transitions), bool)
@@ -179,8 +180,10 @@ def _places(
 
 
 def _largest(places: Counts, ends: Counts, leave: Counts, enter: Counts) -> int:
-    """Count the frames that the strongly connected component which plays most of them plays."""
-    before = np.setdiff1d(np.arange(len(places)), ends[len(ends) // 2 :])  # all but the ends of clips go on
+    """Count the frames that the largest strongly connected component plays."""
+    before = np.setdiff1d(
+        np.arange(len(places)), ends[len(ends) // 2 :]
+    )  # a stretch of clip leaves every node but the ends of clips
     tails, heads = np.concatenate([before, leave]), np.concatenate([before + 1, enter])
     frames = np.zeros(len(tails), np.intp)
     frames[: len(before)] = places[before + 1] - places[before]
@@ -188,7 +191,7 @@ def _largest(places: Counts, ends: Counts, leave: Counts, enter: Counts) -> int:
 
 
 def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
-    """Measure how differently the points move in the clips that a transition blends, mid-window.
+    """Measure the difference of the points' velocities in the two clips, in the middle of each transition.
 
     Parameters
     ----------
@@ -198,7 +201,17 @@ def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window:
 
     Returns
     -------
-    The RMS over the points of ‖v - T v'‖, shape (N,), metres a second.
+    The RMS over the points of ‖v - T v'‖, shape (N,), metres per second.
+
+    Examples
+    --------
+    A transition from a frame to itself has no jump:
+
+    >>> from mocap import datasets
+    >>> zero = np.zeros(1, int)
+    >>> same = Transitions(zero, zero, zero, zero, np.zeros(1), PlanarTransform(zero, zero, zero))
+    >>> velocity_jumps([datasets.sample("walk_curve_1")], same, window=10)
+    array([0.])
 
     Notebook: 09-discussion
     """

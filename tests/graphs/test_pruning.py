@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapWarning, NoWalk
+from mocap.graphs.components import reached
 from mocap.graphs.pruning import Reason, name, notes_example, prune_graph
 
 WALK, RUN, BOTH = frozenset({"walk"}), frozenset({"run"}), frozenset({"walk", "run"})
@@ -121,6 +122,24 @@ def test_every_reason_holds(rows, by_labels):
 
     for (start, end, _), reason in found.removed.items():
         assert holds(reason, end if end in found.orphans else start)
+
+
+def reached_by_a_loop(graph, start):
+    """Visit the successors of every node that is found."""
+    seen = set(start)
+    waiting = list(seen)
+    while waiting:
+        new = set(graph.successors(waiting.pop())) - seen
+        seen |= new
+        waiting += new
+    return seen
+
+
+@given(edges, st.sets(st.integers(0, 7)))
+def test_what_is_reached(rows, start):
+    graph = graph_of(rows)
+    for way in (graph, graph.reverse(copy=False)):
+        assert reached(way, start & set(graph)) == reached_by_a_loop(way, start & set(graph))
 
 
 def test_the_graph_of_the_notes():
