@@ -136,7 +136,7 @@ class Hops:
     first : shape (N + 1,), hops `first[n]` to `first[n + 1]` leave node n.
     ride, rides : shape (H,), the first stretch of clip of a hop, and the number of those before `last`.
     last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
-    starts, counts : shape (H, 2), the rows of frames that a hop plays, in the list of the frames of all edges:
+    starts, counts : shape (H, 2), the rows of frames that a hop plays, among the frames of all edges:
         first those of the stretches before the last edge, then those of the last edge.
 
     Examples
