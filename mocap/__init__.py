@@ -1,35 +1,56 @@
-"""New human motion out of captured motion: matching, transforms, blending, motion graphs, synthesis.
+"""New human motion out of captured motion: matching, blending, motion graphs, synthesis, steering.
 
-Conventions, everywhere: y is up, the ground is the plane y = 0; metres, seconds, radians; column vectors;
-quaternions are (w, x, y, z); a body whose heading is 0 faces +z, with its left at +x. Units are converted
-where a file is read or written, and nowhere else.
+Load clips, build a motion graph of them, and walk through it:
+
+>>> import mocap
+>>> from mocap import datasets, graphs, synthesis
+>>> clip = mocap.resample(datasets.sample("walk_circle"), 30)
+>>> graph = graphs.prune(graphs.build([clip], window=10, threshold=0.04))  # frames, metres
+>>> walk = synthesis.to_motion(graph, synthesis.random_walk(graph, seconds=2, seed=1))
+>>> walk.duration > 1.9
+True
+
+Conventions, everywhere: y points up, and the ground is the plane y = 0. Units are metres, seconds and
+radians. Vectors are columns, quaternions are (w, x, y, z). A body with heading 0 faces +z and has its left at
++x. Files in other units are converted when they are read or written, and nowhere else.
 
 Rooms
 -----
-From the ground floor up, with the notebooks that teach them. A room uses only rooms on floors below its own;
-for example `help(mocap.graphs)` lists its files in reading order.
+The rooms of the package, from the ground floor up, with the notebooks that teach them. A room uses only rooms
+on lower floors. `help(mocap.graphs)`, for example, lists the files of a room in reading order.
 
 body        what a moving body is: skeletons, motions, rotations, kinematics (01, 03)
-files       where motion comes from and goes to: ASF/AMC, BVH, paths (01, 10)
-matching    which moments are alike? distance grids and transitions (02, 05)
-feet        feet that stand: footplants, footskate clean-up (04)
-datasets    clips to begin with: bundled ones, the CMU database (01, 10)
+files       motion files, ASF/AMC and BVH; paths from CSV and SVG (01, 10)
+matching    which moments are alike: metrics, distance grids, transitions (02, 05)
+feet        feet that stand still: footplants, footskate clean-up (04)
+datasets    clips to start with: bundled ones, the CMU database (01, 10)
 blending    from one motion into another: blends, inertialization (04)
 quality     numbers that judge clips and seams (01, 04, 10)
-graphs      motion graphs, their pruning, thresholds and files (05, 06)
-synthesis   out of the graph: random walks, search, motions (07)
-steering    a walk where one wants it: paths, waypoints, crowds, control (08)
+graphs      motion graphs: build, prune, choose a threshold, save (05, 06)
+synthesis   walks through a graph, at random or by search, and their motions (07)
+steering    walks that follow a wish: paths, waypoints, crowds, control (08)
 plotting    pictures, by matplotlib (00 to 10)
 widgets     players and experiments for notebooks (00 to 10)
-course      the notebooks as data, and the checks of their exercises
+course      the notebooks: checks of exercises, hand-outs, marks, pages
 cli         the command `mocap`
+
+Below them are `mocap.errors`, all errors that the package raises on purpose, and small helpers in `_shared`.
+
+Where something new goes
+------------------------
+- A metric: a function with the signature of `matching.Metric`, in a file of `matching`.
+- A file format: a reader and a writer in a file of `files`; `load_save` chooses them by the suffix.
+- A way of steering: a file of `steering`; most of them give `follow_path` a path and some wishes.
+- A method of its own kind: a room of its own, on the lowest floor that is above all it uses.
+
+A room's `__init__.py` lists its files and exports its public names; the tests of a room are in `tests/ROOM`.
 """
 
 import lazy_loader
 
 __version__ = "0.1.0"
 
-# Each name is imported when it is first used, so that `import mocap` costs next to nothing.
+# Each name is imported at its first use, so that `import mocap` is quick.
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submodules=[

@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "mocap"
 MODULES = {str(path.relative_to(PACKAGE)): path for path in sorted(PACKAGE.rglob("*.py"))}
 ROOMS = sorted(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
+LISTED = dict(re.findall(r"^([a-z]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc__, re.MULTILINE))
 FACES = [room for room in ROOMS if room not in ("_shared", "cli")]
 every_room = pytest.mark.parametrize("room", ROOMS)
 every_face = pytest.mark.parametrize("room", FACES)
@@ -30,7 +31,19 @@ def files(room: str) -> list[str]:
 
 def test_the_rooms_are_those_of_the_plan():
     assert {path.name for path in PACKAGE.glob("*.py")} == {"__init__.py", "__main__.py", "errors.py"}
-    assert set(ROOMS) - {"_shared"} == set(re.findall(r"^([a-z]+)  +\w", mocap.__doc__, re.MULTILINE))
+    assert {"_shared", *LISTED} == set(ROOMS)
+
+
+def test_the_rooms_are_listed_from_the_ground_floor_up_with_the_notebooks_that_their_faces_name():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    layers = project["tool"]["importlinter"]["contracts"][0]["layers"]
+    floors = {room: floor for floor, rooms in enumerate(reversed(layers)) for room in rooms.split(" | ")}
+    assert list(LISTED) == sorted(LISTED, key=floors.get)
+    for room, notebooks in LISTED.items():
+        face = importlib.import_module(f"mocap.{room}").__doc__
+        assert re.findall(r"^Reading order(?: \(notebooks? (.*)\))?$", face, re.MULTILINE) == [notebooks], (
+            room
+        )
 
 
 @every_room
