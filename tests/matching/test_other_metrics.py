@@ -10,6 +10,7 @@ from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
+from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching import distance_grids
 from mocap.matching.distance_grids import distance_grid
@@ -76,6 +77,7 @@ def test_root_grid_adds_metres_and_radians():
             for f in range(2)
         ]
         assert grid[i, j] == pytest.approx(np.mean(steps))
+    assert root_grid(a, replace(b, rotations=-b.rotations), window=2) == pytest.approx(grid)
 
 
 def test_root_grid_is_misled_by_where_a_clip_was_captured():
@@ -113,6 +115,8 @@ def test_the_euler_grid_takes_weights_by_name():
     assert euler_grid(a, a, window=2, weights={"ltibia": 2.0, "unknown": 5.0}) == pytest.approx(2 * one)
     with pytest.raises(MocapError, match="none of the bones with a weight: lowerback"):
         euler_grid(wave(9), wave(9), window=2)
+    with pytest.raises(MocapError, match="none of the bones with a weight: root, rhumerus_end"):
+        euler_grid(a, a, window=2, weights={"root": 1.0, "rhumerus_end": 1.0})
     for bad in (-1.0, np.nan, np.inf):
         with pytest.raises(MocapError, match=f"got {{'ltibia': {bad}}}"):
             euler_grid(a, a, window=2, weights={"lfemur": 1.0, "ltibia": bad})
@@ -125,7 +129,8 @@ def test_the_euler_grid_leaves_out_the_root_bones_without_angles_and_weights_of_
     assert np.array_equal(euler_grid(a, a, window=2, weights=weights), one)
 
 
-def test_the_homework_weighs_left_and_right_alike():
+def test_the_homework_weighs_bones_of_its_skeleton_left_and_right_alike():
+    assert set(HOMEWORK_WEIGHTS) < set(sample("walk_circle").skeleton.names)
     for name, weight in HOMEWORK_WEIGHTS.items():
         assert HOMEWORK_WEIGHTS.get("r" + name[1:], weight) == weight
     assert sum(HOMEWORK_WEIGHTS.values()) == pytest.approx(460 / 480)  # so it is there: not quite 1
