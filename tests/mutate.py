@@ -7,7 +7,7 @@ A change concerns one token: a comparison, an operator, a number, and/or, min/ma
 annotations, imports, decorators, error messages and `strict=` stay as they are. For each change, the tests
 that name the module run first, then the rest of its room, then rooms above (with --near, only the first of
 these). A failing test catches the change, and so does one that does not end. Changes that no test catches are
-printed. Not for Windows: each run is a fork.
+printed, as file:line:column old -> new. Not for Windows: each run is a fork.
 """
 
 import argparse
@@ -63,20 +63,24 @@ class Change(NamedTuple):
     path: str
     start: int
     end: int
-    line: int
+    place: str
     old: str
     new: str
 
+    def __str__(self) -> str:
+        return f"{self.path}:{self.place} {self.old} -> {self.new or 'nothing'}"
 
-def changes_of(path: str) -> list[Change]:
+
+def changes_of(root: Path, path: str) -> list[Change]:
     """List all changes of one token in a file of the package."""
-    source = (ROOT / path).read_bytes()
+    source = (root / path).read_bytes()
     starts = [0, *(found.end() for found in re.finditer(b"\n", source))]
     changes = []
     for node in nodes(ast.parse(source)):
         for start, end, new in swaps(node, source, starts):
-            line = source[:start].count(b"\n") + 1
-            changes.append(Change(path, start, end, line, source[start:end].decode(), new))
+            line = source.count(b"\n", 0, start)
+            place = f"{line + 1}:{start - starts[line] + 1}"
+            changes.append(Change(path, start, end, place, source[start:end].decode(), new))
     return changes
 
 
@@ -123,14 +127,15 @@ def operators(between: bytes, first: int) -> Iterator[tuple[int, int, str]]:
         yield first + found.start(), first + found.end(), new
 
 
-def tests_of(path: str) -> list[list[str]]:
+def tests_of(root: Path, path: str) -> list[list[str]]:
     """List the tests for a module: those that name it, the rest of its room, those of rooms above."""
     room, module = Path(path).parts[1], Path(path).stem
-    files = sorted(str(file.relative_to(ROOT)) for file in (ROOT / "tests" / room).glob("test_*.py"))
-    first = [file for file in files if re.search(rf"\b{module}\b", (ROOT / file).read_text("utf-8"))]
+    files = sorted(str(file.relative_to(root)) for file in (root / "tests" / room).glob("test_*.py"))
+    first = [file for file in files if re.search(rf"\b{module}\b", (root / file).read_text("utf-8"))]
     first.sort(key=lambda file: file != f"tests/{room}/test_{module}.py")
     rest = [file for file in files if file not in first]
-    return [[path, *first], rest, [f"tests/{name}" for name in ABOVE.get(room, "").split()]]
+    above = [f"tests/{name}" for name in ABOVE.get(room, "").split()]
+    return [group for group in ([path, *first], rest, above) if group]
 
 
 def make_copy(copy: Path) -> Path:
@@ -157,6 +162,14 @@ def run(copy: Path, tests: list[str]) -> None:
     os._exit(pytest.main([*OPTIONS, *tests]))
 
 
+def passes(copy: Path, tests: list[str]) -> bool:
+    """Run tests in a process of their own, which need not import the libraries again."""
+    process = multiprocessing.get_context("fork").Process(target=run, args=(copy, tests))
+    process.start()
+    process.join()
+    return process.exitcode == 0
+
+
 def survives(change: Change, groups: list[list[str]], copies: "SimpleQueue[Path]") -> bool:
     """Do all groups of tests pass with a change?"""
     copy = copies.get()
@@ -164,13 +177,7 @@ def survives(change: Change, groups: list[list[str]], copies: "SimpleQueue[Path]
     source = file.read_bytes()
     file.write_bytes(source[: change.start] + change.new.encode() + source[change.end :])
     try:
-        for tests in filter(None, groups):
-            process = multiprocessing.get_context("fork").Process(target=run, args=(copy, tests))
-            process.start()
-            process.join()
-            if process.exitcode:
-                return False
-        return True
+        return all(passes(copy, tests) for tests in groups)
     finally:
         file.write_bytes(source)
         copies.put(copy)
@@ -185,23 +192,27 @@ def main() -> None:
     parser.add_argument("--near", action="store_true", help="run only the tests that name the module")
     parser.add_argument("--jobs", type=int, default=1, help="how many changes at the same time (1)")
     wanted = parser.parse_args()
-    paths = [f"mocap/{room}/{module}.py" for room, names in MODULES.items() for module in names.split()]
-    changes = [change for path in ([wanted.only] if wanted.only else paths) for change in changes_of(path)]
-    changes = random.Random(wanted.seed).sample(changes, min(wanted.count, len(changes)))
     for name in LOADED_ONCE.split():
         importlib.import_module(name)
-    caught = 0
+    every = [f"mocap/{room}/{module}.py" for room, names in MODULES.items() for module in names.split()]
+    paths = [wanted.only] if wanted.only else every
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(wanted.jobs) as pool:
+        copy = make_copy(Path(folder) / "0")
+        changes = [change for path in paths for change in changes_of(copy, path)]
+        changes = random.Random(wanted.seed).sample(changes, min(wanted.count, len(changes)))
+        groups = [tests_of(copy, change.path)[: 1 if wanted.near else None] for change in changes]
+        for tests in sorted({tuple(first) for first, *_ in groups}):
+            if not passes(copy, list(tests)):
+                raise SystemExit(f"These tests fail without any change: {' '.join(tests)}.")
         copies = SimpleQueue()
         for job in range(wanted.jobs):
-            copies.put(make_copy(Path(folder) / str(job)))
-        near = 1 if wanted.near else None
-        groups = [tests_of(change.path)[:near] for change in changes]
+            copies.put(shutil.copytree(copy, Path(folder) / f"copy{job}"))
+        caught = 0
         found = pool.map(survives, changes, groups, [copies] * len(changes))
         for change, survived in zip(changes, found, strict=True):
             caught += not survived
             if survived:
-                print(f"{change.path}:{change.line} {change.old} -> {change.new or 'nothing'}", flush=True)
+                print(change, flush=True)
     print(f"{caught} of {len(changes)} changes caught ({caught / len(changes):.0%})")
 
 
