@@ -156,3 +156,9 @@ def test_a_stretch_that_ran_out_of_its_budget_is_told():
     assert found.stopped == "out of nodes"
     assert found.complete
     assert search_ahead(problem, 0, (), look=(99, 99)).stopped == ""
+
+
+def test_a_stretch_that_ran_out_early_is_kept_as_far_as_it_goes():
+    found = search_ahead(problem_on(line_of(6), 6), 0, (), look=(99, 99), budget=Budget(nodes=2))
+    assert found.stopped == "out of nodes"
+    assert (len(found.walk), found.complete, found.expanded) == (6, True, 6)
