@@ -1,15 +1,16 @@
-"""The notebooks as data, and the checks of their exercises.
+"""The notebooks of the course as data, and the checks of their exercises.
 
-For those who teach: hand the notebooks out, mark them, publish them. For those who write them: run them anew,
-with the package's own code in their cells.
+Teachers hand the notebooks out, mark them and publish them. Authors run them again, with the package's own
+code in their cells. The command `mocap course` does all of this. A new exercise is four cells of a notebook,
+with the tags that `notebooks` lists, and a `Check` in the notebook's file of `checks`.
 
 Reading order
 -------------
 1. `check`: how an exercise is checked
 2. `checks`: the checks, a file for each notebook
 3. `homework_slips`: five slips of the homework, and what fixes them
-4. `notebooks`: cells by their tags; running them
-5. `handout`: hand out and mark
+4. `notebooks`: read a notebook, find its cells by their tags, run it
+5. `handout`: copies without solutions, and marks
 6. `site`: the course as HTML pages
 7. `lite`: the course in JupyterLite
 8. `lab`: the course in JupyterLab

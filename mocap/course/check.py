@@ -1,8 +1,8 @@
-"""How the course's exercises check themselves: random input, one oracle, and hints for known mistakes.
+"""How exercises check themselves: random input, one oracle, and hints for known mistakes.
 
-A check holds what a right function gives and what typical wrong ones give. It calls a student's function on
-random input, tells right from wrong, and names the mistake where it knows it. It never raises, and never
-shows a solution. The checks themselves are in `mocap.checks`, a module for each notebook.
+A check holds a right function and typical wrong ones. It calls a student's function on random input and
+compares the results. If they agree with those of a wrong function, it prints the hint for that mistake. It
+never raises an error and never shows a solution. The checks are in `course.checks`, a file per notebook.
 """
 
 from __future__ import annotations
@@ -20,14 +20,26 @@ Answer = Callable[..., Any]
 
 
 class Mistake(NamedTuple):
-    """A wrong answer that students give, as a function, and the hint meant for it."""
+    """A wrong answer that students give, as a function, and the hint for it.
+
+    Examples
+    --------
+    >>> Mistake(lambda x: x * x, "That is the square.").hint
+    'That is the square.'
+    """
 
     answer: Answer
     hint: str
 
 
 class Verdict(NamedTuple):
-    """What a check says of a function: whether it is right, and a sentence or two."""
+    """The result of a check: whether the function is right, and a sentence or two.
+
+    Examples
+    --------
+    >>> print(Verdict(False, "double: That is the square."))
+    ✗ double: That is the square.
+    """
 
     right: bool
     message: str
@@ -37,7 +49,7 @@ class Verdict(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """One call of a student's function: what went in, what should come out, and what came."""
+    """One call of a student's function: its arguments, the right result, and the student's."""
 
     arguments: tuple[Any, ...]
     wanted: Any
@@ -45,7 +57,7 @@ class Trial(NamedTuple):
 
 
 def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Tell whether two answers are the same: numbers to 8 digits, all else exactly, item by item."""
+    """Check whether two answers are the same: numbers to 8 digits, all else exactly, item by item."""
     if isinstance(wanted, (set, frozenset, dict, str)) or wanted is None:
         return bool(given == wanted)
     try:
@@ -56,13 +68,13 @@ def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 
 def close_angles(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Tell whether angles in radians are the same up to whole turns."""
+    """Check whether angles in radians are the same up to whole turns."""
     a, b = np.asarray(given, float), np.asarray(wanted, float)
     return close(np.cos(a), np.cos(b)) and close(np.sin(a), np.sin(b))
 
 
 def close_rotations(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Tell whether quaternions are the same up to their signs, which turn nothing."""
+    """Check whether quaternions are the same rotations: q and -q are."""
     a, b = np.asarray(given, float), np.asarray(wanted, float)
     signs = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0, -1, 1) if a.shape == b.shape else 1
     return close(a * signs, b)
@@ -70,18 +82,18 @@ def close_rotations(given: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """An exercise's check; call it with the student's function.
+    """The check of an exercise; call it with the student's function.
 
     Parameters
     ----------
     name : the function's name in the notebook.
-    asks : what the function must give, as the end of a sentence.
-    start : the hint for one who has not begun.
-    draw : from a random generator to the arguments of one call.
-    truth : the oracle: from arguments to the right answer.
-    mistakes : known wrong answers with their hints; where several fit, the first speaks.
-    same : tells whether two answers are the same.
-    trials : how many random inputs to try.
+    asks : what the function must return, as the end of a sentence.
+    start : the hint for a student who has not begun.
+    draw : takes a random generator, returns the arguments of one call.
+    truth : the oracle: takes these arguments, returns the right answer.
+    mistakes : known wrong answers with their hints; if several fit, the first one counts.
+    same : takes two answers, returns whether they are the same.
+    trials : the number of random inputs.
 
     Examples
     --------
@@ -90,7 +102,7 @@ class Check:
     ...     draw=lambda rng: (rng.normal(),), truth=lambda x: 2 * x,
     ...     mistakes=[Mistake(lambda x: x * x, "That is the square.")])
     >>> double(lambda x: ...)
-    ✗ double: not there yet. It must give twice the number. Hint: What is 2 times x?
+    ✗ double: not there yet. It must return twice the number. Hint: What is 2 times x?
     >>> double(lambda x: x**2)
     ✗ double: That is the square.
     >>> double(lambda x: x + x)
@@ -111,7 +123,7 @@ class Check:
         print(self.verdict(answer))
 
     def verdict(self, answer: Answer) -> Verdict:
-        """Try a function on random input, and say what is wrong with it, if anything."""
+        """Try a function on random input, and say what is wrong with it, if anything is."""
         rng = np.random.default_rng(0)
         tried: list[Trial] = []
         try:
@@ -124,8 +136,8 @@ class Check:
                 if not all(map(_unchanged, used, arguments)):
                     return self._wrong("your function changes its arguments; work on a copy.")
         except NotImplementedError:
-            return self._wrong(f"not there yet. It must give {self.asks}. Hint: {self.start}")
-        except Exception as error:  # whatever a student's function raises belongs on the page
+            return self._wrong(f"not there yet. It must return {self.asks}. Hint: {self.start}")
+        except Exception as error:  # a student's function may raise anything, and the page shows it
             return self._wrong(_raised(error, answer))
         failed = [trial for trial in tried if not self._same(trial.given, trial.wanted)]
         if failed:
@@ -138,7 +150,7 @@ class Check:
     def _same(self, given: Any, wanted: Any) -> bool:  # noqa: ANN401
         try:
             return bool(self.same(given, wanted))
-        except Exception:  # of another kind altogether
+        except Exception:  # the answer has a type that cannot be compared
             return False
 
     def _known_mistake(self, tried: list[Trial]) -> str | None:
@@ -149,14 +161,14 @@ class Check:
 
     def _first_wrong(self, trial: Trial) -> str:
         if trial.given is None:
-            return "your function gives None; does it end in `return`?"
+            return "your function returns None; does it end in `return`?"
         given, wanted = np.shape(_array(trial.given)), np.shape(_array(trial.wanted))
         if given != wanted:
             return f"your answer has the shape {given}; it should be {wanted}."
         if wanted == () and not isinstance(trial.wanted, str):
-            numbers = f"you give {_short(trial.given)} where it should be {_short(trial.wanted)}"
-            return f"{numbers}. It must give {self.asks}."
-        return f"right in shape, wrong in value. It must give {self.asks}. Hint: {self.start}"
+            numbers = f"you return {_short(trial.given)} where it should be {_short(trial.wanted)}"
+            return f"{numbers}. It must return {self.asks}."
+        return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
 
 
 def _unchanged(used: Any, argument: Any) -> bool:  # noqa: ANN401
@@ -175,7 +187,7 @@ def _short(value: Any) -> str:  # noqa: ANN401
 
 
 def _raised(error: Exception, answer: Answer) -> str:
-    """Say what a function raised, and where in it."""
+    """Say what a function raised, and in which of its lines."""
     here = inspect.getsourcefile(answer) if inspect.isfunction(answer) else None
     lines = [
         f for f in traceback.extract_tb(error.__traceback__) if f.filename == here and f.name != "verdict"

@@ -1,4 +1,4 @@
-"""For instructors: the course without its solutions, and the marks of what comes back."""
+"""For teachers: copies of the notebooks without solutions, and marks for the notebooks handed in."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mocap._shared.atomic import make_folder, write_text
 from mocap.course.notebooks import library, read, tagged
 from mocap.errors import MocapError
 
-PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for those who teach
+PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
 SECONDS = 30  # time limit of an exercise
 CHECKS = "from mocap.course import checks"
 STARTING = {"seconds": 120}  # time limit of the cells before the exercises, which import much
@@ -25,15 +25,21 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     Parameters
     ----------
     notebooks : the course's folder.
-    out : where the copies go; none of them may be there yet, lest a student's work is lost.
+    out : the folder for the copies; no file in it is replaced, as it may be a student's work.
 
     Returns
     -------
-    The copies.
+    The copied notebooks.
 
     Raises
     ------
-    MocapError : where there are no notebooks, or a copy would replace a file.
+    MocapError : if there are no notebooks, or a copy would replace a file.
+
+    Examples
+    --------
+    >>> hand_out(Path("nowhere"), Path("out"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
     nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
     if not files:
@@ -41,7 +47,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     make_folder(out)
     for file in (*files, *(notebooks / page for page in PAGES)):
         if (out / file.name).exists():
-            raise MocapError(f"{out / file.name} is there already; name another folder.")
+            raise MocapError(f"{out / file.name} exists already; choose another folder.")
     for file in files:
         notebook = read(file)
         solutions = [cell for _, cell in tagged(notebook, "solution")]
@@ -53,7 +59,13 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
 
 
 class Mark(NamedTuple):
-    """How an exercise went: whose notebook, which exercise, right or not, and what the check said."""
+    """The mark of an exercise: whose notebook, which exercise, right or not, and what the check said.
+
+    Examples
+    --------
+    >>> Mark("ada/02.ipynb", "align", True, "✓ align: right on 40 random inputs.").right
+    True
+    """
 
     handed_in: str
     exercise: str
@@ -62,23 +74,29 @@ class Mark(NamedTuple):
 
 
 def mark(folder: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = iter) -> Iterator[Mark]:
-    """Run the exercises of every notebook in a folder and its folders, each notebook in a process of its own.
+    """Run the exercises of all notebooks in a folder and in the folders inside it, each in its own process.
 
-    Of a notebook, its first code cell runs and then every exercise with the package's own check; no other
-    cell does. The code is the students' own: run it where you would run their programs by hand.
+    The first code cell of a notebook runs, and then each exercise with the package's own check; no other cell
+    does. The code is that of the students: run it where you would run their programs by hand.
 
     Parameters
     ----------
-    folder : what was handed in; a file's name from there on says whose it is.
+    folder : the notebooks handed in; the path of a file inside the folder says whose it is.
     progress : wraps the notebooks while they are marked.
 
     Yields
     ------
-    A mark for every exercise.
+    A mark for each exercise.
 
     Raises
     ------
-    MocapError : where there are no notebooks.
+    MocapError : if there are no notebooks.
+
+    Examples
+    --------
+    >>> list(mark(Path("nowhere")))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
     library()
     files = sorted(file for file in folder.rglob("*.ipynb") if ".ipynb_checkpoints" not in file.parts)
@@ -93,13 +111,13 @@ def mark(folder: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = it
             continue
         exercises = dict(tagged(notebook, "exercise"))
         if not exercises:
-            yield Mark(whose, "", False, "holds no exercises: their cells are tagged `exercise:NAME`.")
+            yield Mark(whose, "", False, "holds no exercises: their cells have the tag `exercise:NAME`.")
         for name, said in _said(notebook, exercises).items():
             yield Mark(whose, name, said.startswith("✓"), said)
 
 
 def _said(notebook: Any, exercises: dict[str, Any]) -> dict[str, str]:  # noqa: ANN401
-    """Run the exercises of a notebook, and give what the checks say; after one that ends Python, go on."""
+    """Run the exercises of a notebook and return what the checks say; continue after one that ends Python."""
     setup = next((cell.source for cell in notebook.cells if cell.cell_type == "code"), "")
     said: dict[str, str] = {}
     while left := {name: cell for name, cell in exercises.items() if name not in said}:
@@ -135,18 +153,18 @@ def _run(setup: str, exercises: dict[str, Any]) -> dict[str, str]:
 
 
 def _verdict(exercise: Any, check: Any) -> str:  # noqa: ANN401
-    """Give what a check says; or the error of the student's cell, which came first."""
+    """Return what a check says, or the error of the student's cell, which ran before it."""
     for output in exercise.outputs + check.outputs:
         if output.output_type == "error":
             return f"✗ {output.ename}: {output.evalue}"
     results = [output for output in check.outputs if output.output_type == "execute_result"]
     if not results:
-        return "✗ keeps the check silent"
+        return "✗ keeps the check from printing"
     return str(ast.literal_eval(results[0].data["text/plain"]))
 
 
 def to_csv(marks: Iterable[Mark]) -> str:
-    """Write marks as the text of a .csv file, a line each.
+    """Write marks as the text of a .csv file, one line per mark.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Five slips of the homework that this package grew out of, to see what they do, and what mends them.
+"""Five slips of the homework that this package started from: what they do, and what fixes them.
 
-Nothing else here uses them. Each function does a sensible thing in a way that looks right and is not; its
-docstring names the slip and the mend.
+Nothing else in the package uses them. Each function looks right but is wrong. Its docstring names the slip
+and the fix.
 """
 
 from collections.abc import Sequence
@@ -17,16 +17,28 @@ from mocap.body.planar import PlanarTransform, lay_on
 
 
 def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
-    """Lay a motion's first frame on a frame of another by turning it, and moving it in x, y *and* z.
+    """Lay a motion's first frame on a frame of another: turn it, and move it in x, y *and* z.
 
-    The slip: heights are no matter of choice. Each time the clip is laid on a frame that is a little
-    higher or lower in its stride, the difference stays for good, and the body drifts up or down.
-    The mend: move over the ground only, `body.lay_on`.
+    The slip: the move changes the height as well. When the clip is laid on a frame that is a little higher or
+    lower in the stride, the difference stays, and the body drifts up or down over several clips. The fix:
+    move over the ground only, `body.lay_on`.
 
     Parameters
     ----------
-    motion : what is moved.
-    target, frame : where its first frame comes to lie.
+    motion : the motion to move.
+    target, frame : the motion and its frame to lay it on.
+
+    Returns
+    -------
+    The moved motion.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> ball = Skeleton(["ball"], [-1], [[0, 0, 0]])
+    >>> motion = Motion(ball, [[0, 1.0, 0], [0, 1.1, 0]], [[[1, 0, 0, 0]]] * 2, 30)
+    >>> lay_in_full(motion, motion, 1).root_positions[:, 1]
+    array([1.1, 1.2])
 
     Notebook: 03-transforms
     """
@@ -37,10 +49,11 @@ def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
 
 
 def homework_heading(quaternions: ArrayLike) -> Array:
-    """Read the direction a body faces off its root's rotation matrix: θ = atan2(-R₂₀, R₀₀).
+    """Compute the direction that a body faces from its root's rotation matrix: θ = atan2(-R₂₀, R₀₀).
 
-    The slip: this is where the body's left points, and that is lost when the left points straight up or down,
-    as in a cartwheel. The fix: read the turn about the vertical off the quaternion, `body.heading`.
+    The slip: this angle is where the left side of the body points. It is undefined when the left side points
+    straight up or down, as in a cartwheel. The fix: take the turn about the vertical from the quaternion,
+    `body.heading`.
 
     Parameters
     ----------
@@ -62,11 +75,11 @@ def homework_heading(quaternions: ArrayLike) -> Array:
 
 
 def euler_from_zero_to_pi(quaternions: ArrayLike) -> Array:
-    """Read Euler angles (z, y, x), R = Rz Ry Rx, with the first one in [0, π), as some libraries do.
+    """Compute Euler angles (z, y, x), R = Rz Ry Rx, with the first one in [0, π), as some libraries do.
 
-    The slip: for a body that leans a little to either side, z passes 0 all the time; just below, it is told
-    as nearly π, and y and x jump by as much. The rotations are right, frame for frame, and any
-    mean of two neighbours' angles is nonsense. The mend: never blend angles; `rotations.slerp`.
+    The slip: for a body that leans a little to either side, z often passes 0. Just below 0 the result is
+    nearly π, and y and x jump by as much. Each frame's rotation is right, but the mean of the angles of two
+    neighbouring frames is not a rotation between them. The fix: do not blend angles, use `rotations.slerp`.
 
     Parameters
     ----------
@@ -91,15 +104,27 @@ def euler_from_zero_to_pi(quaternions: ArrayLike) -> Array:
 
 
 def chain_on_last(slices: Sequence[Motion]) -> Motion:
-    """Play slices of clips in a row, each laid with its first frame on the *last* frame of the one before.
+    """Play slices of clips in a row, each with its first frame laid on the *last* frame of the one before.
 
-    The slip: two frames in a row show the root in one place, so that the walker stops for a frame at every
-    joint, a stutter, and arrives a frame's way too early. The mend: a slice that follows in its clip
-    follows as it is, `concatenate`; others overlap the one before and are blended, `blending.join`.
+    The slip: two frames in a row show the root in one place. So the walker stops for one frame at each seam,
+    which looks like a stutter, and ends one step of a frame short. The fix: a slice that follows in its own
+    clip needs no move, `concatenate`; other slices overlap the one before and are blended, `blending.join`.
 
     Parameters
     ----------
-    slices : motions of one skeleton and rate.
+    slices : motions of one skeleton and frame rate.
+
+    Returns
+    -------
+    One motion.
+
+    Examples
+    --------
+    >>> from mocap.body.skeleton import Skeleton
+    >>> ball = Skeleton(["ball"], [-1], [[0, 0, 0]])
+    >>> motion = Motion(ball, [[0, 0, 0.0], [0, 0, 0.1]], [[[1, 0, 0, 0]]] * 2, 30)
+    >>> chain_on_last([motion, motion]).root_positions[:, 2]
+    array([0. , 0.1, 0.1, 0.2])
 
     Notebook: 03-transforms
     """
@@ -110,16 +135,28 @@ def chain_on_last(slices: Sequence[Motion]) -> Motion:
 
 
 def turn_in_place(root_positions: Array, angle: float) -> Array:
-    """Turn root positions, shape (F, 3), about the first one's vertical, writing over the array it was given.
+    """Turn root positions about the vertical through the first one, and overwrite the array.
 
-    The slip: it is the stored clip that is turned, so the second visit to a clip finds it where the first
-    one left it, and the result hangs on the order of the visits. The mend: `PlanarTransform`
-    gives a new motion, and a `Motion`'s arrays refuse to be written to.
+    The slip: this changes the stored clip. The second visit to a clip finds it turned by the first one, so
+    the result depends on the order of the visits. The fix: `PlanarTransform` returns a new motion, and the
+    arrays of a `Motion` are read-only.
 
     Parameters
     ----------
-    root_positions : metres; changed.
+    root_positions : shape (F, 3), metres; overwritten.
     angle : radians about +y.
+
+    Returns
+    -------
+    The same array.
+
+    Examples
+    --------
+    >>> stored = np.array([[0, 0, 0], [0, 0, 1.0]])
+    >>> _ = turn_in_place(stored, np.pi / 2)
+    >>> stored.round(6) + 0.0
+    array([[0., 0., 0.],
+           [1., 0., 0.]])
 
     Notebook: 03-transforms
     """

@@ -1,4 +1,4 @@
-"""Opening the course in JupyterLab."""
+"""The course in JupyterLab."""
 
 import importlib.util
 import shutil
@@ -13,21 +13,27 @@ FIRST = "00-quickstart.ipynb"
 
 
 def stored() -> Path:
-    """Find the notebooks as they are stored: in the checkout, or else in the installed package."""
+    """Find the folder of the notebooks: in the checkout, or in the installed package.
+
+    Examples
+    --------
+    >>> (stored() / "00-quickstart.ipynb").exists()
+    True
+    """
     checkout = PACKAGE.parent / "notebooks"
     return checkout if (checkout / FIRST).exists() else PACKAGE / "notebooks"
 
 
 def course_folder(copy: Path) -> Path:
-    """Find the notebooks: those of the checkout, or else a copy of the package's own that may be edited.
+    """Find notebooks to edit: those of the checkout, or a copy of those in the installed package.
 
     Parameters
     ----------
-    copy : where to put the copy; notebooks that are there already stay as they are.
+    copy : the folder for the copy; notebooks that it holds already stay as they are.
 
     Returns
     -------
-    The folder that holds them.
+    The folder of the notebooks.
     """
     folder = stored()
     if folder != PACKAGE / "notebooks":
@@ -43,13 +49,19 @@ def course_folder(copy: Path) -> Path:
 
 
 def open_course(copy: Path) -> int:
-    """Start JupyterLab on the first notebook, wait until it ends, and give its exit status.
+    """Start JupyterLab on the first notebook, wait until it ends, and return its exit status.
+
+    Parameters
+    ----------
+    copy : as for `course_folder`.
 
     Raises
     ------
-    MocapError : where JupyterLab is not installed, saying what to install.
+    MocapError : if JupyterLab is not installed.
     """
     if importlib.util.find_spec("jupyterlab") is None:
-        raise MocapError("The course runs in JupyterLab, which is not here: pip install 'mocap[notebooks]'.")
+        raise MocapError(
+            "The course runs in JupyterLab, which is not installed: pip install 'mocap[notebooks]'."
+        )
     folder = course_folder(copy)
     return subprocess.run([sys.executable, "-m", "jupyterlab", str(folder / FIRST)], check=False).returncode

@@ -1,4 +1,4 @@
-"""The course in a browser alone: JupyterLite, with the package as a wheel inside."""
+"""The course in the browser alone: a JupyterLite site that holds the package as a wheel."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from mocap._shared.atomic import write_text
 from mocap.course.notebooks import read
 from mocap.errors import MocapError
 
-WIDGETS = ["anywidget", "ipywidgets"]  # and whatever else the browser's Python does not bring along
+WIDGETS = ["anywidget", "ipywidgets"]  # that the browser's Python does not have
 
 
 def found() -> bool:
-    """Tell whether JupyterLite is installed."""
+    """Check whether JupyterLite is installed."""
     return importlib.util.find_spec("jupyterlite_pyodide_kernel") is not None
 
 
 def build_lite(notebooks: Path, out: Path) -> Path:
-    """Build a site on which the notebooks run without a server; Python comes with the first page.
+    """Build a site on which the notebooks run in the reader's browser, without a server for Python.
 
-    Whoever opens it needs a network: the browser's Python, numpy, scipy and matplotlib come from there.
+    The reader needs a network: the browser loads Python, numpy, scipy and matplotlib from it.
 
     Parameters
     ----------
-    notebooks : the course's folder, in a checkout: its wheel goes in.
-    out : where the site goes.
+    notebooks : the course's folder, in a checkout, of which a wheel is built.
+    out : the folder for the site.
 
     Returns
     -------
@@ -36,13 +36,15 @@ def build_lite(notebooks: Path, out: Path) -> Path:
 
     Raises
     ------
-    MocapError : where JupyterLite is not installed, there is no checkout, or the building fails.
+    MocapError : if JupyterLite is not installed, there is no checkout, or the build fails.
     """
     if not found():
-        raise MocapError("The site needs JupyterLite, which is not here: pip install 'mocap[lite]'.")
+        raise MocapError("The site needs JupyterLite, which is not installed: pip install 'mocap[lite]'.")
     checkout = notebooks.parent
     if not (checkout / "pyproject.toml").exists():
-        raise MocapError("A JupyterLite site is built from a checkout of the package, which is not here.")
+        raise MocapError(
+            "A JupyterLite site is built from a checkout of the package; this is an installed package."
+        )
     with tempfile.TemporaryDirectory() as folder:
         wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
@@ -68,7 +70,7 @@ def _copy(notebooks: Path, contents: Path) -> None:
 
 
 def _call(folder: str, command: list[str | Path]) -> None:
-    """Run a module of Python's in a folder, where it may leave what it likes."""
+    """Run a Python module in a folder, where it may leave files."""
     done = subprocess.run(
         [sys.executable, "-m", *map(str, command)], cwd=folder, capture_output=True, text=True, check=False
     )

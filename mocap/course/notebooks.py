@@ -1,8 +1,8 @@
-"""The course's notebooks as data: their cells by tag, and their running anew.
+"""The course's notebooks as data: read a notebook, find its cells by their tags, run it again.
 
-Cells carry tags that say what they are: `source:ROOM.FILE.FUNCTION` shows the package's own code,
-`exercise:NAME` is the stub of a function, `check:NAME` its check, `solution:NAME` the folded solution,
-`experiment:NAME` something to play with, `prediction` the question before it.
+The tags of a cell say what it is. `source:ROOM.FILE.FUNCTION` shows the package's own code. `ask:NAME` is the
+text of an exercise, `exercise:NAME` the stub of its function, `check:NAME` its check and `solution:NAME` its
+folded solution. `experiment:NAME` is something to try, and `prediction` the question before it.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from mocap._shared.atomic import write_text
 from mocap.errors import MocapError
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
-WIDGET = "application/vnd.jupyter.widget-view+json"  # names a model that is gone once the kernel is
+WIDGET = "application/vnd.jupyter.widget-view+json"  # the name of a model that ends with its kernel
 
 
 def library() -> Any:  # noqa: ANN401
-    """Give nbformat, or say what to install."""
+    """Import nbformat, or say what to install."""
     try:
-        import nbclient  # noqa: F401  # which comes with it, and runs what it reads
+        import nbclient  # noqa: F401 - it runs what nbformat reads
         import nbformat
     except ImportError as error:
         raise MocapError("Notebooks need nbformat and nbclient: pip install 'mocap[notebooks]'.") from error
@@ -36,23 +36,42 @@ def library() -> Any:  # noqa: ANN401
 
 
 def read(path: Path) -> Any:  # noqa: ANN401
-    """Read a notebook, as nbformat's object.
+    """Read a notebook as an object of nbformat.
 
     Raises
     ------
-    MocapError : where nbformat is not installed, or the file is no notebook.
+    MocapError : if nbformat is not installed, or the file is missing or is not a notebook.
+
+    Examples
+    --------
+    >>> read(Path("nowhere.ipynb"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: nowhere.ipynb: No such file or directory.
     """
     nbformat = library()
     try:
         return nbformat.read(path, as_version=4)
     except OSError as error:
         raise MocapError(f"{path}: {error.strerror}.") from error
-    except Exception as error:  # nbformat raises whatever it stumbles on
+    except Exception as error:  # nbformat raises errors of many kinds
         raise MocapError(f"{path}: is not a notebook.") from error
 
 
 def tagged(notebook: Any, kind: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN401
-    """Give the cells with a tag such as `exercise:NAME`, each with its NAME; `kind` is what stands before."""
+    """Yield the NAME and the cell for each tag such as `exercise:NAME`.
+
+    Parameters
+    ----------
+    notebook : from `read`.
+    kind : the word before the colon, such as `exercise`.
+
+    Examples
+    --------
+    >>> from nbformat.v4 import new_code_cell, new_notebook
+    >>> cell = new_code_cell("def speed(): ...", metadata={"tags": ["exercise:speed"]})
+    >>> [(name, cell.source) for name, cell in tagged(new_notebook(cells=[cell]), "exercise")]
+    [('speed', 'def speed(): ...')]
+    """
     for cell in notebook.cells:
         for tag in cell.metadata.get("tags", ()):
             if tag == kind or tag.startswith(f"{kind}:"):
@@ -60,7 +79,11 @@ def tagged(notebook: Any, kind: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN4
 
 
 def shown_source(name: str) -> str:
-    """Give a function or method as a notebook shows it: without its docstring and type annotations.
+    """Return the code of a function or method as a notebook shows it, without docstring and annotations.
+
+    Parameters
+    ----------
+    name : ROOM.FILE.FUNCTION, or ROOM.FILE.CLASS.METHOD.
 
     Examples
     --------
@@ -84,16 +107,20 @@ def shown_source(name: str) -> str:
 
 
 def solution(cell: Any) -> str:  # noqa: ANN401
-    """Give the code in a folded solution."""
+    """Return the code in a folded solution."""
     (code,) = re.findall(r"```python\n(.*?)```", cell.source, re.DOTALL)
     return str(code)
 
 
 def run(path: Path, figures: Path) -> None:
-    """Run a notebook from top to bottom, and store it with its outputs: nothing in it that varies.
+    """Run a notebook from top to bottom, and store it with its outputs, without what varies between runs.
 
-    What the package has, the notebook takes from there: the code in `source:` cells, and pictures of
-    `figures` that are attached under their names.
+    The code in `source:` cells is taken from the package again, and so are attached pictures from `figures`.
+
+    Parameters
+    ----------
+    path : the notebook.
+    figures : the folder of the pictures.
 
     Raises
     ------
@@ -120,7 +147,7 @@ def run(path: Path, figures: Path) -> None:
 
 
 def settle(notebook: Any) -> None:  # noqa: ANN401
-    """Take out of a notebook's metadata and outputs what varies from run to run."""
+    """Remove from a notebook's metadata and outputs what varies between runs."""
     notebook.metadata = {"kernelspec": KERNEL, "language_info": {"name": "python"}}
     for number, cell in enumerate(notebook.cells):
         cell.id = f"cell-{number:02}"
@@ -130,7 +157,7 @@ def settle(notebook: Any) -> None:  # noqa: ANN401
 
 
 def _merged(outputs: list[Any]) -> list[Any]:
-    """Join the pieces in which a stream came, drop the names of widgets that are no more."""
+    """Join the pieces of each stream, and remove the names of widgets, which end with the kernel."""
     merged: list[Any] = []
     for output in outputs:
         data = output.get("data", {})

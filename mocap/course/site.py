@@ -1,4 +1,4 @@
-"""The course as a site of plain pages: no kernel, no network; pictures stay, players play, search works."""
+"""The course as HTML pages without kernel and network: with pictures, players and a search."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ MATH = re.compile(r"(```.*?```|`[^`]*`)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL
 def build_site(
     notebooks: Path, out: Path, progress: Callable[[Iterable[Path]], Iterable[Path]] = iter
 ) -> Path:
-    """Write every notebook and page of a folder as HTML, with a menu, links to neighbours, and search.
+    """Write the notebooks and pages of a folder as HTML, with a menu and a search.
 
     Parameters
     ----------
     notebooks : the course's folder.
-    out : where the pages go; `index.html` is the first notebook.
+    out : the folder for the pages; `index.html` leads to the first notebook.
     progress : wraps the files while they are converted.
 
     Returns
@@ -36,7 +36,13 @@ def build_site(
 
     Raises
     ------
-    MocapError : where nbconvert or latex2mathml is not installed, or there are no notebooks.
+    MocapError : if nbconvert or latex2mathml is not installed, or there are no notebooks.
+
+    Examples
+    --------
+    >>> build_site(Path("nowhere"), Path("out"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
     files = sorted(notebooks.glob("*.ipynb")) + [notebooks / f"{name}.md" for name in PAGES]
     if len(files) == len(PAGES):
@@ -56,7 +62,7 @@ def build_site(
 
 
 def _contents(file: Path) -> Any:  # noqa: ANN401
-    """Read a notebook; or a page, as a notebook of one cell."""
+    """Read a notebook, or a Markdown page as a notebook of one cell."""
     if file.suffix == ".ipynb":
         return read(file)
     from nbformat.v4 import new_markdown_cell, new_notebook
@@ -70,7 +76,7 @@ def _title(name: str, notebook: Any) -> str:  # noqa: ANN401
 
 
 def _body(notebook: Any) -> str:  # noqa: ANN401
-    """Convert a notebook's cells; formulas become MathML, which browsers draw by themselves."""
+    """Convert a notebook's cells; formulas become MathML, which browsers draw themselves."""
     try:
         from latex2mathml.converter import convert
         from nbconvert import HTMLExporter
@@ -111,7 +117,7 @@ def _code_style() -> str:
 
 
 def _sections(name: str, title: str, notebook: Any) -> list[dict[str, str]]:  # noqa: ANN401
-    """Give the text under each heading, for the search."""
+    """Return the text under each heading, for the search."""
     text = "\n\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
     sections = []
     for part in re.split(r"^(?=#+ )", text, flags=re.MULTILINE)[1:]:

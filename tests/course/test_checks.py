@@ -83,12 +83,12 @@ def unfinished(x):
     [
         (lambda x: 2 * x, "✓ double: right on 40 random inputs."),
         (lambda x: x**2, "✗ double: That is the square."),
-        (lambda x: ..., "✗ double: not there yet. It must give twice the numbers. Hint: What is 2 x?"),
+        (lambda x: ..., "✗ double: not there yet. It must return twice the numbers. Hint: What is 2 x?"),
         (unfinished, "✗ double: not there yet"),
-        (lambda x: None, "gives None; does it end in `return`?"),
+        (lambda x: None, "returns None; does it end in `return`?"),
         (lambda x: x[:2], r"has the shape (2,); it should be (3,)"),
-        (lambda x: 3 * x, "right in shape, wrong in value"),
-        (lambda x: 2 * x * np.nan, "wrong in value"),
+        (lambda x: 3 * x, "the shape is right, the values are wrong"),
+        (lambda x: 2 * x * np.nan, "the values are wrong"),
         (in_place, "changes its arguments"),
         (broken, 'raises IndexError in `return x["y"]`'),
         ("no function", "raises TypeError"),
@@ -105,7 +105,7 @@ def test_a_wrong_number_is_told_beside_the_right_one():
     check = Check(
         name="f", asks="x", start="", draw=lambda rng: (2.0,), truth=lambda x: x, mistakes=[], trials=1
     )
-    assert "you give 3 where it should be 2." in check.verdict(lambda x: 3.0).message
+    assert "you return 3 where it should be 2." in check.verdict(lambda x: 3.0).message
 
 
 @pytest.mark.parametrize(

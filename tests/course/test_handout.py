@@ -50,7 +50,7 @@ def test_a_handout_has_everything_but_the_solutions(copies):
 
 
 def test_a_handout_replaces_nothing(copies):
-    with pytest.raises(MocapError, match=r"00-quickstart.ipynb is there already; name another folder"):
+    with pytest.raises(MocapError, match=r"00-quickstart.ipynb exists already; choose another folder"):
         hand_out(stored(), copies[0].parent)
 
 

@@ -1,4 +1,4 @@
-"""Each slip of the homework shows, and so does its mend."""
+"""Each slip of the homework shows, and so does its fix."""
 
 from itertools import pairwise
 

@@ -91,23 +91,23 @@ def bent_forwards(thigh, shank, distance):
 
 WRONG = {
     "short_way": [
-        (by_sines, "the long way round: where"),
+        (by_sines, "the long way round: if"),
         (backwards, "runs backwards"),
-        (normalised_line, "not at a steady speed"),
+        (normalised_line, "not at constant speed"),
         (bare_line, "cuts through the sphere"),
-        (line_the_long_way, "on a line, and"),
+        (line_the_long_way, "on a straight line, and"),
     ],
     "quintic": [
         (rising, "these rise"),
-        (a_frame_late, "a frame late"),
-        (end_to_end, "would be spent"),
+        (a_frame_late, "one frame late"),
+        (end_to_end, "would be wasted"),
         (cubic, "the cubic"),
     ],
     "slide": [
         (with_height, "only x and z"),
         (in_metres, "in metres"),
         (always, "in the air"),
-        (mean_of_all, "over planted frames, too"),
+        (mean_of_all, "over the planted frames only"),
         (from_the_start, "where the plant begins"),
     ],
     "knee_bend": [

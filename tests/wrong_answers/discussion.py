@@ -82,15 +82,15 @@ def with_swings(positions, planted):
 
 WRONG = {
     "beyond_control": [
-        (how_many, "out of all seams"),
+        (how_many, "number of all seams"),
         (above_the_median, "nothing special"),
-        (above_the_largest, "one wild frame"),
+        (above_the_largest, "one extreme value"),
         (among_themselves, "with themselves"),
         (in_ones, "95, not 0.95"),
     ],
     "seam_jump": [
-        (a_frame_late, "a frame too late"),
-        (per_frame, "metres a frame"),
+        (a_frame_late, "one frame too late"),
+        (per_frame, "metres per frame"),
         (an_acceleration, "acceleration"),
         (anywhere, "the whole clip"),
     ],
@@ -98,10 +98,10 @@ WRONG = {
         (in_frames, "those are frames"),
         (half_of_it, "fall evenly"),
         (all_of_it, "when the blend ends"),
-        (of_the_new, "the old motion's"),
+        (of_the_new, "those of the old motion"),
     ],
     "ground_slid": [
-        (in_space, "the height is in it"),
+        (in_space, "includes the height"),
         (with_touch_down, "comes down"),
         (between_plants, "from one plant to the next"),
         (with_swings, "only planted feet slide"),

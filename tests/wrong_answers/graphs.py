@@ -76,15 +76,15 @@ def place(thresholds, frames, keep):
 
 WRONG = {
     "inverse_shares": [
-        (homework_odds, "the slip to mend"),
-        (odds_of_one, "only `left`"),
+        (homework_odds, "the slip to fix"),
+        (odds_of_one, "share only `left`"),
         (raw_odds, "divide by their sum"),
         (complement, "n - 1"),
     ],
     "expected_seam": [
         (not_normed, "add up to ½"),
-        (even_die, "even die"),
-        (mean_of_products, "the place of 1 / n"),
+        (even_die, "equally likely"),
+        (mean_of_products, "already replace 1 / n"),
         (likeliest, "the others are taken too"),
     ],
     "choice_points": [
@@ -99,6 +99,6 @@ WRONG = {
         (all_of_it, "a share of it is enough"),
         (share_as_number, "of what?"),
         (kept_frames, "those are frames"),
-        (place, "a place in the array"),
+        (place, "that is an index"),
     ],
 }

@@ -119,7 +119,7 @@ WRONG = {
         (two_steps, "that is two steps"),
         (start_forgotten, "`start` belongs"),
         (against_the_arrows, "against the arrows"),
-        (both_ways, "one way only"),
+        (both_ways, "one direction only"),
     ],
     "on_no_cycle": [
         (nothing_follows, "where do they lead"),
@@ -135,8 +135,8 @@ WRONG = {
     ],
     "missing_ways": [
         (one_order, "try both orders"),
-        (undirected, "your ways go both"),
-        (turned_round, "wrong way round"),
+        (undirected, "follow them in both"),
+        (turned_round, "are reversed"),
         (single_edges, "through other nodes"),
         (with_a_way, "pairs with a way"),
     ],

@@ -62,20 +62,20 @@ def a_list(edges):
 WRONG = {
     "speed": [
         (with_height, "only x and z"),
-        (a_frame, "metres a frame"),
+        (a_frame, "metres per frame"),
         (divided, "multiply by fps"),
         (of_xy, "y is up"),
     ],
     "cheapest": [
         (least_of_all, "of the whole grid"),
-        (its_number, "place in the list"),
+        (its_number, "index in the list"),
         (worst, "worst of the minima"),
-        (its_cost, "give where it lies"),
+        (its_cost, "its row and column"),
     ],
     "dead_ends": [
         (no_way_in, "no edge enters"),
         (among_starts, "always empty"),
         (again_and_again, "look once"),
-        (a_list, "give a set"),
+        (a_list, "return a set"),
     ],
 }

@@ -74,12 +74,12 @@ WRONG = {
     "standing": [
         (the_strict_one, "the strict one"),
         (the_loose_one, "the loose one"),
-        (going_through, "from its first frame"),
+        (going_through, "at its first frame"),
         (the_swings, "marks the swings"),
     ],
     "leaps": [
         (frame_before, "the frames before"),
-        (without_fps, "metres a frame"),
+        (without_fps, "metres per frame"),
         (upwards_too, "leave y out"),
         (as_a_mask, "that is a mask"),
     ],

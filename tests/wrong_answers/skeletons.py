@@ -119,10 +119,10 @@ def at_rest(skeleton, turns, joint):
 
 WRONG = {
     "hand": [
-        (two_separate_angles, "both act on"),
+        (two_separate_angles, "angles act on"),
         (seen_from_the_elbow, "the elbow itself"),
         (sine_first, "swapped"),
-        (folded_back, "same way round"),
+        (folded_back, "same direction"),
     ],
     "axis_angle": [
         (whole_angle, "half the angle"),
@@ -138,7 +138,7 @@ WRONG = {
     ],
     "own_axes": [
         (from_the_right, "stands leftmost"),
-        (in_degrees, "want radians"),
+        (in_degrees, "take radians"),
         (alphabet, "alphabet"),
         (all_at_once, "one turn about"),
     ],

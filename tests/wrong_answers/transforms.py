@@ -119,7 +119,7 @@ WRONG = {
     ],
     "lay_on": [
         (differences, "about the origin"),
-        (the_target_moves, "the first that should move"),
+        (the_target_moves, "`moving` that should move"),
         (turned_away, "sign of the angle"),
         (the_whole_heading, "a heading already"),
     ],

@@ -68,7 +68,7 @@ def everything(tree):
     return recursive(tree, cut=False)
 
 
-def dearest_first(tree):
+def most_expensive_first(tree):
     return recursive(tree, key=lambda way: -way[0])
 
 
@@ -127,25 +127,25 @@ WRONG = {
         (likelier_when_worse, "homework's slip"),
         (never_shared, "add up to 1"),
         (no_millimetre, "add the millimetre"),
-        (all_alike, "where do the costs"),
+        (all_alike, "use the costs"),
     ],
     "product_of": [
         (added, "you add the steps as they are"),
         (with_its_own, "its own angle too"),
-        (wrong_sign, "wrong way round"),
+        (wrong_sign, "wrong direction"),
         (other_order, "the other order"),
     ],
     "cheapest_way": [
         (everything, "visit every node"),
-        (dearest_first, "dearest child first"),
+        (most_expensive_first, "most expensive child first"),
         (as_they_stand, "in any order"),
-        (counted_too_soon, "was not visited"),
-        (greedy, "that is greed"),
+        (counted_too_soon, "is not visited"),
+        (greedy, "a greedy search"),
     ],
     "least_cost": [
-        (overshooting, "need not run past it"),
+        (overshooting, "can stop there"),
         (no_steps, "no lower bound"),
         (metres, "square metres"),
-        (squares_subtracted, "squares do not subtract"),
+        (squares_subtracted, "difference of squares"),
     ],
 }

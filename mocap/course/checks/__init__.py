@@ -1,10 +1,10 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
-Each module here belongs to one notebook; see `mocap.checking` for how a check works.
+Each file here belongs to one notebook; `mocap.course.check` says how a check works.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)
-✗ speed: not there yet. It must give ...
+✗ speed: not there yet. It must return ...
 """
 
 import pkgutil
@@ -16,7 +16,7 @@ from mocap.course.check import Check
 
 @cache
 def all_checks() -> dict[str, Check]:
-    """Give every check by its name, notebook by notebook."""
+    """Return every check by its name, notebook by notebook."""
     modules = [import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__)]
     found = [value for module in modules for value in vars(module).values() if isinstance(value, Check)]
     return {check.name: check for check in found}

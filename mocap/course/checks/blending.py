@@ -15,7 +15,7 @@ def _pair(rng: np.random.Generator) -> tuple[Array, Array, float]:
 
 
 def _sines(start: Array, end: Array, amount: float) -> Array:
-    """Weigh two quaternions by sines, as they are: the long way round where they point apart."""
+    """Weight two quaternions by sines, without a change of sign: the long way round if they point apart."""
     angle = np.arccos(start @ end)
     return np.asarray((np.sin((1 - amount) * angle) * start + np.sin(amount * angle) * end) / np.sin(angle))
 
@@ -34,13 +34,14 @@ def _unit(q: Array) -> Array:
 
 short_way = Check(
     name="short_way",
-    asks="the quaternion at `amount` of the way, at a steady speed and the short way round",
-    start="the angle Ω has the cosine start · end. What must you do with `end` where that is below 0?",
+    asks="the quaternion at `amount` of the way, at constant speed and the short way round",
+    start="the angle Ω has the cosine start · end. What must you do with `end` if that is below 0?",
     draw=_pair,
     truth=rotations.slerp,
     mistakes=[
         Mistake(
-            _sines, "the long way round: where start · end is below 0, go to -end, which turns the same."
+            _sines,
+            "that is the long way round: if start · end is below 0, use -end, which is the same rotation.",
         ),
         Mistake(
             lambda start, end, amount: _sines(start, _nearer(start, end), 1 - amount),
@@ -48,21 +49,21 @@ short_way = Check(
         ),
         Mistake(
             lambda start, end, amount: _unit(_on_a_line(start, _nearer(start, end), amount)),
-            "the right arc, but not at a steady speed: weigh by sines of the angle, not on a line.",
+            "the right arc, but not at constant speed: use sines of the angle as weights, not a line.",
         ),
         Mistake(
             lambda start, end, amount: _unit(_on_a_line(start, end, amount)),
-            "on a line, and where start · end is below 0 the long way round, too.",
+            "that is on a straight line, and if start · end is below 0, it is also the long way round.",
         ),
         Mistake(
             lambda start, end, amount: _on_a_line(start, _nearer(start, end), amount),
-            "what you give has not length 1, so it is no rotation: a straight line cuts through the sphere.",
+            "your answer does not have length 1: a straight line cuts through the sphere of rotations.",
         ),
         Mistake(
             lambda start, end, amount: (
                 _sines(start, _nearer(start, end), amount) * np.sqrt(1 - (start @ end) ** 2)
             ),
-            "what you give has not length 1: divide by the sine of the whole angle.",
+            "your answer does not have length 1: divide by the sine of the whole angle.",
         ),
     ],
     same=close_rotations,
@@ -76,21 +77,21 @@ def _quintic(t: Array) -> Array:
 quintic = Check(
     name="quintic",
     asks="the weights of a window's frames, by a polynomial of degree five in t = (p + 1) / k",
-    start="six conditions, six coefficients: those at t = 0 settle three of them at once.",
+    start="there are six conditions for six coefficients; those at t = 0 give three of them at once.",
     draw=lambda rng: (int(rng.integers(2, 60)),),
     truth=weights.quintic_weights,
     mistakes=[
         Mistake(
             lambda window: 1 - weights.quintic_weights(window),
-            "these rise; the weights of the motion that is left fall from 1 to 0.",
+            "these rise; the weights of the first motion fall from 1 to 0.",
         ),
         Mistake(
             lambda window: _quintic(np.arange(window) / window),
-            "a frame late: t is (p + 1) / k, so that the last frame of the window has weight 0.",
+            "one frame late: t is (p + 1) / k, so that the last frame of the window has weight 0.",
         ),
         Mistake(
             lambda window: _quintic(np.linspace(0, 1, window)),
-            "t is 0 in the frame *before* the window, not in its first: that one would be spent.",
+            "t is 0 in the frame *before* the window, not in its first frame, which would be wasted.",
         ),
         Mistake(weights.cubic_weights, "that is the cubic: its second derivative jumps at both ends."),
     ],
@@ -98,15 +99,15 @@ quintic = Check(
 
 
 def _stray(points: Array, planted: NDArray[np.bool_], *, about: Array | None = None) -> float:
-    """Measure how far points stray from their mean, or another point, while planted: the farthest, in cm."""
+    """Measure the largest distance of planted points from their mean, or from another point, in cm."""
     centre = points[planted].mean(axis=0) if about is None else about
     return float(100 * np.linalg.norm(points[planted] - centre, axis=1).max())
 
 
 slide = Check(
     name="slide",
-    asks="how far, in centimetres, the joint strays over the ground from its mean place while planted",
-    start="keep the frames in which it is planted, and of those x and z. Where is it on average?",
+    asks="the largest distance over the ground, in centimetres, of the planted joint from its mean place",
+    start="keep only the planted frames, and of those x and z. Where is the joint on average?",
     draw=lambda rng: (
         rng.normal(size=(20, 3)).cumsum(axis=0) * 0.01,
         np.arange(20) - rng.integers(0, 10) < rng.integers(4, 10),
@@ -120,19 +121,19 @@ slide = Check(
         ),
         Mistake(
             lambda positions, planted: _stray(positions[:, [0, 2]], np.ones(len(planted), bool)),
-            "a foot in the air may go where it likes: count only the frames in which it is planted.",
+            "a foot in the air is free to move: count only the frames in which it is planted.",
         ),
         Mistake(
             lambda positions, planted: _stray(
                 positions[:, [0, 2]], planted, about=positions[:, [0, 2]].mean(axis=0)
             ),
-            "the mean is over planted frames, too.",
+            "take the mean over the planted frames only.",
         ),
         Mistake(
             lambda positions, planted: _stray(
                 positions[:, [0, 2]], planted, about=positions[planted.argmax()][[0, 2]]
             ),
-            "measure from the mean place; where the plant begins is as wrong as where it ends.",
+            "measure from the mean place, not from where the plant begins.",
         ),
     ],
 )
@@ -146,24 +147,24 @@ def _inner(thigh: float, shank: float, distance: float) -> float:
 knee_bend = Check(
     name="knee_bend",
     asks="how far the knee is bent, in radians: 0 for a straight leg",
-    start="the law of cosines gives the angle between thigh and shank. What is that in a straight leg?",
+    start="the law of cosines gives the angle between thigh and shank. What is that angle in a straight leg?",
     draw=lambda rng: (*(bones := rng.uniform(0.3, 0.5, 2)), float(bones.sum() * rng.uniform(0.5, 0.99))),
     truth=lambda thigh, shank, distance: np.pi - _inner(thigh, shank, distance),
     mistakes=[
-        Mistake(_inner, "that is the angle between the bones: π for a straight leg, which is bent by 0."),
+        Mistake(_inner, "that is the angle between the bones: π for a straight leg, whose bend is 0."),
         Mistake(
             lambda thigh, shank, distance: 180 - np.degrees(_inner(thigh, shank, distance)),
-            "in degrees; radians are asked for.",
+            "that is in degrees; radians are asked for.",
         ),
         Mistake(
             lambda thigh, shank, distance: _inner(thigh, distance, shank),
-            "that is the angle at the hip: the side across from the knee is the distance.",
+            "that is the angle at the hip: the side opposite the knee is the distance.",
         ),
         Mistake(
             lambda thigh, shank, distance: (
                 np.arccos((thigh**2 + shank**2 - distance**2) / (thigh * shank) / 2) - np.pi
             ),
-            "the right size with the wrong sign.",
+            "the size is right, but it has the wrong sign.",
         ),
     ],
 )

@@ -8,14 +8,14 @@ from mocap.course.check import Check, Mistake
 
 beyond_control = Check(
     name="beyond_control",
-    asks="the share of the seams that jump more than 95 of 100 clips do where no seam is",
-    start="np.percentile(control, 95) is what all but a twentieth of the control stays below.",
+    asks="the share of the seams that jump more than 95 % of the control, where no seam is",
+    start="95 % of the control is below np.percentile(control, 95).",
     draw=lambda rng: (rng.gamma(4.0, 0.1, rng.integers(20, 60)), rng.gamma(4.0, 0.07, rng.integers(20, 60))),
     truth=lambda seams, control: np.mean(seams > np.percentile(control, 95)),
     mistakes=[
         Mistake(
             lambda seams, control: np.sum(seams > np.percentile(control, 95)),
-            "that is how many; the share is out of all seams.",
+            "that is the number of seams; divide it by the number of all seams.",
         ),
         Mistake(
             lambda seams, control: np.mean(seams > np.median(control)),
@@ -27,15 +27,15 @@ beyond_control = Check(
         ),
         Mistake(
             lambda seams, control: np.mean(seams > control.max()),
-            "one wild frame in the control would excuse every seam; take its 95th percentile.",
+            "one extreme value in the control would hide every bad seam; take its 95th percentile.",
         ),
         Mistake(
             lambda seams, control: np.mean(seams > np.percentile(seams, 95)),
-            "you compare the seams with themselves: a twentieth is above, whatever you do.",
+            "you compare the seams with themselves: 5 % are always above.",
         ),
         Mistake(
             lambda seams, control: np.mean(seams > np.percentile(control, 0.95)),
-            "np.percentile counts in hundredths: 95, not 0.95.",
+            "np.percentile takes percent: 95, not 0.95.",
         ),
     ],
 )
@@ -66,15 +66,15 @@ seam_jump = Check(
     mistakes=[
         Mistake(
             lambda positions, start, stop, fps: _jumps(positions)[start:stop].max() * fps,
-            "you look a frame too late: entry 0 of the second differences belongs to frame 1.",
+            "you look one frame too late: entry 0 of the second differences belongs to frame 1.",
         ),
         Mistake(
             lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max(),
-            "that is in metres a frame; velocities are in metres a second.",
+            "that is in metres per frame; velocities are in metres per second.",
         ),
         Mistake(
             lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max() * fps**2,
-            "times fps squared it is an acceleration; the jump of a velocity takes fps once.",
+            "times fps squared, it is an acceleration; for a jump in velocity, multiply by fps once.",
         ),
         Mistake(
             lambda positions, start, stop, fps: _jumps(positions).max() * fps,
@@ -84,14 +84,14 @@ seam_jump = Check(
             lambda positions, start, stop, fps: (
                 np.linalg.norm(np.diff(positions, axis=0), axis=1)[start:stop].max() * fps
             ),
-            "that is the speed; a steady walk has speed and no jump. Take the difference once more.",
+            "that is the speed; a steady walk has speed but no jump. Take the difference once more.",
         ),
     ],
 )
 
 
 def _weights(rng: np.random.Generator) -> tuple[Array, float]:
-    """Draw weights that fall from nearly 1 to 0, and seldom pass 0.5 in the middle."""
+    """Draw weights that fall from nearly 1 to 0 and rarely pass 0.5 in the middle."""
     steps = np.arange(1, int(rng.integers(8, 60)) + 1)
     return (1 - steps / len(steps)) ** rng.uniform(1.5, 4), float(rng.integers(24, 121))
 
@@ -109,7 +109,7 @@ reaction_time = Check(
         ),
         Mistake(
             lambda weights, fps: len(weights) / 2 / fps,
-            "half the window is right for weights that fall evenly; these need not.",
+            "half the window is right only for weights that fall evenly.",
         ),
         Mistake(
             lambda weights, fps: len(weights) / fps,
@@ -117,7 +117,7 @@ reaction_time = Check(
         ),
         Mistake(
             lambda weights, fps: int(np.argmax(weights > 0.5)) / fps,
-            "the weights are the old motion's: it leads while they are above a half.",
+            "the weights are those of the old motion: it leads while they are above a half.",
         ),
     ],
 )
@@ -128,7 +128,7 @@ def _steps(positions: Array) -> Array:
 
 
 def _standing(rng: np.random.Generator) -> tuple[Array, NDArray[np.bool_]]:
-    """Draw a track and two stretches of it in which the foot is said to stand."""
+    """Draw a track, and two stretches of it in which the foot is planted."""
     positions = _track(rng)
     planted = np.zeros(len(positions), bool)
     first, second = rng.integers(2, 5, 2)
@@ -138,7 +138,7 @@ def _standing(rng: np.random.Generator) -> tuple[Array, NDArray[np.bool_]]:
 
 ground_slid = Check(
     name="ground_slid",
-    asks="the way over the ground in the steps at both ends of which the foot is planted, in metres",
+    asks="the distance over the ground, in metres, of the steps with the foot planted at both ends",
     start="the step from frame f to f+1 counts if planted[f] and planted[f+1]; the ground is x and z.",
     draw=_standing,
     truth=lambda positions, planted: _steps(positions)[planted[1:] & planted[:-1]].sum(),
@@ -147,23 +147,23 @@ ground_slid = Check(
             lambda positions, planted: np.linalg.norm(np.diff(positions, axis=0), axis=1)[
                 planted[1:] & planted[:-1]
             ].sum(),
-            "the height is in it; sliding is over the ground, x and z.",
+            "your sum includes the height; sliding is over the ground, x and z.",
         ),
         Mistake(
             lambda positions, planted: _steps(positions)[planted[1:]].sum(),
-            "the step by which the foot comes down is in it; both ends of a step must be planted.",
+            "your sum includes the step in which the foot comes down; both its ends must be planted.",
         ),
         Mistake(
             lambda positions, planted: _steps(positions)[planted[:-1]].sum(),
-            "the step by which the foot leaves is in it; both ends of a step must be planted.",
+            "your sum includes the step in which the foot leaves; both its ends must be planted.",
         ),
         Mistake(
             lambda positions, planted: _steps(positions[planted]).sum(),
-            "the way from one plant to the next is in it: between the two the foot swings.",
+            "your sum includes the way from one plant to the next, where the foot swings.",
         ),
         Mistake(
             lambda positions, planted: _steps(positions).sum(),
-            "the swings are in it; only planted feet slide.",
+            "your sum includes the swings; only planted feet slide.",
         ),
     ],
 )

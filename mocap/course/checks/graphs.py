@@ -9,7 +9,7 @@ from mocap.course.check import Check, Mistake, close
 
 
 def _matches(rng: np.random.Generator) -> tuple[Array, float]:
-    """Draw the distances of some matches, and what the successor leaves to them."""
+    """Draw the distances of some matches, and the probability that the successor leaves them."""
     return rng.uniform(100, 400, rng.integers(1, 9)), float(rng.choice([0.5, 1.0]))
 
 
@@ -40,24 +40,24 @@ def _same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 inverse_shares = Check(
     name="inverse_shares",
-    asks="the probability of each match, which fall as D grows and add up to `left`",
-    start="a match at half the distance should come twice as often: begin with 1 / costs.",
+    asks="the probability of each match: smaller for a larger D, and `left` in all",
+    start="a match with half the distance should be taken twice as often: start with 1 / costs.",
     draw=_matches,
     truth=lambda costs, left: left / costs / np.sum(1 / costs),
     mistakes=[
         Mistake(
             lambda costs, left: left * costs / np.sum(costs),
-            "in proportion to D the worst match comes most often: that is the slip to mend.",
+            "in proportion to D, the worst match is taken most often: that is the slip to fix.",
         ),
         Mistake(
             lambda costs, left: 1 / costs / np.sum(1 / costs),
-            "these add up to 1, but the successor may have taken half: only `left` is to be shared.",
+            "these add up to 1, but the successor may have taken half: share only `left`.",
         ),
         Mistake(lambda costs, left: left / costs, "these do not add up to `left`: divide by their sum."),
         Mistake(lambda costs, left: 1 / costs, "these do not add up to `left`: divide by their sum."),
         Mistake(
             lambda costs, left: left * (1 - costs / np.sum(costs)),
-            "1 - D / ΣD falls with D, but with n matches it adds up to n - 1, and a single one gets nothing.",
+            "1 - D / ΣD falls with D, but with n matches it adds up to n - 1, and a single match gets 0.",
         ),
     ],
 )
@@ -75,11 +75,11 @@ expected_seam = Check(
         ),
         Mistake(
             lambda costs, probabilities: np.mean(costs),
-            "this is the mean for an even die; the likelier matches count for more.",
+            "this is the mean if all matches are equally likely; here the likelier ones count more.",
         ),
         Mistake(
             lambda costs, probabilities: np.mean(costs * probabilities),
-            "weights have taken the place of 1 / n already: sum, and divide by the sum of the probabilities.",
+            "the probabilities already replace 1 / n: take the sum, and divide it by their sum.",
         ),
         Mistake(
             lambda costs, probabilities: costs[np.argmax(probabilities)],
@@ -102,7 +102,7 @@ choice_points = Check(
         ),
         Mistake(
             lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *enters}),
-            "the blend plays the window already: the clip goes on *after* the window that is entered.",
+            "the blend already plays the window: the clip continues *after* the window that is entered.",
         ),
         Mistake(
             lambda frames, leaves, enters, window: sorted({*leaves, *(e + window for e in enters)}),
@@ -118,43 +118,43 @@ choice_points = Check(
             lambda frames, leaves, enters, window: sorted(
                 {0, frames - 1, *leaves, *(e + window for e in enters)}
             ),
-            "a node lies before the frame that it counts, so the one after the last frame is `frames`.",
+            "node f lies before frame f, so the node after the last frame is `frames`.",
         ),
         Mistake(
             lambda frames, leaves, enters, window: sorted(
                 [0, frames, *leaves, *(e + window for e in enters)]
             ),
-            "where two transitions touch the clip at one frame there is one node, not two.",
+            "if two transitions meet the clip at the same frame, there is one node, not two.",
         ),
     ],
 )
 
 suggested_threshold = Check(
     name="suggested_threshold",
-    asks="the lowest threshold at which at least `keep` of the most frames is kept",
+    asks="the lowest threshold that keeps at least the share `keep` of the largest number of frames",
     start="which entries of `frames` are at least keep * frames.max()?",
     draw=_curve,
     truth=lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep * frames.max())],
     mistakes=[
         Mistake(
             lambda thresholds, frames, keep: thresholds[np.argmax(frames)],
-            "that keeps all that can be kept; a share of it is enough.",
+            "that keeps the largest number of frames; a share of it is enough.",
         ),
         Mistake(
             lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep)],
-            "`keep` is a share, not a number of frames: of what?",
+            "`keep` is a share, not a number of frames: a share of what?",
         ),
         Mistake(
             lambda thresholds, frames, keep: thresholds[np.argmax(frames > 0)],
-            "that is where the first cycle appears, whatever it plays.",
+            "that is where the first cycle appears, however short it is.",
         ),
         Mistake(
             lambda thresholds, frames, keep: frames[np.argmax(frames >= keep * frames.max())],
-            "those are frames; the threshold at the same place is asked for.",
+            "those are frames; return the threshold at the same index.",
         ),
         Mistake(
             lambda thresholds, frames, keep: np.argmax(frames >= keep * frames.max()),
-            "that is a place in the array; the threshold at that place is asked for.",
+            "that is an index; return the threshold at that index.",
         ),
     ],
 )

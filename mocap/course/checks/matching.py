@@ -10,19 +10,19 @@ from mocap.matching.point_clouds import align
 angle_gap = Check(
     name="angle_gap",
     asks="the differences a - b in degrees, wrapped to [-180, 180)",
-    start="how far is it from 179° to -179°? Subtract, then think of what the remainder `%` does.",
+    start="how far is it from 179° to -179°? Subtract, then think of the remainder `%`.",
     draw=lambda rng: tuple(rng.uniform(-180, 180, (2, rng.integers(4, 9)))),
     truth=lambda a, b: (a - b + 180) % 360 - 180,
     mistakes=[
         Mistake(lambda a, b: a - b, "179° and -179° are 2° apart, not 358°: whole turns do not count."),
         Mistake(
             lambda a, b: (a - b) % 360,
-            "that goes from 0 to 360, so a turn by 1° the other way counts as 359°; it should end at 180.",
+            "that goes from 0 to 360, so -1° counts as 359°; the range should end at 180.",
         ),
-        Mistake(lambda a, b: (b - a + 180) % 360 - 180, "that is b - a: the signs are the other way round."),
+        Mistake(lambda a, b: (b - a + 180) % 360 - 180, "that is b - a: all signs are reversed."),
         Mistake(
             lambda a, b: np.abs((a - b + 180) % 360 - 180),
-            "the differences have signs; do not take them off.",
+            "the differences have signs; do not remove them.",
         ),
         Mistake(
             lambda a, b: (a - b + np.pi) % (2 * np.pi) - np.pi,
@@ -33,7 +33,7 @@ angle_gap = Check(
 
 
 def _clouds(rng: np.random.Generator) -> tuple[Array, Array]:
-    """Make a cloud, and the same turned and moved at random, not quite the same any more."""
+    """Make a cloud, and the same cloud turned, moved and changed a little, all at random."""
     points = rng.normal(size=(int(rng.integers(5, 12)), 3)) + rng.normal(size=3) * 3
     way = PlanarTransform(rng.uniform(-np.pi, np.pi), *rng.normal(size=2))
     return points, way.apply_points(points) + rng.normal(size=points.shape) * 0.1
@@ -50,36 +50,37 @@ def _gap(points: Array, others: Array) -> Array:
 
 best_shift = Check(
     name="best_shift",
-    asks="the shift (x0, z0) that is best once the others are turned by the angle",
-    start="turn the means of the others; the shift is what is then missing to the means of the points.",
+    asks="the best shift (x0, z0) after the others are turned by the angle",
+    start="turn the mean of the others; the shift leads from there to the mean of the points.",
     draw=lambda rng: (*_clouds(rng), rng.uniform(-np.pi, np.pi)),
     truth=lambda points, others, angle: _gap(points, _turned(others, angle)),
     mistakes=[
         Mistake(
             lambda points, others, angle: _gap(points, others),
-            "the others are turned before they are moved, and their mean with them.",
+            "the others are turned before they are moved: turn their mean first.",
         ),
         Mistake(
             lambda points, others, angle: _gap(points, _turned(others, -angle)),
-            "your turn goes the other way round: look at the signs of the sines in T.",
+            "your turn goes in the wrong direction: look at the signs of the sines in T.",
         ),
         Mistake(
             lambda points, others, angle: _gap(_turned(others, angle), points),
-            "that moves the points onto the others; the sign is the other way round.",
+            "that moves the points onto the others: reverse the sign.",
         ),
         Mistake(
             lambda points, others, angle: _gap(points, _turned(others, angle)) * len(points),
             "these are sums, not means: divide by the sum of the weights.",
         ),
         Mistake(
-            lambda points, others, angle: _gap(points, _turned(others, angle))[::-1], "first x0, then z0."
+            lambda points, others, angle: _gap(points, _turned(others, angle))[::-1],
+            "the order is wrong: x0 first, then z0.",
         ),
     ],
 )
 
 
 def _parts(points: Array, others: Array) -> tuple[float, float]:
-    """Give Σ (x z' - x' z) and Σ (x x' + z z') as they are, nothing centred."""
+    """Give Σ (x z' - x' z) and Σ (x x' + z z') without centring."""
     (x, _, z), (other_x, _, other_z) = points.T, others.T
     return float((x * other_z - other_x * z).sum()), float((x * other_x + z * other_z).sum())
 
@@ -91,17 +92,17 @@ def _centred(points: Array, others: Array) -> tuple[float, float]:
 best_angle = Check(
     name="best_angle",
     asks="the angle θ by which the others must be turned",
-    start="subtract each cloud's mean first; then two sums, and np.arctan2.",
+    start="subtract each cloud's mean first; then take np.arctan2 of two sums.",
     draw=_clouds,
     truth=lambda points, others: align(points, others).angle,
     mistakes=[
         Mistake(
             lambda points, others: np.arctan2(*_parts(points, others)),
-            "forgot to centre: these clouds are not about the origin. Subtract each one's mean first.",
+            "you did not centre: the means of these clouds are not 0. Subtract each cloud's mean first.",
         ),
         Mistake(
             lambda points, others: -np.arctan2(*_centred(points, others)),
-            "the sign of θ: you turn the points onto the others. Which of x z' and x' z has the minus?",
+            "the sign of θ is wrong: you turn the points onto the others. Which product has the minus?",
         ),
         Mistake(
             lambda points, others: np.arctan2(*_centred(points, others)[::-1]),
@@ -109,7 +110,7 @@ best_angle = Check(
         ),
         Mistake(
             lambda points, others: np.arctan(np.divide(*_centred(points, others))),
-            "right only for turns below 90°: a quotient has lost which of B and A was negative.",
+            "right only for turns below 90°: a quotient does not show which of B and A is negative.",
         ),
         Mistake(
             lambda points, others: np.arctan2(*_centred(points[:, [0, 2, 1]], others[:, [0, 2, 1]])),
@@ -141,15 +142,15 @@ window_sums = Check(
         ),
         Mistake(
             lambda products, window: _sums(products, window + 1),
-            "your windows are a frame too long: f runs from 0 to window - 1.",
+            "your windows are one frame too long: f runs from 0 to window - 1.",
         ),
         Mistake(
             lambda products, window: _sums(products, window)[:-1, :-1],
-            "the last window is missing: F frames hold F - window + 1 of them.",
+            "the last window is missing: F frames have F - window + 1 windows.",
         ),
         Mistake(
             lambda products, window: _sums(products, window, step=0),
-            "that goes down the columns; both frames move on together, along the diagonal.",
+            "that goes down the columns; both frames advance together, along the diagonal.",
         ),
         Mistake(
             lambda products, window: _sums(products, window, step=-1),

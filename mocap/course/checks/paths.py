@@ -34,14 +34,14 @@ def _draw_point_at(rng: np.random.Generator) -> tuple[Array, Array]:
 
 point_at = Check(
     name="point_at",
-    asks="the points (n, 2) so many metres along the line; past an end, that end",
-    start="how far along is each corner? np.cumsum of the pieces' lengths tells, after a 0; then np.interp.",
+    asks="the points (n, 2) at `along` metres along the line; beyond an end, that end",
+    start="how far along is each corner? Take 0 and np.cumsum of the pieces' lengths; then use np.interp.",
     draw=_draw_point_at,
     truth=lambda points, along: _at(points, along, _lengths(points)),
     mistakes=[
         Mistake(
             lambda points, along: _at(points, along, np.linspace(0, _lengths(points)[-1], len(points))),
-            "you take the corners as evenly spaced; the pieces of a line differ in length.",
+            "you treat the corners as evenly spaced; the pieces of a line differ in length.",
         ),
         Mistake(
             lambda points, along: _at(points[1:], along, _lengths(points)[1:]),
@@ -51,14 +51,14 @@ point_at = Check(
             lambda points, along: _at(points[:-1], along, _lengths(points)[1:]),
             "you are one corner late: the first corner lies 0 m along.",
         ),
-        Mistake(_nearest_corner, "that is the nearest corner; points between two corners lie between them."),
+        Mistake(_nearest_corner, "that is the nearest corner; between two corners, interpolate."),
         Mistake(
             lambda points, along: _at(
                 points,
                 along,
                 np.concatenate([[0.0], np.cumsum(np.sum(np.diff(points, axis=0) ** 2, axis=1))]),
             ),
-            "your lengths are squared: a root is missing.",
+            "your lengths are squared: a square root is missing.",
         ),
     ],
 )
@@ -87,28 +87,28 @@ def _draw_edge_cost(rng: np.random.Generator) -> tuple[Array, Line, float, float
 edge_cost = Check(
     name="edge_cost",
     asks="the sum of Eq. 9 over the edge's frames, and s at the edge's end",
-    start="np.diff gives the steps; each counts as `least` at least; add them up from `along`; then measure.",
+    start="np.diff gives the steps; make each at least `least`; add them up from `along`; then measure.",
     draw=_draw_edge_cost,
     truth=lambda track, path, along, least: _cost(track, path, along, np.maximum(_steps(track), least)),
     mistakes=[
         Mistake(
             lambda track, path, along, least: _cost(track, path, along, _steps(track)),
-            "where is the least progress? A walk that stands still would cost little, and stand for ever.",
+            "the least progress is missing: a walk that stands still would cost little and stand for ever.",
         ),
         Mistake(
             lambda track, path, along, least: _cost(track, path, along, _steps(track) + least),
-            "you add the least progress to every step; it is a floor under it: the larger of the two counts.",
+            "you add the least progress to every step; it is a minimum: take the larger of the two.",
         ),
         Mistake(
             lambda track, path, along, least: _cost(track, path, 0.0, np.maximum(_steps(track), least)),
-            "s starts at 0 in each of your edges; it goes on from `along`, where the walk has come.",
+            "s starts at 0 in each of your edges; it must continue from `along`, where the walk is.",
         ),
         Mistake(
             lambda track, path, along, least: (
                 _cost(track, path, along, np.maximum(_steps(track), least))[0] / (len(track) - 1),
                 _cost(track, path, along, np.maximum(_steps(track), least))[1],
             ),
-            "that is a mean; Eq. 9 is a sum, or long edges would be as cheap as short ones.",
+            "that is a mean; Eq. 9 is a sum, so that long edges cost more than short ones.",
         ),
         Mistake(_unsquared, "you sum distances; Eq. 9 sums their squares."),
     ],
@@ -139,14 +139,14 @@ def _draw_survivors(rng: np.random.Generator) -> tuple[Indices, Array, int]:
 
 survivors = Check(
     name="survivors",
-    asks="the numbers of the walks that go on, the cheapest first",
+    asks="the indices of the walks that go on, the cheapest first",
     start="sort by cost; np.unique(..., axis=0, return_index=True) finds the first of each kind of row.",
     draw=_draw_survivors,
     truth=_survivors,
     mistakes=[
         Mistake(
             lambda stand, costs, width: np.argsort(costs)[:width],
-            "that is the beam alone: among yours are walks that stand alike, and the dearer can go.",
+            "that is the beam alone: of walks that stand alike, keep only the cheapest.",
         ),
         Mistake(
             lambda stand, costs, width: _survivors(stand, costs, len(costs)),
@@ -154,16 +154,16 @@ survivors = Check(
         ),
         Mistake(
             _beam_first,
-            "you fill the beam first, in part with walks that stand alike: dominance comes first.",
+            "you fill the beam with walks that stand alike: apply dominance first.",
         ),
-        Mistake(_first_come, "of those that stand alike you keep the first in the list, not the cheapest."),
+        Mistake(_first_come, "of walks that stand alike, you keep the first in the list, not the cheapest."),
         Mistake(
             lambda stand, costs, width: _survivors(stand, costs, width, 3),
-            "walks that are turned differently do not stand alike: the last column counts, too.",
+            "walks that are turned differently do not stand alike: the last column counts as well.",
         ),
         Mistake(
             lambda stand, costs, width: np.sort(_survivors(stand, costs, width)),
-            "the right walks; give the cheapest first.",
+            "these are the right walks; put the cheapest first.",
         ),
     ],
 )

@@ -35,7 +35,7 @@ def _off_cycles(successors: Successors) -> set[int]:
 
 
 def _stripped(successors: Successors, both_ways: bool) -> set[int]:
-    """Take away nodes that nothing follows, or that follow nothing, until there are none."""
+    """Remove nodes without a successor, or without a predecessor, until none are left."""
     left = _digraph(successors)
     while poor := [n for n in left if not left.out_degree(n) or (both_ways and not left.in_degree(n))]:
         left.remove_nodes_from(poor)
@@ -57,7 +57,7 @@ def _played(part: set[int], edges: Weighed) -> int:
 
 
 def _kinds(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, set[int]]]:
-    """Draw a graph of rings, some joined by one edge or by way of a node that is in none."""
+    """Draw a graph of rings, some joined by an edge, some by a node that is in no ring."""
     graph, kinds = nx.DiGraph(), {}
     for first, kind in zip((0, 10, 20, 30), ("walk", "jog", "sneak", "stand"), strict=True):
         ring = list(range(first, first + int(rng.integers(2, 5))))
@@ -83,8 +83,8 @@ def _same_members(given: Iterable[object], wanted: set[object]) -> bool:
 
 reachable = Check(
     name="reachable",
-    asks="the set of nodes that a walk from `start` can come to, `start` among them",
-    start="keep the nodes seen so far, and a list of those whose followers you have not looked at yet.",
+    asks="the set of nodes that a walk from `start` can reach, `start` included",
+    start="keep the nodes seen so far, and a list of those whose successors you have not looked at yet.",
     draw=lambda rng: (_graph(rng), int(rng.integers(1, 4))),
     truth=lambda successors, start: {start} | _after(successors, start),
     same=_same_members,
@@ -99,7 +99,7 @@ reachable = Check(
         ),
         Mistake(
             lambda successors, start: set().union(*({e, *_after(successors, e)} for e in successors[start])),
-            "`start` belongs to it even where no way leads back to it.",
+            "`start` belongs to the set even if no way leads back to it.",
         ),
         Mistake(
             lambda successors, start: {start} | set(nx.ancestors(_digraph(successors), start)),
@@ -109,7 +109,7 @@ reachable = Check(
             lambda successors, start: set(
                 nx.node_connected_component(_digraph(successors).to_undirected(), start)
             ),
-            "an edge leads one way only; you walk it both ways.",
+            "an edge leads in one direction only; you follow it in both.",
         ),
     ],
 )
@@ -117,35 +117,35 @@ reachable = Check(
 on_no_cycle = Check(
     name="on_no_cycle",
     asks="the set of nodes that lie on no cycle",
-    start="a node is on a cycle when one of its followers can come back to it.",
+    start="a node is on a cycle if a way leads from one of its successors back to it.",
     draw=lambda rng: (_graph(rng),),
     truth=_off_cycles,
     same=_same_members,
     mistakes=[
         Mistake(
             lambda successors: {node for node, ends in successors.items() if not ends},
-            "a node may have followers and be on no cycle all the same: where do they lead?",
+            "a node with successors can still be on no cycle: where do they lead?",
         ),
         Mistake(
             lambda successors: _stripped(successors, both_ways=False),
-            "a node to which no way leads back is on no cycle either, even if walks go on from it for ever.",
+            "a node that no way leads back to is on no cycle, even if a walk from it never ends.",
         ),
         Mistake(
             lambda successors: _stripped(successors, both_ways=True),
-            "a node on the way from one cycle to another is left over: it is on neither.",
+            "you miss the nodes on the way from one cycle to another: they are on neither.",
         ),
         Mistake(
             lambda successors: {
                 n for n in successors if not any(n in _after(successors, e) - {e} for e in successors[n])
             },
-            "a node with an edge to itself is on a cycle, a short one.",
+            "a node with an edge to itself is on a cycle, of one edge.",
         ),
     ],
 )
 
 component_to_keep = Check(
     name="component_to_keep",
-    asks="the component whose edges play most frames",
+    asks="the component whose edges play the most frames",
     start="for each component, add up the frames of the edges that stay within it; max() takes a `key`.",
     draw=_components,
     truth=lambda components, edges: max(components, key=lambda part: _played(part, edges)),
@@ -153,29 +153,29 @@ component_to_keep = Check(
     mistakes=[
         Mistake(
             lambda components, edges: max(components, key=len),
-            "that has most nodes; a walk plays edges, so count their frames.",
+            "that has the most nodes; a walk plays edges, so count their frames.",
         ),
         Mistake(
             lambda components, edges: max(components, key=lambda p: sum(f for a, _, f in edges if a in p)),
-            "an edge that leaves the component is no part of it: both its ends must be inside.",
+            "an edge that leaves the component is not part of it: both its ends must be inside.",
         ),
         Mistake(
             lambda components, edges: max(components, key=lambda p: sum(f for _, b, f in edges if b in p)),
-            "an edge that enters the component is no part of it: both its ends must be inside.",
+            "an edge that enters the component is not part of it: both its ends must be inside.",
         ),
         Mistake(
             lambda components, edges: max(
                 components, key=lambda p: sum(a in p and b in p for a, b, _ in edges)
             ),
-            "that has most edges; some are long and some short, so count their frames.",
+            "that has the most edges; some are long and some short, so count their frames.",
         ),
     ],
 )
 
 missing_ways = Check(
     name="missing_ways",
-    asks="the set of ordered pairs of kinds (from, to) between which no way leads",
-    start="try all ordered pairs; nx.has_path(graph, a, b) tells whether a way leads from a to b.",
+    asks="the set of ordered pairs (from, to) of kinds without a way from the first to the second",
+    start="try all ordered pairs; nx.has_path(graph, a, b) says whether a way leads from a to b.",
     draw=_kinds,
     truth=_without_way,
     same=_same_members,
@@ -184,15 +184,15 @@ missing_ways = Check(
             lambda graph, kinds: {
                 pair for pair in combinations(kinds, 2) if not _way(graph, kinds[pair[0]], kinds[pair[1]])
             },
-            "a way from a to b is none from b to a: try both orders.",
+            "a way from a to b is not a way from b to a: try both orders.",
         ),
         Mistake(
             lambda graph, kinds: _without_way(graph.to_undirected(), kinds),
-            "edges lead one way only; your ways go both.",
+            "edges lead in one direction only; you follow them in both.",
         ),
         Mistake(
             lambda graph, kinds: _without_way(graph.reverse(), kinds),
-            "your pairs are the wrong way round: (from, to).",
+            "your pairs are reversed: they must be (from, to).",
         ),
         Mistake(
             lambda graph, kinds: {
@@ -204,7 +204,7 @@ missing_ways = Check(
         ),
         Mistake(
             lambda graph, kinds: set(permutations(kinds, 2)) - _without_way(graph, kinds),
-            "those are the pairs with a way; the ones without are asked for.",
+            "those are the pairs with a way; return those without.",
         ),
     ],
 )

@@ -8,7 +8,7 @@ from mocap.feet.footplants import hysteresis
 
 
 def _creeping(rng: np.random.Generator) -> tuple[Array, float, float]:
-    """Draw speeds of a foot: runs in the swing, runs that only come near to standing, and plants."""
+    """Draw speeds of a foot: swings, runs that almost stand, and plants."""
     levels = rng.permutation([4.0, 0.6, 4.0, 0.2, 4.0, 0.2, 4.0])
     speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
     speeds[: len(speeds) - 2 : 9] = 0.7
@@ -20,7 +20,7 @@ def _still(speeds: Array, enter: float, leave: float) -> Mask:
 
 
 def _once_begun(speeds: Array, enter: float, leave: float) -> Mask:
-    """Begin only where a speed falls below `enter`, as one does who goes through the frames once."""
+    """Begin only where a speed falls below `enter`, as a single pass over the frames does."""
     marks = np.zeros(len(speeds), bool)
     for frame, speed in enumerate(speeds):
         marks[frame] = speed < enter or (speed < leave and frame > 0 and marks[frame - 1])
@@ -40,15 +40,15 @@ standing = Check(
         ),
         Mistake(
             lambda speeds, enter, leave: speeds < leave,
-            "that is one threshold, the loose one: runs that never slow down to `enter` are in it.",
+            "that is one threshold, the loose one: it keeps runs that never slow down to `enter`.",
         ),
         Mistake(
             _once_begun,
-            "a run counts from its first frame below `leave`, also before it falls below `enter`.",
+            "a run begins at its first frame below `leave`, even before it falls below `enter`.",
         ),
         Mistake(
             lambda speeds, enter, leave: _still(speeds, leave, enter),
-            "the thresholds have changed places: `enter` is the stricter one.",
+            "the thresholds are swapped: `enter` is the stricter one.",
         ),
         Mistake(
             lambda speeds, enter, leave: ~_still(speeds, enter, leave),
@@ -59,7 +59,7 @@ standing = Check(
 
 
 def _leaping(rng: np.random.Generator) -> tuple[Array, float, float]:
-    """Draw a steady way over the ground with a leap or two, and a bob that is no leap."""
+    """Draw a steady way over the ground with one or two leaps, and a jump upwards that is not a leap."""
     fps, frames = float(rng.integers(30, 121)), int(rng.integers(20, 50))
     steps = rng.normal(0.8, 0.1, (frames, 3)) / fps
     steps[rng.integers(1, frames, 2), 2] += 9.0 / fps
@@ -73,7 +73,7 @@ def _speeds(positions: Array, fps: float) -> Array:
 
 leaps = Check(
     name="leaps",
-    asks="the frames at which the root arrives over the ground faster than `fastest`, as a list",
+    asks="a list of the frames that the root reaches, over the ground, faster than `fastest`",
     start="np.diff gives the step from each frame to the next; a step lasts 1 / fps seconds.",
     draw=_leaping,
     truth=lambda positions, fps, fastest: (np.flatnonzero(_speeds(positions, fps) > fastest) + 1).tolist(),
@@ -84,24 +84,24 @@ leaps = Check(
         ),
         Mistake(
             lambda positions, fps, fastest: np.flatnonzero(_speeds(positions, 1.0) > fastest) + 1,
-            "you compare metres a frame with metres a second.",
+            "you compare metres per frame with metres per second.",
         ),
         Mistake(
             lambda positions, fps, fastest: (
                 np.flatnonzero(np.linalg.norm(np.diff(positions, axis=0), axis=1) * fps > fastest) + 1
             ),
-            "a jump upwards is no leap over the ground; leave y out.",
+            "a jump upwards is not a leap over the ground; leave y out.",
         ),
         Mistake(
             lambda positions, fps, fastest: _speeds(positions, fps) > fastest,
-            "that is a mask; np.flatnonzero makes frame numbers of it.",
+            "that is a mask; np.flatnonzero turns it into frame numbers.",
         ),
     ],
 )
 
 
 def _tempo(rng: np.random.Generator) -> tuple[Array, int, float]:
-    """Draw speeds that bob with every step, walking first and then running."""
+    """Draw speeds that vary with every step, of a walk and then a run."""
     frames, span = 120, 2 * int(rng.integers(3, 10)) + 1
     change = rng.integers(40, 80)
     speeds = np.where(np.arange(frames) < change, 1.2, 2.8) + rng.normal(0, 0.9, frames)
@@ -115,8 +115,8 @@ def _smooth(speeds: Array, span: int) -> Array:
 
 running = Check(
     name="running",
-    asks="for each frame whether the mean speed over the `span` frames around it is above `fastest_walk`",
-    start="for frame f take the mean of the speeds from f - span // 2 to f + span // 2 that the clip has.",
+    asks="for each frame, whether the mean speed over the `span` frames around it is above `fastest_walk`",
+    start="for frame f, take the mean of the speeds in frames f - span // 2 to f + span // 2 of the clip.",
     draw=_tempo,
     truth=lambda speeds, span, fastest_walk: _smooth(speeds, span) > fastest_walk,
     mistakes=[
@@ -128,7 +128,7 @@ running = Check(
             lambda speeds, span, fastest_walk: (
                 np.convolve(speeds, np.ones(span) / span, "same") > fastest_walk
             ),
-            "at the clip's ends fewer frames are there, and you still divide by all of `span`.",
+            "there are fewer frames at the clip's ends, but you still divide by all of `span`.",
         ),
         Mistake(
             lambda speeds, span, fastest_walk: (
@@ -143,7 +143,7 @@ running = Check(
                 ]
                 > fastest_walk
             ),
-            "your mean looks only back, so the label comes half a span late; take frames on both sides.",
+            "your mean uses only earlier frames, so the label is half a span late; use both sides.",
         ),
         Mistake(
             lambda speeds, span, fastest_walk: _smooth(speeds, span) < fastest_walk,

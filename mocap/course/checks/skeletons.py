@@ -16,19 +16,19 @@ def _hand(upper: float, fore: float, shoulder: float, elbow: float) -> Array:
 
 hand = Check(
     name="hand",
-    asks="the place (x, y) of the hand",
-    start="place the elbow first; the hand lies one forearm further on, in the direction shoulder + elbow.",
+    asks="the position (x, y) of the hand",
+    start="find the elbow first; the hand is one forearm further, in the direction shoulder + elbow.",
     draw=lambda rng: (*rng.uniform(0.1, 0.5, 2), *rng.uniform(-3, 3, 2)),
     truth=lambda upper, fore, shoulder, elbow: _hand(upper, fore, shoulder, shoulder + elbow),
     mistakes=[
         Mistake(
             _hand,
-            "the elbow's angle counts from the upper arm, which the shoulder has turned already: both act on "
-            "the forearm.",
+            "the elbow's angle is measured from the upper arm, which the shoulder has turned already: both "
+            "angles act on the forearm.",
         ),
         Mistake(
             lambda upper, fore, shoulder, elbow: _hand(0, fore, shoulder, shoulder + elbow),
-            "that is the hand as seen from the elbow; the elbow itself is somewhere, too.",
+            "that is the hand as seen from the elbow; add the position of the elbow itself.",
         ),
         Mistake(
             lambda upper, fore, shoulder, elbow: _hand(upper, fore, shoulder, shoulder + elbow)[::-1],
@@ -36,7 +36,7 @@ hand = Check(
         ),
         Mistake(
             lambda upper, fore, shoulder, elbow: _hand(upper, fore, shoulder, shoulder - elbow),
-            "the sign of the elbow's angle: it turns the same way round as the shoulder's.",
+            "the sign of the elbow's angle is wrong: it turns in the same direction as the shoulder's.",
         ),
     ],
 )
@@ -52,26 +52,26 @@ def _unit(axis: Array) -> Array:
 
 axis_angle = Check(
     name="axis_angle",
-    asks="the unit quaternion (w, x, y, z) of a turn by angle radians about axis, of whatever length",
+    asks="the unit quaternion (w, x, y, z) of a turn by `angle` radians about `axis`, which has any length",
     start="make the axis a unit vector n; then (cos θ/2, n sin θ/2).",
     draw=lambda rng: (rng.normal(size=3), rng.uniform(-3, 3)),
     truth=lambda axis, angle: _quaternion(_unit(axis), angle / 2),
     mistakes=[
         Mistake(
             lambda axis, angle: _quaternion(_unit(axis), angle),
-            "that turns twice as far: q acts from both sides of v, so each holds half the angle.",
+            "that turns twice as far: q stands on both sides of v, so it holds half the angle.",
         ),
         Mistake(
             lambda axis, angle: _quaternion(axis, angle / 2),
-            "your quaternion has not length 1: the axis may come in any length.",
+            "your quaternion does not have length 1: the axis may have any length.",
         ),
         Mistake(
             lambda axis, angle: np.roll(_quaternion(_unit(axis), angle / 2), -1),
-            "the order of the numbers: here the cosine, w, stands first.",
+            "the order of the numbers is wrong: the cosine, w, stands first.",
         ),
         Mistake(
             lambda axis, angle: _quaternion(_unit(axis), np.radians(angle) / 2),
-            "the angle comes in radians already.",
+            "the angle is in radians already.",
         ),
     ],
     same=close_rotations,
@@ -101,13 +101,16 @@ hamilton = Check(
         ),
         Mistake(
             lambda a, b: _product(a, b, cross=0.0),
-            "the cross product is missing: without it the order would not matter, and in space it does.",
+            "the cross product is missing: without it the order would not matter, but it does for rotations.",
         ),
         Mistake(
             lambda a, b: _product(a, b, dot=1.0),
-            "the sign of the dot product: i² = -1, so two vectors give minus their dot product.",
+            "the sign of the dot product is wrong: i² = -1, so two vectors give minus their dot product.",
         ),
-        Mistake(lambda a, b: a * b, "that multiplies number by number; quaternions mix theirs."),
+        Mistake(
+            lambda a, b: a * b,
+            "that multiplies number by number; in the product, each number depends on all eight.",
+        ),
     ],
     same=close_rotations,
 )
@@ -115,8 +118,8 @@ hamilton = Check(
 
 own_axes = Check(
     name="own_axes",
-    asks="the quaternion of R = Rz Rx Ry, from degrees",
-    start="make three quaternions, one an axis, with from_rotvec; multiply them in the order of the formula.",
+    asks="the quaternion of R = Rz Rx Ry, for angles in degrees",
+    start="make a quaternion for each axis with from_rotvec; multiply them in the order of the formula.",
     draw=lambda rng: tuple(rng.uniform(-80, 80, 3)),
     truth=lambda z, x, y: euler.from_euler("ZXY", np.radians([z, x, y])),
     mistakes=[
@@ -126,15 +129,15 @@ own_axes = Check(
         ),
         Mistake(
             lambda z, x, y: euler.from_euler("ZXY", [z, x, y]),
-            "the file's angles are degrees; sine and cosine want radians.",
+            "the file's angles are in degrees; sine and cosine take radians.",
         ),
         Mistake(
             lambda z, x, y: euler.from_euler("XYZ", np.radians([x, y, z])),
-            "that is Rx Ry Rz, the order of the alphabet; this file's channels stand in another.",
+            "that is Rx Ry Rz, the order of the alphabet; the channels of this file have another order.",
         ),
         Mistake(
             lambda z, x, y: rotations.from_rotvec(np.radians([x, y, z])),
-            "that is one turn about the axis (x, y, z); three turns one after the other are another thing.",
+            "that is one turn about the axis (x, y, z); three turns in a row are a different rotation.",
         ),
     ],
     same=close_rotations,
@@ -180,19 +183,19 @@ def _each_alone(skeleton: Skeleton, turns: Array, joint: int, turned: bool = Tru
 
 climb = Check(
     name="climb",
-    asks="where the joint lies as seen from the root's place, (x, y, z) in the world's directions",
+    asks="the position (x, y, z) of the joint relative to the root, along the axes of the world",
     start="start at (0, 0, 0); while joint > 0, add its offset, go to its parent, and turn by the parent.",
     draw=_tree,
     truth=_climb,
     mistakes=[
         Mistake(
             _by_own_turns,
-            "a joint does not turn its own offset, which lies in the parent's frame: go up first, then turn.",
+            "a joint does not turn its own offset: go to the parent first, then turn by the parent.",
         ),
         Mistake(_rootless, "the root turns too, and everything with it: stop after its turn, not before."),
         Mistake(
             _each_alone,
-            "each offset is turned by its parent alone; but all joints above turn it, so turn the whole sum.",
+            "each offset is turned by its parent alone, but all joints above turn it: turn the whole sum.",
         ),
         Mistake(
             lambda skeleton, turns, joint: _each_alone(skeleton, turns, joint, turned=False),

@@ -13,7 +13,7 @@ Placed = tuple[float, float, float]
 
 
 def _same_transform(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Tell whether (angle, x, z) are the same, the angle up to whole turns."""
+    """Compare (angle, x, z), the angles up to whole turns."""
     angle, *shift = given
     return len(shift) == 2 and close_angles(angle, wanted[0]) and close(shift, wanted[1:])
 
@@ -36,11 +36,11 @@ move_points = Check(
     mistakes=[
         Mistake(
             lambda points, angle, x, z: PlanarTransform(-angle, x, z).apply_points(points),
-            "the sign of θ: a turn by a positive angle about +y brings z towards x, not x towards z.",
+            "the sign of θ is wrong: a positive turn about +y moves the z axis towards the x axis.",
         ),
         Mistake(
             _moved_first,
-            "you move first and turn then, so the turn carries the move along; turn first.",
+            "you move first and turn afterwards, so the turn also changes the move; turn first.",
         ),
         Mistake(
             lambda points, angle, x, z: (
@@ -50,7 +50,7 @@ move_points = Check(
         ),
         Mistake(
             lambda points, angle, x, z: PlanarTransform(angle, 0, 0).apply_points(points),
-            "turned, but not moved.",
+            "the points are turned, but not moved.",
         ),
     ],
 )
@@ -58,14 +58,14 @@ move_points = Check(
 
 undo = Check(
     name="undo",
-    asks="the three numbers (angle, x, z) of the transform that brings everything back",
-    start="solve p' = R p + t for p: what stands where the angle stood, what where the shift stood?",
+    asks="the three numbers (angle, x, z) of the transform that moves everything back",
+    start="solve p' = R p + t for p: which angle and which shift does the solution have?",
     draw=lambda rng: tuple(rng.uniform(-3, 3, 3)),
     truth=lambda angle, x, z: tuple(PlanarTransform(angle, x, z).inverse()),
     mistakes=[
         Mistake(
             lambda angle, x, z: (-angle, -x, -z),
-            "minus each number undoes them in the wrong order: the way back has to be turned back, too.",
+            "minus each number undoes turn and shift in the wrong order: turn the shift back as well.",
         ),
         Mistake(
             lambda angle, x, z: (-angle, *_turned(angle, -x, -z)),
@@ -73,11 +73,11 @@ undo = Check(
         ),
         Mistake(
             lambda angle, x, z: (-angle, *_turned(-angle, x, z)),
-            "the sign of the shift: p = R⁻¹ p' - R⁻¹ t.",
+            "the sign of the shift is wrong: p = R⁻¹ p' - R⁻¹ t.",
         ),
         Mistake(
             lambda angle, x, z: (angle, *_turned(-angle, -x, -z)),
-            "the sign of the angle: the way back turns the other way round.",
+            "the sign of the angle is wrong: the inverse turns in the opposite direction.",
         ),
     ],
     same=_same_transform,
@@ -108,23 +108,23 @@ def _turned_otherwise(moving: Placed, target: Placed) -> Placed:
 
 lay_on = Check(
     name="lay_on",
-    asks="the angle, x and z of the transform that lays the first body's place on the second's",
-    start="the angle first. Then turn the moving body's (x, z) by it, and see how far it still has to go.",
+    asks="the angle, x and z of the transform that lays `moving` on `target`",
+    start="find the angle first. Turn the moving (x, z) by it, and see how far the target still is.",
     draw=_places,
     truth=_lay_on,
     mistakes=[
         Mistake(
             lambda moving, target: (target[0] - moving[0], target[1] - moving[1], target[2] - moving[2]),
-            "the turn is about the origin and carries the body away: measure the shift from where it lies "
-            "after the turn.",
+            "the turn is about the origin, so it also moves the body: measure the shift from where the body "
+            "is after the turn.",
         ),
         Mistake(
             lambda moving, target: _lay_on(target, moving),
-            "that lays the second on the first; it is the first that should move.",
+            "that lays `target` on `moving`; it is `moving` that should move.",
         ),
         Mistake(
             _turned_otherwise,
-            "the sign of the angle: it must bring the moving heading to the target's.",
+            "the sign of the angle is wrong: it must turn the moving heading to the target's.",
         ),
         Mistake(
             lambda moving, target: (target[0], *_lay_on((0.0, *moving[1:]), target)[1:]),
@@ -141,23 +141,23 @@ def _wrapped(angle: float) -> float:
 
 turn_between = Check(
     name="turn_between",
-    asks="the shorter turn from a to b, in [-π, π), to the left above 0",
-    start="subtract, then add or take away whole turns until the result lies between -π and π.",
+    asks="the shorter turn from a to b, in [-π, π), above 0 to the left",
+    start="subtract, then add or subtract whole turns until the result lies between -π and π.",
     draw=lambda rng: tuple(rng.uniform(-np.pi, np.pi, 2)),
     truth=lambda a, b: _wrapped(b - a),
     mistakes=[
         Mistake(
             lambda a, b: b - a,
-            "for 170° and -170° that is -340°, nearly a whole turn the wrong way.",
+            "for 170° and -170° that is -340°, nearly a whole turn in the wrong direction.",
         ),
-        Mistake(lambda a, b: _wrapped(a - b), "the sign: that is the turn from b to a."),
+        Mistake(lambda a, b: _wrapped(a - b), "the sign is wrong: that is the turn from b to a."),
         Mistake(
             lambda a, b: (b - a) % (2 * np.pi),
             "that lies between 0 and 2π: a turn of 10° to the right becomes 350° to the left.",
         ),
         Mistake(
             lambda a, b: abs(_wrapped(b - a)),
-            "left and right look the same now: keep the sign.",
+            "left and right look the same in your answer: keep the sign.",
         ),
     ],
 )
@@ -182,7 +182,7 @@ mean_heading = Check(
     mistakes=[
         Mistake(
             lambda headings: np.mean(headings),
-            "the mean of 170° and -170° is 0° that way, the opposite of where both look.",
+            "this way the mean of 170° and -170° is 0°, the opposite of where both look.",
         ),
         Mistake(
             lambda headings: np.arctan2(*_mean_vector(headings)[::-1]),
@@ -190,11 +190,11 @@ mean_heading = Check(
         ),
         Mistake(
             lambda headings: np.arctan(np.divide(*_mean_vector(headings))),
-            "arctan knows only half the circle; arctan2 takes sine and cosine apart and knows all of it.",
+            "arctan covers only half the circle; arctan2 takes sine and cosine and covers all of it.",
         ),
         Mistake(
             lambda headings: np.median(headings),
-            "the median cuts the circle at ±180° as well; no sorted list of headings means anything.",
+            "the median also cuts the circle at ±180°: headings on a circle have no order.",
         ),
     ],
     same=close_angles,

@@ -11,8 +11,8 @@ Tree = dict[int, list[tuple[float, int]]]
 
 choice_odds = Check(
     name="choice_odds",
-    asks="one probability a transition, in proportion to 1 / (cost + 0.001), that add up to 1",
-    start="take 1 / (costs + 0.001), and divide by the sum of that.",
+    asks="a probability for each transition, in proportion to 1 / (cost + 0.001), with the sum 1",
+    start="take 1 / (costs + 0.001), and divide it by its sum.",
     draw=lambda rng: (rng.uniform(1e-4, 0.06, rng.integers(2, 7)),),
     truth=lambda costs: 1 / (costs + 1e-3) / np.sum(1 / (costs + 1e-3)),
     mistakes=[
@@ -26,22 +26,22 @@ choice_odds = Check(
         ),
         Mistake(
             lambda costs: 1 / (costs + 1e-3),
-            "in proportion, yes; but probabilities add up to 1: share them out.",
+            "the proportions are right, but probabilities add up to 1: divide by the sum.",
         ),
         Mistake(
             lambda costs: 1 / costs / np.sum(1 / costs),
-            "a transition at no cost would take all, by a division by zero: add the millimetre first.",
+            "a transition of cost 0 would divide by zero: add the millimetre first.",
         ),
         Mistake(
             lambda costs: np.full(len(costs), 1 / len(costs)),
-            "all are alike to you; where do the costs come in?",
+            "all transitions have the same probability in your answer: use the costs.",
         ),
     ],
 )
 
 
 def _product(transforms: Array, turned: str = "before") -> tuple[float, float, float]:
-    """Compose rows (angle, x, z); `turned` says by which angle each step is turned."""
+    """Multiply rows (angle, x, z); `turned` says by which angle each step is turned."""
     angle, at = 0.0, 0j
     for turn, x, z in transforms:
         by = {"before": angle, "after": angle + turn, "backwards": -angle, "never": 0.0}[turned]
@@ -56,8 +56,8 @@ def _same_place(given: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 product_of = Check(
     name="product_of",
-    asks="the angle, x and z of all the transforms done one inside the other",
-    start="go along the rows with the angle so far; turn each step by it before you add the step.",
+    asks="the angle, x and z of the product T1 T2 … Tn of the rows",
+    start="go through the rows and keep the angle so far; turn each step by it before you add it.",
     draw=lambda rng: (rng.normal(size=(rng.integers(2, 8), 3)) * [1.0, 2.0, 2.0],),
     truth=_product,
     same=_same_place,
@@ -68,12 +68,11 @@ product_of = Check(
         ),
         Mistake(
             lambda transforms: _product(transforms, "after"),
-            "you turn each step by its own angle too; a transform's step is in the world it leaves, so only "
-            "the angles before it count.",
+            "you turn each step by its own angle too; only the angles of the transforms before it count.",
         ),
         Mistake(
             lambda transforms: _product(transforms, "backwards"),
-            "you turn the steps the wrong way round: check the sign of the sine.",
+            "you turn the steps in the wrong direction: check the sign of the sine.",
         ),
         Mistake(
             lambda transforms: _product(transforms[::-1]),
@@ -102,22 +101,22 @@ def _cheapest(tree: Tree, slip: str = "") -> tuple[float, int]:
     best, visited, stack = np.inf, 0, [(0.0, 0, 0.0)]
     while stack:
         cost, node, step = stack.pop()
-        visited += slip == "counts cut ones"
+        visited += slip == "counts skipped ones"
         if {"no bound": -1.0, "own cost": step}.get(slip, cost) >= best:
             continue
-        visited += slip != "counts cut ones"
+        visited += slip != "counts skipped ones"
         best = min(best, cost) if not tree[node] else best
         if slip == "stops early" and not tree[node]:
             break
         children = [(cost + g, child, g) for g, child in tree[node]]
-        stack += children if slip == "no order" else sorted(children, reverse=slip != "dearest first")
+        stack += children if slip == "no order" else sorted(children, reverse=slip != "expensive first")
     return best, visited
 
 
 cheapest_way = Check(
     name="cheapest_way",
-    asks="the cost of the cheapest way from node 0 to a leaf, and how many nodes were visited",
-    start="keep a stack of (cost so far, node); pop one, skip it if it costs as much as the best leaf, else "
+    asks="the cost of the cheapest way from node 0 to a leaf, and the number of visited nodes",
+    start="keep a stack of (cost so far, node). Pop one; skip it if it costs as much as the best leaf; else "
     "count it, and push its children so that the cheapest is popped first.",
     draw=lambda rng: (_random_tree(rng),),
     truth=_cheapest,
@@ -128,24 +127,24 @@ cheapest_way = Check(
             "the cost is right, but you visit every node: skip what already costs as much as the best leaf.",
         ),
         Mistake(
-            lambda tree: _cheapest(tree, "dearest first"),
-            "the cost is right, but you try the dearest child first: the end of the stack is popped first.",
+            lambda tree: _cheapest(tree, "expensive first"),
+            "the cost is right, but you try the most expensive child first: a stack is popped at its end.",
         ),
         Mistake(
             lambda tree: _cheapest(tree, "no order"),
-            "the cost is right, but the children come in any order: a good leaf early lets you cut more.",
+            "the cost is right, but you take the children in any order: an early good leaf skips more.",
         ),
         Mistake(
-            lambda tree: _cheapest(tree, "counts cut ones"),
-            "the cost is right; but a node that is cut was not visited: count after the test.",
+            lambda tree: _cheapest(tree, "counts skipped ones"),
+            "the cost is right, but a skipped node is not visited: count after the test.",
         ),
         Mistake(
             lambda tree: _cheapest(tree, "own cost"),
-            "you cut by the cost of the last edge; what counts is the cost of the whole way so far.",
+            "you compare the cost of the last edge; compare the cost of the whole way so far.",
         ),
         Mistake(
             lambda tree: _cheapest(tree, "stops early"),
-            "you stop at the first leaf; that is greed, and another leaf may cost less.",
+            "you stop at the first leaf, as a greedy search does; another leaf may cost less.",
         ),
     ],
 )
@@ -157,28 +156,28 @@ def _least(place: Array, goal: Array, steps: int, stride: float) -> float:
 
 least_cost = Check(
     name="least_cost",
-    asks="the least squared distance from the goal that can be left after so many more steps",
-    start="the straight way is the best case: how far from the goal is the body after walking it?",
+    asks="the smallest squared distance from the goal that `steps` more steps can reach",
+    start="a straight walk to the goal is the best case: how far from the goal does it end?",
     draw=lambda rng: (rng.normal(size=2) * 3, rng.normal(size=2) * 3, int(rng.integers(0, 8)), 0.7),
     truth=_least,
     mistakes=[
         Mistake(
             lambda place, goal, steps, stride: float((np.hypot(*(goal - place)) - steps * stride) ** 2),
-            "a body that can reach the goal with steps to spare need not run past it: the bound is 0 there.",
+            "a body that reaches the goal before its last step can stop there: the bound is 0.",
         ),
         Mistake(
             lambda place, goal, steps, stride: float(np.sum((goal - place) ** 2)),
-            "that forgets the steps still to come: it is no lower bound, and would cut the best walk.",
+            "that ignores the steps still to come: it is no lower bound, and could cut the best walk.",
         ),
         Mistake(
             lambda place, goal, steps, stride: float(max(0.0, np.hypot(*(goal - place)) - steps * stride)),
-            "in metres it is right; the cost is in square metres.",
+            "right in metres, but the cost is in square metres.",
         ),
         Mistake(
             lambda place, goal, steps, stride: float(
                 max(0.0, np.sum((goal - place) ** 2) - (steps * stride) ** 2)
             ),
-            "take the difference of the distances first, then square; squares do not subtract like that.",
+            "subtract the distances first, then square: a difference of squares is something else.",
         ),
     ],
 )
