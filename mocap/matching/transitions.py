@@ -164,11 +164,12 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         check_window(window, len(clip), f"'{clip.name}'")
     _check_thresholds(below, clips)
     dtype = _dtype(precision, sum(map(len, clips)))
+    gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     if not clips:
-        return _join(np.empty((6, 0)), clips)
+        return _join(np.empty((6, 0)), clips, gap)
     loosest = max(below.values()) if isinstance(below, Mapping) else below
-    found = find_minima(_prepare(clips, window, dtype), loosest, progress=progress, executor=executor)
-    transitions = _join(found, clips)
+    found = find_minima(_prepare(clips, window, gap, dtype), loosest, progress=progress, executor=executor)
+    transitions = _join(found, clips, gap)
     return transitions[transitions.cost < _limits(below, clips, window, transitions)]
 
 
@@ -178,9 +179,8 @@ def _check_thresholds(below: Thresholds, clips: Sequence[Motion]) -> None:
         raise MocapError("There is no threshold: name one for at least one pair of labels.")
     for pair, metres in each.items():
         if not metres > 0:
-            raise MocapError(
-                f"The threshold must be above 0 m, got {metres} m{' for ' * bool(pair[0])}{pair}."
-            )
+            where = f" for {pair}" if isinstance(below, Mapping) else ""
+            raise MocapError(f"The threshold must be above 0 m, got {metres} m{where}.")
     known = sorted({label for clip in clips for label in clip.labels})
     for label in {label for pair in each for label in pair} - {"", *known}:
         raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
@@ -193,25 +193,30 @@ def _dtype(precision: Precision, frames: int) -> type[np.floating[Any]]:
     return np.float64 if double else np.float32
 
 
-def _prepare(clips: Sequence[Motion], window: int, dtype: type[np.floating[Any]]) -> Cloud:
-    """Put all clips one after the other; windows that would run from one into the next have infinite size."""
+def _prepare(clips: Sequence[Motion], window: int, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
+    """Put all clips one after the other; windows that would run from one into the next have infinite size.
+
+    After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
+    """
     clouds, level, taper = [], None, unit_weights(None, window)
     for clip in clips:
         points = point_cloud(clip)
         require_near(points, f"'{clip.name}'")
         level = points[..., 1].mean(0) if level is None else level
+        points = np.pad(points, ((0, gap), (0, 0), (0, 0)), mode="edge")
         clouds.append(cloud(points, level, unit_weights(None, points.shape[1]), taper, dtype))
+        clouds[-1].sizes[len(clip) - window + 1 :] = np.inf
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*clouds, strict=True)))
 
 
-def _join(found: Array, clips: Sequence[Motion]) -> Transitions:
+def _join(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
     """Turn what `find_minima` found into transitions both ways; the way back is the inverse."""
     first, second = found[:2].astype(np.int64)
     there = PlanarTransform(*found[3:])
     i, j = np.concatenate([first, second]), np.concatenate([second, first])
-    order = np.argsort(i * (i.max(initial=0) + 1) + j)  # one number for (i, j): sort by i, then by j
+    order = np.lexsort((j, i))  # by i, then by j
     i, j = i[order], j[order]
-    starts = np.cumsum([0, *(len(clip) for clip in clips)])
+    starts = np.cumsum([0, *(len(clip) + gap for clip in clips)])
     source, target = (np.searchsorted(starts, frame, side="right") - 1 for frame in (i, j))
     records = [source, i - starts[source], target, j - starts[target]]
     ways = [np.concatenate(both)[order] for both in zip(there, there.inverse(), strict=True)]

@@ -137,6 +137,15 @@ def test_surface_points_lie_around_their_bones(seed):
             assert np.einsum("fpc,fc->fp", ring, end - start) == pytest.approx(0, abs=1e-12)
 
 
+def test_a_surface_lies_around_bones_along_each_axis():
+    ends = np.concatenate([np.eye(3), -np.eye(3)])
+    star = Skeleton([*"abcdefg"], [-1, *[0] * 6], np.concatenate([[[0, 0, 0]], ends]))
+    still = Motion(star, [[0, 0, 0]], np.tile(rotations.IDENTITY, (1, 7, 1)), 30.0)
+    cloud = point_cloud(still, Surface(along=1, around=3, radius=0.1)).reshape(6, 3, 3)
+    assert np.linalg.norm(cloud - ends[:, None] / 2, axis=-1) == pytest.approx(0.1)
+    assert np.einsum("bpc,bc->bp", cloud, ends) == pytest.approx(0.5)
+
+
 def test_a_surface_of_one_point_without_a_radius_is_the_middle_of_each_bone():
     motion = wave(3)
     joints = joint_positions(motion)

@@ -2,31 +2,34 @@
 
 import os
 import signal
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
-from mocap.errors import MocapError
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching import tiled_search, transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transitions, find_transitions
-from tests.strategies import wave
+from tests.strategies import random_motion, wave
 
 CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
 
 
-def test_transitions_are_the_minima_of_every_pair_both_ways():
-    found = find_transitions(CLIPS, window=8, below=0.1)
-    assert {(t.source, t.target) for t in found} == {(0, 0), (0, 1), (1, 0), (1, 1)}
-    grid = distance_grid(*CLIPS, window=8)
-    assert [[t.leave, t.enter] for t in found if (t.source, t.target) == (0, 1)] == (
-        local_minima(grid, 0.01).tolist()
-    )
+@pytest.mark.parametrize("window", [1, 2, 8])
+def test_transitions_are_the_minima_of_every_pair_both_ways(window):
+    found = find_transitions(CLIPS, window=window, below=0.1)
+    for a, b in ((0, 0), (0, 1), (1, 1)):
+        minima = local_minima(distance_grid(CLIPS[a], CLIPS[b], window=window), 0.01)
+        wanted = [[i, j] for i, j in minima.tolist() if a != b or j - i >= window]
+        ways = [[t.leave, t.enter] for t in found if (t.source, t.target) == (a, b)]
+        assert [[i, j] for i, j in ways if a != b or j > i] == wanted != []
     there = {(t.source, t.leave, t.target, t.enter): t for t in found}
     for (a, i, b, j), t in there.items():
         assert there[b, j, a, i].cost == t.cost
@@ -55,13 +58,23 @@ def test_the_pairs_of_blocks_are_shown_as_they_are_done(monkeypatch):
 
 @pytest.mark.parametrize("below", [0, -1, np.nan])
 def test_a_threshold_must_be_positive(below):
-    with pytest.raises(MocapError, match="threshold must be above 0 m"):
+    with pytest.raises(MocapError, match=rf"threshold must be above 0 m, got {below} m\.$"):
         find_transitions(CLIPS, window=8, below=below)
 
 
 def test_a_clip_shorter_than_the_window_is_named():
     with pytest.raises(MocapError, match="'c' has 7 frames, too few for a window of 8"):
         find_transitions([*CLIPS, replace(wave(7), name="c")], window=8, below=0.1)
+
+
+def test_clips_must_go_together():
+    with pytest.raises(SkeletonMismatch):
+        find_transitions([CLIPS[0], random_motion(0, frames=20)], window=8, below=0.1)
+    with pytest.raises(MocapError, match="resample one first"):
+        find_transitions([CLIPS[0], replace(CLIPS[1], fps=60.0)], window=8, below=0.1)
+    far = replace(CLIPS[1], root_positions=CLIPS[1].root_positions + 1e6)
+    with pytest.raises(MocapError, match=r"within 1e[+]06 m; 'b' holds"):
+        find_transitions([CLIPS[0], far], window=8, below=0.1)
 
 
 def test_no_clips_have_no_transitions():
@@ -186,6 +199,20 @@ def test_a_pair_of_labels_stands_for_both_ways_and_others_for_none():
     assert same(found, plain[plain.source != plain.target])
 
 
+def test_a_cost_is_below_its_threshold():
+    dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    heights = np.array([1.0, 2.0, 3.0, 1.5])  # the last one is 0.5 m above the first
+    clip = Motion(
+        dot, heights[:, None] * [0, 1, 0], np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "a", {"up": True}
+    )
+    for below, count in ((0.5, 0), (0.5 + 1e-9, 2)):
+        assert len(find_transitions([clip], window=1, below=below)) == count
+        other = replace(clip, labels={"on": True}, name="b")
+        pairs = {("up", "up"): below, ("on", "on"): 9.0}
+        found = find_transitions([clip, other], window=1, below=pairs)
+        assert np.count_nonzero((found.source == 0) & (found.target == 0)) == count
+
+
 def test_labels_and_their_thresholds_must_make_sense():
     clips = [replace(clip, labels={"walk": True}) for clip in CLIPS]
     with pytest.raises(MocapError, match="No clip has the label 'run'; there are: walk"):
@@ -194,6 +221,15 @@ def test_labels_and_their_thresholds_must_make_sense():
         find_transitions(clips, window=8, below={("walk", "walk"): -1})
     with pytest.raises(MocapError, match="no threshold"):
         find_transitions(clips, window=8, below={})
+
+
+def test_the_executor_is_asked_for_the_work():
+    class Refusing(Executor):
+        def submit(self, *task):
+            raise RuntimeError("asked")
+
+    with pytest.raises(RuntimeError, match="asked"):
+        find_transitions(CLIPS, window=8, below=0.1, executor=Refusing())
 
 
 @pytest.mark.parametrize("executor", [ThreadPoolExecutor, ProcessPoolExecutor])
