@@ -23,7 +23,7 @@ def code(name):
 
 
 def met(source):
-    """Give the package's functions that some code uses, however it imports them."""
+    """Give the package's functions, not methods, that some code uses, however it imports them."""
     space, tree = SimpleNamespace(), ast.parse(source)
     for node in ast.walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom) and " mocap" in ast.unparse(node):
@@ -32,7 +32,8 @@ def met(source):
     for chain in sorted(chains):
         with contextlib.suppress(AttributeError):  # of names that are not the package's
             thing = attrgetter(chain)(space)
-            if inspect.isfunction(thing) and thing.__module__.startswith("mocap."):
+            ours = inspect.isfunction(thing) and thing.__module__.startswith("mocap.")
+            if ours and thing.__qualname__ == thing.__name__:
                 yield thing
 
 

@@ -51,8 +51,6 @@ def splice(a: Motion, i: int, middle: Motion, b: Motion, j: int) -> Motion:
     >>> spliced = splice(a, 2, a[:1], b, 1)
     >>> spliced.name, spliced.root_positions[:, 0].tolist()
     ('a to b', [0.0, 0.0, 0.0, 9.0, 9.0])
-
-    Notebook: 04-blending
     """
     parts = [a[:i]] if i > 0 else []
     parts += [middle] + ([b[j:]] if j < len(b) else [])

@@ -63,8 +63,6 @@ def find_minima(
     array([[0.  ],
            [4.  ],
            [0.01]])
-
-    Notebook: 05-motion-graph
     """
     window = cloud.paths.shape[1]
     count = len(cloud.sizes) - window + 1

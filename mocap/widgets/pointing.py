@@ -45,8 +45,6 @@ def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: AN
     >>> at.value = (1, 0)  # as a click does
     >>> at.status
     'row 1, column 0: RMS distance (cm) 30'
-
-    Notebook: 02-matching
     """
     numbers = np.asarray(image.get_array())
     if numbers.ndim != 2:

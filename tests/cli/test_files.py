@@ -1,4 +1,4 @@
-"""`mocap info`, `mocap convert` and `mocap data`, as a person types them; `mocap.conversion`."""
+"""`mocap info`, `mocap convert` and `mocap data`, as a person types them, and `files.conversion`."""
 
 import os
 
