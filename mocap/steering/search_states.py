@@ -131,6 +131,8 @@ def expand(space: SearchSpace, states: States, number: int) -> States:
     >>> longer = expand(space, start_states(graph, np.array([0]), 0j, 0.0), 0)
     >>> len(longer.node) == int(graph.hops.first[1]), bool((longer.frames > 0).all())
     (True, True)
+
+    Notebook: 08-path-synthesis
     """
     graph = space.graph
     of, hop = graph.hops.leaving(states.node)
