@@ -11,7 +11,7 @@ from tests.browser.conftest import wait_until
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 # These two have every kind of output: players, sliders, choices, an image to click on, a canvas to draw on.
-# The experiments of all notebooks are driven without a browser, in tests/course/test_course.py.
+# The experiments of all notebooks are driven without a browser, by tests/course/driving.py.
 FIRST = ("00-quickstart", "02-matching")
 NOTEBOOKS = [
     pytest.param(path, id=path.stem, marks=[] if path.stem in FIRST else [pytest.mark.exhaustive])
