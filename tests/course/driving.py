@@ -16,7 +16,8 @@ displayed = {}
 
 
 def watch(names):
-    """Keep what each cell shows that `names` has, by its source."""
+    """Keep what the experiments show; `names` has the name of each by the source of its cell."""
+    displayed.update(dict.fromkeys(names.values()))
 
     def keep(result):
         if result.info.raw_cell in names:
@@ -28,8 +29,11 @@ def watch(names):
 def drive_all():
     warnings.filterwarnings("error", module="mocap", append=True)  # as in pyproject.toml
     for name, experiment in displayed.items():
-        print(name)  # the last one printed is the one that failed
-        drive(experiment)
+        try:
+            drive(experiment)
+        except Exception as error:
+            error.add_note(f"in {name}")
+            raise
 
 
 def drive(shown):
