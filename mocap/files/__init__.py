@@ -1,7 +1,8 @@
 """Where motion comes from and goes to: ASF/AMC, BVH, and paths as CSV or SVG.
 
 Units are converted here and nowhere else: inside the package all lengths are metres and all angles radians.
-A file is read whole or refused, with the line that breaks its format.
+A file is read whole or refused, with the line that breaks its format. A new format gets a file with its
+reader and its writer; `load_save` chooses them by the suffix, and lists the suffixes in `FORMATS`.
 
 Reading order (notebooks 01, 10)
 --------------------------------

@@ -11,9 +11,8 @@ from typing import NamedTuple
 from mocap._shared.atomic import make_folder
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError
-from mocap.files.load_save import load, save
+from mocap.files.load_save import FORMATS, load, save
 
-FORMATS = (".amc", ".bvh")
 QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # only the main process reports an interruption
 
 

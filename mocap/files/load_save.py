@@ -16,6 +16,8 @@ from mocap.files.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
 from mocap.files.asf import read_skeleton
 from mocap.files.text import read_text
 
+FORMATS = (".amc", ".bvh")  # suffixes of the motion files that are found in folders
+
 
 def load_all(
     paths: Sequence[Path], *, skeleton: Path | None, scale: float | None, progress: Progress
@@ -42,11 +44,7 @@ def load_all(
     """
     found: list[Path] = []
     for path in paths:
-        inside = (
-            sorted(p for p in path.iterdir() if p.suffix.lower() in (".amc", ".bvh"))
-            if path.is_dir()
-            else [path]
-        )
+        inside = sorted(p for p in path.iterdir() if p.suffix.lower() in FORMATS) if path.is_dir() else [path]
         if not inside:
             raise MocapError(f"The folder {path} holds no .amc or .bvh file.")
         found += inside

@@ -18,7 +18,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import FormatError, MocapError
-from mocap.files.conversion import FORMATS
+from mocap.files.load_save import FORMATS
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 

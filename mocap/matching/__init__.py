@@ -8,7 +8,7 @@ Reading order (notebooks 02, 05)
 --------------------------------
 1. `point_clouds`: the points a motion drives, and how to align two clouds of them
 2. `distance_grids`: all windows against all, by matrix products
-3. `other_metrics`: three metrics that fail, and why
+3. `other_metrics`: three metrics that fail, and why; `Metric`, the signature that all four have
 4. `minima`: the entries of a grid that are lower than all eight neighbours
 5. `tiled_search`: the minima of a grid that is too large to hold
 6. `transitions`: where one clip can pass into another

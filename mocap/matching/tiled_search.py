@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
+from mocap.body.planar import from_ground
 from mocap.matching.distance_grids import Cloud, cloud_distances, tiles
 from mocap.matching.minima import local_minima
 
@@ -131,4 +132,4 @@ def _fit(a: Cloud, b: Cloud, i: NDArray[np.intp], j: NDArray[np.intp]) -> tuple[
     left = ground_a - np.exp(1j * angle)[:, None, None] * ground_b
     square = (np.abs(left) ** 2).sum((1, 2)) + ((heights_a - heights_b) ** 2).sum((1, 2))
     move = a.centres[i] - np.exp(1j * angle.astype(float)) * b.centres[j]
-    return np.sqrt(square), angle, move.imag, move.real
+    return np.sqrt(square), angle, *from_ground(move).T

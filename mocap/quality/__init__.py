@@ -1,7 +1,8 @@
 """Measures: what is wrong with a clip, and how good a seam is.
 
 A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
-nothing special.
+nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of
+something else into a file of its own.
 
 Reading order (notebooks 01, 04, 10)
 ------------------------------------
