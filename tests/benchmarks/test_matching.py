@@ -87,7 +87,7 @@ import sys, time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from mocap import load, resample
-from mocap.transitions import find_transitions
+from mocap.matching import find_transitions
 
 folder, names, frames, below = Path(sys.argv[1]), sys.argv[2].split(","), int(sys.argv[3]), float(sys.argv[4])
 short = [resample(load(folder / name), 30) for name in names]
