@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
+from mocap._shared.easing import quintic_step
 from mocap.blending import weights
 from mocap.body import rotations
 from mocap.course.check import Check, Mistake, close_rotations
@@ -70,10 +71,6 @@ short_way = Check(
 )
 
 
-def _quintic(t: Array) -> Array:
-    return np.asarray(1 - 10 * t**3 + 15 * t**4 - 6 * t**5)
-
-
 quintic = Check(
     name="quintic",
     asks="the weights of a window's frames, by a polynomial of degree five in t = (p + 1) / k",
@@ -86,11 +83,11 @@ quintic = Check(
             "these rise; the weights of the first motion fall from 1 to 0.",
         ),
         Mistake(
-            lambda window: _quintic(np.arange(window) / window),
+            lambda window: 1 - quintic_step(np.arange(window) / window),
             "one frame late: t is (p + 1) / k, so that the last frame of the window has weight 0.",
         ),
         Mistake(
-            lambda window: _quintic(np.linspace(0, 1, window)),
+            lambda window: 1 - quintic_step(np.linspace(0, 1, window)),
             "t is 0 in the frame *before* the window, not in its first frame, which would be wasted.",
         ),
         Mistake(weights.cubic_weights, "that is the cubic: its second derivative jumps at both ends."),
