@@ -30,6 +30,7 @@ graphs      motion graphs: build, prune, choose a threshold, save (05, 06)
 synthesis   walks through a graph, at random or by search, and their motions (07)
 steering    walks that follow a wish: paths, waypoints, crowds, control (08)
 plotting    pictures, by matplotlib (00 to 10)
+diagrams    ideas drawn step by step (00 to 09)
 widgets     players and experiments for notebooks (00 to 10)
 course      the notebooks: checks of exercises, hand-outs, marks, pages
 cli         the command `mocap`
@@ -58,6 +59,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "body",
         "course",
         "datasets",
+        "diagrams",
         "feet",
         "files",
         "graphs",

@@ -192,7 +192,7 @@ def test_ghosts_footprints_and_sources_are_seen(resting, artefacts):
     assert page.locator(".legend").inner_text() == "firstsecond"
     page.evaluate(f"{PLAYER}.seek(4)")
     assert page.evaluate(f"{PLAYER}.characters[0].colourAt(4)") == "#009E73"
-    assert page.evaluate(f"{PLAYER}.characters[0].colourAt(5)") == "#CC79A7"
+    assert page.evaluate(f"{PLAYER}.characters[0].colourAt(5)") == "#56B4E9"
     page.wait_for_timeout(100)
     before = colours(page)
     page.get_by_label("ghosts").check()
