@@ -9,11 +9,13 @@ Reading order
 1. `check`: how an exercise is checked
 2. `checks`: the checks, a file for each notebook
 3. `homework_slips`: five slips of the homework, and what fixes them
-4. `notebooks`: read a notebook, find its cells by their tags, run it
-5. `handout`: copies without solutions, and marks
-6. `site`: the course as HTML pages
-7. `lite`: the course in JupyterLite
-8. `lab`: the course in JupyterLab
+4. `real_clips`: captured clips for notebooks that can do without
+5. `marked_values`: numbers in prose, and the expressions that compute them
+6. `notebooks`: read a notebook, find its cells by their tags, run it
+7. `handout`: copies without solutions, and marks
+8. `site`: the course as HTML pages
+9. `lite`: the course in JupyterLite
+10. `lab`: the course in JupyterLab
 """
 
 import lazy_loader
@@ -30,6 +32,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "lay_in_full",
             "turn_in_place",
         ],
+        "real_clips": ["people"],
         "notebooks": ["read", "run", "shown_source", "tagged"],
         "handout": ["Mark", "hand_out", "mark", "to_csv"],
         "site": ["build_site"],

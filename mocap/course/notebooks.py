@@ -2,7 +2,8 @@
 
 The tags of a cell say what it is. `source:ROOM.FILE.FUNCTION` shows the package's own code. `ask:NAME` is the
 text of an exercise, `exercise:NAME` the stub of its function, `check:NAME` its check and `solution:NAME` its
-folded solution. `experiment:NAME` is something to try, and `prediction` the question before it.
+folded solution. `experiment:NAME` is something to try, and `prediction` the question before it. `real` is a
+cell that needs captured clips.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import ast
 import base64
 import inspect
+import json
 import re
 import textwrap
 from collections.abc import Iterator
@@ -19,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from mocap._shared.atomic import write_text
+from mocap.course import marked_values
 from mocap.errors import MocapError
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
@@ -115,7 +118,8 @@ def solution(cell: Any) -> str:  # noqa: ANN401
 def run(path: Path, figures: Path) -> None:
     """Run a notebook from top to bottom, and store it with its outputs, without what varies between runs.
 
-    The code in `source:` cells is taken from the package again, and so are attached pictures from `figures`.
+    The code in `source:` cells is taken from the package again, attached pictures from `figures`, and marked
+    numbers in the text from what the cells compute.
 
     Parameters
     ----------
@@ -124,17 +128,26 @@ def run(path: Path, figures: Path) -> None:
 
     Raises
     ------
-    MocapError : if a cell fails; the file stays as it was.
+    MocapError : if a cell or a marked number fails; the file stays as it was.
     """
     nbformat, notebook = library(), read(path)
-    from nbclient import NotebookClient
-    from nbclient.exceptions import CellExecutionError
-
     for name, cell in tagged(notebook, "source"):
         cell.source = shown_source(name)
     for cell in notebook.cells:
         for name in cell.get("attachments", {}):
             cell.attachments[name] = {"image/png": base64.b64encode((figures / name).read_bytes()).decode()}
+    texts = [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
+    notebook.cells.append(nbformat.v4.new_code_cell(marked_values.question(texts)))
+    _execute(notebook, path)
+    _refresh(notebook, path, notebook.cells.pop().outputs)
+    settle(notebook)
+    write_text(path, nbformat.writes(notebook) + "\n")
+
+
+def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
+    from nbclient import NotebookClient
+    from nbclient.exceptions import CellExecutionError
+
     at = [0]
     client = NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}})
     client.on_cell_start = lambda cell, cell_index: at.append(cell_index)
@@ -142,8 +155,17 @@ def run(path: Path, figures: Path) -> None:
         client.execute()
     except CellExecutionError as error:
         raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue}") from error
-    settle(notebook)
-    write_text(path, nbformat.writes(notebook) + "\n")
+
+
+def _refresh(notebook: Any, path: Path, answer: list[Any]) -> None:  # noqa: ANN401
+    """Write the values of marked numbers into the text; a notebook that stepped aside gives no answer."""
+    values = json.loads(answer[-1].text) if answer else {}
+    for number, cell in enumerate(notebook.cells):
+        if cell.cell_type == "markdown":
+            cell.source = marked_values.refreshed(cell.source, values)
+            left = marked_values.wrong(cell.source, values) if values else []
+            if left and "real" not in cell.metadata.get("tags", ()):
+                raise MocapError(f"{path}, cell {number}: {left[0]}")
 
 
 def settle(notebook: Any) -> None:  # noqa: ANN401

@@ -39,14 +39,17 @@ def code(name):
 
 
 def prose(text):
-    return re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+    return re.sub(r"```.*?```|<!--.*?-->", "", text, flags=re.DOTALL)
 
 
 # What every notebook has, in its order
 
 
 def test_the_course_is_whole():
-    assert [name[:2] for name in NAMES] == [f"{n:02}" for n in range(11)]
+    assert sorted({name[:2] for name in NAMES}) == [f"{n:02}" for n in range(11)]
+    for name in NAMES:  # the second part of a notebook follows the first
+        assert re.fullmatch(r"\d\db?-[a-z-]+", name)
+        assert name[2] == "-" or any(re.match(rf"{name[:2]}-", other) for other in NAMES)
 
 
 @every_notebook
@@ -85,7 +88,7 @@ def test_cells_are_short_and_told_in_words(name):
     cells = code(name)
     assert max(len(cell.splitlines()) for cell in cells) <= 25
     lines = sum(bool(line.strip()) for cell in cells for line in cell.splitlines())
-    assert 8 <= len(prose(markdown(name)).split()) / lines <= 15
+    assert 8 <= len(prose(markdown(name)).split()) / lines <= 30
 
 
 @every_notebook
@@ -153,7 +156,8 @@ def tree_of(source):
 @every_notebook
 def test_code_shown_is_the_packages_own(name):
     shown = list(notebooks.tagged(read(name), "source"))
-    assert shown or name[:2] in ("00", "09", "10")
+    halves = [half for half in NAMES if half[:2] == name[:2]]
+    assert name[:2] in ("00", "09", "10") or any(list(notebooks.tagged(read(h), "source")) for h in halves)
     for function, cell in shown:
         assert ast.dump(ast.parse(cell.source)) == ast.dump(ast.parse(notebooks.shown_source(function))), (
             function

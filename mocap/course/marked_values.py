@@ -1,0 +1,177 @@
+"""Numbers in the prose of a notebook, each with the expression that computes it.
+
+A marked number is followed by a comment, which no page shows: `2.8<!--= 100 * off.mean() -->`. The expression
+is worked out with the notebook's names after all of its cells have run, and must give the number to the
+digits shown. With `~` instead of `=` the number is approximate: within a tenth of the value. So `course run`
+writes today's values into the text, and a test fails when text and output part.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+WORDS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+WORDS += ("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen")
+WORDS += ("nineteen", "twenty")
+ABOUT = 0.1  # an approximate number is within this share of its value
+
+_SHOWN = rf"[-−]?(?:\d{{1,3}}(?: \d{{3}})+|\d+)(?:\.\d+)?|\b(?:{'|'.join(WORDS)})"
+_MARK = re.compile(rf"(?P<shown>{_SHOWN})<!--(?P<kind>[=~])\s*(?P<expression>.+?)\s*-->", re.I | re.DOTALL)
+_COMMENT = re.compile(r"<!--[=~].*?-->", re.DOTALL)
+
+
+class Marked(NamedTuple):
+    """A number in prose: how it is shown, whether it is approximate, and the expression that computes it."""
+
+    shown: str
+    about: bool
+    expression: str
+
+    def written(self, value: float) -> str:
+        """Write a value as this number is written: as a word or in digits, with as many decimals.
+
+        Examples
+        --------
+        >>> Marked("17 000", False, "count").written(17421.0), Marked("Two", False, "n").written(3)
+        ('17 421', 'Three')
+        """
+        if self.shown.lower() in WORDS:
+            whole = round(value)
+            word = WORDS[whole] if 0 <= whole < len(WORDS) else str(whole)
+            return word.capitalize() if self.shown[0].isupper() else word
+        _, _, decimals = self.shown.partition(".")
+        text = f"{value:,.{len(decimals)}f}".replace(
+            ",", " " if abs(value) >= 10_000 or " " in self.shown else ""
+        )
+        return text.replace("-", "−") if "−" in self.shown else text
+
+    def agrees(self, value: float) -> bool:
+        """Say whether the number is the value, to the digits shown.
+
+        Examples
+        --------
+        >>> Marked("2.8", False, "cm").agrees(2.84), Marked("2.8", False, "cm").agrees(2.86)
+        (True, False)
+        >>> Marked("100", True, "ratio").agrees(109.0)
+        True
+        """
+        if self.about:
+            return abs(value - _number(self.shown)) <= ABOUT * abs(value)
+        return self.written(value) == self.shown or _number(self.written(value)) == _number(self.shown)
+
+
+def _number(shown: str) -> float:
+    if shown.lower() in WORDS:
+        return float(WORDS.index(shown.lower()))
+    return float(shown.replace(" ", "").replace("−", "-"))
+
+
+def marked(text: str) -> Iterator[Marked]:
+    """Yield the marked numbers of some Markdown.
+
+    Raises
+    ------
+    ValueError : for a mark that follows no number.
+
+    Examples
+    --------
+    >>> list(marked("It is 2.8<!--= 100 * off --> cm off."))
+    [Marked(shown='2.8', about=False, expression='100 * off')]
+    """
+    found = list(_MARK.finditer(text))
+    ends = {match.end() for match in found}
+    for comment in _COMMENT.finditer(text):
+        if comment.end() not in ends:
+            raise ValueError(f"No number stands directly before {comment[0][:80]}")
+    for match in found:
+        yield Marked(match["shown"], match["kind"] == "~", match["expression"])
+
+
+def values_of(expressions: Iterable[str], names: Mapping[str, object]) -> dict[str, float | str]:
+    """Work out expressions with the names of a notebook; one that fails gives its error as text.
+
+    Examples
+    --------
+    >>> values_of(["100 * off", "gone"], {"off": 0.028})
+    {'100 * off': 2.8000000000000003, 'gone': "NameError: name 'gone' is not defined"}
+    """
+    values: dict[str, float | str] = {}
+    for expression in expressions:
+        try:
+            values[expression] = float(eval(expression, dict(names)))
+        except Exception as error:
+            values[expression] = f"{type(error).__name__}: {error}"
+    return values
+
+
+def wrong(text: str, values: Mapping[str, float | str]) -> list[str]:
+    """List, in sentences, the marked numbers of a text that are not their values.
+
+    Examples
+    --------
+    >>> wrong("It is 2.8<!--= off --> cm off.", {"off": 3.1})
+    ["The text says 2.8; 'off' gives 3.1."]
+    """
+    sentences = []
+    for mark in marked(text):
+        value = values[mark.expression]
+        if isinstance(value, str) or not mark.agrees(value):
+            given = value if isinstance(value, str) else f"{value:.6g}"
+            sentences.append(f"The text says {mark.shown}; {mark.expression!r} gives {given}.")
+    return sentences
+
+
+def compare(texts: Iterable[str], names: Mapping[str, object]) -> None:
+    """Raise a ValueError that lists the marked numbers of some texts that are not their values.
+
+    Examples
+    --------
+    >>> compare(["It is 2.8<!--= off --> cm off."], {"off": 2.8})
+    """
+    sentences = []
+    for text in texts:
+        sentences += wrong(text, values_of((mark.expression for mark in marked(text)), names))
+    if sentences:
+        raise ValueError("\n".join(sentences))
+
+
+def refreshed(text: str, values: Mapping[str, float | str]) -> str:
+    """Write today's values into a text; what agrees, and what has no value, stays as it is.
+
+    Examples
+    --------
+    >>> refreshed("It is 2.8<!--= off --> cm off.", {"off": 3.1})
+    'It is 3.1<!--= off --> cm off.'
+    """
+
+    def new(match: re.Match[str]) -> str:
+        (mark,) = marked(match[0])
+        value = values.get(mark.expression, "")
+        if isinstance(value, str) or mark.agrees(value):
+            return match[0]
+        return mark.written(value) + match[0][len(mark.shown) :]
+
+    return _MARK.sub(new, text)
+
+
+def question(texts: Iterable[str]) -> str:
+    """Return the code of a cell that prints the values of all marked numbers of some texts, as JSON."""
+    expressions = sorted({mark.expression for text in texts for mark in marked(text)})
+    return (
+        "from mocap.course.marked_values import answer as _answer\n"
+        f"print(_answer({expressions!r}, globals()))"
+    )
+
+
+def answer(expressions: Iterable[str], names: Mapping[str, object]) -> str:
+    """Return the values of expressions as one line of JSON.
+
+    Examples
+    --------
+    >>> answer(["2 * n"], {"n": 3})
+    '{"2 * n": 6.0}'
+    """
+    return json.dumps(values_of(expressions, names))

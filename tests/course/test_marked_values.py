@@ -1,0 +1,105 @@
+"""Numbers in prose: found, compared with their values, and written anew."""
+
+import json
+
+import nbformat
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.course import marked_values, notebooks, real_clips
+from mocap.course.marked_values import Marked, answer, compare, marked, question, refreshed, values_of, wrong
+from mocap.errors import MocapError
+
+
+@given(st.floats(-1e6, 1e6), st.integers(0, 3))
+def test_a_value_written_into_the_text_agrees_with_it(value, decimals):
+    shown = f"{1:.{decimals}f}"
+    text = refreshed(f"It is {shown}<!--= x --> cm.", {"x": value})
+    assert wrong(text, {"x": value}) == []
+    assert refreshed(text, {"x": value}) == text
+
+
+@pytest.mark.parametrize(
+    ("shown", "value", "agrees"),
+    [
+        ("2.8", 2.84, True),
+        ("2.8", 2.86, False),
+        ("−2.8", -2.8, True),
+        ("-3", -3.2, True),
+        ("17 000", 17000, True),
+        ("17 000", 17001, False),
+        ("Seven", 7, True),
+        ("seven", 8, False),
+        ("997", np.int64(997), True),
+    ],
+)
+def test_a_number_agrees_to_the_digits_shown(shown, value, agrees):
+    (mark,) = marked(f"so **{shown}<!--= x -->** it is")
+    assert mark == Marked(shown, False, "x")
+    assert mark.agrees(float(value)) == agrees
+
+
+def test_an_approximate_number_is_within_a_tenth():
+    (mark,) = marked("about 500<!--~ ratio -->")
+    assert mark.about
+    assert [mark.agrees(value) for value in (440, 460, 550, 560)] == [False, True, True, False]
+
+
+def test_words_and_signs_are_kept_when_a_number_is_written_anew():
+    text = "Two<!--= n --> of −1.0<!--= x -->, and 9 000<!--= big -->, and 10<!--= same -->"
+    new = refreshed(text, {"n": 21, "x": -2.25, "big": 12345, "same": 10})
+    assert new == "21<!--= n --> of −2.2<!--= x -->, and 12 345<!--= big -->, and 10<!--= same -->"
+
+
+def test_what_has_no_value_stays_and_is_listed():
+    values = values_of(["n + 1", "1 / 0"], {"n": 1})
+    text = "2<!--= n + 1 --> and 5<!--= 1 / 0 -->"
+    assert refreshed(text, values) == text
+    assert wrong(text, values) == ["The text says 5; '1 / 0' gives ZeroDivisionError: division by zero."]
+    with pytest.raises(ValueError, match="The text says 3; 'n' gives 1"):
+        compare(["3<!--= n -->", "1<!--= n -->"], {"n": 1})
+
+
+def test_a_mark_without_a_number_is_an_error():
+    with pytest.raises(ValueError, match="No number stands directly before"):
+        list(marked("some <!--= n -->"))
+
+
+def test_the_question_is_answered_in_a_line_of_json(capsys):
+    exec(question(["3<!--= n --> of 4<!--= 2 * n -->"]), {"n": 2})
+    assert json.loads(capsys.readouterr().out) == {"n": 2, "2 * n": 4}
+    assert answer([], {}) == "{}"
+
+
+def test_running_a_notebook_writes_its_numbers(tmp_path):
+    new = nbformat.v4
+    cells = [new.new_code_cell("off = 2.25"), new.new_markdown_cell("It is 9.9<!--= off --> cm off.")]
+    path = tmp_path / "n.ipynb"
+    nbformat.write(new.new_notebook(cells=cells), path)
+    notebooks.run(path, tmp_path)
+    assert notebooks.read(path).cells[1].source == "It is 2.2<!--= off --> cm off."
+    assert len(notebooks.read(path).cells) == 2
+
+
+def test_a_number_that_nothing_computes_stops_the_run(tmp_path):
+    new = nbformat.v4
+    bare = new.new_markdown_cell("It is 9<!--= gone --> cm off.")
+    path = tmp_path / "n.ipynb"
+    nbformat.write(new.new_notebook(cells=[bare]), path)
+    with pytest.raises(MocapError, match=r"n.ipynb, cell 0: The text says 9; 'gone' gives NameError"):
+        notebooks.run(path, tmp_path)
+    bare.metadata["tags"] = ["real"]
+    nbformat.write(new.new_notebook(cells=[bare]), path)
+    notebooks.run(path, tmp_path)  # the clips that it needs may be missing
+
+
+def test_people_are_given_or_a_sentence(monkeypatch, capsys):
+    monkeypatch.setattr(real_clips.datasets, "cmu", lambda name: name.upper())
+    assert real_clips.people("a", "b") == ["A", "B"]
+    assert capsys.readouterr().out == ""
+
+
+def test_every_word_is_a_number():
+    assert [marked_values._number(word) for word in marked_values.WORDS] == list(range(21))
