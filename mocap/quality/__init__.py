@@ -1,13 +1,14 @@
 """Measures: what is wrong with a clip, and how good a seam is.
 
 A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
-nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`, and one of
-something else into a file of its own.
+nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`,
+one of a blend beside its two clips into `blend_measures`, and one of something else into a file of its own.
 
 Reading order (notebooks 01, 04, 10)
 ------------------------------------
 1. `clip_flaws`: a clip's length, its path and its flaws
 2. `seam_measures`: a seam in five numbers
+3. `blend_measures`: what the blend itself adds, sliding feet, turning knees
 """
 
 import lazy_loader
@@ -15,6 +16,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
+        "blend_measures": ["BlendJolts", "added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
         "clip_flaws": ["Flaw", "Report", "inspect"],
         "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
     },
