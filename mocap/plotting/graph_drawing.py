@@ -1,5 +1,6 @@
 """Pictures of graphs: large ones as bars and arcs along time, small ones as nodes and arrows."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -12,10 +13,10 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.path import Path
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.plotting.style import COLOURS, MARK, QUIET
+from mocap.plotting.style import COLOURS, MARK, QUIET, SOURCES
 
 Places = Mapping[Any, Sequence[float]]
 
@@ -23,15 +24,20 @@ MOST_NODES = 100
 """With more nodes, the arrows of `node_link` cover each other."""
 
 
-def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = None) -> LineCollection:
+def timeline(
+    motion_graph: MotionGraph, *, most: int = 1000, each: int | None = None, ax: Axes | None = None
+) -> LineCollection:
     """Draw a motion graph: one bar per clip, along time, and one arc per transition.
 
-    Arcs within a clip are bent, arcs to another clip are straight.
+    Arcs within a clip are bent, arcs to another clip are straight. Where not all transitions are drawn, a
+    line below the axes says which, and how many of how many.
 
     Parameters
     ----------
     motion_graph : the graph; parts of its clips that are not in the graph are drawn thin.
     most : how many transitions to show at most; of more, those of least cost.
+    each : how many to show from each clip to each clip, those of least cost, with the nodes where they leave
+        and enter; by default, as many as there are.
     ax : axes; new ones by default.
 
     Returns
@@ -43,8 +49,8 @@ def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = N
     >>> from mocap import datasets, graphs, plotting, resample
     >>> clips = [resample(datasets.sample("walk_circle"), 30)]
     >>> arcs = timeline(graphs.build(clips, window=10, threshold=0.03), most=200)
-    >>> len(arcs.get_segments())
-    200
+    >>> len(arcs.get_segments()), arcs.axes.texts[0].get_text()
+    (200, 'drawn: the cheapest, 200 of 336 transitions')
     >>> plotting.show(arcs, alt="A clip with arcs from each moment to moments like it.")
     Picture('A clip with arcs from each moment to moments like it.')
 
@@ -53,33 +59,63 @@ def timeline(motion_graph: MotionGraph, *, most: int = 1000, ax: Axes | None = N
     clips, fps = motion_graph.clips, motion_graph.clips[0].fps
     ax = ax or plt.figure(figsize=(7, 0.7 * len(clips) + 1), layout="constrained").add_subplot()
     edges = [edge for _, _, edge in motion_graph.graph.edges(data=True)]
-    ends = np.array([(start, end) for start, end in motion_graph.graph.edges()]).reshape(-1, 2, 2)
-    ends = ends[..., ::-1] / [fps, -1]  # (E, 2, 2): (clip, frame) → (seconds, row)
+    frames = np.array(list(motion_graph.graph.edges(keys=False)), int).reshape(-1, 2, 2)  # (clip, frame)
+    ends = frames[..., ::-1] / [fps, -1]  # (E, 2, 2): (seconds, row)
     stays = np.array([edge["kind"] == "clip" for edge in edges], bool)
     costs = np.array([edge.get("cost", 0.0) for edge in edges])[~stays]
-    arcs = _arcs(ends[~stays][np.sort(np.argsort(costs, kind="stable")[:most])])
-    whole = [[(0, -clip), (len(motion) / fps, -clip)] for clip, motion in enumerate(clips)]
-    ax.add_collection(LineCollection(whole, colors=QUIET, linewidths=1, zorder=0))
-    ax.add_collection(
-        LineCollection(list(ends[stays]), colors=COLOURS["left"], linewidths=5, capstyle="butt")
-    )
+    chosen = np.sort(_cheapest(frames[~stays][..., 0], costs, each)[:most])
+    _draw_clips(motion_graph, frames[stays], ax)
+    arcs = _arcs(ends[~stays][chosen])
     fade = min(1.0, 0.06 + 60 / (len(arcs) + 1))
     transitions = LineCollection(list(arcs), colors=MARK, linewidths=0.7, alpha=fade, zorder=1.5)
     ax.add_collection(transitions)
-    nodes = np.array(motion_graph.graph.nodes).reshape(-1, 2)
-    if len(nodes) <= MOST_NODES:
-        ax.plot(
-            nodes[:, 1] / fps,
-            -nodes[:, 0],
-            "o",
-            color="white",
-            markeredgecolor=COLOURS["middle"],
-            markersize=5,
-        )
+    if each is not None:
+        _draw_ends(arcs, ax)
+    if len(arcs) < len(costs):
+        which = "the cheapest" if each is None else f"the {each} cheapest from each clip to each clip"
+        note = f"drawn: {which}, {len(arcs)} of {len(costs)} transitions"
+        ax.annotate(note, (1, 0), (0, -36), "axes fraction", "offset points", ha="right", va="top", size=9)
     ax.set_yticks([-clip for clip in range(len(clips))], [motion.name for motion in clips])
     ax.set(xlabel="time in the clip (s)", ylim=(0.4 - len(clips), 0.7))
     ax.spines[["top", "right", "left"]].set_visible(False)
     return transitions
+
+
+def _cheapest(pairs: Indices, costs: Array, each: int | None) -> Indices:
+    """Order transitions by cost, the lowest first; from each clip to each, keep `each`: their numbers."""
+    order = np.argsort(costs, kind="stable")
+    if each is None:
+        return order
+    seen: Counter[tuple[int, ...]] = Counter()
+    kept = []
+    for number in order:
+        pair = tuple(pairs[number].tolist())
+        seen[pair] += 1
+        if seen[pair] <= each:
+            kept.append(number)
+    return np.array(kept, int)
+
+
+def _draw_clips(motion_graph: MotionGraph, pieces: Indices, ax: Axes) -> None:
+    """Draw clips as thin lines, their `pieces` in the graph, (clip, frame), as bars, and up to 100 nodes."""
+    clips, fps = motion_graph.clips, motion_graph.clips[0].fps
+    whole = [[(0, -clip), (len(motion) / fps, -clip)] for clip, motion in enumerate(clips)]
+    ax.add_collection(LineCollection(whole, colors=QUIET, linewidths=1, zorder=0))
+    colours = [SOURCES[clip % len(SOURCES)] for clip in pieces[:, 0, 0]]
+    bars = list(pieces[..., ::-1] / [fps, -1])
+    ax.add_collection(LineCollection(bars, colors=colours, linewidths=5, capstyle="butt"))
+    nodes = np.array(motion_graph.graph.nodes).reshape(-1, 2)
+    if len(nodes) <= MOST_NODES:
+        x, y = nodes[:, 1] / fps, -nodes[:, 0]
+        ax.plot(x, y, "o", color="white", markeredgecolor=COLOURS["middle"], markersize=5)
+
+
+def _draw_ends(arcs: Array, ax: Axes) -> None:
+    """Draw the nodes of arcs: rings where they leave, discs where they enter."""
+    for at, face, label in ((0, "white", "leaves"), (-1, MARK, "enters")):
+        x, y = arcs[:, at].T
+        ax.plot(x, y, "o", color=face, markeredgecolor=MARK, markersize=4.5, label=label, zorder=2)
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=9)
 
 
 def _arcs(ends: Array) -> Array:
@@ -134,7 +170,7 @@ def node_link(
     places = places or nx.circular_layout(graph)
     kept = graph if kept is None else kept
     at = np.array([places[node] for node in graph], float)
-    faces = [COLOURS["left"] if node in kept else "#E8E8E8" for node in graph]
+    faces = [COLOURS["middle"] if node in kept else "#E8E8E8" for node in graph]
     discs = ax.scatter(at[:, 0], at[:, 1], s=420, c=faces, edgecolors=COLOURS["middle"], zorder=2)
     for node, place in zip(graph, at, strict=True):
         colour = "white" if node in kept else COLOURS["middle"]

@@ -103,8 +103,9 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Parameters
     ----------
-    follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one
-        with an `alt`, which stands below the canvas and can say how far off the path the walk is.
+    follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
+        Its `alt` stands below the canvas and can say how far off the path the walk is. Its `path`, if it has
+        one, is drawn instead of the reader's line: give there the path that was followed, such as a spline.
     path : the first path, shape (N, 2).
 
     Returns
@@ -146,4 +147,5 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
 def _along(follow: Follow, path: Array) -> Player:
     made = follow(path)
-    return replace(made if isinstance(made, Player) else play(made), path=path)
+    player = made if isinstance(made, Player) else play(made)
+    return player if len(player.path) else replace(player, path=path)

@@ -9,7 +9,7 @@ from mocap.errors import MocapError
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from mocap.plotting import graph_drawing
-from mocap.plotting.style import COLOURS
+from mocap.plotting.style import COLOURS, SOURCES
 from tests.strategies import wave
 
 
@@ -51,6 +51,36 @@ def test_where_arcs_are_many_the_cheapest_are_shown(graph):
     assert np.array(sorted(tuple(arc[0]) for arc in arcs.get_segments())) == pytest.approx(np.array(expected))
 
 
+def test_what_is_not_drawn_is_counted(graph):
+    whole, part = graph_drawing.timeline(graph), graph_drawing.timeline(graph, most=3)
+    assert not whole.axes.texts
+    assert (
+        part.axes.texts[0].get_text() == f"drawn: the cheapest, 3 of {graph.count('transition')} transitions"
+    )
+
+
+def test_from_each_clip_to_each_the_cheapest_are_shown_with_their_nodes(graph):
+    arcs = graph_drawing.timeline(graph, each=2)
+    costs = {}
+    for start, end, edge in graph.graph.edges(data=True):
+        if edge["kind"] == "transition":
+            costs.setdefault((start[0], end[0]), []).append((edge["cost"], start[1] / 30, end[1] / 30))
+    expected = sorted(times[1:] for found in costs.values() for times in sorted(found)[:2])
+    drawn = sorted((arc[0, 0], arc[-1, 0]) for arc in arcs.get_segments())
+    assert np.array(drawn) == pytest.approx(np.array(expected))
+    leaves, enters = arcs.axes.lines[-2:]
+    assert sorted(leaves.get_xdata()) == pytest.approx(sorted(start for start, _ in expected))
+    assert sorted(enters.get_xdata()) == pytest.approx(sorted(end for _, end in expected))
+    assert "the 2 cheapest from each clip to each clip" in arcs.axes.texts[0].get_text()
+
+
+def test_each_clip_has_its_colour(graph):
+    bars = graph_drawing.timeline(graph).axes.collections[1]
+    rows = [-int(bar[0, 1]) for bar in bars.get_segments()]
+    expected = [to_rgba(SOURCES[row]) for row in rows]
+    assert [tuple(colour) for colour in bars.get_colors()] == expected
+
+
 def test_before_and_after_pruning_share_their_axes(graph):
     pruned = prune(graph)
     before, after = graph_drawing.before_and_after(graph, pruned)
@@ -67,7 +97,7 @@ def test_a_small_graph_has_one_disc_per_node_and_one_arrow_per_edge():
     assert [text.get_text() for text in discs.axes.texts] == ["1", "2", "3"]
     assert len(arrows) == 4
     assert [arrow.get_linestyle() for arrow in arrows] == ["-", "-", "--", "--"]
-    solid = to_rgba(COLOURS["left"])
+    solid = to_rgba(COLOURS["middle"])
     assert [tuple(face) == solid for face in discs.get_facecolors()] == [True, True, False]
 
 

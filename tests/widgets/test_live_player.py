@@ -5,6 +5,7 @@ import sys
 import numpy as np
 import pytest
 
+from mocap.body import spline
 from mocap.errors import MocapError
 from mocap.widgets import live_player
 from mocap.widgets.live_player import draw_path, linked
@@ -52,6 +53,19 @@ def test_a_drawn_path_becomes_a_walk():
     assert canvas.scene["frames"] == 60
     assert canvas.scene["asked"] == [[0, 0], [0, 2], [1, 2]]
     assert (canvas.frame, canvas.error, canvas.message) == (0, None, canvas.player.alt)
+
+
+def test_the_path_that_was_followed_is_drawn_instead_of_the_readers_line():
+    def follow(path):
+        followed = spline(path).points
+        return play(wave(30), path=followed)
+
+    canvas = draw_path(follow, [[0, 0], [0, 2], [1, 2]])
+    assert np.array(canvas.scene["asked"]) == pytest.approx(spline(canvas.path).points, abs=1e-3)
+    canvas.path = [[0, 0], [0, 1], [0, 3]]
+    assert np.array(canvas.scene["asked"])[-1] == pytest.approx([0, 3])
+    assert len(canvas.scene["asked"]) > 3
+    assert canvas.path == [[0, 0], [0, 1], [0, 3]]
 
 
 def test_a_shorter_walk_may_come_after_a_longer_one():
