@@ -6,11 +6,26 @@ in the file of its subject.
 
 Reading order (notebooks 00 to 09)
 ----------------------------------
+1. `two_clips`: a motion graph's nodes and edges on the timelines of two clips
+2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
+3. `windows`: what a window is, what two windows have in common, and sums along diagonals
+4. `laying_clouds`: one cloud of points laid on another, from above
+5. `ground`: turns on the ground, and one clip aligned with another, seen from above
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
 """
 
 import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submod_attrs={},
+    submod_attrs={
+        "two_clips": ["nodes_and_edges"],
+        "quaternions": ["double_cover", "half_turns", "turns_in_order"],
+        "laying_clouds": ["laying_on", "rms_distance", "turning"],
+        "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
+        "ground": ["alignment", "turn_on_ground"],
+    },
 )

@@ -1,0 +1,195 @@
+"""How quaternions turn: two half turns, two quaternions for one rotation, and turns whose order matters."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d import Axes3D
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.plotting.axes import ground_axes, to_picture
+from mocap.plotting.stick_figures import StickFigure
+from mocap.plotting.style import COLOURS, CURVES, MARK, QUIET
+
+ALONG, ACROSS = 0.8, 0.8  # the two parts of the vector that `half_turns` turns
+CORNER = np.array([-1.0, 0, -0.5])  # where `turns_in_order` draws the axes of the world
+NAMES = ("v", "q v", "q v q̄")
+
+
+def half_turns(step: int = 2, angle: float = 60) -> Figure:
+    """Draw how q v q̄ turns a vector v: q does one half of the turn, q̄ the other.
+
+    The left panel shows the part of v across the axis, seen along the axis. The right panel shows the part
+    along the axis, beside the number in front, w: it must be 0 for a vector.
+
+    Parameters
+    ----------
+    step : 0 shows v, 1 also q v, 2 also q v q̄.
+    angle : of the turn, degrees.
+
+    Returns
+    -------
+    The figure.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> plotting.show(half_turns(step=1), alt="Both parts of v turned by 30 degrees.")
+    Picture('Both parts of v turned by 30 degrees.')
+
+    Notebook: 01-skeletons-and-clips
+    """
+    figure = plt.figure(figsize=(7, 3.9), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    half = np.radians(angle) / 2
+    across = ACROSS * np.exp(1j * half * np.arange(step + 1))
+    along = ALONG * np.exp(1j * (np.pi / 2 + half * np.array([0, 1, 0])))[: step + 1]
+    for ax, points in ((left, across), (right, along)):
+        _draw_turning(ax, points)
+    left.set(title="the part across the axis", xlabel="x", ylabel="y")
+    right.set(title="the part along the axis", xlabel="w, the number in front", ylabel="z, along the axis")
+    vector = np.array([0, across[0].real, 0, ALONG])
+    q = np.array([np.cos(half), 0, 0, np.sin(half)])
+    shown = [vector, rotations.multiply(q, vector), rotations.rotate(q, vector[1:])]
+    values = (", ".join(f"{number:.2f}" for number in np.round(values, 2) + 0.0) for values in shown)
+    lines = [f"{name} = ({value})" for name, value in zip(NAMES, values, strict=True)]
+    figure.suptitle("      ".join(lines[: step + 1]), fontsize=10)
+    return figure
+
+
+def _draw_turning(ax: Axes, points: Array) -> None:
+    """Draw a part of v, and where q and then q̄ bring it: the last one solid, those before it pale."""
+    last = len(points) - 1
+    for number, point in enumerate(points):
+        same = [name for name, other in zip(NAMES, points, strict=False) if abs(other - point) < 1e-9]
+        colour = CURVES[0] if number == last else QUIET
+        style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4 + (number == last), "shrinkB": 0}
+        ax.annotate("", (point.real, point.imag), (0, 0), arrowprops=style)
+        at = 1.2 * point
+        ax.text(at.real, at.imag, ", ".join(same), ha="center", va="center", color=colour)
+    for before, after, radius in zip(points, points[1:], (0.7, 0.4), strict=False):
+        turn = np.angle(after / before)
+        way = radius * before / abs(before) * np.exp(1j * np.linspace(0, turn, 30))
+        ax.plot(way.real, way.imag, color=MARK, linewidth=1.5)
+        at = way[15] * (radius + 0.15) / radius
+        ax.text(at.real, at.imag, f"{np.degrees(turn):+.0f}°", ha="center", va="center", fontsize=9)
+    ax.axhline(0, color=QUIET, linewidth=0.6)
+    ax.axvline(0, color=QUIET, linewidth=0.6)
+    ax.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
+
+
+def double_cover(angle: float = 300, step: int = 2) -> Figure:
+    """Draw a turn on a dial, and its two quaternions q and -q on their circle.
+
+    Parameters
+    ----------
+    angle : of the turn, degrees.
+    step : 0 shows q, 1 also -q, 2 also the two ways from no turn: along the arc to q, or along that to -q.
+
+    Returns
+    -------
+    The figure; the shorter way is solid, the longer one dashed.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> plotting.show(double_cover(300), alt="A turn by 300 degrees, and the shorter one by -60.")
+    Picture('A turn by 300 degrees, and the shorter one by -60.')
+
+    Notebook: 01-skeletons-and-clips
+    """
+    figure = plt.figure(figsize=(7, 3.9), layout="constrained")
+    dial, circle = figure.subplots(1, 2)
+    turn = angle % 360
+    _draw_circle(dial, {"no turn": 90, "turned": 90 + angle})
+    half = angle / 2
+    points = {"1": 0.0, "q": half} | ({"−q": half + 180} if step else {})
+    _draw_circle(circle, points)
+    if step == 2:
+        for degrees in (turn, turn - 360):
+            style = {"color": CURVES[0], "linestyle": "-"}
+            if abs(degrees) > 180:
+                style = {"color": CURVES[1], "linestyle": "--"}
+            _draw_way(dial, 90, degrees, 0.75 if degrees >= 0 else 0.6, style)
+            _draw_way(circle, 0, degrees / 2, 0.75 if degrees >= 0 else 0.6, style)
+    dial.set_title(f"the body: {angle:.0f}°")
+    w, along = np.cos(np.radians(half)), np.sin(np.radians(half))
+    circle.set_title(f"q = ({w:.2f}, {along:.2f} along the axis)")
+    circle.set(xlabel="w", ylabel="along the axis")
+    dial.set_axis_off()
+    return figure
+
+
+def _draw_circle(ax: Axes, points: dict[str, float]) -> None:
+    """Draw a circle with named points at angles in degrees."""
+    around = np.exp(1j * np.linspace(0, 2 * np.pi, 90))
+    ax.plot(around.real, around.imag, color=QUIET, linewidth=0.8)
+    for name, degrees in points.items():
+        at = np.exp(1j * np.radians(degrees))
+        ax.plot([0, at.real], [0, at.imag], color=COLOURS["middle"], linewidth=1.2)
+        ax.plot(at.real, at.imag, "o", color=COLOURS["middle"], markersize=7)
+        ax.text(1.22 * at.real, 1.16 * at.imag, name, ha="center", va="center")
+    ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
+
+
+def _draw_way(ax: Axes, start: float, degrees: float, radius: float, style: dict[str, str]) -> None:
+    """Draw the arc of a turn from an angle, degrees, and write how far it goes."""
+    way = radius * np.exp(1j * np.radians(start + np.linspace(0, degrees, 60)))
+    ax.plot(way.real, way.imag, linewidth=2.4, **style)  # type: ignore[arg-type]  # colour and line style
+    middle = way[30] * (radius - 0.22) / radius
+    ax.text(middle.real, middle.imag, f"{degrees:+.0f}°", ha="center", va="center", color=style["color"])
+
+
+def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
+    """Draw a body that is turned forwards and to the left, above, or to the left and forwards, below.
+
+    Parameters
+    ----------
+    body : of the stick figure, which stands with its arms spread.
+    step : how many of the two turns of 90° are shown, 0 to 2; both are about axes of the world.
+
+    Returns
+    -------
+    The figure.
+
+    Examples
+    --------
+    >>> from mocap import datasets, plotting
+    >>> figure = turns_in_order(datasets.sample("walk_straight").skeleton)
+    >>> plotting.show(figure, alt="A body turned twice, in two orders: it ends in two different poses.")
+    Picture('A body turned twice, in two orders: it ends in two different poses.')
+
+    Notebook: 01-skeletons-and-clips
+    """
+    forwards, left = (rotations.from_rotvec(np.radians(turn)) for turn in ([90, 0, 0], [0, 90, 0]))
+    figure = plt.figure(figsize=(7, 4.9))
+    for row, turns in enumerate(((forwards, left), (left, forwards))):
+        names = ("forwards", "to the left") if row == 0 else ("to the left", "forwards")
+        turn = rotations.IDENTITY
+        for shown in range(step + 1):
+            ax = figure.add_axes((shown / 3, 0.5 - row / 2, 1 / 3, 0.44), projection="3d")
+            turn = rotations.multiply(turns[shown - 1], turn) if shown else turn
+            _draw_body(ax, body, turn)
+            ax.set_title("at rest" if shown == 0 else f"{shown}. {names[shown - 1]}", y=1, fontsize=10)
+    return figure
+
+
+def _draw_body(ax: Axes3D, body: Skeleton, turn: Array) -> None:
+    """Draw a body with spread arms, turned about its root, and the axes of the world."""
+    turns = np.tile(rotations.IDENTITY, (1, len(body), 1))
+    for joint, name in enumerate(body.names):
+        if name.endswith("humerus"):
+            turns[0, joint] = rotations.from_rotvec([0, 0, 1.4 if body.side(joint) == "left" else -1.4])
+    turns[0, 0] = turn
+    ground_axes(reach=1.1, tall=1.9, ax=ax)
+    StickFigure(body, ax).pose(joint_positions(Motion(body, np.array([[0, 0.95, 0]]), turns, 1.0))[0])
+    for number, name in enumerate("xyz"):
+        tip = CORNER + 0.45 * np.eye(3)[number]
+        ax.plot(*to_picture(np.array([CORNER, tip])).T, color=COLOURS["middle"], linewidth=1, zorder=2)
+        ax.text(*to_picture(CORNER + 1.3 * (tip - CORNER)), name, color=COLOURS["middle"], fontsize=9)
