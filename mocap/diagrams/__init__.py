@@ -11,6 +11,7 @@ Reading order (notebooks 00 to 09)
 3. `windows`: what a window is, what two windows have in common, and sums along diagonals
 4. `laying_clouds`: one cloud of points laid on another, from above
 5. `ground`: turns on the ground, and one clip aligned with another, seen from above
+6. `seams`: frames of a transition, ways between two rotations, and a leg as a triangle
 
 References
 ----------
@@ -27,5 +28,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "laying_clouds": ["laying_on", "rms_distance", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
         "ground": ["alignment", "turn_on_ground"],
+        "seams": ["blended_seam", "knee_triangle", "turning_paths"],
     },
 )
