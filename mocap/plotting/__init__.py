@@ -8,10 +8,11 @@ Reading order (notebooks 00 to 10)
 1. `style`: colours that colour-blind readers can tell apart
 2. `axes`: 3D axes with a ground
 3. `stick_figures`: bodies as lines
-4. `charts`: distance images, paths from above, curves
-5. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-6. `search_tree`: the walks that a search visits and cuts off
-7. `picture`: a figure as a picture in a notebook
+4. `bodies_on_path`: a whole walk in one picture
+5. `charts`: distance images, paths from above, curves
+6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+7. `search_tree`: the walks that a search expands and cuts off
+8. `picture`: a figure as a picture in a notebook
 
 References
 ----------
@@ -25,6 +26,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": [
             "ASKED",
+            "ASTRAY",
             "COLOURS",
             "CURVES",
             "FLOOR",
@@ -36,6 +38,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "axes": ["ground_axes", "to_picture"],
         "stick_figures": ["Bones", "StickFigure", "bones", "film_strip", "laid_over", "stick_figure"],
+        "bodies_on_path": ["bodies_along"],
         "charts": ["asked_and_walked", "distance_image", "footprints", "joint_curve", "path_from_above"],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "search_tree": ["SearchTree", "TreePicture", "grow_tree"],

@@ -17,6 +17,9 @@ CURVES = ("#009E73", "#882255", "#56B4E9", "#8A6D00")
 PATH, ASKED, MARK = "#E69F00", "#000000", "#CC79A7"
 """A path that was walked, a path that was asked for, and seams or transitions."""
 
+ASTRAY = "#B00020"
+"""Where a walk leaves the path that was asked for."""
+
 FLOOR, QUIET = "#DDDDDD", "#999999"
 """The ground's lines, and whatever matters less."""
 

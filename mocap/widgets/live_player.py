@@ -148,4 +148,4 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 def _along(follow: Follow, path: Array) -> Player:
     made = follow(path)
     player = made if isinstance(made, Player) else play(made)
-    return player if len(player.path) else replace(player, path=path)
+    return player if len(player.marks.path) else replace(player, marks=player.marks._replace(path=path))

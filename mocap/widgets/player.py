@@ -11,26 +11,32 @@ import base64
 import html
 import json
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices, runs
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
 from mocap.feet.footprints import find_footprints
+from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import small_png
 from mocap.plotting.stick_figures import bones, film_strip
-from mocap.plotting.style import COLOURS, PATH, SOURCES, source_colours
+from mocap.plotting.style import ASTRAY as ASTRAY_COLOUR
+from mocap.plotting.style import COLOURS, MARK, PATH, SOURCES, source_colours
+from mocap.synthesis.walks import Seam
 
 Sources = Sequence[tuple[int, str]]
 
+ASTRAY = 0.15  # metres off the path that was asked for, from where on a walk's path is red
+WALKS = 1.0  # metres of ground that a motion covers at least, to be drawn along its path
 SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
 PARTS = ("player_scene.js", "player_picture.js", "player.js")  # of one module, in this order
 SIDES = ("middle", "left", "right")  # the scripts know a side by its number
@@ -41,17 +47,26 @@ def script() -> str:
     return "\n".join(Path(__file__).with_name(part).read_text("utf-8") for part in PARTS)
 
 
-def play(
-    *motions: Motion, sources: Sources = (), path: ArrayLike = (), follow: bool = True, alt: str = ""
+def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to look at it)
+    *motions: Motion,
+    sources: Sources = (),
+    seams: Iterable[Seam | int] = (),
+    path: ArrayLike = (),
+    off: ArrayLike = (),
+    follow: bool = True,
+    alt: str = "",
 ) -> Player:
     """Play motions in the notebook; the reader can turn the view, step, and change the speed.
 
     Parameters
     ----------
     motions : one or more characters; frames are counted by the first.
-    sources : where the first motion comes from, as pairs (frame, name of the clip from there on); each clip
-        has its colour, so the seams are seen.
+    sources : where the first motion comes from, as pairs (frame, name of the clip from there on), as from
+        `synthesis.sources`; each clip has its colour.
+    seams : where the first motion takes a transition, as from `synthesis.seams`, or frames; they are marked.
     path : a path that was asked for, shape (N, 2), points (x, z) in metres.
+    off : metres from there in each frame of the first motion, shape (F,), as in `Followed.off`; where it is
+        more than 15 cm off, its path is red.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see it; by default it gives names and seconds.
 
@@ -73,9 +88,13 @@ def play(
     """
     if not motions:
         raise MocapError("There is no motion to play.")
-    return Player(
-        motions, tuple(sources), np.reshape(np.asarray(path, float), (-1, 2)), follow, alt or _alt(motions)
+    marks = Marks(
+        tuple(sources),
+        tuple(seam if isinstance(seam, int) else seam.frame for seam in seams),
+        np.reshape(np.asarray(path, float), (-1, 2)),
+        runs(np.asarray(off, float) > ASTRAY),
     )
+    return Player(motions, marks, follow, alt or _alt(motions))
 
 
 def _alt(motions: Sequence[Motion]) -> str:
@@ -84,9 +103,18 @@ def _alt(motions: Sequence[Motion]) -> str:
     return f"{who} {names}, {max(motion.duration for motion in motions):.1f} s."
 
 
+class Marks(NamedTuple):
+    """What a player marks on the ground, as for `play`; `astray` are stretches of frames [start, end)."""
+
+    sources: Sources = ()
+    seams: tuple[int, ...] = ()
+    path: Array = np.empty((0, 2))
+    astray: Indices = np.empty((0, 2), int)
+
+
 @dataclass(frozen=True, eq=False)
 class Player:
-    """What `play` returns, with the same arguments; a notebook shows it live, as a picture or a sentence.
+    """What `play` returns; a notebook shows it live, as a picture or a sentence.
 
     Examples
     --------
@@ -99,8 +127,7 @@ class Player:
     """
 
     motions: Sequence[Motion]
-    sources: Sources
-    path: Array
+    marks: Marks
     follow: bool
     alt: str
 
@@ -118,28 +145,37 @@ class Player:
             data += block
         if len(self.motions) == 1:
             characters[0] |= {"colour": COLOURS["middle"], "path_colour": PATH}
-        characters[0]["sources"] = self._coloured_sources()
-        first = self.motions[0]
+        first, marks = self.motions[0], self.marks
+        characters[0] |= {
+            "sources": self._coloured_sources(),
+            "seams": [seam / first.fps for seam in marks.seams],
+            "astray": (marks.astray / first.fps).tolist(),
+        }
         return {
             "alt": self.alt,
             "fps": first.fps,
             "frames": max(1 + round(motion.duration * first.fps) for motion in self.motions),
             "follow": self.follow,
             "sides": [COLOURS[side] for side in SIDES],
-            "asked": self.path.round(3).tolist(),
+            "asked": marks.path.round(3).tolist(),
+            "marks": {"seam": MARK, "astray": ASTRAY_COLOUR},
             "characters": characters,
             "data": zlib.compress(data),
         }
 
     def _coloured_sources(self) -> list[dict[str, Any]]:
-        colours = source_colours([name for _, name in self.sources])
-        fps = self.motions[0].fps
-        return [{"start": frame / fps, "name": name, "colour": colours[name]} for frame, name in self.sources]
+        sources, fps = self.marks.sources, self.motions[0].fps
+        colours = source_colours([name for _, name in sources])
+        return [{"start": frame / fps, "name": name, "colour": colours[name]} for frame, name in sources]
 
     @cached_property
     def picture(self) -> bytes:
-        """A strip of poses as a PNG, for places where no script runs."""
-        return small_png(film_strip(self.motions))
+        """The whole motion as a PNG, for places where no script runs; who stays in place is shown in time."""
+        ground = self.motions[0].root_positions[:, [0, 2]]
+        if max(np.ptp(ground, axis=0)) < WALKS and not len(self.marks.path):
+            return small_png(film_strip(self.motions))
+        sources, seams, path, _ = self.marks
+        return small_png(bodies_along(*self.motions, sources=sources, seams=seams, path=path))
 
     def html(self) -> str:
         """Return the player as part of a page; where no script runs, its picture stays."""
@@ -190,9 +226,19 @@ def _packed(motion: Motion, colour: str) -> tuple[dict[str, Any], bytes]:
         "head": heads[-1] if heads else None,
         "colour": colour,
         "path_colour": colour,
-        "sources": [],
+        **{"sources": [], "seams": [], "astray": []},
         "prints": [
             [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
-            for p in find_footprints(motion)
+            for p in find_footprints(_with_contacts(motion))
         ],
     }, np.moveaxis(changes, 0, -1).tobytes()
+
+
+def _with_contacts(motion: Motion) -> Motion:
+    """Mark the footplants of a captured clip, which has no contacts; a body without legs leaves no prints."""
+    if motion.contacts:
+        return motion
+    try:
+        return mark_plants(motion)
+    except MocapError:
+        return motion

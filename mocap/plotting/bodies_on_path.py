@@ -1,0 +1,164 @@
+"""Bodies along their path: a whole walk in one picture, as in [KGP02, Fig. 1]."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.plotting.stick_figures import bones
+from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, SOURCES, source_colours
+
+WIDTH = 9.0  # inches
+LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
+RISE = np.radians(24)  # how far above the ground the camera stands
+MOST = 15  # bodies; more would hide one another
+GREY = "#666666"
+APART = 0.7  # metres between two bodies at least
+
+
+def bodies_along(
+    *motions: Motion,
+    sources: Sequence[tuple[int, str]] = (),
+    seams: Iterable[int] = (),
+    path: ArrayLike = (),
+) -> Figure:
+    """Draw motions as bodies along their paths, evenly spread over the ground, from the side and above.
+
+    Parameters
+    ----------
+    motions : one or more characters; sources and seams are those of the first.
+    sources : pairs (frame, name of the clip from there on), as from `synthesis.sources`: bodies and path have
+        the colour of their clip. Without them one character has the colours of left and right, and several
+        have a colour each.
+    seams : frames at which a transition starts, marked on the path.
+    path : the path that was asked for, shape (N, 2), points (x, z) in metres.
+
+    Returns
+    -------
+    A figure that pyplot does not know, so nobody has to close it.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> figure = bodies_along(datasets.sample("walk_straight"), seams=[300])
+    >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    ['walked path', 'seam']
+
+    Notebook: 00-quickstart
+    """
+    asked = np.reshape(np.asarray(path, float), (-1, 2))
+    clouds = [joint_positions(motion) for motion in motions]
+    scene = _Scene(np.concatenate([*(cloud[:, 0, [0, 2]] for cloud in clouds), asked]))
+    scene.line(asked, ASKED, "asked path", 4.0)
+    for number, (motion, cloud) in enumerate(zip(motions, clouds, strict=True)):
+        own = SOURCES[number % len(SOURCES)] if len(motions) > 1 else None
+        spans = _spans(motion, sources if number == 0 else (), own)
+        for span in spans:
+            scene.line(cloud[span.start : span.end + 1, 0][:, [0, 2]], span.colour or PATH, span.name)
+        scene.bodies(motion, cloud, spans)
+    scene.diamonds(clouds[0][np.asarray(list(seams), int), 0] * [1, 0, 1])
+    return scene.framed()
+
+
+class _Span(NamedTuple):
+    """A stretch of a motion, frames [start, end), that has one colour and name."""
+
+    start: int
+    end: int
+    colour: str | None
+    name: str
+
+
+def _spans(motion: Motion, sources: Sequence[tuple[int, str]], colour: str | None) -> list[_Span]:
+    if not sources:
+        return [_Span(0, len(motion), colour, motion.name if colour else "walked path")]
+    colours = source_colours([name for _, name in sources])
+    ends = [*(frame for frame, _ in sources[1:]), len(motion)]
+    return [_Span(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
+
+
+class _Scene:
+    """A parallel projection in which the longest way over the ground, points (N, 2), runs across."""
+
+    def __init__(self, ground: Array) -> None:
+        x, z = np.linalg.svd(ground - ground.mean(axis=0), full_matrices=False)[2][0]
+        if (ground[-1] - ground[0]) @ (x, z) < 0:
+            x, z = -x, -z
+        self.axes = np.array([[x, 0, z], [z, 0, -x]])  # across, and away from the camera
+        self.up = np.cos(RISE) * np.array([0, 1, 0]) + np.sin(RISE) * self.axes[1]
+        self.figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
+        self.ax = self.figure.add_subplot()
+        self.ax.set_axis_off()
+        self.ax.set_aspect("equal")
+        self._grid(_level(ground) @ self.axes.T)
+
+    def see(self, points: Array) -> Array:
+        """Project points, shape (..., 3), metres, to places in the picture, shape (..., 2)."""
+        return np.stack([points @ self.axes[0], points @ self.up], axis=-1)
+
+    def _grid(self, ground: Array) -> None:
+        low, high = np.floor(ground.min(axis=0) - 0.5), np.ceil(ground.max(axis=0) + 0.5)
+        away = [((x, low[1]), (x, high[1])) for x in np.arange(low[0], high[0] + 1)]
+        along = [((low[0], z), (high[0], z)) for z in np.arange(low[1], high[1] + 1)]
+        lines = self.see(np.array([*away, *along]) @ self.axes)
+        self.ax.add_collection(LineCollection(list(lines), colors=FLOOR, linewidths=0.8, zorder=0))
+
+    def line(self, ground: Array, colour: str, name: str, wide: float = 1.6) -> None:
+        if len(ground):
+            known = name in self.ax.get_legend_handles_labels()[1]
+            label = None if known else name
+            self.ax.plot(*self.see(_level(ground)).T, color=colour, linewidth=wide, label=label, zorder=1)
+
+    def diamonds(self, points: Array) -> None:
+        if len(points):
+            self.ax.plot(*self.see(points).T, "D", color=MARK, markersize=6, label="seam", zorder=2)
+
+    def bodies(self, motion: Motion, cloud: Array, spans: list[_Span]) -> None:
+        """Draw bodies, those nearer to the camera over the others."""
+        starts, ends, sides = bones(motion.skeleton)
+        head = [joint for joint, name in enumerate(motion.skeleton.names) if "head" in name.lower()][-1:]
+        for frame in _chosen(cloud[:, 0, [0, 2]]):
+            (span,) = [span for span in spans if span.start <= frame < span.end]
+            near = 4 - float(np.tanh(cloud[frame, 0] @ self.axes[1] / 50))
+            colours = [span.colour or COLOURS[side] for side in sides]
+            lines = self.see(np.stack([cloud[frame, starts], cloud[frame, ends]], axis=1))
+            self.ax.add_collection(LineCollection(list(lines), colors=colours, linewidths=2, zorder=near))
+            colour = span.colour or COLOURS["middle"]
+            self.ax.plot(*self.see(cloud[frame, head]).T, "o", color=colour, ms=7, zorder=near, clip_on=False)
+
+    def framed(self) -> Figure:
+        """Make the picture as high as what it shows, and name the colours above it."""
+        self.ax.margins(0.02, 0.04)
+        self.ax.autoscale_view()
+        wide, high = np.ptp(self.ax.get_xlim()), np.ptp(self.ax.get_ylim())
+        self.figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
+        columns = min(6, len(self.ax.get_legend_handles_labels()[1]))
+        self.ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, fontsize=9, frameon=False)
+        note = self.ax.text(1, 1.02, "lines 1 m apart", transform=self.ax.transAxes)
+        note.set(horizontalalignment="right", fontsize=8, color=GREY)
+        return self.figure
+
+
+def _chosen(ground: Array) -> list[int]:
+    """Choose frames of a path, shape (F, 2), whose places are far enough from each other."""
+    apart, chosen = APART, [0]
+    while True:
+        for frame, place in enumerate(ground):
+            if np.linalg.norm(ground[chosen] - place, axis=-1).min() > apart:
+                chosen.append(frame)
+        if len(chosen) <= MOST:
+            return chosen
+        apart, chosen = 1.15 * apart, [0]
+
+
+def _level(ground: Array) -> Array:
+    """Give points (x, z), shape (N, 2), the height 0: shape (N, 3)."""
+    return np.insert(ground, 1, 0.0, axis=-1)
