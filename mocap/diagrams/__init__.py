@@ -12,6 +12,10 @@ Reading order (notebooks 00 to 09)
 4. `laying_clouds`: one cloud of points laid on another, from above
 5. `ground`: turns on the ground, and one clip aligned with another, seen from above
 6. `seams`: frames of a transition, ways between two rotations, and a leg as a triangle
+7. `small_graphs`: the homework's segments in rows, and Tarjan's search with its low links
+8. `eight_node_search`: the walks that a search takes up on the eight-node graph, as a tree
+9. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
+9. `jolts`: what a blend adds to the velocities of its clips
 
 References
 ----------
@@ -29,5 +33,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
         "ground": ["alignment", "turn_on_ground"],
         "seams": ["blended_seam", "knee_triangle", "turning_paths"],
+        "small_graphs": ["EIGHT_PLACES", "segments_in_rows", "tarjan_states", "tarjan_step"],
+        "eight_node_search": ["edge_lengths", "search_events", "search_steps"],
+        "distances_to_paths": ["two_distances"],
+        "jolts": ["added_by_blend"],
     },
 )

@@ -12,7 +12,8 @@ Reading order (notebooks 00 to 10)
 5. `charts`: distance images, paths from above, curves
 6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
 7. `search_tree`: the walks that a search expands and cuts off
-8. `picture`: a figure as a picture in a notebook
+8. `spread_charts`: medians with quartiles, and random walks as rows
+9. `picture`: a figure as a picture in a notebook
 
 References
 ----------
@@ -42,6 +43,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "charts": ["asked_and_walked", "distance_image", "footprints", "joint_curve", "path_from_above"],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
+        "spread_charts": ["Band", "quartile_band", "walk_rows"],
         "picture": ["Picture", "show"],
     },
 )

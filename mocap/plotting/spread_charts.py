@@ -1,0 +1,85 @@
+"""Charts of samples: medians with their quartiles, and random walks as rows of steps."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import FillBetweenPolyCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.image import AxesImage
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
+
+from mocap.plotting.style import CURVES, QUIET
+
+SEAMS = LinearSegmentedColormap.from_list("seams", ["#F2D3E4", "#CC79A7", "#5B1F45"])
+
+
+class Band(NamedTuple):
+    """A median as a line, and the middle half of the samples as a band."""
+
+    median: Line2D
+    quartiles: FillBetweenPolyCollection
+
+
+def quartile_band(
+    x: ArrayLike, samples: ArrayLike, *, label: str = "", colour: str = CURVES[0], ax: Axes | None = None
+) -> Band:
+    """Draw the median of samples as a line, and the range from quartile to quartile as a band.
+
+    Parameters
+    ----------
+    x : shape (n,), what was varied.
+    samples : shape (n, k), k measurements at each x.
+    label : for the legend.
+    colour : of line and band.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The line and the band.
+
+    Examples
+    --------
+    >>> band = quartile_band([1, 2], [[0, 1, 2, 3, 4], [5, 5, 6, 7, 7]])
+    >>> band.median.get_ydata().tolist()
+    [2.0, 6.0]
+    """
+    ax = ax or plt.figure(figsize=(5, 3.5), layout="constrained").add_subplot()
+    low, middle, high = np.percentile(np.asarray(samples, float), [25, 50, 75], axis=1)
+    (line,) = ax.plot(x, middle, "o-", color=colour, markersize=4, label=label or None)
+    return Band(line, ax.fill_between(np.asarray(x, float), low, high, color=colour, alpha=0.2, linewidth=0))
+
+
+def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> AxesImage:
+    """Draw random walks as rows with a box per step: grey in a clip, purple for a transition, then white.
+
+    Parameters
+    ----------
+    costs : shape (walks, steps): the cost of the transition that a step takes, 0 for a step that stays in its
+        clip, NaN after the end of a walk.
+    highest : the cost that is drawn darkest.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The image; a `colorbar` of it explains the costs.
+
+    Examples
+    --------
+    >>> image = walk_rows([[0, 150, np.nan], [300, 0, 0]], highest=300)
+    >>> image.get_array().mask.tolist()  # neither grey boxes nor white ones have a cost
+    [[True, False, True], [False, True, True]]
+    """
+    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
+    values = np.asarray(costs, float)
+    alive = np.ma.masked_where(np.isnan(values), np.zeros(values.shape))
+    grey = LinearSegmentedColormap.from_list("grey", ["#E4E4E4", QUIET])
+    ax.imshow(alive, cmap=grey, vmin=0, vmax=1, aspect="auto", interpolation="nearest")
+    taken = np.ma.masked_where(~(values > 0), values)
+    image = ax.imshow(taken, cmap=SEAMS, vmin=0, vmax=highest, aspect="auto", interpolation="nearest")
+    ax.set(xlabel="step of the walk", ylabel="walk")
+    return image
