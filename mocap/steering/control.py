@@ -1,11 +1,12 @@
 """Interactive control: a character that gets a new command in any frame while it walks [KGP02, 5.3]."""
 
 import time
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.body.motion import Motion
@@ -53,7 +54,7 @@ class Controller:
     >>> controller.step(heading=0.0, speed=1.0).rotations.shape
     (38, 4)
 
-    Notebook: 08-path-synthesis
+    Notebook: 08b-steering
     """
 
     def __init__(
@@ -104,6 +105,11 @@ class Controller:
         pose = pose_on_edge(self.graph, self.edges[0], self.frame, self.turn, self.move)
         self.frame += 1
         return pose
+
+    @property
+    def frames_left(self) -> int:
+        """The frames until the next choice: the rest of the hop under way."""
+        return sum(int(self.graph.frames[edge]) for edge in self.edges) - self.frame * bool(self.edges)
 
     def _restart(self) -> None:
         """Look ahead anew, from the end of the hop under way."""
@@ -161,16 +167,64 @@ def _placed(motion: Motion, frame: int, turn: complex, move: complex) -> tuple[A
     return place.apply_points(motion.root_positions[frame]), turns
 
 
+class Steered(NamedTuple):
+    """A steered motion, F frames, and what the character did in each.
+
+    `blending` (F,) says whether a transition was under way, `frames_left` (F,) how many frames the character
+    still had to play before its next choice.
+    """
+
+    motion: Motion
+    blending: Mask
+    frames_left: Indices
+
+
+def steer(graph: MotionGraph | CompiledGraph, headings: Sequence[float], speed: float = 1.1) -> Steered:
+    """Steer a character by one heading per frame, and record what it does.
+
+    Parameters
+    ----------
+    graph : pruned.
+    headings : shape (F,), radians; 0 is +z, π/2 is +x.
+    speed : metres per second.
+
+    Examples
+    --------
+    Two seconds ahead, then to the left:
+
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> steered = steer(graph, [0.0] * 60 + [np.pi / 2] * 60)
+    >>> len(steered.motion), steered.blending.shape
+    (120, (120,))
+
+    Notebook: 08b-steering
+    """
+    controller = Controller(graph)
+    poses, left = [], []
+    for heading in headings:
+        left.append(controller.frames_left)
+        poses.append(controller.step(float(heading), speed))
+    roots, turns, blending = (np.array(values) for values in zip(*poses, strict=True))
+    skeleton = controller.graph.source.clips[0].skeleton
+    return Steered(Motion(skeleton, roots, turns, controller.graph.fps, "steered"), blending, np.array(left))
+
+
 class Delay(NamedTuple):
     """The delay until a character obeys, and the CPU time per step.
 
-    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms.
+    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms. Two mean
+    parts of the delay are `waiting`, until the hop under way ends, and `blending`, in transitions after it.
+    The rest is spent in clips that turn.
     """
 
     mean: float
     slowest: float
     step: float
     worst: float
+    waiting: float
+    blending: float
 
 
 def measure_delay(
@@ -196,22 +250,25 @@ def measure_delay(
     >>> 0 < measure_delay(graph, turns=1).mean <= 8
     True
 
-    Notebook: 08-path-synthesis
+    Notebook: 08b-steering
     """
-    controller = Controller(graph)
-    random, fps = np.random.default_rng(seed), controller.graph.fps
-    back, heading = round(fps / 3), 0.0
+    controller, random = Controller(graph), np.random.default_rng(seed)
+    heading, back = 0.0, round(controller.graph.fps / 3)
     track, costs, delays = [0j] * back, [0.0], []
     for _ in range(turns):
         heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
-        for frame in range(round(8 * fps)):
+        wait, frames, blends = controller.frames_left, 0, 0
+        obeys = False
+        while not obeys and frames < round(8 * controller.graph.fps):
             start = time.thread_time()
-            x, _, z = controller.step(heading, speed).root_position
+            pose = controller.step(heading, speed)
             costs.append(time.thread_time() - start)
-            track.append(complex(z, x))
+            track.append(complex(pose.root_position[2], pose.root_position[0]))
+            blends += pose.blending and frames >= wait
             way = (track[-1] - track[-1 - back]) * np.exp(-1j * heading)
-            if frame >= back and abs(np.angle(way)) < np.pi / 9:
-                break
-        delays.append((frame + 1) / fps)
-    slowest, cost = float(np.percentile(delays, 95)), np.array(costs[1:]) * 1e3
-    return Delay(float(np.mean(delays)), slowest, float(cost.mean()), float(cost.max()))
+            obeys, frames = frames >= back and abs(np.angle(way)) < np.pi / 9, frames + 1
+        delays.append((frames, min(wait, frames), blends))
+    took, waited, blended = np.transpose(delays) / controller.graph.fps
+    slowest, cost = float(np.percentile(took, 95)), np.array(costs[1:]) * 1e3
+    parts = float(waited.mean()), float(blended.mean())
+    return Delay(float(took.mean()), slowest, float(cost.mean()), float(cost.max()), *parts)

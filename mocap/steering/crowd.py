@@ -44,8 +44,8 @@ def walk_crowd(
 
     First each walk is found as if alone; these searches run in parallel in a `pool`. Then the characters are
     visited in order. One that comes too near to an earlier one searches again, with a price on each frame too
-    near. Where this does not help, it also waits before it starts. So the first follows its path best, and
-    the last gives way to all.
+    near. Where this does not help, it also waits before it starts. So the first gives way to nobody, and the
+    others give way to those before them.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def walk_crowd(
     >>> crowd.waits, bool(crowd.nearest[0, 1] > 8)
     ([0.0, 0.0], True)
 
-    Notebook: 08-path-synthesis
+    Notebook: 08b-steering
     """
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")

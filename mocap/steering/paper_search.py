@@ -11,7 +11,7 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.beam_search import Found
 from mocap.steering.path_following import Followed, account, start_of
-from mocap.steering.path_objective import Route, Wishes, make_route
+from mocap.steering.path_objective import Route, Wishes, least_progress, make_route
 from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_ahead
 
 
@@ -32,7 +32,7 @@ class PathCost:
     def __init__(self, graph: CompiledGraph, route: Route) -> None:
         self.graph, self.route = graph, route
         self.number: dict[SearchEdge, int] = {edge: number for number, edge in enumerate(graph.edges)}
-        self.step = np.maximum(graph.tracks.step, route.least / graph.fps)
+        self.step = least_progress(graph, route)
 
     def cost(self, state: PathState, edge: SearchEdge) -> tuple[float, PathState]:
         """Give the cost of an edge after a walk in this state, and the next state."""

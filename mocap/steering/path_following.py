@@ -19,7 +19,7 @@ from mocap.graphs.components import reached
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.beam_search import Beam, Found, find_walk
-from mocap.steering.path_objective import Prices, Route, Wishes, make_route
+from mocap.steering.path_objective import Prices, Route, Wishes, least_progress, make_route
 from mocap.steering.search_states import States, start_states
 from mocap.synthesis.walk_to_motion import to_motion
 
@@ -55,6 +55,7 @@ class Followed:
     track : shape (F, 2), where the root is on the ground, (x, z) in metres.
     along : shape (F,), metres along the path in each frame.
     off : shape (F,), metres from the path in each frame: from its nearest point within 0.5 m of `along`.
+    off_at_length : shape (F,), metres from the point of the path at equal arc length, as in [KGP02, Eq. 9].
     unlabelled : shape (F,), the frames without the label asked for.
     found : the result of the search.
     """
@@ -66,6 +67,7 @@ class Followed:
     track: Array
     along: Array
     off: Array
+    off_at_length: Array
     unlabelled: NDArray[np.bool_]
     found: Found
 
@@ -108,8 +110,9 @@ class Followed:
         """Say in one line how well the walk follows the path."""
         line = (
             f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
-            f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst, "
-            f"{self.seams_a_second:.2f} seams a second"
+            f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst "
+            f"({100 * self.off_at_length.mean():.1f} cm at equal arc length), "
+            f"{self.seams_a_second:.2f} seams per second"
         )
         if self.unlabelled.any():
             line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
@@ -246,6 +249,7 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
         from_ground(body),
         found.along,
         _distance(route, body, found.along),
+        np.abs(body - route.at(np.cumsum(least_progress(graph, route)[rows]))),
         (label >= 0) & ~bears,
         found,
     )

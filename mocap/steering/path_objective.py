@@ -28,6 +28,8 @@ class Wishes:
     heading : the direction to start in, radians; by default that of the path.
     start : the node to start at; by default the best one.
     least : the least progress in metres per second; standing counts as this, so that no walk stands for ever.
+    slide : the share of the distance to the point of the path abreast of the body by which s moves after each
+        hop; 0 keeps s the arc length, as in [KGP02, Eq. 9].
     others : tracks of others on the ground, shape (T, 2) each, one row per frame; each stays at its end.
     apart : metres to keep away from them.
 
@@ -46,6 +48,7 @@ class Wishes:
     heading: float | None = None
     start: Node | None = None
     least: float = 0.3
+    slide: float = 0.5
     others: Sequence[Array] = ()
     apart: float = 0.8
 
@@ -53,6 +56,8 @@ class Wishes:
 @dataclass(frozen=True)
 class Prices:
     """What deviations cost; the unit is m², because a frame that is d metres off the path costs d².
+
+    With `Prices(seam=0, match=0, stray=0)` the distance is all that a walk pays for, as in [KGP02, Eq. 9].
 
     Parameters
     ----------
@@ -92,6 +97,7 @@ class Route:
     label : shape (n,), the number of the label asked for, -1 for any.
     clock : shape (n,), the time to be there, seconds; nan for any time.
     least : the least progress, metres per second; γ in [KGP02, 5.1].
+    slide : the share by which s moves to the point abreast of the body after each hop.
     others : shape (K, T), where K others are in each frame.
     apart : metres to keep away from them.
 
@@ -107,6 +113,7 @@ class Route:
     label: Indices
     clock: Array
     least: float = 0.1
+    slide: float = 0.5
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
     apart: float = 0.8
 
@@ -163,6 +170,8 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     _check_length(graph, path)
     if not (np.isfinite(wishes.least) and wishes.least > 0):
         raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
+    if not 0 <= wishes.slide <= 1:
+        raise MocapError(f"The arc length slides by a share from 0 to 1, got {wishes.slide}.")
     for where, what in (*wishes.labels, *wishes.times):
         if not 0 <= where <= path.length:
             raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")
@@ -173,7 +182,12 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
         label[along >= start - 1e-9] = graph.label_number(name)
     ground = on_ground(points)
     clock, others = _clock(along, wishes), _together(wishes.others)
-    return Route(ground, float(along[1]), label, clock, wishes.least, others, wishes.apart)
+    return Route(ground, float(along[1]), label, clock, wishes.least, wishes.slide, others, wishes.apart)
+
+
+def least_progress(graph: CompiledGraph, route: Route) -> Array:
+    """Give the progress of each frame of all edges, shape (T,): its step, or γ where the step is less."""
+    return np.maximum(graph.tracks.step, route.least / graph.fps)
 
 
 def _together(tracks: Sequence[Array]) -> Points:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
-from mocap.steering.path_objective import Prices, Route
+from mocap.steering.path_objective import Prices, Route, least_progress
 
 
 class States(NamedTuple):
@@ -74,7 +74,7 @@ class SearchSpace:
 def search_space(graph: CompiledGraph, route: Route, prices: Prices) -> SearchSpace:
     """Compute the price of each hop's transition, and its progress along the path."""
     hops = graph.hops
-    along = np.cumsum(np.maximum(graph.tracks.step, route.least / graph.fps))
+    along = np.cumsum(least_progress(graph, route))
     before = np.concatenate([[0.0], along])
     parts = before[hops.starts + hops.counts] - before[hops.starts]  # (H, 2)
     since = before[hops.starts] - np.stack([np.zeros(len(parts)), parts[:, 0]], axis=1)
@@ -107,8 +107,9 @@ def expand(space: SearchSpace, states: States, number: int) -> States:
     """Lengthen every walk by every hop that leaves its node.
 
     The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the prices.
-    One departure from the paper: after each hop s slides half-way to the point of the path beside the body,
-    so that a walk which cuts a corner need not walk the metres that it saved.
+    One departure from the paper: after each hop s moves half-way to the point of the path abreast of the
+    body, so that a walk which cuts a corner need not walk the metres that it saved. `Wishes.slide` is the
+    share of that distance.
 
     Parameters
     ----------
@@ -147,7 +148,7 @@ def expand(space: SearchSpace, states: States, number: int) -> States:
         number + of,
         hop,
     )
-    return new._replace(along=new.along + slide(space, new, space.length[hop] / 2))
+    return new._replace(along=new.along + slide(space, new, space.length[hop]))
 
 
 def frames_along(space: SearchSpace, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
@@ -195,11 +196,11 @@ def crowding(space: SearchSpace, body: Points, frame: Indices) -> Array:
 
 
 def slide(space: SearchSpace, states: States, most: Array) -> Array:
-    """Measure half the way along the path to the point beside the body, at most `most` metres (N,)."""
+    """Give the metres by which s moves: a share of those to the point abreast, or of `most` (N,) if less."""
     body = states.move + states.turn * space.graph.at[states.node]
     way = space.route.ways[space.route.point(states.along)]
     abreast = ((body - space.route.near(states.along)) * way.conj()).real
-    return np.asarray(np.minimum(np.maximum(abreast / 2, -most), most))
+    return np.asarray(space.route.slide * np.minimum(np.maximum(abreast, -most), most))
 
 
 def score(space: SearchSpace, states: States, rescue: float) -> Array:

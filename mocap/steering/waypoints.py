@@ -25,7 +25,7 @@ class Waypoint(NamedTuple):
     >>> Waypoint(0.0, 4.0, "sneak", seconds=5.0)
     Waypoint(x=0.0, z=4.0, label='sneak', seconds=5.0)
 
-    Notebook: 08-path-synthesis
+    Notebook: 08b-steering
     """
 
     x: float
@@ -80,7 +80,7 @@ def through_waypoints(
     >>> [bool(arrival.off < 0.3) for arrival in found.arrivals]
     [True, True]
 
-    Notebook: 08-path-synthesis
+    Notebook: 08b-steering
     """
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)

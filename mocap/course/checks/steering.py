@@ -1,0 +1,189 @@
+"""Checks of notebook 08b."""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.course.check import Check, Mistake
+
+
+def _asked(along: Array, places: Array, seconds: Array) -> Array:
+    return np.interp(along, places, seconds, left=np.nan, right=np.nan)
+
+
+def _time_cost(along: Array, places: Array, seconds: Array, fps: float) -> float:
+    late = np.arange(len(along)) / fps - _asked(along, places, seconds)
+    return float(np.nansum(late**2))
+
+
+def _draw_time_cost(rng: np.random.Generator) -> tuple[Array, Array, Array, float]:
+    places = np.cumsum(rng.uniform(0.5, 2.0, rng.integers(2, 5)))
+    seconds = np.cumsum(rng.uniform(0.5, 2.0, len(places)))
+    along = np.sort(rng.uniform(0, places[-1] + 1.0, rng.integers(40, 80)))
+    return along, places, seconds, float(rng.choice([25.0, 30.0, 60.0]))
+
+
+def _clamped(along: Array, places: Array, seconds: Array, fps: float) -> float:
+    late = np.arange(len(along)) / fps - np.interp(along, places, seconds)
+    return float(np.sum(late**2))
+
+
+def _unsquared(along: Array, places: Array, seconds: Array, fps: float) -> float:
+    late = np.arange(len(along)) / fps - _asked(along, places, seconds)
+    return float(np.nansum(np.abs(late)))
+
+
+def _only_late(along: Array, places: Array, seconds: Array, fps: float) -> float:
+    late = np.arange(len(along)) / fps - _asked(along, places, seconds)
+    return float(np.nansum(np.maximum(late, 0) ** 2))
+
+
+def _only_at_places(along: Array, places: Array, seconds: Array, fps: float) -> float:
+    frames = np.minimum(np.searchsorted(along, places), len(along) - 1)
+    return float(np.sum((frames / fps - seconds) ** 2))
+
+
+time_cost = Check(
+    name="time_cost",
+    asks="one number: the sum of the squared seconds late or early",
+    start="frame i is played at i / fps seconds; np.interp gives the time asked for at each place.",
+    draw=_draw_time_cost,
+    truth=_time_cost,
+    mistakes=[
+        Mistake(_clamped, "before the first place and after the last no time is asked for: leave them out."),
+        Mistake(
+            lambda along, places, seconds, fps: _time_cost(along, places, seconds, 1.0),
+            "your times are in frames; divide the frame's number by fps.",
+        ),
+        Mistake(_unsquared, "you sum the seconds; sum their squares."),
+        Mistake(_only_late, "a walk that is early misses its time, too: it costs as much as a late one."),
+        Mistake(
+            _only_at_places, "you look at the places alone; every frame between them has a time as well."
+        ),
+        Mistake(
+            lambda along, places, seconds, fps: (
+                _time_cost(along, places, seconds, fps)
+                / max(1, int(np.isfinite(_asked(along, places, seconds)).sum()))
+            ),
+            "that is a mean; g is a sum over the frames.",
+        ),
+    ],
+)
+
+
+def _seconds_until(track: Array, heading: float, frame: int, back: int, wrap: str = "both") -> float:
+    moved = track[back:] - track[:-back]
+    off = np.arctan2(moved[:, 0], moved[:, 1]) - heading
+    if wrap == "both":
+        off = np.abs((off + np.pi) % (2 * np.pi) - np.pi)
+    elif wrap == "abs":
+        off = np.abs(off)
+    obeys = off[max(frame - back, 0) :] < np.radians(20)
+    return int(obeys.argmax()) if obeys.any() else -1
+
+
+def _swapped(track: Array, heading: float, frame: int, back: int) -> float:
+    return _seconds_until(track[:, ::-1], heading, frame, back)
+
+
+def _draw_obeys_after(rng: np.random.Generator) -> tuple[Array, float, int, int]:
+    """Draw a walk that turns to another heading, often across ±180°; some need not turn, some turn back."""
+    frame, back = int(rng.integers(20, 40)), int(rng.integers(5, 12))
+    first = rng.uniform(-np.pi, np.pi)
+    turn = rng.choice([-1, 1]) * rng.choice([rng.uniform(0.7, np.pi), rng.uniform(0.7, np.pi), np.pi, 0.0])
+    wait, takes = rng.integers(0, 20), rng.integers(15, 60)
+    share = np.clip((np.arange(frame + rng.integers(20, 120)) - frame - wait) / takes, 0, 1)
+    ways = first + turn * share
+    steps = rng.uniform(0.02, 0.05) * np.stack([np.sin(ways), np.cos(ways)], axis=1)
+    return np.cumsum(steps, axis=0), float(first + turn), frame, back
+
+
+obeys_after = Check(
+    name="obeys_after",
+    asks="the number of frames from the command until the character obeys, -1 for never",
+    start="its direction in frame i is that of track[i] - track[i - back]; np.arctan2(x, z) gives the angle.",
+    draw=_draw_obeys_after,
+    truth=_seconds_until,
+    mistakes=[
+        Mistake(_swapped, "headings start at +z: the angle of (x, z) is np.arctan2(x, z)."),
+        Mistake(
+            lambda track, heading, frame, back: _seconds_until(track, heading, frame, back, "abs"),
+            "350° and -10° are one direction: bring the difference between -180° and 180° first.",
+        ),
+        Mistake(
+            lambda track, heading, frame, back: _seconds_until(track, heading, frame, back, "none"),
+            "a difference of -90° is not small: take its absolute value, between -180° and 180°.",
+        ),
+        Mistake(
+            lambda track, heading, frame, back: _seconds_until(track, heading, back, back),
+            "count from the command, not from the start of the walk.",
+        ),
+        Mistake(
+            lambda track, heading, frame, back: _seconds_until(track, heading, frame + back, back),
+            "you begin to look only when all of the direction lies after the command.",
+        ),
+        Mistake(
+            lambda track, heading, frame, back: (
+                _seconds_until(track, heading, frame, back) + frame
+                if _seconds_until(track, heading, frame, back) >= 0
+                else -1
+            ),
+            "that is the number of the frame; count from the command.",
+        ),
+    ],
+)
+
+
+def _crowding(track: Array, other: Array, apart: float, price: float = 1.0) -> float:
+    there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
+    near = np.maximum(apart - np.hypot(*(track - there).T), 0.0)
+    return float(price * np.sum(near**2))
+
+
+def _leaves(track: Array, other: Array, apart: float) -> float:
+    both = min(len(track), len(other))
+    return _crowding(track[:both], other[:both], apart)
+
+
+def _nearest_ever(track: Array, other: Array, apart: float) -> float:
+    distance = np.hypot(*(track[:, None] - other).transpose(2, 0, 1)).min(axis=1)
+    return float(np.sum(np.maximum(apart - distance, 0.0) ** 2))
+
+
+def _without_floor(track: Array, other: Array, apart: float) -> float:
+    there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
+    return float(np.sum((apart - np.hypot(*(track - there).T)) ** 2))
+
+
+def _linear(track: Array, other: Array, apart: float) -> float:
+    there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
+    return float(np.sum(np.maximum(apart - np.hypot(*(track - there).T), 0.0)))
+
+
+def _draw_crowding(rng: np.random.Generator) -> tuple[Array, Array, float]:
+    """Draw two lines that come near each other; the other one may be shorter or longer."""
+    count, others = int(rng.integers(30, 50)), int(rng.integers(15, 60))
+    track = np.stack([np.zeros(count), np.linspace(0, 2, count)], axis=1)
+    other = np.stack([np.linspace(-1, 1, others), np.full(others, 1.0)], axis=1)
+    shake = rng.normal(scale=0.03, size=(count, 2))
+    return track + shake, other + rng.normal(scale=0.1, size=2), float(rng.uniform(0.6, 1.2))
+
+
+crowding_cost = Check(
+    name="crowding_cost",
+    asks="one number: the sum of the squared metres too near",
+    start="np.hypot gives the distance in each frame; np.maximum(apart - distance, 0) how much is missing.",
+    draw=_draw_crowding,
+    truth=_crowding,
+    mistakes=[
+        Mistake(_leaves, "the other one stays where its track ends; you stop counting there."),
+        Mistake(
+            _nearest_ever, "compare the two in the same frame: they may pass one place at different times."
+        ),
+        Mistake(_without_floor, "far away costs nothing: what is missing is never below 0."),
+        Mistake(_linear, "you sum the metres that are missing; sum their squares."),
+        Mistake(
+            lambda track, other, apart: np.sqrt(_crowding(track, other, apart)),
+            "no square root: the sum of squares itself is the cost.",
+        ),
+    ],
+)

@@ -1,0 +1,125 @@
+import math
+
+import numpy as np
+
+
+def summed_times(along, places, seconds, fps, cost):
+    total = 0.0
+    for frame, place in enumerate(along):
+        if places[0] <= place <= places[-1]:
+            total += cost(frame / fps - np.interp(place, places, seconds))
+    return total
+
+
+def for_ever(along, places, seconds, fps):
+    times = np.arange(len(along)) / fps
+    return ((times - np.interp(along, places, seconds)) ** 2).sum()
+
+
+def in_frames(along, places, seconds, fps):
+    return summed_times(along, places, seconds, 1, lambda late: late**2)
+
+
+def not_squared(along, places, seconds, fps):
+    return summed_times(along, places, seconds, fps, abs)
+
+
+def early_is_free(along, places, seconds, fps):
+    return summed_times(along, places, seconds, fps, lambda late: late**2 if late > 0 else 0.0)
+
+
+def at_the_places(along, places, seconds, fps):
+    arrivals = [min(int((along < place).sum()), len(along) - 1) / fps for place in places]
+    return sum((a - b) ** 2 for a, b in zip(arrivals, seconds, strict=True))
+
+
+def averaged(along, places, seconds, fps):
+    inside = (along >= places[0]) & (along <= places[-1])
+    return summed_times(along, places, seconds, fps, lambda late: late**2) / max(1, inside.sum())
+
+
+def first_frame(track, heading, frame, back, off):
+    for now in range(max(frame, back), len(track)):
+        x, z = track[now] - track[now - back]
+        if off(x, z) < math.pi / 9:
+            return now - frame
+    return -1
+
+
+def wrapped(angle):
+    return abs((angle + math.pi) % (2 * math.pi) - math.pi)
+
+
+def from_x(track, heading, frame, back):
+    return first_frame(track, heading, frame, back, lambda x, z: wrapped(math.atan2(z, x) - heading))
+
+
+def not_wrapped(track, heading, frame, back):
+    return first_frame(track, heading, frame, back, lambda x, z: abs(math.atan2(x, z) - heading))
+
+
+def signed(track, heading, frame, back):
+    return first_frame(track, heading, frame, back, lambda x, z: math.atan2(x, z) - heading)
+
+
+def from_the_start(track, heading, frame, back):
+    return first_frame(track, heading, back, back, lambda x, z: wrapped(math.atan2(x, z) - heading))
+
+
+def numbered(track, heading, frame, back):
+    after = first_frame(track, heading, frame, back, lambda x, z: wrapped(math.atan2(x, z) - heading))
+    return after + frame if after >= 0 else after
+
+
+def too_near(track, other, apart, cost):
+    total = 0.0
+    for frame, here in enumerate(track):
+        there = other[min(frame, len(other) - 1)]
+        total += cost(apart - math.dist(here, there))
+    return total
+
+
+def other_leaves(track, other, apart):
+    return sum(max(apart - math.dist(a, b), 0) ** 2 for a, b in zip(track, other, strict=False))
+
+
+def at_any_time(track, other, apart):
+    return sum(max(apart - min(math.dist(a, b) for b in other), 0) ** 2 for a in track)
+
+
+def far_costs_too(track, other, apart):
+    return too_near(track, other, apart, lambda missing: missing**2)
+
+
+def metres(track, other, apart):
+    return too_near(track, other, apart, lambda missing: max(missing, 0))
+
+
+def rooted(track, other, apart):
+    return too_near(track, other, apart, lambda missing: max(missing, 0) ** 2) ** 0.5
+
+
+WRONG = {
+    "time_cost": [
+        (for_ever, "leave them out"),
+        (in_frames, "divide the frame's number by fps"),
+        (not_squared, "sum their squares"),
+        (early_is_free, "a walk that is early"),
+        (at_the_places, "every frame between them"),
+        (averaged, "that is a mean"),
+    ],
+    "obeys_after": [
+        (from_x, "headings start at +z"),
+        (not_wrapped, "one direction"),
+        (signed, "its absolute value"),
+        (from_the_start, "count from the command, not from the start"),
+        (numbered, "the number of the frame"),
+    ],
+    "crowding_cost": [
+        (other_leaves, "stays where its track ends"),
+        (at_any_time, "in the same frame"),
+        (far_costs_too, "never below 0"),
+        (metres, "sum their squares"),
+        (rooted, "no square root"),
+    ],
+}
