@@ -72,7 +72,8 @@ def timeline(
     if each is not None:
         _draw_ends(arcs, ax)
     if len(arcs) < len(costs):
-        which = "the cheapest" if each is None else f"the {each} cheapest from each clip to each clip"
+        which = f"the {each} cheapest" if each and each > 1 else "the cheapest"
+        which += "" if each is None else " from each clip to each clip"
         note = f"drawn: {which}, {len(arcs)} of {len(costs)} transitions"
         ax.annotate(note, (1, 0), (0, -36), "axes fraction", "offset points", ha="right", va="top", size=9)
     ax.set_yticks([-clip for clip in range(len(clips))], [motion.name for motion in clips])
