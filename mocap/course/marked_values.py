@@ -13,9 +13,9 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-WORDS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
-WORDS += ("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen")
-WORDS += ("nineteen", "twenty")
+SMALL = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+TEENS = ("thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen")
+WORDS = (*SMALL, "eleven", "twelve", *TEENS, "twenty")
 ABOUT = 0.1  # an approximate number is within this share of its value
 
 _SHOWN = rf"[-−]?(?:\d{{1,3}}(?: \d{{3}})+|\d+)(?:\.\d+)?|\b(?:{'|'.join(WORDS)})"
