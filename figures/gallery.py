@@ -31,6 +31,7 @@ from mocap import (
     MocapError,
     Motion,
     datasets,
+    diagrams,
     feet,
     graphs,
     matching,
@@ -40,7 +41,7 @@ from mocap import (
     synthesis,
 )
 from mocap.body import GroundPath, figure_eight, joint_positions, rotations
-from mocap.plotting import ASKED, COLOURS, TreePicture
+from mocap.plotting import ASKED, COLOURS, SOURCES, TreePicture
 
 Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
@@ -123,6 +124,12 @@ def draw_nodes() -> Figure:
     return figure
 
 
+def draw_clouds() -> Figure:
+    """Draw a window of ten frames, with a point on each joint of each frame."""
+    clip = resample(datasets.sample("walk_curve_1"), 30)
+    return diagrams.window_cloud(clip[100 : 100 + WINDOW], step=3)
+
+
 def draw_distances() -> Figure:
     """Draw the distance image of two clips with its minima."""
     first, second = (resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2"))
@@ -170,38 +177,95 @@ def draw_seam() -> Figure:
 
 
 def draw_match() -> Figure:
-    """Draw two windows that match, laid over each other."""
-    graph = _graph()
-    found = [edge for edge in graph.graph.edges(data=True) if edge[2]["kind"] == "transition"]
-    start, end, edge = min((e for e in found if e[0][0] != e[1][0]), key=lambda e: e[2]["cost"])
-    first = graph.clips[start[0]][start[1] : start[1] + WINDOW]
-    second = edge["transform"].apply_motion(graph.clips[end[0]][end[1] - WINDOW : end[1]])
-    plotting.laid_over(first, second, every=WINDOW - 1)
-    return plt.gcf()
+    """Draw one pose of two clips: as they are, and the second aligned with the first."""
+    clips = [resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    first, second = clips[0][300:450], clips[1][450:600]
+    grid = matching.distance_grid(first, second, window=WINDOW)
+    i, j = np.unravel_index(grid.argmin(), grid.shape)
+    windows = first[int(i) : int(i) + WINDOW], second[int(j) : int(j) + WINDOW]
+    fit = matching.align(*(joint_positions(window).reshape(-1, 3) for window in windows))
+    figure = plt.figure(figsize=(8, 4.2))
+    for panel, moving in enumerate((windows[1], fit.apply_motion(windows[1]))):
+        poses = [joint_positions(motion)[WINDOW // 2] for motion in (windows[0], moving)]
+        ax: Axes3D = figure.add_axes((panel / 2, 0, 0.5, 0.92), projection="3d")
+        reach = 2.6 - 1.7 * panel
+        plotting.ground_axes(np.mean([pose[0, [0, 2]] for pose in poses], axis=0), reach, ax=ax)
+        ax.set_box_aspect((2 * reach, 2 * reach, 1.9), zoom=1.3)
+        for pose, colour in zip(poses, SOURCES, strict=False):
+            plotting.StickFigure(first.skeleton, ax, 0.8, colour).pose(pose)
+        ax.set_title(("as the clips are", "aligned")[panel])
+    return figure
+
+
+def draw_angles() -> Figure:
+    """Draw the short turn between two headings, and the turn by the means of their angles."""
+    return diagrams.two_ways_round()
+
+
+def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthesis.Problem:
+    """Make a search for steps that turn by -30°, 0° or 30°; `price` gets the place, steps made, and turn."""
+    graph = nx.MultiDiGraph([("left", "right")] * 3 + [("right", "left")] * 3)
+    nx.set_edge_attributes(graph, 18, "frames")
+
+    def step(state: tuple[complex, float, int], edge: Edge) -> tuple[float, Any]:
+        at, heading, made = state
+        heading += np.pi / 6 * (edge[2] - 1)
+        at += 0.7 * np.exp(1j * heading)
+        return price(at, made + 1, edge[2] - 1), (at, heading, made + 1)
+
+    return synthesis.Problem(graph, step, lambda state: state[2] == count)
+
+
+def _fan(tree: plotting.SearchTree, ax: Axes) -> None:
+    """Draw a search on the ground, seen from above."""
+    TreePicture(tree, places=[(at.imag, at.real) for at, _, _ in tree.state], ax=ax).after()
+    ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
+    ax.xaxis.set_inverted(True)
 
 
 def draw_search() -> Figure:
     """Draw a search for five steps along a path that turns back: its tree, and the same on the ground."""
     path = GroundPath(np.array([(0, 0), (0, 2.1), (0.7, 2.1), (0.7, 0)]))
-    graph = nx.MultiDiGraph([("left", "right")] * 3 + [("right", "left")] * 3)
-    nx.set_edge_attributes(graph, 18, "frames")
 
-    def step(state: tuple[complex, float, int], edge: Edge) -> tuple[float, Any]:
-        at, heading, steps = state
-        heading += np.pi / 6 * (edge[2] - 1)
-        at += 0.7 * np.exp(1j * heading)
-        x, z = path.at(0.7 * (steps + 1))
-        return abs(at - complex(z, x)) ** 2, (at, heading, steps + 1)
+    def price(at: complex, made: int, _: int) -> float:
+        x, z = path.at(0.7 * made)
+        return float(abs(at - complex(z, x)) ** 2)
 
-    problem = synthesis.Problem(graph, step, lambda state: state[2] == 5)
-    tree = plotting.grow_tree(problem, "left", (0j, 0.0, 0))
-    figure = plt.figure(figsize=(10, 3.6), layout="constrained")
-    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
+    tree = plotting.grow_tree(_steps(price=price, count=5), "left", (0j, 0.0, 0))
+    figure = plt.figure(figsize=(10, 4), layout="constrained")
+    left, right = figure.subplots(1, 2)
     TreePicture(tree, ax=left).after()
-    right.plot(*path.points.T, color=ASKED, linewidth=5, alpha=0.85)
-    TreePicture(tree, places=[(at.imag, at.real) for at, _, _ in tree.state], ax=right).after()
-    right.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
-    right.xaxis.set_inverted(True)
+    right.plot(*path.points.T, color=ASKED, linewidth=5, alpha=0.85, label="asked for")
+    _fan(tree, right)
+    figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
+    return figure
+
+
+def draw_bound() -> Figure:
+    """Draw a search for a goal behind the start, without a lower bound and with one."""
+    goal, count = -2 + 2j, 6
+    plain = _steps(price=lambda *_: 0.0, count=count)
+
+    def problem(bounded: bool) -> synthesis.Problem:
+        def ahead(at: complex, made: int) -> float:
+            return max(0.0, abs(at - goal) - 0.7 * (count - made)) ** 2 * (bounded and made < count)
+
+        def step(state: tuple[complex, float, int], edge: Edge) -> tuple[float, Any]:
+            _, after = plain.step(state, edge)
+            left = abs(after[0] - goal) ** 2 if after[2] == count else 0.0
+            turning = 0.02 * abs(edge[2] - 1)
+            return turning + left + ahead(after[0], after[2]) - ahead(state[0], state[2]), after
+
+        return synthesis.Problem(plain.graph, step, plain.done)
+
+    figure = plt.figure(figsize=(10, 4.6), layout="constrained")
+    for ax, bounded in zip(figure.subplots(1, 2), (False, True), strict=True):
+        tree = plotting.grow_tree(problem(bounded), "left", (0j, 0.0, 0))
+        _fan(tree, ax)
+        ax.plot(goal.imag, goal.real, "*", color=ASKED, markersize=16, label="goal")
+        how = "with a lower bound" if bounded else "without a lower bound"
+        ax.set_title(f"{how}: {tree.expanded} walks expanded", fontsize=11)
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
     return figure
 
 
@@ -209,12 +273,15 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "skeleton": draw_skeleton,
     "nodes": draw_nodes,
+    "clouds": draw_clouds,
     "distances": draw_distances,
     "pruning": draw_pruning,
     "path": draw_path,
     "search": draw_search,
+    "bound": draw_bound,
     "seam": draw_seam,
     "match": draw_match,
+    "angles": draw_angles,
 }
 
 

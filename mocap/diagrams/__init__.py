@@ -15,7 +15,7 @@ Reading order (notebooks 00 to 09)
 7. `small_graphs`: the homework's segments in rows, and Tarjan's search with its low links
 8. `eight_node_search`: the walks that a search takes up on the eight-node graph, as a tree
 9. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
-9. `jolts`: what a blend adds to the velocities of its clips
+10. `jolts`: what a blend adds to the velocities of its clips
 
 References
 ----------
@@ -31,7 +31,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "quaternions": ["double_cover", "half_turns", "turns_in_order"],
         "laying_clouds": ["laying_on", "rms_distance", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
-        "ground": ["alignment", "turn_on_ground"],
+        "ground": ["alignment", "meeting", "turn_on_ground", "two_ways_round"],
         "seams": ["blended_seam", "knee_triangle", "turning_paths"],
         "small_graphs": ["EIGHT_PLACES", "segments_in_rows", "tarjan_states", "tarjan_step"],
         "eight_node_search": ["edge_lengths", "search_events", "search_steps"],

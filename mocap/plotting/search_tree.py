@@ -1,9 +1,12 @@
-"""A search as a tree: every walk that it could try, those that it visited, those that its bound cut off."""
+"""A search as a tree: every walk that it could try, those that it expanded, those that its bound cut off.
+
+To expand a walk is to lengthen it by every edge that leaves its last node.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from typing import NamedTuple
 
 import matplotlib.pyplot as plt
@@ -15,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.errors import MocapError
-from mocap.plotting.style import COLOURS, PATH, QUIET
+from mocap.plotting.style import CURVES, PATH, QUIET
 from mocap.synthesis.bounded_search import Problem, SearchEdge, State, branch_and_bound
 
 Watched = tuple[State, tuple[SearchEdge, ...]]  # a problem's state, and the walk that leads to it
@@ -34,7 +37,8 @@ class SearchTree(NamedTuple):
     state : the problem's state after each.
     frames, cost : shape (T,), how long each is, and its cost f.
     complete : shape (T,), whether the halting rule or the horizon ends it.
-    visit : shape (T,), when the search visited it, counted from 0; T where it never did.
+    known : shape (T,), after how many expansions the search has expanded it, or, for a complete walk, has
+        found it to be the best so far; T where it never does.
     """
 
     parent: Indices
@@ -43,27 +47,27 @@ class SearchTree(NamedTuple):
     frames: Indices
     cost: Array
     complete: Mask
-    visit: Indices
+    known: Indices
 
     @property
-    def visits(self) -> int:
-        """How many of the walks the search visited."""
-        return int((self.visit < len(self.visit)).sum())
+    def expanded(self) -> int:
+        """How many walks the search expanded."""
+        return int(((self.known < len(self.known)) & ~self.complete).sum())
 
-    def best(self, visits: int) -> int:
-        """Find the cheapest complete walk among the first `visits` visited; -1 before there is one."""
-        cost = np.where(self.complete & (self.visit < visits), self.cost, np.inf)
+    def best(self, expanded: int) -> int:
+        """Find the cheapest complete walk known after so many expansions; -1 before there is one."""
+        cost = np.where(self.complete & (self.known <= expanded), self.cost, np.inf)
         return int(cost.argmin()) if np.isfinite(cost).any() else -1
 
-    def cut(self, visits: int) -> Mask:
-        """Mark the walks that the bound has cut off after the first `visits` walks."""
-        best = self.best(visits)
+    def cut(self, expanded: int) -> Mask:
+        """Mark the walks that the bound has cut off after so many expansions."""
+        best = self.best(expanded)
         bound = self.cost[best] if best >= 0 else np.inf
-        return self.waiting(visits) & (self.cost >= bound)
+        return self.waiting(expanded) & (self.cost >= bound)
 
-    def waiting(self, visits: int) -> Mask:
-        """Mark the walks that were not among the first `visits`, but whose parents were."""
-        met = self.visit < visits
+    def waiting(self, expanded: int) -> Mask:
+        """Mark the walks that are not known after so many expansions, but whose parents are."""
+        met = self.known <= expanded
         return np.asarray(met[self.parent] & (self.parent >= 0) & ~met)
 
     def line(self, walk: int) -> list[int]:
@@ -75,7 +79,7 @@ class SearchTree(NamedTuple):
 
 
 def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float = math.inf) -> SearchTree:
-    """Try every walk, and note which of them `synthesis.branch_and_bound` visits, and when.
+    """Try every walk, and note which of them `synthesis.branch_and_bound` expands, and when.
 
     Parameters
     ----------
@@ -93,15 +97,15 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
     >>> nx.set_edge_attributes(graph, 1, "frames")
     >>> second_costs = Problem(graph, lambda _, edge: (edge[2], None), lambda _: False)  # g is the edge's key
     >>> tree = grow_tree(second_costs, 1, None, horizon=3)
-    >>> len(tree.cost), tree.visits  # all walks of at most 3 edges; those that were visited
-    (15, 4)
+    >>> len(tree.cost), tree.expanded  # all walks of at most 3 edges; those that were lengthened
+    (15, 3)
 
     Notebook: 07-walks-and-search
     """
-    visit: dict[tuple[SearchEdge, ...], int] = {}
+    taken: list[tuple[SearchEdge, ...]] = []
 
     def done(watched: Watched) -> bool:
-        visit.setdefault(watched[1], len(visit))  # the search calls this for every walk that it visits
+        taken.append(watched[1])  # the search asks this of every walk that it takes up and does not cut
         return problem.done(watched[0])
 
     def step(watched: Watched, edge: SearchEdge) -> tuple[float, Watched]:
@@ -110,7 +114,7 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
 
     watching = Problem(problem.graph, step, done)
     found = _every_walk(watching, node, (state, ()), horizon)
-    visit.clear()
+    taken.clear()
     branch_and_bound(watching, node, (state, ()), horizon=horizon)
     parent, watched, frames, cost, complete = zip(*found, strict=True)
     states, walks = zip(*watched, strict=True)
@@ -121,8 +125,21 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
         np.array(frames),
         np.array(cost, float),
         np.array(complete),
-        np.array([visit.get(walk, len(walks)) for walk in walks]),
+        _known(walks, taken, dict(zip(walks, complete, strict=True))),
     )
+
+
+def _known(
+    walks: Sequence[tuple[SearchEdge, ...]],
+    taken: list[tuple[SearchEdge, ...]],
+    complete: dict[tuple[SearchEdge, ...], bool],
+) -> Indices:
+    """Say after how many expansions each walk is known, from the order in which the search took them up."""
+    known, expanded = {}, 0
+    for walk in taken:
+        expanded += not complete[walk]
+        known[walk] = expanded
+    return np.array([known.get(walk, len(walks)) for walk in walks])
 
 
 def _every_walk(
@@ -148,9 +165,9 @@ def _every_walk(
 
 
 class TreePicture:
-    """A search's tree, its root at the top: visited walks are blue, the others thin and grey.
+    """A search's tree, its root at the top: expanded walks are green, walks that it never saw thin and grey.
 
-    A red cross ends a walk that the bound cut off, a ring a walk that waits; the best walk so far is orange.
+    A cross ends a walk that the bound cut off, a ring a walk that waits; the best walk so far is orange.
 
     Parameters
     ----------
@@ -166,8 +183,8 @@ class TreePicture:
     >>> nx.set_edge_attributes(graph, 1, "frames")
     >>> second_costs = Problem(graph, lambda _, edge: (edge[2], None), lambda _: False)  # g is the edge's key
     >>> picture = TreePicture(grow_tree(second_costs, 1, None, horizon=3))
-    >>> plotting.show(picture.after(visits=2), alt="Eight walks of three edges; two walks are visited.")
-    Picture('Eight walks of three edges; two walks are visited.')
+    >>> plotting.show(picture.after(expanded=2), alt="Eight walks of three edges; two walks are expanded.")
+    Picture('Eight walks of three edges; two walks are expanded.')
 
     Notebook: 07-walks-and-search
     """
@@ -176,14 +193,14 @@ class TreePicture:
         self.tree = tree
         self.ax = ax or plt.figure(figsize=(9, 3.6), layout="constrained").add_subplot()
         self.places = _spread(tree) if places is None else np.asarray(places, float)
-        self.ax.add_collection(self._bundle(np.arange(1, len(tree.parent)), UNSEEN, 0.7))
-        self.visited = self._bundle([], COLOURS["left"], 1.4)
+        self.ax.add_collection(self._bundle(np.arange(1, len(tree.parent)), UNSEEN, 0.7, "never seen"))
+        self.expanded = self._bundle([], CURVES[0], 1.6, "expanded")
         self.pending = self._bundle([], QUIET, 0.9)
-        self.cut = self._bundle([], COLOURS["right"], 0.9)
-        self.best = self._bundle([], PATH, 3.0)
-        (self.crosses,) = self.ax.plot([], [], "x", color=COLOURS["right"], markersize=4.5)
-        (self.rings,) = self.ax.plot([], [], "o", color=QUIET, mfc="white", markersize=4)
-        for bundle in (self.pending, self.cut, self.visited, self.best):
+        self.cut = self._bundle([], CURVES[1], 0.9)
+        self.best = self._bundle([], PATH, 3.5, "best so far")
+        (self.crosses,) = self.ax.plot([], [], "x", color=CURVES[1], markersize=4.5, label="cut by the bound")
+        (self.rings,) = self.ax.plot([], [], "o", color=QUIET, mfc="white", markersize=4, label="waiting")
+        for bundle in (self.pending, self.cut, self.expanded, self.best):
             self.ax.add_collection(bundle)
         self.ax.autoscale_view()
         if places is None:
@@ -191,26 +208,27 @@ class TreePicture:
             self.ax.set(xticks=[], ylabel="frames ahead")
             self.ax.spines[["top", "right", "bottom"]].set_visible(False)
 
-    def after(self, visits: int | None = None) -> list[Artist]:
-        """Show the search after the first `visits`, by default all, and return the artists that moved."""
-        tree, visits = self.tree, self.tree.visits if visits is None else visits
-        met, cut, best = tree.visit < visits, tree.cut(visits), tree.best(visits)
-        pending = tree.waiting(visits) & ~cut
-        self.visited.set_segments(self._lines(np.flatnonzero(met & (tree.parent >= 0))))
+    def after(self, expanded: int | None = None) -> list[Artist]:
+        """Show the search after so many expansions, by default all, and return the artists that moved."""
+        tree, expanded = self.tree, self.tree.expanded if expanded is None else expanded
+        met, cut, best = tree.known <= expanded, tree.cut(expanded), tree.best(expanded)
+        pending = tree.waiting(expanded) & ~cut
+        self.expanded.set_segments(self._lines(np.flatnonzero(met & (tree.parent >= 0))))
         self.cut.set_segments(self._lines(np.flatnonzero(cut)))
         self.pending.set_segments(self._lines(np.flatnonzero(pending)))
         self.best.set_segments(self._lines(tree.line(best)[1:] if best >= 0 else []))
         self.crosses.set_data(*self.places[cut].T)
         self.rings.set_data(*self.places[pending].T)
-        return [self.pending, self.cut, self.visited, self.best, self.crosses, self.rings]
+        return [self.pending, self.cut, self.expanded, self.best, self.crosses, self.rings]
 
     def _lines(self, walks: ArrayLike) -> list[Array]:
         """Give a line for the last edge of each of these walks: the places of its two ends."""
         ends = np.asarray(walks, int)
         return list(np.stack([self.places[self.tree.parent[ends]], self.places[ends]], axis=1))
 
-    def _bundle(self, walks: ArrayLike, colour: str, width: float) -> LineCollection:
-        return LineCollection(self._lines(walks), colors=colour, linewidths=width, capstyle="round")
+    def _bundle(self, walks: ArrayLike, colour: str, width: float, name: str | None = None) -> LineCollection:
+        lines = self._lines(walks)
+        return LineCollection(lines, colors=colour, linewidths=width, label=name, capstyle="round")
 
 
 def _spread(tree: SearchTree) -> Array:

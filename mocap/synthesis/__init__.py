@@ -9,7 +9,8 @@ Reading order (notebook 07)
 2. `random_walks`: choose transitions at random
 3. `walk_to_motion`: turn a walk into a motion
 4. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
-5. `streaming`: make hours of motion, piece by piece
+5. `ground_walks`: price where a walk leads on the ground
+6. `streaming`: make hours of motion, piece by piece
 
 References
 ----------
@@ -33,6 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "children",
             "search_ahead",
         ],
+        "ground_walks": ["GroundWalks", "Stand"],
         "streaming": ["dump", "stream"],
     },
 )

@@ -20,30 +20,31 @@ def test_the_tree_holds_every_walk_and_where_the_search_went(seed, length):
     tree, found = grow_tree(problem, 0, ()), branch_and_bound(problem, 0, ())
     walks = {tuple(walk): cost for cost, walk in every_walk(problem, 0)}
     assert {tree.state[t]: tree.cost[t] for t in np.flatnonzero(tree.complete)} == pytest.approx(walks)
-    assert sorted(tree.visit[tree.visit < len(tree.visit)]) == list(range(tree.visits))
-    best = tree.best(tree.visits)
+    met = tree.known < len(tree.known)
+    assert sorted(tree.known[met & ~tree.complete]) == list(range(1, tree.expanded + 1))
+    best = tree.best(tree.expanded)
     assert tree.cost[best] == pytest.approx(found.cost)
     assert [tree.edge[t] for t in tree.line(best)[1:]] == found.walk
-    assert tree.cut(tree.visits).sum() == found.cut
-    assert tree.visits - found.expanded == (tree.complete & (tree.visit < len(tree.visit))).sum()
+    assert tree.cut(tree.expanded).sum() == found.cut
+    assert tree.expanded == found.expanded
 
 
 def test_the_bound_falls_and_cuts_as_the_search_goes_on():
     tree = grow_tree(problem_on(random_graph(3), 5), 0, ())
-    bests = [tree.best(n) for n in range(tree.visits + 1)]
+    bests = [tree.best(n) for n in range(tree.expanded + 1)]
     bounds = [tree.cost[best] if best >= 0 else np.inf for best in bests]
     assert bests[0] == -1
     assert bounds == sorted(bounds, reverse=True)
     assert not tree.cut(0).any()
-    for visits, bound in enumerate(bounds):
-        assert (tree.cost[tree.cut(visits)] >= bound).all()
+    for expanded, bound in enumerate(bounds):
+        assert (tree.cost[tree.cut(expanded)] >= bound).all()
 
 
 def test_a_horizon_ends_walks_in_the_tree_too():
     problem = problem_on(random_graph(1), 99)
     tree, found = (f(problem, 0, (), horizon=5) for f in (grow_tree, branch_and_bound))
     assert (tree.frames[tree.complete] >= 5).all()
-    assert tree.cost[tree.best(tree.visits)] == pytest.approx(found.cost)
+    assert tree.cost[tree.best(tree.expanded)] == pytest.approx(found.cost)
 
 
 def test_a_tree_too_large_to_draw_is_refused():
@@ -56,15 +57,16 @@ def test_a_tree_too_large_to_draw_is_refused():
 def test_the_picture_shows_each_branch_once():
     tree = grow_tree(problem_on(random_graph(2), 5), 0, ())
     picture = TreePicture(tree)
-    for visits in (0, 1, tree.visits // 2, tree.visits):
-        pending, cut, visited, best, crosses, rings = picture.after(visits)
-        counts = [len(part.get_segments()) for part in (visited, cut, pending, best)]
-        assert counts[0] == max(0, visits - 1)
-        assert counts[1] == len(crosses.get_xdata()) == tree.cut(visits).sum()
+    for count in (0, 1, tree.expanded // 2, tree.expanded):
+        pending, cut, expanded, best, crosses, rings = picture.after(count)
+        counts = [len(part.get_segments()) for part in (expanded, cut, pending, best)]
+        found = int((tree.complete & (tree.known <= count)).sum())
+        assert counts[0] == max(0, count - 1) + found
+        assert counts[1] == len(crosses.get_xdata()) == tree.cut(count).sum()
         assert counts[2] == len(rings.get_xdata())
-        assert (counts[3] > 0) == (tree.best(visits) >= 0)
+        assert (counts[3] > 0) == (tree.best(count) >= 0)
     assert counts[2] == 0
-    assert picture.after() == [pending, cut, visited, best, crosses, rings]
+    assert picture.after() == [pending, cut, expanded, best, crosses, rings]
     ends = picture.places[tree.complete]
     assert len(np.unique(ends[:, 0])) == len(ends)  # each has its own column
 

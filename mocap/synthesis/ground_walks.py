@@ -1,0 +1,84 @@
+"""Walks as they run on the ground, for searches that price where the root is [KGP02, 4.2].
+
+Ground points are complex numbers z + ix: z runs ahead, x to the left. A walk's clip is placed by
+p ↦ turn · p + move. An edge turns and moves what comes after it, so both are running products and sums.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Points
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.synthesis.bounded_search import Problem, SearchEdge
+
+Price = Callable[[Points, int, SearchEdge], float]
+"""From the root's ground points along an edge, the frames walked before it, and the edge, to its cost."""
+
+
+class Stand(NamedTuple):
+    """Where a walk has led: what comes next is placed by p ↦ turn · p + move; so many frames are walked."""
+
+    turn: complex
+    move: complex
+    frames: int = 0
+
+
+class GroundWalks:
+    """The walks through a motion graph, seen from above.
+
+    Parameters
+    ----------
+    motion_graph : the graph.
+
+    Examples
+    --------
+    The walk of 20 frames that strays least from the straight line ahead:
+
+    >>> from mocap import body, datasets, graphs, synthesis
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> walks = GroundWalks(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> node, start = walks.start(40)
+    >>> problem = walks.problem(lambda points, before, edge: (points.imag**2).sum(), frames=20)
+    >>> found = synthesis.branch_and_bound(problem, node, start)
+    >>> len(walks.points(found.walk, start)) == found.state.frames >= 20
+    True
+    """
+
+    def __init__(self, motion_graph: MotionGraph) -> None:
+        self.graph = compile_graph(motion_graph)
+        self.number: dict[SearchEdge, int] = {edge: n for n, edge in enumerate(self.graph.edges)}
+
+    def start(self, number: int) -> tuple[Node, Stand]:
+        """Stand at a node of this number, at the origin, and move straight ahead."""
+        turn = np.exp(-1j * self.graph.going[number])
+        return self.graph.nodes[number], Stand(turn, -turn * self.graph.at[number])
+
+    def step(self, stand: Stand, edge: SearchEdge) -> tuple[Points, Stand]:
+        """Walk along an edge: give the root in each of its frames, and where it leads."""
+        e, tracks = self.number[edge], self.graph.tracks
+        frames = int(self.graph.frames[e])
+        points = stand.turn * tracks.ground[tracks.first[e] : tracks.first[e] + frames] + stand.move
+        turn, move = self.graph.turn[e], self.graph.move[e]
+        after = Stand(stand.turn * turn, stand.move + stand.turn * move, stand.frames + frames)
+        return points, after
+
+    def points(self, walk: Sequence[SearchEdge], stand: Stand) -> Points:
+        """Give the root in each frame of a walk."""
+        found = []
+        for edge in walk:
+            points, stand = self.step(stand, edge)
+            found.append(points)
+        return np.concatenate(found)
+
+    def problem(self, price: Price, *, frames: float = math.inf) -> Problem:
+        """Make a search problem: each edge costs what `price` says; a walk of so many frames is complete."""
+
+        def step(stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
+            points, after = self.step(stand, edge)
+            return float(price(points, stand.frames, edge)), after
+
+        return Problem(self.graph.source.graph, step, lambda stand: stand.frames >= frames)
