@@ -1,12 +1,14 @@
 """Players that Python and the reader move together, and a canvas to draw a path on.
 
-Here `anywidget` runs the player's scripts: `frame`, `scene` and `path` are traits, which both sides can set
-and observe.
+Here `anywidget` runs the player's scripts. Scenes are numbered: a frame that the browser sent while another
+scene was shown does not count.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -16,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 from mocap.widgets.player import Player, play, script
 
 Follow = Callable[[Array], Motion | Player]
@@ -26,12 +28,24 @@ class _Shown:
     """The live player without its traits: the player that it shows, and its output in a notebook."""
 
     player: Player
+    scene: Any
+    known = False  # whether the browser knows the frame that is being set
 
     def show(self, player: Player, **extra: bool) -> None:
         """Show another player in the same place, from its first frame on."""
         self.player = player
-        self.frame = 0  # before the new scene, which may have fewer frames
-        self.scene = player.scene | extra
+        with self.silent():
+            self.frame = 0  # before the new scene, which may have fewer frames
+        self.scene = player.scene | extra | {"number": self.scene["number"] + 1}
+
+    @contextmanager
+    def silent(self) -> Iterator[None]:
+        """Set `frame` without a word to the browser, where it is known already."""
+        self.known = True
+        try:
+            yield
+        finally:
+            self.known = False
 
     def __repr__(self) -> str:
         return f"LivePlayer({self.player.alt!r})"
@@ -56,7 +70,9 @@ def _live_player() -> type[Any]:
 
         _esm = script()
         scene = traitlets.Dict().tag(sync=True)
-        frame = traitlets.Int(0).tag(sync=True)
+        frame = traitlets.Int(0)
+        at: traitlets.List[Any] = traitlets.List([-1, 0]).tag(sync=True)  # the browser's: scene, frame
+        move: traitlets.List[Any] = traitlets.List([0, 0]).tag(sync=True)  # Python's: scene, frame
         path: traitlets.List[Any] = traitlets.List().tag(sync=True)
         message = traitlets.Unicode().tag(sync=True)
 
@@ -66,6 +82,18 @@ def _live_player() -> type[Any]:
             if not 0 <= frame < frames:
                 raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
             return frame
+
+        @traitlets.observe("at")
+        def _reader_moved(self, change: dict[str, Any]) -> None:
+            number, frame = change["new"]
+            if number == self.scene["number"]:
+                with self.silent():
+                    self.frame = frame
+
+        @traitlets.observe("frame")
+        def _moved(self, change: dict[str, Any]) -> None:
+            if not self.known:
+                self.move = [self.scene["number"], change["new"]]
 
     return LivePlayer
 
@@ -93,7 +121,7 @@ def linked(player: Player) -> Any:  # noqa: ANN401
     >>> walk.frame = 12
     now at 12
     """
-    widget = _live_player()(scene=player.scene)
+    widget = _live_player()(scene=player.scene | {"reports": True})
     widget.player = player
     return widget
 
@@ -104,7 +132,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     Parameters
     ----------
     follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
-        Its `alt` stands below the canvas and can say how far off the path the walk is. Its `path`, if it has
+        Its `alt` and all warnings stand below the canvas and can say how far off the path the walk is. Its `path`, if it has
         one, is drawn instead of the reader's line: give there the path that was followed, such as a spline.
     path : the first path, shape (N, 2).
 
@@ -127,17 +155,18 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Notebook: 08-path-synthesis
     """
-    on_canvas = {"drawable": True, "follow": False}
+    on_canvas = {"drawable": True, "follow": False, "reports": False}
     points = np.reshape(np.asarray(path, float), (-1, 2))
-    canvas = linked(_along(follow, points))
+    player, message = _along(follow, points)
+    canvas = linked(player)
     canvas.scene = canvas.scene | on_canvas
-    canvas.path = points.tolist()
-    canvas.error, canvas.message = None, canvas.player.alt
+    canvas.path, canvas.error, canvas.message = points.tolist(), None, message
 
     def walk(change: dict[str, Any]) -> None:
         try:
-            canvas.show(_along(follow, np.array(change["new"], float)), **on_canvas, autoplay=True)
-            canvas.error, canvas.message = None, canvas.player.alt
+            player, message = _along(follow, np.array(change["new"], float))
+            canvas.show(player, **on_canvas, autoplay=True)
+            canvas.error, canvas.message = None, message
         except Exception as error:  # of any kind: it comes from a student's function
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
 
@@ -145,7 +174,12 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     return canvas
 
 
-def _along(follow: Follow, path: Array) -> Player:
-    made = follow(path)
+def _along(follow: Follow, path: Array) -> tuple[Player, str]:
+    """Follow a path; return the player, and what stands below the canvas: its `alt`, and all warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", MocapWarning)
+        made = follow(path)
     player = made if isinstance(made, Player) else play(made)
-    return player if len(player.marks.path) else replace(player, marks=player.marks._replace(path=path))
+    if not len(player.marks.path):
+        player = replace(player, marks=player.marks._replace(path=path))
+    return player, "\n".join([player.alt, *(str(warning.message) for warning in caught)])

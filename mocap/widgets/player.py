@@ -38,7 +38,16 @@ Sources = Sequence[tuple[int, str]]
 ASTRAY = 0.15  # metres off the path that was asked for, from where on a walk's path is red
 WALKS = 1.0  # metres of ground that a motion covers at least, to be drawn along its path
 SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
-PARTS = ("player_scene.js", "player_picture.js", "player.js")  # of one module, in this order
+FILES = ("scene", "picture", "page", "hand")  # of the scripts; "player.js" comes last
+PARTS = (*(f"player_{part}.js" for part in FILES), "player.js")
+PAGE_STYLE = """<style>
+:root { color-scheme: light dark; }
+body { margin: 0 auto; padding: 0.5rem; max-width: 1400px; box-sizing: border-box; }
+h1 { margin: 0.25rem 0; font: 600 1.1rem system-ui, sans-serif; }
+.mocap-page .mocap-player { max-width: none; }
+.mocap-page .mocap-player canvas { height: clamp(160px, calc(100svh - 11rem), 100vw); }
+</style>
+"""
 SIDES = ("middle", "left", "right")  # the scripts know a side by its number
 
 
@@ -99,8 +108,12 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
 
 def _alt(motions: Sequence[Motion]) -> str:
     who = "A stick figure plays" if len(motions) == 1 else f"{len(motions)} stick figures play"
-    names = ", ".join(dict.fromkeys(motion.name for motion in motions))
-    return f"{who} {names}, {max(motion.duration for motion in motions):.1f} s."
+    return f"{who} {names(motions)}, {max(motion.duration for motion in motions):.1f} s."
+
+
+def names(motions: Sequence[Motion]) -> str:
+    """Join the different names of motions."""
+    return ", ".join(dict.fromkeys(motion.name for motion in motions))
 
 
 class Marks(NamedTuple):
@@ -153,6 +166,8 @@ class Player:
         }
         return {
             "alt": self.alt,
+            "number": 0,
+            "reports": False,
             "fps": first.fps,
             "frames": max(1 + round(motion.duration * first.fps) for motion in self.motions),
             "follow": self.follow,
@@ -194,7 +209,8 @@ class Player:
             f'<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
             f'<link rel="icon" href="data:,">\n<title>{html.escape(self.alt)}</title>\n'
-            f"<style>body {{ margin: 1rem auto; max-width: 720px; }}</style>\n{self.html()}</html>\n"
+            f'{PAGE_STYLE}<body class="mocap-page">\n<h1>{html.escape(names(self.motions))}</h1>\n'
+            f"{self.html()}</body>\n</html>\n"
         )
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:

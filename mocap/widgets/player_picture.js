@@ -6,15 +6,17 @@ class Picture {
   constructor(canvas, camera) { this.canvas = canvas; this.camera = camera; }
 
   // Draw the characters at a time, seen from `distance` metres away from `target`. `asked` and `drawn` are paths on
-  // the ground, `sides` are the colours of a body's sides, and the ground reaches at least `reach` metres.
-  draw({ characters, time, asked, drawn, sides, ghosts, target, distance, reach }) {
-    Object.assign(this, { characters, time, sides });
+  // the ground, `pen` is a place on it, `sides` are the colours of a body's sides, and the ground reaches at least
+  // `reach` metres.
+  draw({ characters, time, asked, drawn, pen, sides, marks, palette, ghosts, target, distance, reach }) {
+    Object.assign(this, { characters, time, sides, marks, palette });
     const [wide, high] = this.clear();
     this.camera.place(target, distance, wide, high);
     this.drawGround(target, reach);
     const flat = (places) => places.map(([x, z]) => [x, 0, z]);
-    this.stroke([flat(asked)], "#000000", 6, 0.75);
-    this.stroke([flat(drawn)], "#000000", 3);
+    this.stroke([flat(asked)], palette.asked, 6, 0.75);
+    this.stroke([flat(drawn)], palette.asked, 3);
+    if (pen) this.disc([pen[0], 0.005, pen[1]], 0.12, palette.asked, 0.8, true);
     for (const character of characters) this.drawTrail(character);
     if (ghosts) this.drawGhosts();
     this.drawBodies();
@@ -40,21 +42,14 @@ class Picture {
       const fade = 1 - Math.abs(i) / (lines + 1);
       const along = [[x0 + i, 0, z0 - lines], [x0 + i, 0, z0 + lines]];
       const across = [[x0 - lines, 0, z0 + i], [x0 + lines, 0, z0 + i]];
-      this.stroke([along, across], "#bbbbbb", 1, fade);
+      this.stroke([along, across], this.palette.line, 1, fade);
     }
   }
 
-  // The root's path in the colours of its sources, and footprints: strong while the foot stands, pale afterwards.
+  // The root's path, its seams, and footprints: strong while the foot stands, pale afterwards.
   drawTrail(character) {
-    const { path } = character;
-    for (let i = 1, start = 0; i <= path.length; i++) {
-      const colour = character.colourAt(path[start][0]);
-      if (i < path.length && character.colourAt(path[i][0]) === colour) continue;
-      const end = Math.min(i + 1, path.length);
-      const line = path.slice(start, end).map(([, px, pz]) => [px, 0, pz]);
-      this.stroke([line], character.sources.length ? colour : character.path_colour, 2.5);
-      start = i;
-    }
+    for (const { colour, line } of character.trail) this.stroke([line], colour, 2.5);
+    for (const place of character.diamonds) this.disc(place, 0.07, this.marks.seam, 1, true);
     for (const [start, end, px, pz, side] of character.prints) {
       if (this.time >= start) this.disc([px, 0.005, pz], 0.055, this.sides[side], this.time < end ? 0.95 : 0.25, true);
     }
@@ -65,11 +60,16 @@ class Picture {
       const time = this.time - k * GHOST_GAP;
       if (time < 0) continue;
       for (const character of this.characters) {
-        const lines = this.bones(character, time).map((bone) => bone.ends);
-        this.stroke(lines, character.colourAt(time), 0.03, 0.5 * (1 - k / (GHOSTS + 1)), true);
+        const bones = this.bones(character, time), lines = bones.map((bone) => bone.ends);
+        const colour = this.ink(character.colourAt(time)), alpha = 0.5 * (1 - k / (GHOSTS + 1));
+        this.stroke(lines, colour, 0.03, alpha, true);
+        if (bones.head) this.disc(bones.head, 0.095, colour, alpha, false);
       }
     }
   }
+
+  // The colour of the middle of a body is dark on light, and light on dark.
+  ink(colour) { return colour === "#333333" ? this.palette.ink : colour; }
 
   bones(character, time) {
     const pose = character.pose(time), place = (joint) => Array.from(pose.subarray(3 * joint, 3 * joint + 3));
@@ -82,8 +82,8 @@ class Picture {
   drawBodies() {
     const parts = [];
     for (const character of this.characters) {
-      const bones = this.bones(character, this.time), own = character.colourAt(this.time);
-      this.stroke(bones.map(({ ends }) => ends.map(([x, , z]) => [x, 0, z])), "#000000", 0.05, 0.15, true);
+      const bones = this.bones(character, this.time), own = this.ink(character.colourAt(this.time));
+      this.stroke(bones.map(({ ends }) => ends.map(([x, , z]) => [x, 0, z])), this.palette.shadow, 0.05, 0.15, true);
       for (const { ends, side } of bones) {
         const far = this.camera.see(...ends[0])[2] + this.camera.see(...ends[1])[2];
         parts.push({ far: far / 2, paint: () => this.stroke([ends], side ? this.sides[side] : own, 0.04, 1, true) });

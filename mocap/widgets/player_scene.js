@@ -1,11 +1,10 @@
-// What the player shows: characters, and the camera that sees them. `player.py` joins `player_scene.js`,
-// `player_picture.js` and `player.js`, in this order, to one module.
+// What the player shows: characters, and the camera that sees them. `player.py` joins the scripts to one module.
 //
 // World: y up, metres, seconds. The camera turns about a target; `Camera.see` and `pixel` are the whole projection.
 
 class Camera {
-  constructor() { this.reset(); }
-  reset() { this.yaw = 0.7; this.pitch = 0.25; this.zoom = 1; }
+  constructor() { this.reset(0.25); }
+  reset(pitch) { this.yaw = 0.7; this.pitch = pitch; this.zoom = 1; }
 
   // Stand `distance` away from `target`, on a canvas of width × height pixels.
   place(target, distance, width, height) {
@@ -49,12 +48,14 @@ async function inflated(data) {
 // A character: where its joints are at any time. A coordinate is low + step · number metres, with a 16-bit number.
 // What Python sends are second differences over time, one coordinate after the other, compressed to less than half.
 class Character {
-  constructor(packed, bytes) {
+  constructor(packed, bytes, marks) {
     Object.assign(this, packed);
     this.numbers = new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3);
     this.sum();
     this.seconds = (packed.frames - 1) / packed.fps;
     this.path = this.pathOnGround();
+    this.trail = this.colouredPath(marks);
+    this.diamonds = this.seams.map((time) => { const root = this.pose(time); return [root[0], 0, root[2]]; });
   }
 
   // Undo the differences, modulo 2¹⁶.
@@ -84,6 +85,18 @@ class Character {
     const every = Math.max(1, Math.floor(this.frames / 1000)), path = [];
     for (let frame = 0; frame < this.frames; frame += every) path.push([frame / this.fps, this.place(0, frame), this.place(2, frame)]);
     return path;
+  }
+
+  // The path as lines of one colour: that of the clip, or red where it is off the path that was asked for.
+  colouredPath(marks) {
+    const own = (time) => (this.sources.length ? this.colourAt(time) : this.path_colour), lines = [];
+    const colourOf = (time) => (this.astray.some(([start, end]) => start <= time && time < end) ? marks.astray : own(time));
+    for (const [time, x, z] of this.path) {
+      const colour = colourOf(time), last = lines.at(-1);
+      if (last) last.line.push([x, 0, z]);
+      if (last?.colour !== colour) lines.push({ colour, line: [[x, 0, z]] });
+    }
+    return lines;
   }
 
   // The colour of the clip that a time comes from.

@@ -3,13 +3,15 @@
 from textwrap import dedent
 
 import nbformat
+import numpy as np
 import pytest
 
 from tests.browser.conftest import run_notebook, wait_until, watched_page
 
 CELLS = {
     "start": """
-        import ipywidgets, numpy as np
+        import ipywidgets, numpy as np, warnings
+        from mocap import MocapWarning
         from mocap import blending, datasets, matching, plotting, resample
         from mocap.body import joint_positions
         from mocap.plotting import show
@@ -51,7 +53,8 @@ CELLS = {
             if length < 1:
                 raise ValueError("a path of less than a metre")
             drawn.value = f"Python was asked for {length:.1f} m"
-            return walk
+            warnings.warn("The walk leaves the path once.", MocapWarning)
+            return walk[: 60 + 10 * len(path)]
         drawn = ipywidgets.Label()
         canvas = draw_path(follow, [[0, 0], [1, 2], [0, 4]])
         canvas""",
@@ -206,5 +209,49 @@ def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
     page.screenshot(path=artefacts / "lab-path.png")
     asked = place.locator(".mocap-player").evaluate("root => root.player.scene.asked.length")
     assert asked > 5
-    draw((12, 0))
-    wait_until(lambda: place.get_by_text("ValueError: a path of less than a metre").is_visible())
+    assert "The walk leaves the path once." in place.locator(".message").inner_text()
+    draw((3, 0))
+    wait_until(lambda: place.get_by_text("Drag over the ground for at least 0.5 m.").is_visible())
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    wait_until(lambda: place.get_by_text("That is 0.0 m.").is_visible())
+
+
+def test_each_new_drawing_sets_out_while_the_last_walk_plays(notebook):
+    page, cell = notebook
+    place = cell("draw")
+    wait_until(lambda: state(place) >= 0)
+    box = place.locator("canvas").bounding_box()
+    player = place.locator(".mocap-player")
+    for redraw in range(20):
+        number = player.evaluate("root => root.player.scene.number")
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for k in range(1, 8):
+            page.mouse.move(x + (15 + redraw) * k, y + 8 * k)
+        page.mouse.up()
+        wait_until(lambda n=number: player.evaluate("root => root.player.scene.number") == n + 1)
+        assert state(place) < 40, redraw
+        wait_until(lambda: player.get_attribute("data-playing") == "true")
+        start = state(place)
+        wait_until(lambda start=start: state(place) > start + 2)
+
+
+def test_a_path_is_drawn_by_the_keys(notebook):
+    page, cell = notebook
+    place = cell("draw")
+    wait_until(lambda: state(place) >= 0)
+    player = place.locator(".mocap-player")
+    number = player.evaluate("root => root.player.scene.number")
+    place.locator("canvas").focus()
+    for key in ("p", *["ArrowUp"] * 6, *["ArrowRight"] * 5, "Backspace"):
+        page.keyboard.press(key)
+    drawn = player.evaluate("root => root.player.hand.drawn")
+    assert len(drawn) == 11
+    assert player.evaluate("root => root.player.hand.metres") == pytest.approx(10 * 0.25, abs=0.01)
+    page.keyboard.press("Enter")
+    wait_until(lambda: player.evaluate("root => root.player.scene.number") == number + 1)
+    assert np.allclose(player.evaluate("root => root.player.scene.asked"), drawn, atol=1e-3)
+    page.keyboard.press("p")
+    page.keyboard.press("Escape")
+    assert player.evaluate("root => root.player.hand.pen") is False

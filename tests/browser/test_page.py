@@ -76,7 +76,7 @@ def test_scrubbing_goes_to_a_frame(resting):
     page.get_by_role("slider", name="frame").focus()
     page.keyboard.press("End")
     assert frame(page) == 299
-    wait_until(lambda: "frame 299 of 300" in page.locator("output").inner_text())
+    wait_until(lambda: "frame 299 of 300" in page.locator(".clock").inner_text())
     wait_until(lambda: np.any(colours(page) != before))
 
 
@@ -164,19 +164,118 @@ def test_two_fingers_zoom(resting, touch):
     wait_until(lambda: np.any(colours(page) != before))
 
 
-def test_one_finger_turns_and_does_not_scroll(resting, touch):
+def test_one_finger_across_turns_and_does_not_scroll(resting, touch):
     page = resting(play(wave(300)))
     page.evaluate("document.body.style.height = '3000px'")
     yaw, pitch, before = *page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]"), colours(page)
     touch("touchStart", (300, 200))
     for k in range(1, 10):
-        touch("touchMove", (300 - 10 * k, 200 + 5 * k))
+        touch("touchMove", (300 - 10 * k, 200 + 2 * k))
     touch("touchEnd")
     wait_until(lambda: page.evaluate(f"{PLAYER}.camera.yaw") == pytest.approx(yaw + 90 / 150, rel=0.05))
-    assert page.evaluate(f"{PLAYER}.camera.pitch") == pytest.approx(pitch + 45 / 150, rel=0.05)
+    assert page.evaluate(f"{PLAYER}.camera.pitch") == pytest.approx(pitch + 18 / 150, rel=0.05)
     assert page.evaluate("scrollY") == 0
     wait_until(lambda: np.any(colours(page) != before))
-    assert page.evaluate(f"{PLAYER}.pointers.size") == 0
+    assert page.evaluate(f"{PLAYER}.hand.pointers.size") == 0
+
+
+def test_one_finger_down_scrolls_the_page(resting, touch):
+    page = resting(play(wave(300)))
+    page.evaluate("document.body.style.height = '3000px'")
+    touch("touchStart", (300, 300))
+    for k in range(1, 15):
+        touch("touchMove", (300, 300 - 15 * k))
+    touch("touchEnd")
+    wait_until(lambda: page.evaluate("scrollY") > 50)
+
+
+def test_seams_and_stretches_off_the_path_are_marked(resting):
+    off = np.where(np.arange(300) < 150, 0.0, 0.3)
+    motion = wave(300)
+    page = resting(play(motion, seams=[30, 90], path=[(0, 0), (0, 6)], off=off, follow=False))
+    assert page.locator(".legend").inner_text() == "seamoff the path"
+    left = page.locator(".scrub i").evaluate_all("marks => marks.map((mark) => parseFloat(mark.style.left))")
+    assert left == pytest.approx([100 * 30 / 299, 100 * 90 / 299], abs=0.01)
+    trail = page.evaluate(f"{PLAYER}.characters[0].trail.map(({{ colour, line }}) => [colour, line.length])")
+    assert [colour for colour, _ in trail] == ["#E69F00", "#B00020"]
+    assert [length for _, length in trail] == [151, 150]
+    places = page.evaluate(f"{PLAYER}.characters[0].diamonds")
+    assert places == pytest.approx(motion.root_positions[[30, 90]] * [1, 0, 1], abs=1e-3)
+
+
+@pytest.mark.parametrize(("wide", "high"), [(1200, 900), (390, 844), (844, 390), (1920, 1080)])
+def test_figure_path_and_controls_are_in_sight(resting, wide, high, page, artefacts):
+    page.set_viewport_size({"width": wide, "height": high})
+    player = play(wave(600), path=[(0, 0), (3, 6), (-3, 12)], follow=False)
+    resting(player)
+    page.screenshot(path=artefacts / f"page-{wide}.png")
+    assert page.evaluate("document.documentElement.scrollWidth") <= wide
+    for part in page.locator(".mocap-player :is(canvas, .play, .scrub input)").all():
+        box = part.bounding_box()
+        assert box["y"] + box["height"] <= high
+    assert page.get_by_role("heading").inner_text() == "wave"
+    in_canvas = page.evaluate(f"""() => {{
+        const p = {PLAYER}, box = [p.canvas.clientWidth, p.canvas.clientHeight];
+        p.draw();
+        const points = [...p.scene.asked.map(([x, z]) => [x, 0, z]), [0, 1.7, 0], [0, 1.7, 12]];
+        return points.map((q) => p.camera.pixel(p.camera.see(...q)).map((v, i) => v / box[i]));
+    }}""")
+    assert np.min(in_canvas) > 0
+    assert np.max(in_canvas) < 1
+    page.evaluate(f"{PLAYER}.camera.yaw = 2; {PLAYER}.reach = 1")
+    page.get_by_role("button", name="reset view").click()
+    assert page.evaluate(f"{PLAYER}.camera.yaw") == 0.7
+    assert page.evaluate(f"{PLAYER}.reach") > 3
+
+
+def test_fingers_have_room(browser, tmp_path):
+    file = tmp_path / "player.html"
+    file.write_text(play(wave(60)).page(), "utf-8")
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page = context.new_page()
+    page.goto(file.as_uri())
+    wait_until(lambda: page.evaluate(f"{PLAYER}?.pictures > 0"))
+    for part in page.locator(".mocap-player :is(button, select, label, .scrub input)").all():
+        if part.is_visible():
+            box = part.bounding_box()
+            assert min(box["width"], box["height"]) >= 44, part.evaluate("part => part.outerHTML")
+    context.close()
+
+
+def test_it_fills_the_screen_when_asked(resting):
+    page = resting(play(wave(60)))
+    page.get_by_role("button", name="full screen").click()
+    wait_until(lambda: page.evaluate("document.fullscreenElement?.className.includes('mocap-player')"))
+    wait_until(lambda: page.locator("canvas").bounding_box()["height"] > 600)
+    page.get_by_role("button", name="full screen").click()
+    wait_until(lambda: page.evaluate("document.fullscreenElement === null"))
+
+
+def test_names_stand_for_screen_readers_and_nothing_speaks_while_it_plays(shown):
+    page = shown(play(wave(300)))
+    assert page.get_by_role("application", name="A stick figure plays wave, 10.0 s.").is_visible()
+    assert page.get_by_role("combobox", name="speed").is_visible()
+    live = page.locator(".mocap-player :is(output, [aria-live], [role=status])")
+    page.evaluate("window.spoken = 0")
+    for part in live.all():
+        watch = "new MutationObserver(() => window.spoken++)"
+        part.evaluate(f"part => {watch}.observe(part, {{ childList: true, subtree: true }})")
+    start = frame(page)
+    wait_until(lambda: frame(page) > start + 20)
+    assert page.evaluate("window.spoken") == 0
+
+
+@pytest.mark.parametrize("media", [{"color_scheme": "dark"}, {"forced_colors": "active"}])
+def test_the_middle_of_the_body_stands_out_on_every_ground(resting, media, artefacts, page):
+    resting(play(wave(60)))
+    page.emulate_media(reduced_motion="reduce", **media)
+    page.evaluate(f"{PLAYER}.draw()")
+    page.screenshot(path=artefacts / f"page-{next(iter(media))}.png")
+    ground = page.evaluate("getComputedStyle(document.querySelector('.mocap-player')).backgroundColor")
+    dark = "color_scheme" in media
+    assert (ground == "rgb(27, 27, 27)") == dark
+    ink = page.evaluate(f"{PLAYER}.picture.ink('#333333')")
+    assert (ink == "#dddddd") == dark
 
 
 def test_the_camera_follows_or_stays(resting):
@@ -214,7 +313,7 @@ def test_a_print_is_strong_while_the_foot_stands(resting):
 
 def test_several_characters_of_other_lengths_play_together(resting, artefacts):
     page = resting(play(wave(90, name="a"), wave(300, phase=2, name="b"), follow=False))
-    assert page.locator("output").inner_text().startswith("frame 0 of 300")
+    assert page.locator(".clock").inner_text().startswith("frame 0 of 300")
     assert page.locator(".legend").inner_text() == "ab"
     page.evaluate(f"{PLAYER}.seek(9)")
     assert page.evaluate(f"{PLAYER}.characters[0].pose(9)[2]") == pytest.approx(89 * 0.02, abs=0.05)

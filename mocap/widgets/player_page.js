@@ -1,0 +1,62 @@
+// The page around the canvas: its parts, their style, and colours for light and dark surroundings.
+
+const KEYS = "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom.";
+const PEN_KEYS = "Arrows draw, Backspace takes back, Enter walks the path, Escape puts the pen away.";
+
+const STYLE = `
+.mocap-player { max-width: 720px; background: #fff; color: #222; font: 13px/1.4 system-ui, sans-serif; color-scheme: light;
+  forced-color-adjust: none; }
+.mocap-player.dark { background: #1b1b1b; color: #ddd; color-scheme: dark; }
+.mocap-player canvas { display: block; box-sizing: border-box; width: 100%; height: clamp(180px, calc(100svh - 150px), 380px);
+  touch-action: pan-y; cursor: grab; border: 1px solid #8884; }
+.mocap-player canvas.drawing { cursor: crosshair; touch-action: none; }
+.mocap-player :focus-visible { outline: 3px solid #0072B2; outline-offset: 1px; }
+.mocap-player canvas:focus-visible { outline-offset: -3px; }
+.mocap-player .bar { display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: center; padding: 4px 2px; }
+.mocap-player button, .mocap-player select { font: inherit; min-width: 40px; height: 32px; padding: 0 8px; color: inherit;
+  background: #8882; border: 1px solid #8888; border-radius: 4px; cursor: pointer; }
+.mocap-player button[aria-pressed="true"] { background: #0072B244; }
+.mocap-player option { background: #fff; color: #222; }
+.mocap-player label { display: inline-flex; align-items: center; gap: 4px; min-height: 32px; }
+.mocap-player .scrub { flex: 1 1 200px; position: relative; }
+.mocap-player .scrub input { width: 100%; margin: 0; }
+.mocap-player .scrub div { height: 5px; border-radius: 2px; position: relative; }
+.mocap-player .scrub i { position: absolute; top: -2px; width: 2px; height: 9px; }
+.mocap-player .clock { font-variant-numeric: tabular-nums; min-width: 11em; }
+.mocap-player .legend span { display: inline-block; width: 10px; height: 10px; margin: 0 4px 0 10px; }
+.mocap-player .message:not(:empty) { padding: 4px 2px; white-space: pre-line; }
+.mocap-player .message.error { color: #A00000; } .mocap-player.dark .message.error { color: #FF9C8F; }
+.mocap-player:fullscreen { max-width: none; display: flex; flex-direction: column; }
+.mocap-player:fullscreen canvas { flex: 1; min-height: 0; height: auto; }
+@media (pointer: coarse) {
+  .mocap-player button, .mocap-player select, .mocap-player .scrub input, .mocap-player label { min-height: 44px; min-width: 44px; }
+  .mocap-player input[type="checkbox"] { width: 24px; height: 24px; }
+}
+@media (max-height: 450px) and (pointer: coarse) { .mocap-player .bar { flex-wrap: nowrap; overflow-x: auto; padding: 0 2px; } }`;
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2].map((speed) => `<option value="${speed}">${speed}×</option>`).join("");
+
+const PARTS = `<style>${STYLE}</style><canvas tabindex="0" role="application" aria-roledescription="player"></canvas>
+  <div class="bar"><button class="play" aria-label="play"></button>
+    <div class="scrub"><input type="range" min="0" step="1" aria-label="frame"><div></div></div><span class="clock"></span></div>
+  <div class="bar"><label>speed <select aria-label="speed">${SPEEDS}</select></label>
+    <label><input type="checkbox" class="follow"> follow</label>
+    <label><input type="checkbox" class="ghosts"> ghosts</label>
+    <button class="reset">reset view</button><button class="full">full screen</button>
+    <button class="draw" aria-pressed="false">draw a path</button>
+    <span class="legend"></span></div><div class="message" role="status"></div>`;
+
+const LIGHT = { ink: "#333333", asked: "#000000", line: "#bbbbbb", shadow: "#000000" };
+const DARK = { ink: "#dddddd", asked: "#ffffff", line: "#555555", shadow: "#ffffff" };
+
+// Whether the page around the player is dark: JupyterLab says so itself, a page of its own goes with the reader's system.
+function isDark() {
+  const lab = document.body?.dataset.jpThemeLight;
+  return lab ? lab === "false" : document.body?.classList.contains("mocap-page") && matchMedia("(prefers-color-scheme: dark)").matches;
+}
+
+function coloured(colour, text) {
+  const mark = document.createElement("span");
+  mark.style.background = colour;
+  return [mark, text];
+}
