@@ -49,7 +49,7 @@ def distance_image(
     >>> plotting.show(image, alt="Four distances, the least of them marked.")
     Picture('Four distances, the least of them marked.')
 
-    Notebook: 02-matching
+    Notebook: 02b-distance-grids
     """
     ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
     seconds = (0, grid.shape[1] / fps, grid.shape[0] / fps, 0)
