@@ -12,6 +12,7 @@ import json
 from collections.abc import Callable, Hashable
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -30,6 +31,8 @@ from PIL import Image
 from mocap import (
     MocapError,
     Motion,
+    Skeleton,
+    blending,
     datasets,
     diagrams,
     feet,
@@ -37,11 +40,13 @@ from mocap import (
     matching,
     plotting,
     resample,
+    save,
     steering,
     synthesis,
 )
-from mocap.body import GroundPath, figure_eight, joint_positions, rotations
-from mocap.plotting import ASKED, COLOURS, SOURCES, TreePicture
+from mocap.body import GroundPath, figure_eight, joint_positions, rotations, velocities
+from mocap.body.euler import from_euler
+from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
 
 Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
@@ -112,6 +117,48 @@ def _name_joints(ax: Axes, place: Array, names: str) -> None:
     )
 
 
+def draw_segments() -> Figure:
+    """Draw the homework's graph of segments, with the transitions that leave one of them."""
+    clips = [datasets.sample(name) for name in datasets.SAMPLES[:3]]
+    graph = graphs.segment_graph(clips, threshold=250)
+    return diagrams.segments_in_rows(graph, [clip.name for clip in clips], step=15)
+
+
+def draw_motion_file() -> Figure:
+    """Draw a small BVH file, coloured by its parts, beside the leg that it describes."""
+    skeleton = Skeleton(
+        ["hip", "knee", "knee_end"],
+        [-1, 0, 1],
+        [[0, 0, 0], [0, -0.45, 0], [0, -0.4, 0]],
+        dofs=["xyz", "x", ""],
+    )
+    turns = np.tile(rotations.IDENTITY, (3, 3, 1))
+    turns[:, 0] = from_euler("x", np.radians([[-15], [-25], [-35]]))
+    turns[:, 1] = from_euler("x", np.radians([[0], [30], [60]]))
+    leg = Motion(skeleton, np.array([[0, 0.9, 0], [0, 0.9, 0.3], [0, 0.89, 0.6]]), turns, 30.0, "leg")
+    with TemporaryDirectory() as folder:
+        save(leg, Path(folder) / "leg.bvh", precision=0)
+        lines = (Path(folder) / "leg.bvh").read_text().splitlines()
+    figure = plt.figure(figsize=(9.5, 4.2))
+    text, ax = figure.add_axes((0.01, 0, 0.55, 1)), figure.add_axes((0.64, 0.12, 0.35, 0.82))
+    text.set_axis_off()
+    for number, line in enumerate(lines):
+        colour = CURVES[1] if number > lines.index("MOTION") else COLOURS["middle"]
+        colour = CURVES[0] if "CHANNELS" in line else colour
+        place = (0, 0.95 - 0.9 * number / (len(lines) - 1))
+        text.text(
+            *place, line.replace("\t", "   "), family="monospace", fontsize=8.5, color=colour, va="center"
+        )
+    for number, points in enumerate(joint_positions(leg)):
+        ax.plot(points[:, 2], points[:, 1], "o-", color=CURVES[1], alpha=(0.35, 0.6, 1)[number], linewidth=3)
+        ax.text(points[0, 2], points[0, 1] + 0.05, f"frame {number + 1}", ha="center", fontsize=10)
+    for name, (z, y) in zip(skeleton.names, joint_positions(leg)[-1][:, [2, 1]], strict=True):
+        ax.text(z + 0.06, y, name, va="center", fontsize=10)
+    ax.set(aspect="equal", xlabel="z (m)", ylabel="y (m)", xlim=(-0.15, 1.15), ylim=(0, 1.05))
+    ax.spines[["top", "right"]].set_visible(False)
+    return figure
+
+
 def draw_nodes() -> Figure:
     """Draw two clips with nodes inserted where transitions leave and enter."""
     clips = [resample(datasets.sample(name), 30)[:240] for name in ("walk_circle", "walk_curve_1")]
@@ -121,6 +168,10 @@ def draw_nodes() -> Figure:
     graph = graphs.from_transitions(clips, best, window=WINDOW)
     arcs = plotting.timeline(graph, ax=figure.add_subplot())
     arcs.set(alpha=1, linewidths=1.6)
+    for t in best:  # a transition enters after its window
+        marker = "v" if t.source < t.target else "^"
+        height = -t.target + (0.13 if t.source < t.target else -0.13)
+        arcs.axes.plot((t.enter + WINDOW) / 30, height, marker, color=MARK, markersize=8)
     return figure
 
 
@@ -142,9 +193,7 @@ def draw_distances() -> Figure:
 
 def draw_pruning() -> Figure:
     """Draw the graph of eight nodes before and after pruning."""
-    graph = graphs.notes_example()
-    corners = [(0, 1), (1, 2), (1, 0), (-0.2, -0.6), (3.6, 2.4), (2.2, 2), (3, 1), (2.2, 0)]
-    places = dict(zip(range(1, 9), corners, strict=True))
+    graph, places = graphs.notes_example(), diagrams.EIGHT_PLACES
     figure = plt.figure(figsize=(8, 3.4), layout="constrained")
     before, after = figure.subplots(1, 2)
     plotting.node_link(graph, places=places, ax=before)
@@ -152,6 +201,16 @@ def draw_pruning() -> Figure:
     before.set_title("before pruning", y=0.94)
     after.set_title("after: 4 is a sink, 5 a dead end", y=0.94)
     return figure
+
+
+def draw_components() -> Figure:
+    """Draw a graph of four clips before and after pruning, where the threshold is low."""
+    clips = [resample(datasets.sample(name), 30) for name in datasets.SAMPLES[3:]]
+    whole = graphs.build(clips, window=WINDOW, threshold=0.018)
+    arcs = plotting.before_and_after(whole, graphs.prune(whole))
+    for arc in arcs:
+        arc.set(alpha=0.8, linewidths=1.0)
+    return plt.gcf()
 
 
 def draw_path() -> Figure:
@@ -174,6 +233,34 @@ def draw_seam() -> Figure:
     labels = ["left ankle (cm)", "right ankle (cm)"]
     plotting.joint_curve(heights, fps=30, seams=seams, labels=labels)
     return plt.gcf()
+
+
+def draw_feet() -> Figure:
+    """Draw the toes across a seam, blended and cleaned up: over the ground, and their speed."""
+    first, second = (datasets.sample(name)[:720] for name in ("walk_curve_1", "walk_curve_2"))
+    joined = blending.join(first, 553, second, 407, 40)[393:813]
+    toes = joined.skeleton.index("rtoes")
+    figure = plt.figure(figsize=(9, 3.2), layout="constrained")
+    ground, speed = figure.subplots(1, 2, width_ratios=[1, 1.6])
+    speed.axvspan(0, 40 / 120, color=MARK, alpha=0.15)
+    for motion, name, colour in (
+        (joined, "blended", CURVES[1]),
+        (feet.clean_up(joined), "cleaned up", CURVES[0]),
+    ):
+        places = 100 * joint_positions(motion)[:, toes, [0, 2]]
+        seconds = (np.arange(len(places)) - 160) / 120
+        stands = motion.contacts["rtoes"]
+        standing = (seconds > -0.2) & (seconds < 0.6) & stands
+        centre = places[standing].mean(axis=0)
+        ground.plot(*(places[standing] - centre).T, ".-", color=colour, label=name)
+        speed.plot(seconds, np.linalg.norm(velocities(places, 120), axis=1), color=colour, label=name)
+    ground.set(xlabel="x (cm)", ylabel="z (cm)", aspect="equal", title="the standing toes, from above")
+    ground.xaxis.set_inverted(True)
+    ground.margins(0.15)
+    speed.set(xlim=(-0.8, 1.2), ylim=(0, 80), xlabel="seconds from the start of the seam")
+    speed.set(ylabel="cm/s", title="speed of the toes")
+    speed.legend(frameon=False, loc="upper left")
+    return figure
 
 
 def draw_match() -> Figure:
@@ -200,6 +287,50 @@ def draw_match() -> Figure:
 def draw_angles() -> Figure:
     """Draw the short turn between two headings, and the turn by the means of their angles."""
     return diagrams.two_ways_round()
+
+
+def _walk_costs(graph: nx.DiGraph, steps: int, seed: int) -> Array:
+    """Walk at random on the homework's graph: the cost of each step, 0 in a clip, NaN after a dead end."""
+    rng = np.random.default_rng(seed)
+    at, costs = int(rng.integers(len(graph))), np.full(steps, np.nan)
+    for step in range(steps):
+        if not (following := list(graph[at])):
+            break
+        after = int(rng.choice(following, p=[graph.edges[at, node]["probability"] for node in following]))
+        costs[step] = graph.edges[at, after].get("cost", 0)
+        at = after
+    return costs
+
+
+def draw_dying_walks() -> Figure:
+    """Draw random walks on the homework's graph as rows; at the threshold 185, more than half of them die."""
+    graph = graphs.segment_graph([datasets.sample(name) for name in datasets.SAMPLES[:3]], threshold=185)
+    rows = np.array([_walk_costs(graph, 60, seed) for seed in range(40)])
+    ax = plt.figure(figsize=(8, 3.6), layout="constrained").add_subplot()
+    image = plotting.walk_rows(rows, highest=185, ax=ax)
+    ax.figure.colorbar(image, ax=ax, label="D of a transition")
+    return plt.gcf()
+
+
+def draw_added() -> Figure:
+    """Draw what a short blend of two windows that hardly match adds to the jolts of their clips."""
+    sneak, stop = (resample(datasets.sample(name), 30) for name in ("sneak", "stop_and_go"))
+    (i, j), window, around = _loose(sneak, stop), 6, 30
+    second = blending.lay_window_on(sneak, i, stop, j, window)[j - around : j + around]
+    result = blending.join(sneak, i, stop, j, window)[i - around : i + around]
+    weights = blending.cubic_weights(window)
+    return diagrams.added_by_blend(result, sneak[i - around : i + around], second, around, weights)
+
+
+def _loose(first: Motion, second: Motion) -> tuple[int, int]:
+    """Find the first windows between 8 and 9 cm apart, far from the ends of two clips."""
+    found = matching.find_transitions([first, second], window=WINDOW, below=0.09)
+    return next(
+        (match.leave, match.enter)
+        for match in found
+        if (match.source, match.target) == (0, 1) and match.cost > 0.08 and min(match.leave, match.enter) > 60
+        if match.leave < len(first) - 60 and match.enter < len(second) - 60
+    )
 
 
 def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthesis.Problem:
@@ -272,16 +403,22 @@ def draw_bound() -> Figure:
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "skeleton": draw_skeleton,
+    "segments": draw_segments,
+    "motion_file": draw_motion_file,
     "nodes": draw_nodes,
     "clouds": draw_clouds,
     "distances": draw_distances,
     "pruning": draw_pruning,
+    "components": draw_components,
     "path": draw_path,
     "search": draw_search,
     "bound": draw_bound,
     "seam": draw_seam,
+    "feet": draw_feet,
     "match": draw_match,
     "angles": draw_angles,
+    "dying_walks": draw_dying_walks,
+    "added": draw_added,
 }
 
 

@@ -1,6 +1,6 @@
 """Euler angles: three turns about three axes, and their traps.
 
-Notebooks: 01-skeletons-and-clips, 03-transforms.
+Notebooks: 01-skeletons-and-clips, 03b-angles.
 """
 
 import warnings
@@ -62,7 +62,7 @@ def to_euler(order: str, quaternions: ArrayLike) -> Array:
     >>> to_euler("ZXY", from_euler("ZXY", [0.1, 0.2, 0.3])).round(6)
     array([0.1, 0.2, 0.3])
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     quaternions = np.asarray(quaternions, float)
     turns = Rotation.from_quat(quaternions.reshape(-1, 4), scalar_first=True)
@@ -94,7 +94,7 @@ def continuous(order: str, angles: ArrayLike) -> Array:
            [0.   , 1.642, 0.   ],
            [0.   , 1.742, 0.   ]])
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     angles = _without_lock(order, np.asarray(angles, float))
     twins = angles * [1, -1, 1] + np.pi

@@ -133,7 +133,7 @@ def heading(quaternions: ArrayLike) -> Array:
     >>> float(heading(on_the_back).round(6))
     0.7
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     w, _, y, _ = np.moveaxis(np.asarray(quaternions, float), -1, 0)
     # The cosine and the sine of θ, each times w² + y²: the same for q and -q.

@@ -68,7 +68,7 @@ def homework_heading(quaternions: ArrayLike) -> Array:
     >>> float(homework_heading(rotations.about_y(0.7)).round(6))
     0.7
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     matrices = rotations.to_matrix(quaternions)
     return np.asarray(np.arctan2(-matrices[..., 2, 0], matrices[..., 0, 0]))
@@ -95,7 +95,7 @@ def euler_from_zero_to_pi(quaternions: ArrayLike) -> Array:
     array([[0.01, 0.  , 0.  ],
            [3.13, 3.14, 3.14]])
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     x, y, z = np.moveaxis(euler.to_euler("xyz", quaternions), -1, 0)
     late = z < 0
@@ -126,7 +126,7 @@ def chain_on_last(slices: Sequence[Motion]) -> Motion:
     >>> chain_on_last([motion, motion]).root_positions[:, 2]
     array([0. , 0.1, 0.1, 0.2])
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     chain = [slices[0]]
     for following in slices[1:]:

@@ -10,7 +10,7 @@ Reading order (notebooks 00 to 09)
 2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
 3. `windows`: what a window is, what two windows have in common, and sums along diagonals
 4. `laying_clouds`: one cloud of points laid on another, from above
-5. `ground`: turns on the ground, and one clip aligned with another, seen from above
+5. `ground`: turns, headings, and one clip aligned with another, seen from above
 6. `seams`: frames of a transition, ways between two rotations, and a leg as a triangle
 7. `small_graphs`: the homework's segments in rows, and Tarjan's search with its low links
 8. `eight_node_search`: the walks that a search takes up on the eight-node graph, as a tree
@@ -31,7 +31,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "quaternions": ["double_cover", "half_turns", "turns_in_order"],
         "laying_clouds": ["laying_on", "rms_distance", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
-        "ground": ["alignment", "meeting", "turn_on_ground", "two_ways_round"],
+        "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],
         "seams": ["blended_seam", "knee_triangle", "turning_paths"],
         "small_graphs": ["EIGHT_PLACES", "segments_in_rows", "tarjan_states", "tarjan_step"],
         "eight_node_search": ["edge_lengths", "search_events", "search_steps"],

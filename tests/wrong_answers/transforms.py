@@ -1,5 +1,3 @@
-import math
-
 import numpy as np
 
 
@@ -72,36 +70,45 @@ def the_whole_heading(moving, target):
     return turn, target[1] - x, target[2] - z
 
 
-def plain_difference(a, b):
-    return b - a
+def with_the_height(roots, angle, spot):
+    turned = move_about_origin(roots, angle)
+    return turned - turned[0] + spot
 
 
-def from_b(a, b):
-    return math.remainder(a - b, math.tau)
+def on_the_floor(roots, angle, spot):
+    turned = move_about_origin(roots, angle)
+    turned += spot - turned[0]
+    turned[:, 1] = 0
+    return turned
 
 
-def never_to_the_right(a, b):
-    return np.mod(b - a, 2 * np.pi)
+def first_root_on_the_floor(roots, angle, spot):
+    turned = move_about_origin(roots, angle)
+    return turned - turned[0] + [spot[0], 0, spot[2]]
 
 
-def without_side(a, b):
-    return abs(math.remainder(b - a, math.tau))
+def put_and_then_turned(roots, angle, spot):
+    placed = roots - [roots[0, 0], 0, roots[0, 2]] + [spot[0], 0, spot[2]]
+    return move_about_origin(placed, angle)
 
 
-def plain_mean(headings):
-    return sum(headings) / len(headings)
+def put_the_other_way_round(roots, angle, spot):
+    turned = move_about_origin(roots, -angle)
+    return turned + np.array([spot[0] - turned[0, 0], 0, spot[2] - turned[0, 2]])
 
 
-def cosine_first(headings):
-    return np.arctan2(np.cos(headings).sum(), np.sin(headings).sum())
+def put_without_turn(roots, angle, spot):
+    return roots + np.array([spot[0] - roots[0, 0], 0, spot[2] - roots[0, 2]])
 
 
-def half_the_circle(headings):
-    return np.arctan(np.sin(headings).sum() / np.cos(headings).sum())
+def put_in_place(roots, angle, spot):
+    roots -= roots[0]
+    return roots
 
 
-def middle_one(headings):
-    return np.median(headings)
+def move_about_origin(points, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return points @ np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
 
 
 WRONG = {
@@ -123,16 +130,13 @@ WRONG = {
         (turned_away, "sign of the angle"),
         (the_whole_heading, "a heading already"),
     ],
-    "turn_between": [
-        (plain_difference, "-340°"),
-        (from_b, "from b to a"),
-        (never_to_the_right, "350°"),
-        (without_side, "keep the sign"),
-    ],
-    "mean_heading": [
-        (plain_mean, "opposite of where both look"),
-        (cosine_first, "sine first"),
-        (half_the_circle, "half the circle"),
-        (middle_one, "median"),
+    "put_over": [
+        (with_the_height, "bug one is still there"),
+        (on_the_floor, "heights are lost"),
+        (first_root_on_the_floor, "by that of the first root"),
+        (put_and_then_turned, "away from the spot"),
+        (put_the_other_way_round, "sign of the turn"),
+        (put_without_turn, "not turned"),
+        (put_in_place, "changes its arguments"),
     ],
 }

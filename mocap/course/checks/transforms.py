@@ -1,9 +1,8 @@
-"""Checks of notebook 03."""
+"""Checks of notebook 03-transforms."""
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.planar import PlanarTransform
@@ -56,11 +55,17 @@ move_points = Check(
 )
 
 
+def _numbers(rng: np.random.Generator) -> tuple[float, float, float]:
+    """Draw a transform; now and then half a turn, or none."""
+    angle, x, z = rng.uniform(-3, 3, 3).tolist()
+    return (0.0, np.pi, *[angle] * 8)[int(rng.integers(10))], x, z
+
+
 undo = Check(
     name="undo",
     asks="the three numbers (angle, x, z) of the transform that moves everything back",
     start="solve p' = R p + t for p: which angle and which shift does the solution have?",
-    draw=lambda rng: tuple(rng.uniform(-3, 3, 3)),
+    draw=_numbers,
     truth=lambda angle, x, z: tuple(PlanarTransform(angle, x, z).inverse()),
     mistakes=[
         Mistake(
@@ -90,8 +95,10 @@ def _turned(angle: float, x: float, z: float) -> tuple[float, float]:
 
 
 def _places(rng: np.random.Generator) -> tuple[Placed, Placed]:
+    """Draw two placed bodies; now and then the same heading, the opposite one, or the same place."""
     first, second = (tuple(rng.uniform(-3, 3, 3).tolist()) for _ in range(2))
-    return first, second
+    special = [(first[0], *second[1:]), (first[0] + np.pi, *second[1:]), first]
+    return first, (*special, *[second] * 9)[int(rng.integers(12))]
 
 
 def _lay_on(moving: Placed, target: Placed) -> Placed:
@@ -135,67 +142,50 @@ lay_on = Check(
 )
 
 
-def _wrapped(angle: float) -> float:
-    return (angle + np.pi) % (2 * np.pi) - np.pi
+def _roots(rng: np.random.Generator) -> tuple[Array, float, Array]:
+    """Draw a path of roots, a turn, and a spot with a height of its own."""
+    steps = rng.normal(0, 0.1, (int(rng.integers(2, 8)), 3))
+    return steps.cumsum(axis=0) + rng.uniform(-2, 2, 3), float(rng.uniform(-3, 3)), rng.uniform(-2, 2, 3)
 
 
-turn_between = Check(
-    name="turn_between",
-    asks="the shorter turn from a to b, in [-π, π), above 0 to the left",
-    start="subtract, then add or subtract whole turns until the result lies between -π and π.",
-    draw=lambda rng: tuple(rng.uniform(-np.pi, np.pi, 2)),
-    truth=lambda a, b: _wrapped(b - a),
+def _put(roots: Array, angle: float, spot: Array, level: tuple[float, float, float] = (1, 0, 1)) -> Array:
+    """Turn roots, and move the first one over the spot, in the coordinates where `level` is 1."""
+    turned = PlanarTransform(angle, 0.0, 0.0).apply_points(roots)
+    return np.asarray(turned + (spot - turned[0]) * level)
+
+
+put_over = Check(
+    name="put_over",
+    asks="new roots, shape (F, 3): turned, the first one over the spot, and each as high as it was",
+    start="make a new array of turned roots; then add what is missing to the spot, in x and z only.",
+    draw=_roots,
+    truth=_put,
     mistakes=[
         Mistake(
-            lambda a, b: b - a,
-            "for 170° and -170° that is -340°, nearly a whole turn in the wrong direction.",
-        ),
-        Mistake(lambda a, b: _wrapped(a - b), "the sign is wrong: that is the turn from b to a."),
-        Mistake(
-            lambda a, b: (b - a) % (2 * np.pi),
-            "that lies between 0 and 2π: a turn of 10° to the right becomes 350° to the left.",
+            lambda roots, angle, spot: _put(roots, angle, spot, (1, 1, 1)),
+            "bug one is still there: your function also moves the height, by spot[1] - roots[0, 1].",
         ),
         Mistake(
-            lambda a, b: abs(_wrapped(b - a)),
-            "left and right look the same in your answer: keep the sign.",
+            lambda roots, angle, spot: _put(roots, angle, spot) * [1, 0, 1],
+            "the heights are lost: each root must stay as high as it was.",
+        ),
+        Mistake(
+            lambda roots, angle, spot: _put(roots, angle, spot) - [0, roots[0, 1], 0],
+            "all heights have changed by that of the first root: leave column 1 as it was.",
+        ),
+        Mistake(
+            lambda roots, angle, spot: PlanarTransform(angle, 0, 0).apply_points(
+                roots + (spot - roots[0]) * [1, 0, 1]
+            ),
+            "you move first and turn afterwards, so the turn carries the roots away from the spot.",
+        ),
+        Mistake(
+            lambda roots, angle, spot: _put(roots, -angle, spot),
+            "the sign of the turn is wrong: a positive angle turns the z axis towards the x axis.",
+        ),
+        Mistake(
+            lambda roots, angle, spot: roots + (spot - roots[0]) * [1, 0, 1],
+            "the roots are moved, but not turned.",
         ),
     ],
-)
-
-
-def _around(rng: np.random.Generator) -> tuple[Array]:
-    middle = np.pi + rng.uniform(-0.3, 0.3)
-    headings = middle + rng.uniform(-0.8, 0.8, int(rng.integers(3, 9)))
-    return ((headings + np.pi) % (2 * np.pi) - np.pi,)
-
-
-def _mean_vector(headings: ArrayLike) -> tuple[float, float]:
-    return float(np.sin(headings).mean()), float(np.cos(headings).mean())
-
-
-mean_heading = Check(
-    name="mean_heading",
-    asks="the mean direction, in radians",
-    start="a heading is a point on the circle, (sin θ, cos θ); take the mean of the points, and its angle.",
-    draw=_around,
-    truth=lambda headings: np.arctan2(*_mean_vector(headings)),
-    mistakes=[
-        Mistake(
-            lambda headings: np.mean(headings),
-            "this way the mean of 170° and -170° is 0°, the opposite of where both look.",
-        ),
-        Mistake(
-            lambda headings: np.arctan2(*_mean_vector(headings)[::-1]),
-            "sine and cosine are swapped: arctan2 takes the sine first.",
-        ),
-        Mistake(
-            lambda headings: np.arctan(np.divide(*_mean_vector(headings))),
-            "arctan covers only half the circle; arctan2 takes sine and cosine and covers all of it.",
-        ),
-        Mistake(
-            lambda headings: np.median(headings),
-            "the median also cuts the circle at ±180°: headings on a circle have no order.",
-        ),
-    ],
-    same=close_angles,
 )

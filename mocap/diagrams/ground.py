@@ -1,0 +1,240 @@
+"""The ground seen from above: how a turn looks there, and how one clip is aligned with another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, heading
+from mocap.plotting.style import COLOURS, CURVES, FLOOR, QUIET, SOURCES
+
+INK = COLOURS["middle"]
+START = 0.25  # radians from the first axis to the point before the turn
+
+
+class Sheet(NamedTuple):
+    """A plane with two axes: its title, the names of the axes, and where on the page they point."""
+
+    title: str
+    names: tuple[str, str]
+    axes: tuple[complex, complex]
+
+
+SHEETS = (
+    Sheet("1. the plane of school", ("x", "y"), (1 + 0j, 1j)),
+    Sheet("2. the sheet turned by a quarter", ("x", "y"), (1j, -1 + 0j)),
+    Sheet("3. the ground from above", ("z", "x"), (1j, -1 + 0j)),
+)
+
+
+def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
+    """Draw why the minus of a turn stands elsewhere on the ground than in the plane of school.
+
+    The plane of school, the same sheet turned by a quarter, and the same sheet with the names of the
+    ground. The first axis is always the one that a positive turn leads away from.
+
+    Parameters
+    ----------
+    angle : of the turn, degrees.
+    step : how many of the three sheets are drawn.
+
+    Examples
+    --------
+    >>> figure = turn_on_ground(step=2)
+    >>> [ax.get_title() for ax in figure.axes]
+    ['1. the plane of school', '2. the sheet turned by a quarter']
+
+    Notebook: 03-transforms
+    """
+    figure = Figure(figsize=(9, 3.7))
+    for number, sheet in enumerate(SHEETS[:step]):
+        ax = figure.add_axes((number / 3, 0.17, 1 / 3, 0.72))
+        _draw_sheet(ax, sheet, np.radians(angle))
+    return figure
+
+
+def _draw_sheet(ax: Axes, sheet: Sheet, angle: float) -> None:
+    """Draw a sheet's axes, a point, and where a turn leads it, with the formula below."""
+    first, second = sheet.names
+    for name, axis in zip(sheet.names, sheet.axes, strict=True):
+        _arrow(ax, 0j, 1.25 * axis, INK)
+        ax.text((1.38 * axis).real, (1.38 * axis).imag, name, ha="center", va="center", fontsize=12)
+    arc = 0.55 * np.exp(1j * np.linspace(START, START + angle, 30)) * sheet.axes[0]
+    ax.plot(arc.real, arc.imag, color=INK, linewidth=1)
+    middle = 0.7 * np.exp(1j * (START + angle / 2)) * sheet.axes[0]
+    ax.text(middle.real, middle.imag, "θ", color=INK, ha="center", va="center", fontsize=12)
+    for colour, turn in ((QUIET, START), (CURVES[0], START + angle)):
+        point = np.exp(1j * turn) * sheet.axes[0]
+        ax.plot([0, point.real], [0, point.imag], color=colour, linewidth=1.5)
+        ax.plot(point.real, point.imag, "o", color=colour, markersize=8)
+    ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=sheet.title)
+    ax.title.set_fontsize(11)
+    ax.set_axis_off()
+    lines = f"{first}′ = {first} cos θ − {second} sin θ\n{second}′ = {first} sin θ + {second} cos θ"
+    ax.text(0.5, -0.02, lines, transform=ax.transAxes, ha="center", va="top", fontsize=11)
+
+
+STEPS = ("1. as the clips are", "2. turned about the origin", "3. moved over the ground")
+
+
+def alignment(target: Motion, moving: Motion, transform: PlanarTransform, *, step: int = 3) -> Figure:
+    """Draw how a clip is aligned with another, seen from above: first it is turned, then it is moved.
+
+    Parameters
+    ----------
+    target : the motion up to the moment at which the clips match; it stays.
+    moving : the other motion from that moment on.
+    transform : the planar transform that aligns `moving`.
+    step : how many of the three panels are drawn.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")
+    >>> figure = alignment(walk[:120], walk[121:300], PlanarTransform(0.0, 0.0, 0.0), step=1)
+    >>> [ax.get_title() for ax in figure.axes]
+    ['1. as the clips are']
+
+    Notebook: 03-transforms
+    """
+    turned = PlanarTransform(transform.angle, 0.0, 0.0)
+    places = [moving, turned.apply_motion(moving), transform.apply_motion(moving)]
+    corners = np.concatenate([m.root_positions[:, [0, 2]] for m in (target, *places)] + [np.zeros((1, 2))])
+    low, high = corners.min(axis=0) - 0.8, corners.max(axis=0) + 0.8
+    figure = Figure(figsize=(9, 3.9), layout="constrained")
+    panels = figure.subplots(1, 3, sharex=True, sharey=True)
+    for number, ax in enumerate(panels):
+        if number >= step:
+            ax.remove()
+            continue
+        ax.set(xlim=(high[0], low[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)")
+        ax.set_title(STEPS[number], fontsize=11)
+        _draw_walker(ax, target, SOURCES[0], at=-1)
+        if number:
+            _draw_walker(ax, places[number - 1], FLOOR, at=0)
+            ends = [complex(*m.root_positions[0, [0, 2]]) for m in places[number - 1 : number + 1]]
+            _draw_way(ax, *ends, turns=number == 1)
+        _draw_walker(ax, places[number], SOURCES[1], at=0)
+        ax.plot(0, 0, "+", color=INK, markersize=11)
+    panels[0].set_ylabel("z (m)")
+    panels[0].legend(frameon=False, fontsize=9)
+    return figure
+
+
+def meeting(target: Motion, moving: Motion) -> Figure:
+    """Draw one clip that ends and another that begins, seen from above, with where both bodies face.
+
+    Parameters
+    ----------
+    target : the motion up to the moment at which the clips match.
+    moving : the other motion from that moment on.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")
+    >>> figure = meeting(walk[:120], walk[121:300])
+    >>> len(figure.axes)
+    1
+
+    Notebook: 03-transforms
+    """
+    figure = Figure(figsize=(5.2, 4.8), layout="constrained")
+    ax = figure.add_subplot()
+    ax.set(xlim=(5, -5), ylim=(-4.5, 4.5), aspect="equal", xlabel="x (m)", ylabel="z (m)")
+    _draw_walker(ax, target, SOURCES[0], at=-1)
+    _draw_walker(ax, moving, SOURCES[1], at=0)
+    ax.plot(0, 0, "+", color=INK, markersize=11)
+    ax.legend(frameon=False, fontsize=9, loc="lower left")
+    return figure
+
+
+def two_ways_round(start: float = 170.0, end: float = -170.0) -> Figure:
+    """Draw two ways from one heading to another, seen from above: the short turn, and means of the numbers.
+
+    Parameters
+    ----------
+    start, end : headings, degrees in [-180, 180].
+
+    Examples
+    --------
+    >>> [ax.get_title() for ax in two_ways_round().axes]
+    ['slerp: 20° to the left', 'mean of the angles: 340° to the right']
+
+    Notebook: 03b-angles
+    """
+    figure = Figure(figsize=(7, 3.7), layout="constrained")
+    short = (end - start + 180) % 360 - 180
+    ways = {"slerp": short, "mean of the angles": end - start}
+    for (name, turn), ax, colour in zip(ways.items(), figure.subplots(1, 2), CURVES, strict=False):
+        for share in np.linspace(0, 1, 11):
+            _draw_heading(ax, np.radians(start + share * turn), INK if share in (0, 1) else colour)
+        _draw_compass(ax)
+        ax.set_title(f"{name}: {abs(turn):.0f}° to the {'left' if turn >= 0 else 'right'}", fontsize=11)
+    return figure
+
+
+def compass(headings: Mapping[str, float], ax: Axes) -> None:
+    """Draw headings as arrows, seen from above, with their values.
+
+    Parameters
+    ----------
+    headings : radians, each by its name.
+    ax : axes.
+
+    Examples
+    --------
+    >>> ax = Figure().add_subplot()
+    >>> compass({"left": np.pi / 2}, ax)
+    >>> ax.texts[0].get_text()
+    'left: 90°'
+
+    Notebook: 03b-angles
+    """
+    for row, (name, angle) in enumerate(headings.items()):
+        text = f"{name}: {np.degrees(angle):.0f}°"
+        ax.text(-1.5, -1.75 - 0.25 * row, text, color=CURVES[row], fontsize=10)
+        _draw_heading(ax, angle, CURVES[row])
+    _draw_compass(ax)
+    ax.set(ylim=(-1.8 - 0.25 * len(headings), 1.4))
+
+
+def _draw_heading(ax: Axes, angle: float, colour: str) -> None:
+    """Draw a heading as an arrow: z points up the page and x to the left, so θ points to i exp(iθ)."""
+    _arrow(ax, 0j, 1j * np.exp(1j * angle), colour)
+
+
+def _draw_compass(ax: Axes) -> None:
+    """Write the quarters around the arrows."""
+    for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
+        ax.text(place.real, place.imag, word, ha="center", va="center", color=INK, fontsize=9)
+    ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal")
+    ax.set_axis_off()
+
+
+def _draw_walker(ax: Axes, motion: Motion, colour: str, *, at: int) -> None:
+    """Draw a root's path, and at one frame a dot with an arrow in which the body faces."""
+    x, z = motion.root_positions[:, [0, 2]].T
+    ax.plot(x, z, color=colour, linewidth=2, label=None if colour == FLOOR else motion.name)
+    ax.plot(x[at], z[at], "o", color=colour, markersize=7)
+    facing = float(heading(motion.rotations[at, 0]))
+    here = complex(x[at], z[at])
+    _arrow(ax, here, here + 0.8 * complex(np.sin(facing), np.cos(facing)), colour)
+
+
+def _draw_way(ax: Axes, start: complex, end: complex, *, turns: bool) -> None:
+    """Draw how a body's place moves: on an arc about the origin, or straight."""
+    share = np.linspace(0, 1, 40)
+    around = start * np.exp(1j * np.angle(end / start) * share)
+    line = around if turns else start + (end - start) * share
+    ax.plot(line.real, line.imag, color=INK, linewidth=1, linestyle="--")
+
+
+def _arrow(ax: Axes, start: complex, end: complex, colour: str) -> None:
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=style)
