@@ -1,0 +1,180 @@
+"""What a window is, what Eq. 1 of [KGP02] compares, and how sums along diagonals cover all windows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from mpl_toolkits.mplot3d import Axes3D
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.planar import heading
+from mocap.errors import MocapError
+from mocap.matching.point_clouds import distinct_joints, matching_clouds, point_cloud
+from mocap.plotting.axes import ground_axes, keep_inside, to_picture
+from mocap.plotting.stick_figures import StickFigure
+from mocap.plotting.style import COLOURS, FLOOR, QUIET, SOURCES
+
+WINDOW_STEPS = ("one frame", "a window", "its joints", "the point cloud")
+
+
+def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
+    """Draw how a window of frames becomes one cloud of points [KGP02, 3.1].
+
+    Parameters
+    ----------
+    motion : the frames of the window.
+    step : 1 the middle frame; 2 all frames; 3 with a point on each joint; 4 the points alone.
+
+    Examples
+    --------
+    >>> from mocap import datasets, resample
+    >>> walk = resample(datasets.sample("walk_straight"), 30)
+    >>> window_cloud(walk[:10], step=4).axes[0].get_title()
+    'the point cloud: 10 frames × 31 joints = 310 points'
+
+    Notebook: 02-matching
+    """
+    _require_step(step, len(WINDOW_STEPS))
+    points, cloud = joint_positions(motion), point_cloud(motion)
+    figure = Figure(figsize=(5.2, 4.8))
+    ax = _beside(figure.add_axes((0, 0, 1, 0.92), projection="3d"), motion, points)
+    middle = len(motion) // 2
+    shown = range(len(motion)) if step in (2, 3) else [middle] if step == 1 else []
+    for frame in shown:
+        StickFigure(motion.skeleton, ax, 1.0 if frame == middle else 0.25).pose(points[frame])
+    if step >= 3:
+        ax.plot(*to_picture(cloud.reshape(-1, 3)).T, ".", color=SOURCES[0], markersize=4, zorder=4)
+    if step == 4:
+        below = to_picture(cloud.reshape(-1, 3) * [1, 0, 1])
+        ax.plot(*below.T, ".", color=QUIET, markersize=1.5, zorder=1)
+    counts = ("", f"{len(motion)} frames", "a point on each")
+    sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {cloud[..., 0].size} points"
+    what = (*counts, sums)[step - 1]
+    ax.set_title(f"{WINDOW_STEPS[step - 1]}{': ' if what else ''}{what}", fontsize=11)
+    return figure
+
+
+def matched_windows(first: Motion, second: Motion) -> Figure:
+    """Draw two aligned windows at their first and last frame, with a thread from each joint to its partner.
+
+    Left and right keep their colours, so that feet which are exchanged are seen.
+
+    Parameters
+    ----------
+    first, second : windows of as many frames; they stay where they are, so align them first.
+
+    Examples
+    --------
+    >>> from mocap import datasets, resample
+    >>> walk = resample(datasets.sample("walk_straight"), 30)
+    >>> [ax.get_title() for ax in matched_windows(walk[:10], walk[:10]).axes]
+    ['first frame: 0.0 cm RMS', 'last frame: 0.0 cm RMS']
+
+    Notebook: 02b-distance-grids
+    """
+    clouds = matching_clouds(point_cloud(first), point_cloud(second))
+    gaps = 100 * np.sqrt(((clouds[0] - clouds[1]) ** 2).sum(-1))  # cm, (F, P)
+    points = [joint_positions(motion) for motion in (first, second)]
+    figure = Figure(figsize=(8.4, 4.6))
+    for panel, (frame, words) in enumerate([(0, "first frame"), (len(first) - 1, "last frame")]):
+        here = np.stack([places[frame] for places in points])
+        ax = _beside(
+            figure.add_axes((panel / 2, 0.06, 0.5, 0.86), projection="3d"), first[frame : frame + 1], here
+        )
+        threads = to_picture(here[:, distinct_joints(first.skeleton)].swapaxes(0, 1))
+        ax.add_collection3d(Line3DCollection(threads, colors=QUIET, linewidths=1.0, zorder=2))
+        StickFigure(first.skeleton, ax).pose(here[0])
+        other = StickFigure(second.skeleton, ax, 0.75)
+        for part in other.bones.values():
+            part.set(linestyle=(0, (2, 1)), linewidth=1.8)
+        other.pose(here[1])
+        ax.set_title(f"{words}: {np.sqrt((gaps[frame] ** 2).mean()):.1f} cm RMS", fontsize=11)
+    _sides_and_bodies(figure, [first.name, second.name])
+    return figure
+
+
+def _sides_and_bodies(figure: Figure, names: Sequence[str]) -> None:
+    """Say below the panels which line is whose."""
+    keys = [figure.axes[0].plot([], [], [], color=COLOURS[side], label=side)[0] for side in ("left", "right")]
+    for name, style in zip(names, ("-", (0, (2, 1))), strict=True):
+        (line,) = figure.axes[0].plot([], [], [], color=COLOURS["middle"], linestyle=style, label=name)
+        keys.append(line)
+    (thread,) = figure.axes[0].plot([], [], [], color=QUIET, linewidth=1, label="joint to joint")
+    figure.legend(handles=[*keys, thread], loc="lower center", ncols=5, frameon=False, fontsize=9)
+
+
+def _beside(ax: Axes3D, motion: Motion, points: Array) -> Axes3D:
+    """Set up ground around points, shape (..., 3), seen from the right of a body, a little from ahead."""
+    low, high = (f(points.reshape(-1, 3), axis=0)[[0, 2]] for f in (np.min, np.max))
+    ground_axes((low + high) / 2, max(1.2, *(high - low)) / 2 + 0.2, ax=ax)
+    facing = float(np.degrees(heading(motion.rotations[len(motion) // 2, 0])))
+    ax.view_init(elev=12, azim=facing - 65)
+    keep_inside(ax, points)
+    return ax
+
+
+def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:
+    """Draw how sums over windows are made by adding up shifted copies of an array of frame pairs.
+
+    Parameters
+    ----------
+    products : shape (n, m): a number for each frame of one clip and each frame of another.
+    window : frames in a window.
+    step : how many of the window's frames are added up, 1 to `window`.
+
+    Examples
+    --------
+    >>> figure = diagonal_sums([[1, 2, 0], [0, 3, 4], [0, 0, 5]], window=2, step=2)
+    >>> [text.get_text() for text in figure.axes[1].texts]
+    ['4', '6', '0', '8']
+
+    Notebook: 02b-distance-grids
+    """
+    numbers = np.asarray(products)
+    rows, columns = (count - window + 1 for count in numbers.shape)
+    if min(rows, columns) < 1 or window < 1:
+        raise MocapError(f"Windows of {window} frames do not fit into an array of shape {numbers.shape}.")
+    _require_step(step, window)
+    sums = sum(numbers[f : f + rows, f : f + columns] for f in range(step))
+    figure = Figure(figsize=(8.4, 4.2), layout="constrained")
+    frames, windows = figure.subplots(1, 2, width_ratios=(numbers.shape[1], columns))
+    _table(frames, numbers, np.eye(*numbers.shape) * (np.arange(len(numbers)) < step)[:, None])
+    frames.add_patch(_box((step - 1, step - 1), (rows, columns)))
+    frames.set(
+        xlabel="frame j", ylabel="frame i", title=f"products of frames; the copy shifted by {step - 1}"
+    )
+    _table(windows, np.asarray(sums), np.eye(rows, columns) * (np.arange(rows) < 1)[:, None])
+    windows.add_patch(_box((0, 0), (rows, columns)))
+    windows.set(xlabel="window j", ylabel="window i", title=f"{step} of {window} copies added up")
+    return figure
+
+
+def _table(ax: Axes, numbers: Array, marked: Array) -> None:
+    """Write numbers into cells, those that are marked on a coloured ground."""
+    for (row, column), number in np.ndenumerate(numbers):
+        ground = SOURCES[4] if marked[row, column] else "#FFFFFF"
+        ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=ground, edgecolor=FLOOR))
+        ax.text(column, row, f"{number:g}", ha="center", va="center", fontsize=11)
+    ax.set(xlim=(-0.6, numbers.shape[1] - 0.4), ylim=(numbers.shape[0] - 0.4, -0.6), aspect="equal")
+    ax.set(xticks=range(numbers.shape[1]), yticks=range(numbers.shape[0]))
+    ax.tick_params(length=0)
+    ax.spines[:].set_visible(False)
+
+
+def _box(corner: tuple[int, int], shape: tuple[int, int]) -> Rectangle:
+    """Frame the cells of an array's part that starts at a row and a column."""
+    at = corner[1] - 0.5, corner[0] - 0.5
+    return Rectangle(at, shape[1], shape[0], fill=False, edgecolor=SOURCES[0], linewidth=2.5, zorder=3)
+
+
+def _require_step(step: int, last: int) -> None:
+    if step not in range(1, last + 1):
+        raise MocapError(f"This diagram has the steps 1 to {last}, got {step}.")
