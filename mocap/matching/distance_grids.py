@@ -117,7 +117,7 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
     array([[0. , 0.5],
            [0.5, 0. ]])
 
-    Notebook: 02-matching
+    Notebook: 02b-distance-grids
     """
     ground = tapered_sum(a.ground @ b.ground.conj().T, taper)
     ground += a.paths @ b.paths.conj().T
@@ -138,7 +138,7 @@ def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
     array([[2.5, 3.5],
            [0. , 4.5]])
 
-    Notebook: 02-matching
+    Notebook: 02b-distance-grids
     """
     weights = taper.astype(products.real.dtype)
     if np.ptp(weights) == 0:
@@ -159,7 +159,7 @@ def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
     array([[4, 6],
            [0, 8]])
 
-    Notebook: 02-matching
+    Notebook: 02b-distance-grids
     """
     if window == 1:
         return products

@@ -81,37 +81,13 @@ def z_up(points, others):
     return np.arctan2(*sums((points - points.mean(0))[:, [0, 2, 1]], (others - others.mean(0))[:, [0, 2, 1]]))
 
 
-def add_up(products, window, step, rows, columns):
-    total = np.zeros((rows, columns))
-    for i in range(rows):
-        for j in range(columns):
-            total[i, j] = sum(products[i + f, j + step(f)] for f in range(window))
-    return total
+def unsigned_and_not_wrapped(a, b):
+    return abs(a - b)
 
 
-def a_frame_short(products, window):
-    n, m = products.shape
-    return add_up(products, window - 1, lambda f: f, n - window + 2, m - window + 2)
-
-
-def last_left_out(products, window):
-    n, m = products.shape
-    return add_up(products, window, lambda f: f, n - window, m - window)
-
-
-def down_only(products, window):
-    n, m = products.shape
-    return add_up(products, window, lambda f: 0, n - window + 1, m - window + 1)
-
-
-def other_diagonal(products, window):
-    n, m = products.shape
-    return add_up(products, window, lambda f: window - 1 - f, n - window + 1, m - window + 1)
-
-
-def averaged(products, window):
-    n, m = products.shape
-    return add_up(products, window, lambda f: f, n - window + 1, m - window + 1) / window
+def half_turns_positive(a, b):
+    gap = a - b
+    return gap - 360 * np.ceil((gap - 180) / 360)
 
 
 WRONG = {
@@ -121,6 +97,8 @@ WRONG = {
         (unsigned, "have signs"),
         (in_radians, "in degrees"),
         (backwards, "b - a"),
+        (unsigned_and_not_wrapped, "do not remove them"),
+        (half_turns_positive, "half a turn is -180"),
     ],
     "best_shift": [
         (shift_of_means, "turned before they are moved"),
@@ -135,12 +113,5 @@ WRONG = {
         (wrong_way, "the sign of θ"),
         (cosine_first, "sine's part first"),
         (z_up, "columns 0 and 2"),
-    ],
-    "window_sums": [
-        (a_frame_short, "off by one"),
-        (last_left_out, "last window is missing"),
-        (down_only, "along the diagonal"),
-        (other_diagonal, "run backwards"),
-        (averaged, "the mean"),
     ],
 }

@@ -7,14 +7,31 @@ from mocap.body.planar import PlanarTransform
 from mocap.course.check import Check, Mistake, close_angles
 from mocap.matching.point_clouds import align
 
+
+def _angles(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw angles in degrees, among them two that are equal and two that are half a turn apart."""
+    a, b = rng.uniform(-180, 180, (2, int(rng.integers(4, 9))))
+    a[:2] = rng.integers(-180, 180, 2)
+    b[0], b[1] = a[0], a[1] - 180 * np.copysign(1, a[1])
+    return a, b
+
+
 angle_gap = Check(
     name="angle_gap",
     asks="the differences a - b in degrees, wrapped to [-180, 180)",
     start="how far is it from 179° to -179°? Subtract, then think of the remainder `%`.",
-    draw=lambda rng: tuple(rng.uniform(-180, 180, (2, rng.integers(4, 9)))),
+    draw=_angles,
     truth=lambda a, b: (a - b + 180) % 360 - 180,
     mistakes=[
         Mistake(lambda a, b: a - b, "179° and -179° are 2° apart, not 358°: whole turns do not count."),
+        Mistake(
+            lambda a, b: np.abs(a - b),
+            "179° and -179° are 2° apart, not 358°; and the differences have signs, so do not remove them.",
+        ),
+        Mistake(
+            lambda a, b: 180 - (b - a + 180) % 360,
+            "right but for half a turn: the range is [-180, 180), so half a turn is -180, not 180.",
+        ),
         Mistake(
             lambda a, b: (a - b) % 360,
             "that goes from 0 to 360, so -1° counts as 359°; the range should end at 180.",
@@ -33,10 +50,14 @@ angle_gap = Check(
 
 
 def _clouds(rng: np.random.Generator) -> tuple[Array, Array]:
-    """Make a cloud, and the same cloud turned, moved and changed a little, all at random."""
+    """Make a cloud, and the same cloud turned and moved; two times in three also changed a little.
+
+    One cloud in four is turned by half a turn, and one in four not at all.
+    """
     points = rng.normal(size=(int(rng.integers(5, 12)), 3)) + rng.normal(size=3) * 3
-    way = PlanarTransform(rng.uniform(-np.pi, np.pi), *rng.normal(size=2))
-    return points, way.apply_points(points) + rng.normal(size=points.shape) * 0.1
+    angle = rng.choice([0.0, np.pi, *rng.uniform(-np.pi, np.pi, 2)])
+    moved = PlanarTransform(angle, *rng.normal(size=2)).apply_points(points)
+    return points, moved + rng.normal(size=points.shape) * rng.choice([0.0, 0.1, 0.1])
 
 
 def _turned(points: Array, angle: float) -> Array:
@@ -118,46 +139,4 @@ best_angle = Check(
         ),
     ],
     same=close_angles,
-)
-
-
-def _sums(products: Array, window: int, *, step: int = 1) -> Array:
-    """Add up products[i + f, j + step f] over a window's frames, as far as a window fits."""
-    rows, columns = (count - window + 1 for count in products.shape)
-    first = 0 if step >= 0 else window - 1
-    each = [products[f : f + rows, first + step * f : first + step * f + columns] for f in range(window)]
-    return np.asarray(np.sum(each, axis=0))
-
-
-window_sums = Check(
-    name="window_sums",
-    asks="the sums of products[i + f, j + f] over the frames f of a window",
-    start="shift the whole array by f rows and f columns, and add up. How many windows fit?",
-    draw=lambda rng: (rng.normal(size=rng.integers(7, 12, 2)), int(rng.integers(2, 5))),
-    truth=_sums,
-    mistakes=[
-        Mistake(
-            lambda products, window: _sums(products, window - 1),
-            "off by one: a window has the frames f = 0 to window - 1, and fits F - window + 1 times.",
-        ),
-        Mistake(
-            lambda products, window: _sums(products, window + 1),
-            "your windows are one frame too long: f runs from 0 to window - 1.",
-        ),
-        Mistake(
-            lambda products, window: _sums(products, window)[:-1, :-1],
-            "the last window is missing: F frames have F - window + 1 windows.",
-        ),
-        Mistake(
-            lambda products, window: _sums(products, window, step=0),
-            "that goes down the columns; both frames advance together, along the diagonal.",
-        ),
-        Mistake(
-            lambda products, window: _sums(products, window, step=-1),
-            "that is the other diagonal: one clip would run backwards.",
-        ),
-        Mistake(
-            lambda products, window: _sums(products, window) / window, "that is the mean; a sum is asked for."
-        ),
-    ],
 )
