@@ -33,7 +33,7 @@ def runs(marks: Mask) -> NDArray[np.intp]:
     >>> runs(np.array([True, True, False, True])).tolist()
     [[0, 2], [3, 4]]
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     edges = np.diff(np.asarray(marks, np.int8), prepend=0, append=0)
     return np.stack([np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)], axis=-1)

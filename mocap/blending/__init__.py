@@ -10,6 +10,7 @@ Reading order (notebook 04)
 3. `splicing`: lay a clip on another, and put the frames of both in a row
 4. `joining`: from clip into clip, by a blend
 5. `inertialization`: a cut whose offset dies away
+6. `matched_stretches`: many pairs to try blends on
 
 References
 ----------
@@ -27,5 +28,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "splicing": ["lay_window_on", "splice"],
         "joining": ["join"],
         "inertialization": ["inertialize"],
+        "matched_stretches": ["draw_stretches"],
     },
 )

@@ -16,6 +16,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     At the cut a's pose is b's pose plus an offset x that changes with the velocity v. From there on only b
     plays, plus this offset, which fades over T = k / fps by the quintic
     x(u) = (1 - u)⁴ (x + (4 x + v T) u), u = t / T. It ends at rest, without acceleration and without jerk.
+    The talk's own quintic also starts with the offset's acceleration, and T is cut where it would overshoot.
     Roots are offset by vectors, rotations by rotation vectors. Unlike a blend it plays no frames of a after
     the cut, so games can use it at any moment; but it does not know where a was going.
 

@@ -63,8 +63,6 @@ def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
     --------
     >>> checked_weights([1, 0.5, 0], 3, 3)
     array([1. , 0.5, 0. ])
-
-    Notebook: 04-blending
     """
     alpha = np.asarray(weights, float)
     if frames != others or alpha.shape != (frames,):

@@ -56,7 +56,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     >>> [SKELETON.names[joint] for joint in find_legs(SKELETON)[0]]
     ['lfemur', 'ltibia', 'lfoot', 'ltoes']
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
     for pair in _NAMES:

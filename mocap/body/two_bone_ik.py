@@ -61,7 +61,7 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     >>> leg.middle.round(6), bool(leg.reached)
     (array([0. , 0.6, 0.3]), True)
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     upper, lower = lengths
     if not min(lengths) > 0:
@@ -88,8 +88,6 @@ def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, 
     Raises
     ------
     MocapError : if the target is at the start, or `bend` points along the limb.
-
-    Notebook: 04-blending
     """
     reach = np.linalg.norm(target - start, axis=-1, keepdims=True)
     if not np.all(reach > 1e-9):
@@ -103,8 +101,5 @@ def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, 
 
 
 def bone_rotation(direction: Array, hinge: Array) -> Array:
-    """Turn -y onto the bone's direction and +x onto the hinge.
-
-    Notebook: 04-blending
-    """
+    """Turn -y onto the bone's direction and +x onto the hinge."""
     return rotations.from_matrix(np.stack([hinge, -direction, np.cross(hinge, -direction)], axis=-1))

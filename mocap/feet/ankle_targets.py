@@ -83,7 +83,7 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
     array([[0.01, 0.01, 0.04],
            [0.01, 0.01, 0.01]])
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     places = np.array(joints)
     placed = np.zeros((2, len(places[0])), bool)

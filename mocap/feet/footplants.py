@@ -89,7 +89,7 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     >>> round(float((marked.contacts["lfoot"] == clip.contacts["lfoot"]).mean()), 2)
     1.0
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     legs = legs_of(motion.skeleton, legs)
     span = max(1, int(SPAN * motion.fps))

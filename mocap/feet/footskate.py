@@ -77,7 +77,7 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     >>> bool(0.002 < abs(rise).max() < 0.01)
     True
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     legs = legs_of(motion.skeleton, legs)
     marks = asked = _settled_marks(motion, legs)

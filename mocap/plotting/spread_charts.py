@@ -47,6 +47,8 @@ def quartile_band(
     >>> band = quartile_band([1, 2], [[0, 1, 2, 3, 4], [5, 5, 6, 7, 7]])
     >>> band.median.get_ydata().tolist()
     [2.0, 6.0]
+
+    Notebook: 04-blending
     """
     ax = ax or plt.figure(figsize=(5, 3.5), layout="constrained").add_subplot()
     low, middle, high = np.percentile(np.asarray(samples, float), [25, 50, 75], axis=1)
@@ -79,7 +81,7 @@ def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> Ax
     alive = np.ma.masked_where(np.isnan(values), np.zeros(values.shape))
     grey = LinearSegmentedColormap.from_list("grey", ["#E4E4E4", QUIET])
     ax.imshow(alive, cmap=grey, vmin=0, vmax=1, aspect="auto", interpolation="nearest")
-    taken = np.ma.masked_where(~(values > 0), values)
+    taken = np.ma.masked_where(~(values > 0), np.nan_to_num(values))
     image = ax.imshow(taken, cmap=SEAMS, vmin=0, vmax=highest, aspect="auto", interpolation="nearest")
     ax.set(xlabel="step of the walk", ylabel="walk")
     return image

@@ -81,6 +81,8 @@ def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weigh
     ...     print(round(blend_jolts(result, first, second, 10, cubic_weights(window)).added.max(), 2))
     0.28
     0.03
+
+    Notebook: 04-blending
     """
     inside = np.asarray(weights, float)
     _check(result, first, second, start, len(inside))

@@ -1,13 +1,39 @@
+from dataclasses import replace
+
 import numpy as np
+
+from mocap.body.rotations import slerp
 
 
 def by_sines(start, end, amount):
-    angle = np.arccos(np.dot(start, end))
-    return np.sin((1 - amount) * angle) / np.sin(angle) * start + np.sin(amount * angle) / np.sin(angle) * end
+    with np.errstate(invalid="ignore", divide="ignore"):
+        angle = np.arccos(np.dot(start, end))
+        whole = np.sin(angle)
+        return np.sin((1 - amount) * angle) / whole * start + np.sin(amount * angle) / whole * end
+
+
+def without_a_branch(start, end, amount):
+    return by_sines(start, -end if start @ end < 0 else end, amount)
+
+
+def with_a_branch(start, end, amount):
+    if start @ end < 0:
+        end = -end
+    if start @ end > 1 - 1e-12:
+        return (1 - amount) * start + amount * end
+    return by_sines(start, end, amount)
+
+
+def with_a_rough_branch(start, end, amount):
+    return start if abs(start @ end) > 1 - 1e-12 else with_a_branch(start, end, amount)
 
 
 def backwards(start, end, amount):
-    return by_sines(end, start if start @ end >= 0 else -start, amount)
+    return with_a_branch(end, start if start @ end >= 0 else -start, amount)
+
+
+def backwards_without_a_branch(start, end, amount):
+    return without_a_branch(end, start if start @ end >= 0 else -start, amount)
 
 
 def normalised_line(start, end, amount):
@@ -26,6 +52,16 @@ def bare_line(start, end, amount):
 def line_the_long_way(start, end, amount):
     q = start + amount * (end - start)
     return q / np.sqrt((q**2).sum())
+
+
+def line_as_it_is(start, end, amount):
+    return start + amount * (end - start)
+
+
+def not_divided(start, end, amount):
+    angle = np.arccos(np.clip(abs(start @ end), 0, 1))
+    end = -end if start @ end < 0 else end
+    return np.sin((1 - amount) * angle) * start + np.sin(amount * angle) * end
 
 
 def rising(window):
@@ -48,54 +84,64 @@ def cubic(window):
     return 1 + t**2 * (2 * t - 3)
 
 
-def with_height(positions, planted):
-    on = positions[planted]
-    return 100 * np.sqrt(((on - on.mean(0)) ** 2).sum(1)).max()
+def roots_of(a, b, alpha):
+    return b.root_positions + alpha.reshape(-1, 1) * (a.root_positions - b.root_positions)
 
 
-def over_ground(places, centre):
-    return np.hypot(places[:, 0] - centre[0], places[:, 2] - centre[2]).max()
+def turns_of(a, b, alpha):
+    frames = [slerp(b.rotations[f], a.rotations[f], alpha[f]) for f in range(len(a))]
+    return np.array(frames)
 
 
-def in_metres(positions, planted):
-    return over_ground(positions[planted], positions[planted].mean(0))
+def shares_swapped(a, b, alpha):
+    return roots_of(b, a, alpha), turns_of(b, a, alpha)
 
 
-def always(positions, planted):
-    return 100 * over_ground(positions, positions.mean(0))
+def slerp_backwards(a, b, alpha):
+    return roots_of(a, b, alpha), turns_of(b, a, alpha)
 
 
-def mean_of_all(positions, planted):
-    return 100 * over_ground(positions[planted], positions.mean(0))
+def roots_swapped(a, b, alpha):
+    return roots_of(b, a, alpha), turns_of(a, b, alpha)
 
 
-def from_the_start(positions, planted):
-    return 100 * over_ground(positions[planted], positions[planted][0])
+def roots_alone(a, b, alpha):
+    return roots_of(a, b, alpha), a.rotations.copy()
 
 
-def between_bones(thigh, shank, distance):
-    return np.arccos((thigh**2 + shank**2 - distance**2) / (2 * thigh * shank))
+def root_joint_alone(a, b, alpha):
+    turns = a.rotations.copy()
+    turns[:, 0] = turns_of(a, b, alpha)[:, 0]
+    return roots_of(a, b, alpha), turns
 
 
-def in_degrees(thigh, shank, distance):
-    return np.degrees(np.pi - between_bones(thigh, shank, distance))
+def bare_lines(a, b, alpha):
+    share = alpha.reshape(-1, 1, 1)
+    return roots_of(a, b, alpha), b.rotations + share * (a.rotations - b.rotations)
 
 
-def at_the_hip(thigh, shank, distance):
-    return np.arccos((thigh**2 + distance**2 - shank**2) / (2 * thigh * distance))
+def unit_lines(a, b, alpha):
+    roots, turns = bare_lines(a, b, alpha)
+    return roots, turns / np.sqrt((turns**2).sum(-1))[..., None]
 
 
-def bent_forwards(thigh, shank, distance):
-    return -np.arccos((distance**2 - thigh**2 - shank**2) / (2 * thigh * shank))
+def unit_lines_the_short_way(a, b, alpha):
+    nearer = np.where((a.rotations * b.rotations).sum(-1)[..., None] < 0, -1.0, 1.0)
+    return unit_lines(a, replace(b, rotations=nearer * b.rotations), alpha)
 
 
 WRONG = {
     "short_way": [
         (by_sines, "the long way round: if"),
-        (backwards, "runs backwards"),
+        (without_a_branch, "sin Ω is 0"),
+        (with_a_rough_branch, "sin Ω is 0"),
+        (backwards, "yours runs backwards."),
+        (backwards_without_a_branch, "yours runs backwards."),
         (normalised_line, "not at constant speed"),
         (bare_line, "cuts through the sphere"),
         (line_the_long_way, "on a straight line, and"),
+        (line_as_it_is, "does not keep the length 1, and"),
+        (not_divided, "divide by the sine"),
     ],
     "quintic": [
         (rising, "these rise"),
@@ -103,17 +149,14 @@ WRONG = {
         (end_to_end, "would be wasted"),
         (cubic, "the cubic"),
     ],
-    "slide": [
-        (with_height, "only x and z"),
-        (in_metres, "in metres"),
-        (always, "in the air"),
-        (mean_of_all, "over the planted frames only"),
-        (from_the_start, "where the plant begins"),
-    ],
-    "knee_bend": [
-        (between_bones, "π for a straight leg"),
-        (in_degrees, "in degrees"),
-        (at_the_hip, "at the hip"),
-        (bent_forwards, "wrong sign"),
+    "mix": [
+        (shares_swapped, "you give that share to b"),
+        (slerp_backwards, "the rotations run backwards"),
+        (roots_swapped, "in the roots, alpha"),
+        (roots_alone, "the joints are still a's"),
+        (root_joint_alone, "only the root"),
+        (bare_lines, "a straight line leaves"),
+        (unit_lines, "the long way round: use slerp"),
+        (unit_lines_the_short_way, "not at constant speed"),
     ],
 }

@@ -1,23 +1,41 @@
 """Checks of notebook 04."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.easing import quintic_step
 from mocap.blending import weights
+from mocap.blending.interpolation import blend
 from mocap.body import rotations
-from mocap.course.check import Check, Mistake, close_rotations
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.course.check import Check, Mistake, close, close_rotations
+
+NEAR = 1e-4  # radians between quaternions; below, a wrong answer may give anything
+
+
+def _unit(q: Array) -> Array:
+    return np.asarray(q / np.linalg.norm(q, axis=-1, keepdims=True))
 
 
 def _pair(rng: np.random.Generator) -> tuple[Array, Array, float]:
-    start, end = (q / np.linalg.norm(q) for q in rng.normal(size=(2, 4)))
-    return start, end, float(rng.uniform(0.1, 0.9))
+    """Draw two rotations: far apart, almost the same or the same, and the second with either sign."""
+    start, other = _unit(rng.normal(size=(2, 4)))
+    away = _unit(other - (other @ start) * start) * 10.0 ** rng.uniform(-9, -5)
+    end = (other, other, start + away, start)[rng.integers(4)]
+    return start, _unit(end) * rng.choice([-1, 1]), float(rng.uniform(0.1, 0.9))
+
+
+def _nearer(start: Array, end: Array) -> Array:
+    return end if start @ end > 0 else -end
 
 
 def _sines(start: Array, end: Array, amount: float) -> Array:
-    """Weight two quaternions by sines, without a change of sign: the long way round if they point apart."""
-    angle = np.arccos(start @ end)
+    """Weight by sines without a change of sign; NaN, which stands for any answer, near equal or opposite."""
+    cosine = float(np.clip(start @ end, -1, 1))
+    if abs(cosine) > np.cos(NEAR):
+        return np.full(4, np.nan)
+    angle = np.arccos(cosine)
     return np.asarray((np.sin((1 - amount) * angle) * start + np.sin(amount * angle) * end) / np.sin(angle))
 
 
@@ -25,12 +43,9 @@ def _on_a_line(start: Array, end: Array, amount: float) -> Array:
     return (1 - amount) * start + amount * end
 
 
-def _nearer(start: Array, end: Array) -> Array:
-    return end if start @ end > 0 else -end
-
-
-def _unit(q: Array) -> Array:
-    return np.asarray(q / np.linalg.norm(q))
+def _same_where_known(given: Array, wanted: Array) -> bool:
+    """Check whether two rotations are the same; a known mistake leaves open what it gives where it is NaN."""
+    return bool(np.isnan(wanted).any()) or close_rotations(given, wanted)
 
 
 short_way = Check(
@@ -43,6 +58,11 @@ short_way = Check(
         Mistake(
             _sines,
             "that is the long way round: if start · end is below 0, use -end, which is the same rotation.",
+        ),
+        Mistake(
+            lambda start, end, amount: _sines(start, _nearer(start, end), amount),
+            "right where the rotations differ. Where they are equal, or almost, sin Ω is 0, or nearly: "
+            "return a point of the straight line there.",
         ),
         Mistake(
             lambda start, end, amount: _sines(start, _nearer(start, end), 1 - amount),
@@ -61,13 +81,18 @@ short_way = Check(
             "your answer does not have length 1: a straight line cuts through the sphere of rotations.",
         ),
         Mistake(
+            _on_a_line,
+            "that is a straight line: it does not keep the length 1, and if start · end is below 0, it is "
+            "also the long way round.",
+        ),
+        Mistake(
             lambda start, end, amount: (
-                _sines(start, _nearer(start, end), amount) * np.sqrt(1 - (start @ end) ** 2)
+                _sines(start, _nearer(start, end), amount) * np.sqrt(max(1 - (start @ end) ** 2, 0))
             ),
             "your answer does not have length 1: divide by the sine of the whole angle.",
         ),
     ],
-    same=close_rotations,
+    same=_same_where_known,
 )
 
 
@@ -95,73 +120,90 @@ quintic = Check(
 )
 
 
-def _stray(points: Array, planted: NDArray[np.bool_], *, about: Array | None = None) -> float:
-    """Measure the largest distance of planted points from their mean, or from another point, in cm."""
-    centre = points[planted].mean(axis=0) if about is None else about
-    return float(100 * np.linalg.norm(points[planted] - centre, axis=1).max())
+Poses = tuple[Array, Array]
 
 
-slide = Check(
-    name="slide",
-    asks="the largest distance over the ground, in centimetres, of the planted joint from its mean place",
-    start="keep only the planted frames, and of those x and z. Where is the joint on average?",
-    draw=lambda rng: (
-        rng.normal(size=(20, 3)).cumsum(axis=0) * 0.01,
-        np.arange(20) - rng.integers(0, 10) < rng.integers(4, 10),
-    ),
-    truth=lambda positions, planted: _stray(positions[:, [0, 2]], planted),
+def _two_motions(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:
+    """Draw two motions of three joints, in some frames with equal poses, and falling weights."""
+    body = Skeleton(
+        ["hip", "knee", "foot"], np.array([-1, 0, 1]), np.array([[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
+    )
+    frames = int(rng.integers(4, 9))
+    turns = _unit(rng.normal(size=(2, frames, 3, 4)))
+    turns[1, 0] = turns[0, 0] * rng.choice([-1, 1])
+    a, b = (Motion(body, rng.normal(size=(frames, 3)), own, 30.0) for own in turns)
+    return a, b, np.sort(rng.uniform(0, 1, frames))[::-1].copy()
+
+
+def _roots(a: Motion, b: Motion, alpha: Array) -> Array:
+    return np.asarray(alpha[:, None] * a.root_positions + (1 - alpha[:, None]) * b.root_positions)
+
+
+def _turns(a: Motion, b: Motion, alpha: Array) -> Array:
+    return rotations.slerp(b.rotations, a.rotations, alpha[:, None])
+
+
+def _lines(a: Motion, b: Motion, alpha: Array, *, signed: bool, unit: bool) -> Array:
+    """Mix quaternions on straight lines: with the nearer sign of b's or not, scaled to length 1 or not."""
+    share = alpha[:, None, None]
+    signs = np.sign((a.rotations * b.rotations).sum(-1, keepdims=True)) if signed else 1.0
+    mixed = share * a.rotations + (1 - share) * signs * b.rotations
+    return _unit(mixed) if unit else np.asarray(mixed)
+
+
+def _mixed(a: Motion, b: Motion, alpha: Array) -> Poses:
+    result = blend(a, b, alpha)
+    return result.root_positions, result.rotations
+
+
+def _same_poses(given: Poses, wanted: Poses) -> bool:
+    roots, turns = given
+    return close(roots, wanted[0]) and close_rotations(turns, wanted[1])
+
+
+mix = Check(
+    name="mix",
+    asks="the root positions and the rotations of the mix, in this order",
+    start="alpha[:, None] has the shape (F, 1). Multiply a's roots by it, b's by one minus it, and add them.",
+    draw=_two_motions,
+    truth=_mixed,
     mistakes=[
-        Mistake(_stray, "a heel that lifts does not slide: only x and z count."),
         Mistake(
-            lambda positions, planted: _stray(positions[:, [0, 2]], planted) / 100,
-            "that is in metres; centimetres are asked for.",
+            lambda a, b, alpha: _mixed(a, b, 1 - alpha),
+            "alpha is the share of a; you give that share to b.",
         ),
         Mistake(
-            lambda positions, planted: _stray(positions[:, [0, 2]], np.ones(len(planted), bool)),
-            "a foot in the air is free to move: count only the frames in which it is planted.",
+            lambda a, b, alpha: (_roots(a, b, alpha), _turns(a, b, 1 - alpha)),
+            "the roots are right, the rotations run backwards: slerp's amount is the share of its second "
+            "rotation.",
         ),
         Mistake(
-            lambda positions, planted: _stray(
-                positions[:, [0, 2]], planted, about=positions[:, [0, 2]].mean(axis=0)
+            lambda a, b, alpha: (_roots(a, b, 1 - alpha), _turns(a, b, alpha)),
+            "the rotations are right; in the roots, alpha is the share of a, not of b.",
+        ),
+        Mistake(
+            lambda a, b, alpha: (_roots(a, b, alpha), a.rotations),
+            "the roots are right, but the joints are still a's: mix their rotations as well.",
+        ),
+        Mistake(
+            lambda a, b, alpha: (
+                _roots(a, b, alpha),
+                np.concatenate([_turns(a, b, alpha)[:, :1], a.rotations[:, 1:]], axis=1),
             ),
-            "take the mean over the planted frames only.",
+            "only the root is mixed: every joint turns, so give slerp the rotations of all joints.",
         ),
         Mistake(
-            lambda positions, planted: _stray(
-                positions[:, [0, 2]], planted, about=positions[planted.argmax()][[0, 2]]
-            ),
-            "measure from the mean place, not from where the plant begins.",
+            lambda a, b, alpha: (_roots(a, b, alpha), _lines(a, b, alpha, signed=False, unit=False)),
+            "the roots are right; rotations are mixed by slerp, since a straight line leaves the sphere.",
+        ),
+        Mistake(
+            lambda a, b, alpha: (_roots(a, b, alpha), _lines(a, b, alpha, signed=False, unit=True)),
+            "the rotations are on straight lines, and some go the long way round: use slerp.",
+        ),
+        Mistake(
+            lambda a, b, alpha: (_roots(a, b, alpha), _lines(a, b, alpha, signed=True, unit=True)),
+            "the right arcs, but not at constant speed: use slerp instead of a line scaled to length 1.",
         ),
     ],
-)
-
-
-def _inner(thigh: float, shank: float, distance: float) -> float:
-    """Give the angle between thigh and shank, radians."""
-    return float(np.arccos((thigh**2 + shank**2 - distance**2) / (2 * thigh * shank)))
-
-
-knee_bend = Check(
-    name="knee_bend",
-    asks="how far the knee is bent, in radians: 0 for a straight leg",
-    start="the law of cosines gives the angle between thigh and shank. What is that angle in a straight leg?",
-    draw=lambda rng: (*(bones := rng.uniform(0.3, 0.5, 2)), float(bones.sum() * rng.uniform(0.5, 0.99))),
-    truth=lambda thigh, shank, distance: np.pi - _inner(thigh, shank, distance),
-    mistakes=[
-        Mistake(_inner, "that is the angle between the bones: π for a straight leg, whose bend is 0."),
-        Mistake(
-            lambda thigh, shank, distance: 180 - np.degrees(_inner(thigh, shank, distance)),
-            "that is in degrees; radians are asked for.",
-        ),
-        Mistake(
-            lambda thigh, shank, distance: _inner(thigh, distance, shank),
-            "that is the angle at the hip: the side opposite the knee is the distance.",
-        ),
-        Mistake(
-            lambda thigh, shank, distance: (
-                np.arccos((thigh**2 + shank**2 - distance**2) / (thigh * shank) / 2) - np.pi
-            ),
-            "the size is right, but it has the wrong sign.",
-        ),
-    ],
+    same=_same_poses,
 )
