@@ -183,7 +183,8 @@ def _merged(outputs: list[Any]) -> list[Any]:
     merged: list[Any] = []
     for output in outputs:
         data = output.get("data", {})
-        data.pop(WIDGET, None)
+        if data.pop(WIDGET, None) and not data:
+            continue
         if output.output_type == "stream" and merged and merged[-1].get("name") == output.name:
             merged[-1].text += output.text
         else:

@@ -9,7 +9,8 @@ Reading order (notebooks 00 to 10)
 2. `live_player`: players that Python and the reader move together, and a canvas to draw a path on
 3. `experiments`: a picture with controls
 4. `pointing`: an image to click on
-5. `film`: a motion as a film, a strip of poses or a page
+5. `reopening`: live while Python runs, a picture when the notebook is opened again
+6. `film`: a motion as a film, a strip of poses or a page
 """
 
 import lazy_loader

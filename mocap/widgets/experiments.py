@@ -1,19 +1,20 @@
 """Experiments for notebooks: a picture with controls, drawn anew when a control moves.
 
-What `explore` shows is one output in three forms: live controls where Python runs, a PNG where it does not (a
-code host, a printed page), and a sentence where there are no pictures.
+What `explore` shows has three forms: live controls where Python runs, a PNG where it does not (a code host, a
+printed page, a notebook that is opened again), and a sentence where there are no pictures. While a control is
+dragged, the browser sends its latest value as soon as the last picture is drawn.
 """
 
 from __future__ import annotations
 
-import asyncio
 import html
 import importlib.util
 import inspect
 import io
-import time
 import traceback
 from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -27,9 +28,10 @@ from PIL import Image
 from mocap.errors import MocapError
 from mocap.plotting.picture import Picture, few_colours, figure_of
 from mocap.widgets.pointing import Pointed, pointer
+from mocap.widgets.reopening import display_live
 
+NAMING = Path(__file__).with_name("naming.js")
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
-SLOW = 0.15  # seconds; a slower drawing waits until no control has moved for this long
 
 
 def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experiment:  # noqa: ANN401
@@ -145,10 +147,10 @@ class Experiment:
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
         self._canvas = BlittedFigure()
-        self._seconds = 0.0
-        self._waiting: asyncio.TimerHandle | None = None
-        shrinking = {"flex": "1 1 320px", "max_width": "max-content"}  # to 320 pixels, then they stack
-        self.picture = ipywidgets.Image(format="png", layout=shrinking)  # has no alt; a sentence stands below
+        # Pictures shrink to 320 pixels and then stack, and further where there is less room.
+        shrinking = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
+        self.picture = ipywidgets.Image(format="png", layout=shrinking)
+        self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
         sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
         self._images = [control for control in controls.values() if isinstance(control, Pointed)]
@@ -157,12 +159,14 @@ class Experiment:
         above = [control for control in controls.values() if control not in self._images]
         below = ipywidgets.HBox([*self._images, self.picture, self.message])
         below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
-        self.box = ipywidgets.VBox([*above, below, sentence], layout={"align_items": "flex-start"})
+        naming = _naming_class()
+        parts = [*above, below, sentence, *([naming(alt=alt)] if naming else [])]
+        self.box = ipywidgets.VBox(parts, layout={"align_items": "flex-start"})
         self.refresh()
         if self.error:
             raise self.error
         for control in controls.values():
-            control.observe(self._moved, "value")
+            control.observe(lambda _: self.refresh(), "value")
 
     def __repr__(self) -> str:
         values = "".join(f", {name}={value!r}" for name, value in self.values().items())
@@ -183,7 +187,6 @@ class Experiment:
 
     def refresh(self) -> None:
         """Draw anew; an error is shown in the picture's place until a drawing works again."""
-        start = time.perf_counter()
         try:
             self.picture.value = self._canvas.png(self.draw(**self.values()))
             self.error = None
@@ -193,24 +196,13 @@ class Experiment:
             self.message.value = f"<pre style='{style}'>{html.escape(_error_text(error))}</pre>"
         self.picture.layout.display = "none" if self.error else None
         self.message.layout.display = None if self.error else "none"
-        self._seconds = time.perf_counter() - start
 
-    def _moved(self, _: object) -> None:
-        """Draw at once where that is fast; else when no control has moved for a while."""
-        if self._waiting:
-            self._waiting.cancel()
-        try:
-            loop = asyncio.get_running_loop() if self._seconds > SLOW else None
-        except RuntimeError:  # no event loop: this is a test or a script, not a kernel
-            loop = None
-        if loop:
-            self._waiting = loop.call_later(SLOW, self.refresh)
-        else:
-            self.refresh()
+    def still(self) -> tuple[dict[str, str], dict[str, Any]]:
+        """Return what stands where no Python runs: the data and the metadata of a picture."""
+        return Picture(self._whole_picture(), self.alt)._repr_mimebundle_()
 
-    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
-        picture, metadata = Picture(self._whole_picture(), self.alt)._repr_mimebundle_()
-        return {**(self.box._repr_mimebundle_() or {}), **picture}, metadata
+    def _ipython_display_(self) -> None:
+        display_live(self.still(), self.box)
 
     def _whole_picture(self) -> bytes:
         """Return the images to click on and, to their right, the picture, as one PNG."""
@@ -221,6 +213,22 @@ class Experiment:
         for number, part in enumerate(parts):
             row.paste(part, (sum(before.width for before in parts[:number]), 0))
         return few_colours(row)
+
+
+@cache
+def _naming_class() -> type[Any] | None:
+    """Make the class of a widget that gives the others their names, where anywidget is installed."""
+    try:
+        import anywidget
+        import traitlets
+    except ImportError:
+        return None
+
+    class Naming(anywidget.AnyWidget):
+        _esm = NAMING.read_text("utf-8")
+        alt = traitlets.Unicode().tag(sync=True)
+
+    return Naming
 
 
 def _error_text(error: Exception) -> str:

@@ -20,6 +20,7 @@ from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
 from mocap.widgets.player import Player, play, script
+from mocap.widgets.reopening import display_live
 
 Follow = Callable[[Array], Motion | Player]
 
@@ -50,10 +51,8 @@ class _Shown:
     def __repr__(self) -> str:
         return f"LivePlayer({self.player.alt!r})"
 
-    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:  # noqa: ANN401
-        live: Any = super()._repr_mimebundle_(**options)  # type: ignore[misc]  # of the widget
-        stored, metadata = self.player._repr_mimebundle_()
-        return {**live[0], **stored}, metadata
+    def _ipython_display_(self) -> None:
+        display_live(self.player._repr_mimebundle_(), self)
 
 
 @cache
@@ -132,8 +131,9 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     Parameters
     ----------
     follow : called with a path, shape (N, 2), points (x, z) in metres; returns a motion, or a `play` of one.
-        Its `alt` and all warnings stand below the canvas and can say how far off the path the walk is. Its `path`, if it has
-        one, is drawn instead of the reader's line: give there the path that was followed, such as a spline.
+        Its `alt`, which can say how far off the path the walk is, and all warnings stand below the canvas.
+        Its `path`, if it has one, is drawn instead of the reader's line: give there what was followed, such
+        as a spline.
     path : the first path, shape (N, 2).
 
     Returns

@@ -93,7 +93,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     >>> play(datasets.sample("walk_straight"))
     Player('A stick figure plays walk_straight, ...')
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     if not motions:
         raise MocapError("There is no motion to play.")

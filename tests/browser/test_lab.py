@@ -10,7 +10,7 @@ from tests.browser.conftest import run_notebook, wait_until, watched_page
 
 CELLS = {
     "start": """
-        import ipywidgets, numpy as np, warnings
+        import ipywidgets, matplotlib.pyplot as plt, numpy as np, time, warnings
         from mocap import MocapWarning
         from mocap import blending, datasets, matching, plotting, resample
         from mocap.body import joint_positions
@@ -40,6 +40,17 @@ CELLS = {
             return plotting.laid_over(walk[i : i + 10], laid[j : j + 10])
         grid = matching.distance_grid(walk, walk, window=10)
         explore(lay, alt="Two windows laid over each other.", at=plotting.distance_image(grid, fps=30))""",
+    "wide": """
+        wide = plt.figure(figsize=(12, 2))
+        (dot,) = wide.add_subplot(xlim=(0, 1)).plot([0], [0], "o")
+        drawn_at = ipywidgets.Label("")
+        def slow(share=0.0):
+            time.sleep(0.3)
+            drawn_at.value += f" {share:.2f}"
+            dot.set_xdata([share])
+            return wide
+        explore(slow, alt="A dot on a wide picture.", share=(0.0, 1.0, 0.01))""",
+    "drawn_at": "drawn_at",
     "play": "play(walk)",
     "linked": """
         live = linked(play(walk, follow=False))
@@ -61,6 +72,7 @@ CELLS = {
     "drawn": "drawn",
     "set": "live.frame = 33",
 }
+PLAYER = ".mocap-player:visible"
 
 
 @pytest.fixture(scope="module")
@@ -93,13 +105,13 @@ def notebook(ran, artefacts, request):
 def state(place):
     """Return the frame that a player shows, or -1 before it has drawn one."""
     frame = "root => root.player?.pictures ? root.player.frame() : -1"
-    return place.locator(".mocap-player").evaluate(frame)
+    return place.locator(PLAYER).evaluate(frame)
 
 
 def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artefacts):
     page, cell = notebook
     experiment = cell("explore")
-    picture = experiment.locator("img")
+    picture = experiment.locator(".mocap-picture")
     wait_until(lambda: picture.is_visible())
     first = picture.get_attribute("src")
     experiment.locator(".noUi-handle").focus()
@@ -119,7 +131,7 @@ def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artef
 def test_a_choice_a_slider_of_choices_and_a_box_change_the_picture(notebook):
     _, cell = notebook
     place = cell("choose")
-    picture = place.locator("img")
+    picture = place.locator(".mocap-picture")
     for move in (
         lambda: place.locator("select").select_option("right"),
         lambda: place.locator(".noUi-handle").press("End"),
@@ -138,12 +150,55 @@ def test_a_shown_picture_has_its_alt_text(notebook):
     assert picture.evaluate("img => img.naturalWidth") > 400
 
 
+@pytest.mark.parametrize("width", [600, 848, 1280])
+def test_pictures_fit_the_width_that_there_is(notebook, width):
+    page, cell = notebook
+    page.set_viewport_size({"width": width, "height": 900})
+    try:
+        for name in ("wide", "explore", "point", "choose", "draw"):
+            place = cell(name)
+            output = place.locator(".jp-OutputArea-output:visible").last.bounding_box()
+            for part in place.locator(":is(.mocap-picture, .mocap-pointing, canvas):visible").all():
+                box = part.bounding_box()
+                assert box["x"] + box["width"] <= output["x"] + output["width"] + 1, name
+                assert box["width"] > 200, name
+    finally:
+        page.set_viewport_size({"width": 1200, "height": 900})
+
+
+def test_a_slow_picture_moves_while_a_slider_is_dragged_and_ends_where_it_ends(notebook):
+    page, cell = notebook
+    handle = cell("wide").locator(".noUi-handle")
+    box = handle.bounding_box()
+    page.mouse.move(box["x"] + 5, box["y"] + 5)
+    page.mouse.down()
+    for step in range(1, 31):
+        page.mouse.move(box["x"] + 5 + 4 * step, box["y"] + 5)
+        page.wait_for_timeout(100)
+    page.mouse.up()
+    share = float(cell("wide").locator(".widget-readout").inner_text())
+
+    def drawn():
+        return [float(text) for text in cell("drawn_at").locator(".widget-label").inner_text().split()]
+
+    wait_until(lambda: drawn()[-1] == pytest.approx(share, abs=0.006))
+    assert len(drawn()) >= 5
+    assert drawn() == sorted(drawn())
+
+
+def test_sliders_and_pictures_have_names(notebook):
+    _, cell = notebook
+    assert cell("explore").get_by_role("slider", name="frame").is_visible()
+    assert cell("wide").get_by_role("slider", name="share").is_visible()
+    assert cell("explore").locator(".mocap-picture").get_attribute("alt") == "A stick figure at a frame."
+
+
 def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook, artefacts):
     page, cell = notebook
     place = cell("point")
     grid, status = place.locator(".mocap-pointing"), place.get_by_role("status")
     wait_until(lambda: "row 30, column 100" in status.inner_text())
-    laid = place.locator("img").last
+    laid = place.locator(".mocap-picture")
     before, box = laid.get_attribute("src"), grid.bounding_box()
     page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     wait_until(lambda: laid.get_attribute("src") != before)
@@ -163,7 +218,7 @@ def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):
     page, cell = notebook
     place = cell("play")
     wait_until(lambda: state(place) > 5)
-    place.locator("canvas").focus()
+    place.locator("canvas:visible").focus()
     page.keyboard.press(" ")
     page.keyboard.press("Home")
     page.keyboard.press("ArrowRight")
@@ -178,7 +233,7 @@ def test_python_and_the_reader_move_one_frame(notebook):
     page, cell = notebook
     place = cell("linked")
     wait_until(lambda: state(place) == 33)  # the last cell set it
-    place.locator("canvas").focus()
+    place.locator("canvas:visible").focus()
     page.keyboard.press("ArrowRight")
     wait_until(lambda: cell("label").get_by_text("Python is at 34").is_visible())
     cell("linked").get_by_role("button", name="play").click()
@@ -192,7 +247,7 @@ def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
     page, cell = notebook
     place = cell("draw")
     wait_until(lambda: state(place) >= 0)
-    box = place.locator("canvas").bounding_box()
+    box = place.locator("canvas:visible").bounding_box()
 
     def draw(*pixels):
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
@@ -203,13 +258,13 @@ def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
         page.mouse.up()
 
     draw((100, 10), (160, 60), (60, 90))
-    wait_until(lambda: place.locator(".mocap-player").get_attribute("data-playing") == "true")
+    wait_until(lambda: place.locator(PLAYER).get_attribute("data-playing") == "true")
     wait_until(lambda: cell("drawn").get_by_text("Python was asked for").is_visible())
     cell("draw")
     page.screenshot(path=artefacts / "lab-path.png")
-    asked = place.locator(".mocap-player").evaluate("root => root.player.scene.asked.length")
+    asked = place.locator(PLAYER).evaluate("root => root.player.scene.asked.length")
     assert asked > 5
-    assert "The walk leaves the path once." in place.locator(".message").inner_text()
+    assert "The walk leaves the path once." in place.locator(".message:visible").inner_text()
     draw((3, 0))
     wait_until(lambda: place.get_by_text("Drag over the ground for at least 0.5 m.").is_visible())
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
@@ -220,8 +275,8 @@ def test_each_new_drawing_sets_out_while_the_last_walk_plays(notebook):
     page, cell = notebook
     place = cell("draw")
     wait_until(lambda: state(place) >= 0)
-    box = place.locator("canvas").bounding_box()
-    player = place.locator(".mocap-player")
+    box = place.locator("canvas:visible").bounding_box()
+    player = place.locator(PLAYER)
     for redraw in range(20):
         number = player.evaluate("root => root.player.scene.number")
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.6
@@ -241,9 +296,9 @@ def test_a_path_is_drawn_by_the_keys(notebook):
     page, cell = notebook
     place = cell("draw")
     wait_until(lambda: state(place) >= 0)
-    player = place.locator(".mocap-player")
+    player = place.locator(PLAYER)
     number = player.evaluate("root => root.player.scene.number")
-    place.locator("canvas").focus()
+    place.locator("canvas:visible").focus()
     for key in ("p", *["ArrowUp"] * 6, *["ArrowRight"] * 5, "Backspace"):
         page.keyboard.press(key)
     drawn = player.evaluate("root => root.player.hand.drawn")
@@ -255,3 +310,21 @@ def test_a_path_is_drawn_by_the_keys(notebook):
     page.keyboard.press("p")
     page.keyboard.press("Escape")
     assert player.evaluate("root => root.player.hand.pen") is False
+
+
+def test_a_notebook_that_is_opened_again_shows_pictures(ran, artefacts):
+    page, _ = ran
+    run = "jupyterapp.commands.execute"
+    page.evaluate(f"{run}('docmanager:save')")
+    page.evaluate("jupyterapp.shell.currentWidget.sessionContext.shutdown()")
+    page.reload()
+    wait_until(lambda: page.locator(".jp-CodeCell").count() >= len(CELLS), 60)
+    order = list(CELLS)
+    for name in ("explore", "choose", "point", "linked", "draw"):
+        place = page.locator(".jp-Notebook .jp-CodeCell").nth(order.index(name))
+        place.scroll_into_view_if_needed()
+        still = place.locator(".mocap-still")
+        wait_until(still.is_visible)
+        assert "Error displaying widget" not in place.inner_text()
+        assert still.locator("img, canvas").first.is_visible()
+    page.screenshot(path=artefacts / "lab-reopened.png")

@@ -1,6 +1,5 @@
 """Experiments, driven as a reader would drive them."""
 
-import asyncio
 import base64
 import gc
 import io
@@ -23,6 +22,7 @@ from mocap.plotting.axes import ground_axes
 from mocap.plotting.stick_figures import stick_figure
 from mocap.widgets import experiments
 from mocap.widgets.experiments import explore
+from mocap.widgets.reopening import LIVE, STILL, WIDGET
 from tests.strategies import wave
 
 pytest.importorskip("ipywidgets")
@@ -53,9 +53,17 @@ def test_moving_a_control_changes_the_picture():
     assert np.any(pixels(experiment.picture.value) != pixels(before))
 
 
-def test_the_output_is_one_bundle_of_controls_picture_and_sentence():
-    data, metadata = explore(fresh, alt="A line.", frame=(0, 9))._repr_mimebundle_()
-    assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/html", "text/plain"}
+def test_the_output_is_a_picture_with_its_sentence_and_then_the_controls(monkeypatch):
+    shown = []
+    monkeypatch.setattr("IPython.display.display", lambda data, **options: shown.append((data, options)))
+    experiment = explore(fresh, alt="A line.", frame=(0, 9))
+    experiment._ipython_display_()
+    (data, options), (live, _) = shown
+    metadata = options["metadata"]
+    assert set(data) == {"image/png", "text/html", "text/plain"}
+    assert set(live) == {WIDGET}
+    assert LIVE in experiment.box._dom_classes
+    assert STILL in data["text/html"]
     assert data["text/plain"] == "A line." == metadata["image/png"]["alt"]
     assert pixels(base64.b64decode(data["image/png"])).shape == (200, 200, 3)
 
@@ -135,22 +143,26 @@ def test_without_ipywidgets_one_sentence_says_what_to_install(monkeypatch):
         explore(fresh, alt="A line.", frame=(0, 9))
 
 
-def test_a_slow_drawing_waits_until_no_control_moves(monkeypatch):
-    monkeypatch.setattr(experiments, "SLOW", 0.0)
+def test_every_value_that_arrives_is_drawn():
     drawn = []
 
     def draw(frame):
         drawn.append(frame)
         return fresh(frame)
 
-    async def drag():
-        for frame in range(1, 9):
-            experiment.controls["frame"].value = frame
-        await asyncio.sleep(0.01)
-
     experiment = explore(draw, alt="A line.", frame=(0, 9))
-    asyncio.run(drag())
-    assert drawn == [4, 8]  # a slider starts in the middle, as with `interact`
+    for frame in (1, 2, 8):
+        experiment.controls["frame"].value = frame
+    assert drawn == [4, 1, 2, 8]  # a slider starts in the middle, as with `interact`
+
+
+def test_without_anywidget_an_experiment_has_no_names_but_works(monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    experiments._naming_class.cache_clear()
+    experiment = explore(fresh, alt="A line.", frame=(0, 9))
+    experiments._naming_class.cache_clear()
+    assert len(experiment.box.children) == 3
+    assert experiment.set(frame=3).error is None
 
 
 @pytest.mark.parametrize("pyplot", [False, True])

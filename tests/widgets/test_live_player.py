@@ -1,12 +1,13 @@
 """Linked players without a browser: Python's side of the traits."""
 
 import sys
+import warnings
 
 import numpy as np
 import pytest
 
 from mocap.body import spline
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 from mocap.widgets import live_player
 from mocap.widgets.live_player import draw_path, linked
 from mocap.widgets.player import play
@@ -31,10 +32,39 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
     assert player.frame == 0
 
 
-def test_the_output_is_one_bundle_with_the_page_and_the_picture():
-    data, metadata = linked(play(wave(30)))._repr_mimebundle_()
-    assert set(data) == {"application/vnd.jupyter.widget-view+json", "text/html", "image/png", "text/plain"}
-    assert data["text/plain"] == metadata["image/png"]["alt"]
+def test_the_output_is_the_page_and_the_picture_and_then_the_live_player(monkeypatch):
+    shown = []
+    monkeypatch.setattr("IPython.display.display", lambda data, **options: shown.append((data, options)))
+    linked(play(wave(30)))._ipython_display_()
+    (data, options), (live, _) = shown
+    assert set(data) == {"text/html", "image/png", "text/plain"}
+    assert set(live) == {"application/vnd.jupyter.widget-view+json"}
+    assert data["text/plain"] == options["metadata"]["image/png"]["alt"]
+
+
+def test_frames_of_an_older_scene_do_not_count():
+    canvas = draw_path(lambda path: wave(30 * len(path)), [[0, 0], [0, 1]])
+    canvas.at = [0, 12]  # as the browser sends it
+    assert (canvas.frame, canvas.move) == (12, [0, 0])
+    canvas.path = [[0, 0], [0, 1], [0, 2]]
+    assert canvas.scene["number"] == 1
+    canvas.at = [0, 40]
+    assert canvas.frame == 0
+    canvas.at = [1, 40]
+    assert canvas.frame == 40
+    canvas.frame = 50
+    assert canvas.move == [1, 50]
+
+
+def test_warnings_stand_below_the_canvas():
+    def follow(path):
+        warnings.warn(f"The walk leaves the path {len(path)} times.", MocapWarning, stacklevel=1)
+        return wave(30)
+
+    canvas = draw_path(follow, [[0, 0], [0, 1]])
+    assert canvas.message.splitlines() == [canvas.player.alt, "The walk leaves the path 2 times."]
+    canvas.path = [[0, 0], [0, 1], [0, 2]]
+    assert canvas.message.splitlines()[1] == "The walk leaves the path 3 times."
 
 
 def test_a_drawn_path_becomes_a_walk():

@@ -92,9 +92,9 @@ def test_an_error_is_shown_in_the_pictures_place():
     assert grid.error is None
 
 
-def test_the_output_is_one_bundle_with_both_pictures(shown):
-    data, metadata = shown._repr_mimebundle_()
-    assert set(data) == {"application/vnd.jupyter.widget-view+json", "image/png", "text/html", "text/plain"}
+def test_what_stays_is_both_pictures_in_one(shown):
+    data, metadata = shown.still()
+    assert set(data) == {"image/png", "text/html", "text/plain"}
     assert data["text/plain"] == metadata["image/png"]["alt"] == "Two windows."
     both, alone = pixels(base64.b64decode(data["image/png"])), pixels(shown.picture.value)
     assert both.shape[1] > alone.shape[1] + 400

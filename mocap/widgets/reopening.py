@@ -1,0 +1,39 @@
+"""An output that is live while Python runs, and a picture when the notebook is opened again.
+
+JupyterLab shows a widget whose kernel has ended as an error, and prefers that to the picture beside it. So a
+cell has two outputs here, the picture and the widget. A rule hides the picture while the widget lives, and
+the widget's output when it does not.
+"""
+
+from typing import Any
+
+WIDGET = "application/vnd.jupyter.widget-view+json"  # the name of a model that ends with its kernel
+STILL, LIVE = "mocap-still", "mocap-live"  # classes of the picture and of the widget
+
+_OUTPUT = ".jp-OutputArea-child"
+_RULE = f"""<style>
+{_OUTPUT}:has(.{STILL}):has(+ {_OUTPUT} .{LIVE}) {{ display: none; }}
+{_OUTPUT}:has(.{STILL}) + {_OUTPUT}:not(:has(.{LIVE})) {{ display: none; }}
+</style>"""
+
+
+def display_live(still: tuple[dict[str, str], dict[str, Any]], widget: Any) -> None:  # noqa: ANN401
+    """Show a picture and a widget as two outputs of a cell, of which the reader sees one.
+
+    Parameters
+    ----------
+    still : the data and the metadata of a picture, as `Picture` and `Player` give them.
+    widget : the widget.
+    """
+    from IPython.display import display
+
+    data, metadata = still
+    widget.add_class(LIVE)
+    display(still_bundle(data), metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
+    live = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
+    display({WIDGET: live}, raw=True)  # type: ignore[no-untyped-call]
+
+
+def still_bundle(data: dict[str, str]) -> dict[str, str]:
+    """Put the HTML of a picture where the rule finds it."""
+    return data | {"text/html": f'<div class="{STILL}">{data["text/html"]}</div>{_RULE}'}
