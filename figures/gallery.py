@@ -61,16 +61,12 @@ def _graph() -> graphs.MotionGraph:
 
 
 def draw_walk() -> Figure:
-    """Draw a new walk: poses along its path."""
+    """Draw a new walk as bodies along its path, in the colours of the clips that it comes from."""
     graph = _graph()
-    walk = synthesis.to_motion(graph, synthesis.random_walk(graph, seconds=9, seed=3515))
-    low, high = (f(walk.root_positions[:, [0, 2]], axis=0) for f in (np.min, np.max))
-    figure = plt.figure(figsize=(9, 4))
-    ax: Axes3D = figure.add_axes((0, -0.6, 1, 2.2), projection="3d")
-    plotting.ground_axes((low + high) / 2, max(high - low) / 2 + 0.9, ax=ax)
-    ax.view_init(elev=15, azim=-97)
-    plotting.stick_figure(walk, range((len(walk) - 1) % 18, len(walk), 18), ax=ax)
-    return figure
+    edges = synthesis.random_walk(graph, seconds=9, seed=3515)
+    walk = synthesis.to_motion(graph, edges)
+    seams = [seam.frame for seam in synthesis.seams(graph, edges)]
+    return plotting.bodies_along(walk, sources=synthesis.sources(graph, edges), seams=seams)
 
 
 def draw_skeleton() -> Figure:
@@ -400,6 +396,21 @@ def draw_bound() -> Figure:
     return figure
 
 
+def draw_steered() -> Figure:
+    """Draw the path of a steered walk, with an arrow wherever a new heading was commanded."""
+    headings = np.repeat([0.0, np.pi / 2, np.pi / 6, np.pi, np.pi / 2], 105)
+    steered = steering.steer(_graph(), headings).motion
+    figure = plt.figure(figsize=(8, 4.2), layout="constrained")
+    ax = figure.add_subplot()
+    plotting.path_from_above(steered, ax=ax)
+    for frame in range(0, len(headings), 105):
+        x, _, z = steered.root_positions[frame]
+        way = np.array([np.sin(headings[frame]), np.cos(headings[frame])])
+        ax.annotate("", (x, z) + 0.9 * way, (x, z), arrowprops={"color": ASKED, "width": 2, "headwidth": 9})
+        ax.plot(*np.array([(x, z), (x, z) + 0.9 * way]).T, color=ASKED, linewidth=0)
+    return figure
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "skeleton": draw_skeleton,
@@ -411,6 +422,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "pruning": draw_pruning,
     "components": draw_components,
     "path": draw_path,
+    "steered": draw_steered,
     "search": draw_search,
     "bound": draw_bound,
     "seam": draw_seam,

@@ -93,7 +93,7 @@ def velocities(positions: Array, fps: float) -> Array:
     >>> velocities(np.array([0.0, 1.0, 2.0]), 30.0)
     array([30., 30., 30.])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     if len(positions) < 2:
         raise MocapError(f"A velocity needs at least two frames, got {len(positions)}.")

@@ -42,7 +42,7 @@ class Motion:
     >>> still, still[2:5], still[::3].fps
     (Motion('still', 9 frames at 30 Hz, 2 joints), Motion('still', 3 frames at 30 Hz, 2 joints), 10.0)
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
 
     skeleton: Skeleton
@@ -153,7 +153,7 @@ def resample(motion: Motion, fps: float) -> Motion:
     >>> resample(slide, 4.0).root_positions[:, 0]
     array([0.  , 0.25, 0.5 , 0.75, 1.  ])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
@@ -230,8 +230,6 @@ def require_alike(motions: Sequence[Motion]) -> None:
     >>> require_alike([walk, resample(walk, 30.0)])
     Traceback (most recent call last):
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
-
-    Notebook: 04-blending
     """
     for motion in motions[1:]:
         try:
@@ -262,8 +260,6 @@ def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
     >>> walk, jog = {"walk": np.array([True, True])}, {"jog": np.array([True])}
     >>> gather_marks([walk, jog], np.array([[0, 1], [1, 0]]))
     {'walk': array([ True, False]), 'jog': array([False,  True])}
-
-    Notebook: 04-blending
     """
     gathered: dict[str, Mask] = {}
     for source, marks in enumerate(sources):

@@ -41,7 +41,7 @@ class Skeleton:
     >>> len(leg), leg.index("knee"), leg.children(1)
     (3, 1, [2])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
 
     names: Sequence[str]

@@ -121,7 +121,7 @@ def generate_walk(
     >>> generate_walk([[0, 0], [0, 2], [1, 4]], speed=1.2)
     Motion('walk', 427 frames at 120 Hz, 38 joints)
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     if style not in GAITS:
         raise MocapError(f"No style '{style}'; there are: {', '.join(GAITS)}.")

@@ -84,7 +84,7 @@ def load(
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf) and .bvh.
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     path = Path(path)
     _check("fps", fps)
@@ -145,7 +145,7 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
     ...     read_angles(f"{folder}/turned.bvh")["root"]  # z, x, y
     array([[  0.,   0., 180.]])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     path = Path(path)
     if path.suffix.lower() == ".bvh":
@@ -199,7 +199,7 @@ def save(
     ...     load(f"{folder}/still.bvh")
     Motion('still', 1 frames at 30 Hz, 2 joints)
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     path, scale, precision = Path(path), form.get("scale"), form.get("precision", 6)
     _check("scale", scale)

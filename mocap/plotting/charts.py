@@ -115,7 +115,7 @@ def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCo
     >>> footprints(steps, ax=Figure().add_subplot()).get_offsets().tolist()  # (x, z)
     [[0.1, 0.0], [-0.1, 0.6]]
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     ax = _from_above(ax)
     at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)

@@ -234,7 +234,7 @@ def before_and_after(
     >>> plotting.show(drawn, alt="A clip's transitions before pruning, and the fewer ones after it.")
     Picture("A clip's transitions before pruning, and the fewer ones after it.")
 
-    Notebook: 06-pruning
+    Notebook: 06b-pruning-clips
     """
     if axes is None:
         size = (7, 1.4 * len(whole.clips) + 1.6)

@@ -123,7 +123,7 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     path     0.05 m over the ground
     flaws    frozen in frame 6-8
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 01b-motion-files
     """
     positions = joint_positions(motion)
     headings = np.unwrap(heading(motion.rotations[:, 0]))

@@ -1,6 +1,5 @@
 import numpy as np
 
-from mocap.body.euler import from_euler
 from mocap.body.rotations import from_rotvec, multiply, rotate
 
 
@@ -64,24 +63,6 @@ def number_by_number(a, b):
     return [p * q for p, q in zip(a, b, strict=True)]
 
 
-def from_the_right(z, x, y):
-    q = from_euler("y", [np.radians(y)])
-    return multiply(multiply(q, from_euler("x", [np.radians(x)])), from_euler("z", [np.radians(z)]))
-
-
-def in_degrees(z, x, y):
-    return multiply(multiply(from_rotvec([0, 0, z]), from_rotvec([x, 0, 0])), from_rotvec([0, y, 0]))
-
-
-def alphabet(z, x, y):
-    x, y, z = np.radians([x, y, z])
-    return multiply(from_rotvec([x, 0, 0]), multiply(from_rotvec([0, y, 0]), from_rotvec([0, 0, z])))
-
-
-def all_at_once(z, x, y):
-    return from_rotvec(np.radians([x, y, z]))
-
-
 def turned_by_itself(skeleton, turns, joint):
     point = skeleton.offsets[joint] * 0
     while joint != 0:
@@ -135,12 +116,6 @@ WRONG = {
         (no_cross, "cross product is missing"),
         (plus_dot, "sign of the dot"),
         (number_by_number, "number by number"),
-    ],
-    "own_axes": [
-        (from_the_right, "stands leftmost"),
-        (in_degrees, "take radians"),
-        (alphabet, "alphabet"),
-        (all_at_once, "one turn about"),
     ],
     "climb": [
         (turned_by_itself, "its own offset"),

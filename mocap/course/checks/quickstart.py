@@ -95,8 +95,8 @@ def _stripped(edges: list[tuple[int, int]]) -> set[int]:
 dead_ends = Check(
     name="dead_ends",
     asks="the set of nodes that no edge leaves",
-    start="make a set of the nodes at which edges start, and a set of those at which edges end; which nodes are "
-    "in the second set but not in the first?",
+    start="make a set of the nodes at which edges start, and a set of those at which edges end; which nodes "
+    "are in the second set but not in the first?",
     draw=_some_edges,
     truth=_ends,
     mistakes=[
