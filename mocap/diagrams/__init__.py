@@ -29,7 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "two_clips": ["nodes_and_edges"],
         "quaternions": ["double_cover", "half_turns", "turns_in_order"],
-        "laying_clouds": ["laying_on", "rms_distance", "turning"],
+        "laying_clouds": ["laying_on", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
         "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],
         "seams": ["blended_seam", "knee_triangle", "turning_paths"],

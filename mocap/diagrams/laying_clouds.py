@@ -11,26 +11,11 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
-from mocap.matching.point_clouds import align, point_cloud
+from mocap.matching.point_clouds import align, point_cloud, rms_distance
 from mocap.plotting.stick_figures import bones
 from mocap.plotting.style import CURVES, QUIET, SOURCES
 
 STEPS = ("where they are, with their means", "each from its own mean", "the second turned", "shifted back")
-
-
-def rms_distance(first: Motion, second: Motion) -> float:
-    """Measure how far apart the points of two windows are as they stand, their root mean square, metres.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")[:10]
-    >>> round(rms_distance(walk, PlanarTransform(0.0, 3.0, 4.0).apply_motion(walk)), 6)
-    5.0
-
-    Notebook: 02-matching
-    """
-    return float(np.sqrt(((point_cloud(first) - point_cloud(second)) ** 2).sum(-1).mean()))
 
 
 def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:

@@ -28,6 +28,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "distinct_joints",
             "point_cloud",
             "align",
+            "rms_distance",
             "matching_clouds",
             "unit_weights",
         ],

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -138,6 +138,31 @@ def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None
     angle = np.arctan2((xa * zb - xb * za) @ w, (xa * xb + za * zb) @ w)
     turned = PlanarTransform(angle, 0.0, 0.0).apply_points(mean_b)
     return PlanarTransform(angle, mean_a[..., 0] - turned[..., 0], mean_a[..., 2] - turned[..., 2])
+
+
+def rms_distance(first: Motion, second: Motion) -> float:
+    """Measure how far apart the points of two motions are as they stand: the root mean square, metres.
+
+    Parameters
+    ----------
+    first, second : as many frames of the same skeleton. They stay where they are, so align them first.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for different skeletons or rates, and motions of different lengths.
+
+    Examples
+    --------
+    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    >>> here, there = (Motion(bone, [[x, 0, 0]], [[[1, 0, 0, 0]] * 2], 30.0) for x in (0, 3))
+    >>> rms_distance(here, there)
+    3.0
+
+    Notebook: 02-matching
+    """
+    require_alike([first, second])
+    points, others = matching_clouds(point_cloud(first).reshape(-1, 3), point_cloud(second).reshape(-1, 3))
+    return float(np.sqrt(((points - others) ** 2).sum(-1).mean()))
 
 
 def matching_clouds(points: ArrayLike, others: ArrayLike) -> tuple[Array, Array]:

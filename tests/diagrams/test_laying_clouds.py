@@ -30,11 +30,6 @@ def left(figure):
     return float(figure.axes[0].get_title().split(": ")[1].removesuffix(" cm RMS"))
 
 
-def test_the_distance_of_a_moved_window_is_how_far_it_was_moved(pair):
-    moved = PlanarTransform(0.0, 3.0, 4.0).apply_motion(pair[0])
-    assert diagrams.rms_distance(pair[0], moved) == pytest.approx(5)
-
-
 def test_the_steps_show_means_centring_angle_and_shift(pair):
     figures = [diagrams.laying_on(*pair, step=step) for step in (1, 2, 3, 4)]
     own = [point_cloud(motion).mean(axis=(0, 1))[[0, 2]] for motion in pair]

@@ -10,9 +10,18 @@ from scipy.optimize import minimize
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
-from mocap.matching.point_clouds import Surface, align, distinct_joints, point_cloud, unit_weights
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.point_clouds import (
+    Surface,
+    align,
+    distinct_joints,
+    point_cloud,
+    rms_distance,
+    unit_weights,
+)
 from tests.oracles import squared_distance
 from tests.strategies import planar, random_motion, seeds, wave
 
@@ -170,3 +179,20 @@ def test_a_surface_needs_points_and_bones():
             point_cloud(wave(2), surface)
     with pytest.raises(MocapError, match="no bones"):
         point_cloud(random_motion(0, joints=1), Surface())
+
+
+def test_the_rms_distance_of_a_moved_motion_is_how_far_it_was_moved():
+    motion = wave(10)
+    assert rms_distance(motion, PlanarTransform(0.0, 3.0, 4.0).apply_motion(motion)) == pytest.approx(5)
+
+
+def test_after_alignment_the_rms_distance_is_the_root_of_the_grid():
+    first, second = wave(10), wave(10, phase=1)
+    transform = align(*(point_cloud(motion).reshape(-1, 3) for motion in (first, second)))
+    left = rms_distance(first, transform.apply_motion(second))
+    assert left == pytest.approx(np.sqrt(distance_grid(first, second, window=10)[0, 0]))
+
+
+def test_motions_of_different_lengths_have_no_rms_distance():
+    with pytest.raises(MocapError, match="do not match"):
+        rms_distance(wave(10), wave(9))
