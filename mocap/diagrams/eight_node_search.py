@@ -56,6 +56,8 @@ def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list
     >>> events = search_events({1: {2: 1.0, 3: 3.0}, 2: {2: 1.0}, 3: {}}, 1, 3, longest=2)
     >>> [(event.walk, event.fate) for event in events]
     [((1,), 'expanded'), ((1, 2), 'expanded'), ((1, 2, 2), 'too long'), ((1, 3), 'complete')]
+
+    Notebook: 07-walks-and-search
     """
     events: list[Event] = []
     waiting: list[tuple[float, Walk]] = [(0.0, (start,))]

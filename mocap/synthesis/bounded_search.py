@@ -238,7 +238,7 @@ def search_ahead(
     >>> [search_ahead(problem, 1, 1, look=(frames, 1)).cost for frames in (1, 2)]
     [10.0, 3.0]
 
-    Notebook: 07-walks-and-search
+    Notebook: 07b-searching-ahead
     """
     ahead, keep = look
     if not 1 <= keep <= ahead:

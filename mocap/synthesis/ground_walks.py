@@ -46,6 +46,8 @@ class GroundWalks:
     >>> found = synthesis.branch_and_bound(problem, node, start)
     >>> len(walks.points(found.walk, start)) == found.state.frames >= 20
     True
+
+    Notebook: 07b-searching-ahead
     """
 
     def __init__(self, motion_graph: MotionGraph) -> None:

@@ -1,21 +1,33 @@
+import heapq
+
 import numpy as np
 
 
-def likelier_when_worse(costs):
-    return np.array([cost / sum(costs) for cost in costs])
+def likelier_when_worse(costs, chance):
+    return int(np.searchsorted(np.cumsum(costs / costs.sum()), chance))
 
 
-def never_shared(costs):
-    return np.array([1 / (cost + 0.001) for cost in costs])
+def always_the_cheapest(costs, chance):
+    return list(costs).index(min(costs))
 
 
-def no_millimetre(costs):
-    odds = costs**-1.0
-    return odds / odds.sum()
+def all_alike(costs, chance):
+    return int(np.floor(chance * len(costs)))
 
 
-def all_alike(costs):
-    return np.ones(len(costs)) / len(costs)
+def never_shared(costs, chance):
+    running = np.cumsum(1 / (costs + 0.001))
+    return int(np.argmax(running > chance))
+
+
+def from_one(costs, chance):
+    odds = 1 / (costs + 0.001)
+    return sum(np.cumsum(odds / odds.sum()) <= chance) + 1
+
+
+def nearest_share(costs, chance):
+    odds = 1 / (costs + 0.001)
+    return np.argmin(abs(odds / odds.sum() - chance))
 
 
 def added(transforms):
@@ -48,12 +60,12 @@ def other_order(transforms):
     return angle, x, z
 
 
-def recursive(tree, cut=True, key=lambda way: way[0]):
-    best, visited = np.inf, 0
+def recursive(tree, cut=True, key=lambda way: way[0], leaves=False):
+    best, expanded = np.inf, 0
 
     def go(node, cost):
-        nonlocal best, visited
-        visited += 1
+        nonlocal best, expanded
+        expanded += leaves or bool(tree[node])
         if not tree[node]:
             best = min(best, cost)
         for g, child in sorted(tree[node], key=key):
@@ -61,7 +73,7 @@ def recursive(tree, cut=True, key=lambda way: way[0]):
                 go(child, cost + g)
 
     go(0, 0.0)
-    return best, visited
+    return best, expanded
 
 
 def everything(tree):
@@ -72,62 +84,127 @@ def most_expensive_first(tree):
     return recursive(tree, key=lambda way: -way[0])
 
 
+def with_leaves(tree):
+    return recursive(tree, leaves=True)
+
+
 def as_they_stand(tree):
-    best, visited, stack = float("inf"), 0, [(0.0, 0)]
+    best, expanded, stack = float("inf"), 0, [(0.0, 0)]
     while stack:
         cost, node = stack.pop()
         if cost < best:
-            visited += 1
             if tree[node] == []:
                 best = cost
+            else:
+                expanded += 1
             for g, child in tree[node]:
                 stack.append((cost + g, child))
-    return best, visited
+    return best, expanded
 
 
 def counted_too_soon(tree):
-    best, visited, stack = float("inf"), 0, [(0.0, 0)]
+    best, expanded, stack = float("inf"), 0, [(0.0, 0)]
     while stack:
         cost, node = stack.pop()
-        visited += 1
+        expanded += 1
         if cost < best:
             if tree[node] == []:
                 best = cost
             stack += sorted([(cost + g, child) for g, child in tree[node]])[::-1]
-    return best, visited
+    return best, expanded
+
+
+def best_first(tree):
+    best, expanded, heap = np.inf, 0, [(0.0, 0)]
+    while heap:
+        cost, node = heapq.heappop(heap)
+        if cost >= best:
+            break
+        if not tree[node]:
+            best = cost
+            continue
+        expanded += 1
+        for g, child in tree[node]:
+            heapq.heappush(heap, (cost + g, child))
+    return best, expanded
 
 
 def greedy(tree):
-    cost, node, visited = 0.0, 0, 1
+    cost, node, expanded = 0.0, 0, 0
     while tree[node]:
         g, node = min(tree[node])
-        cost, visited = cost + g, visited + 1
-    return cost, visited
+        cost, expanded = cost + g, expanded + 1
+    return cost, expanded
 
 
-def overshooting(place, goal, steps, stride):
-    x, z = goal - place
-    return (np.sqrt(x**2 + z**2) - steps * stride) ** 2
+def walks(lengths, start, longest):
+    """Yield every walk of at most so many edges, shortest edges first."""
+    stack = [(0.0, [start])]
+    while stack:
+        cost, walk = stack.pop()
+        yield cost, walk
+        if len(walk) <= longest:
+            row = sorted(lengths[walk[-1]].items(), key=lambda pair: -pair[1])
+            stack += [(cost + g, [*walk, node]) for node, g in row]
 
 
-def no_steps(place, goal, steps, stride):
-    return np.linalg.norm(place - goal) ** 2
+def complete(lengths, start, goal, longest):
+    return [(cost, walk) for cost, walk in walks(lengths, start, longest) if walk[-1] == goal]
 
 
-def metres(place, goal, steps, stride):
-    return max(np.linalg.norm(place - goal) - steps * stride, 0)
+def the_first(lengths, start, goal, longest):
+    return next(iter(complete(lengths, start, goal, longest)), (np.inf, []))
 
 
-def squares_subtracted(place, goal, steps, stride):
-    return max(np.linalg.norm(place - goal) ** 2 - (steps * stride) ** 2, 0)
+def the_shortest_edge(lengths, start, goal, longest):
+    cost, walk = 0.0, [start]
+    while walk[-1] != goal and len(walk) <= longest:
+        node = min(lengths[walk[-1]], key=lengths[walk[-1]].get)
+        cost, walk = cost + lengths[walk[-1]][node], [*walk, node]
+    return (cost, walk) if walk[-1] == goal else (np.inf, [])
+
+
+def each_node_once(lengths, start, goal, longest):
+    best, met, stack = (np.inf, []), set(), [(0.0, [start])]
+    while stack:
+        cost, walk = stack.pop()
+        if walk[-1] in met or cost >= best[0]:
+            continue
+        met.add(walk[-1])
+        if walk[-1] == goal:
+            best = (cost, walk)
+        elif len(walk) <= longest:
+            row = sorted(lengths[walk[-1]].items(), key=lambda pair: pair[1], reverse=True)
+            stack.extend((cost + g, [*walk, node]) for node, g in row)
+    return best
+
+
+def one_edge_short(lengths, start, goal, longest):
+    return min(complete(lengths, start, goal, longest - 1), default=(np.inf, []))
+
+
+def one_edge_more(lengths, start, goal, longest):
+    return min(complete(lengths, start, goal, longest + 1), default=(np.inf, []))
+
+
+def fewest_edges(lengths, start, goal, longest):
+    found = complete(lengths, start, goal, longest)
+    return min(found, key=lambda pair: (len(pair[1]), pair[0]), default=(np.inf, []))
+
+
+def without_the_start(lengths, start, goal, longest):
+    cost, walk = min(complete(lengths, start, goal, longest), default=(np.inf, []))
+    return cost, walk[1:]
 
 
 WRONG = {
-    "choice_odds": [
+    "choose_transition": [
         (likelier_when_worse, "homework's slip"),
-        (never_shared, "add up to 1"),
-        (no_millimetre, "add the millimetre"),
+        (always_the_cheapest, "always take the cheapest"),
         (all_alike, "use the costs"),
+        (never_shared, "divide by the sum"),
+        (from_one, "count from 1"),
+        (nearest_share, "end to end"),
     ],
     "product_of": [
         (added, "you add the steps as they are"),
@@ -136,16 +213,21 @@ WRONG = {
         (other_order, "the other order"),
     ],
     "cheapest_way": [
-        (everything, "visit every node"),
+        (everything, "expand every node"),
         (most_expensive_first, "most expensive child first"),
         (as_they_stand, "in any order"),
-        (counted_too_soon, "is not visited"),
+        (best_first, "best-first search"),
+        (with_leaves, "a leaf is not expanded"),
+        (counted_too_soon, "skipped node is not expanded"),
         (greedy, "a greedy search"),
     ],
-    "least_cost": [
-        (overshooting, "can stop there"),
-        (no_steps, "no lower bound"),
-        (metres, "square metres"),
-        (squares_subtracted, "difference of squares"),
+    "shortest_walk": [
+        (the_first, "first complete walk"),
+        (the_shortest_edge, "only the shortest edge"),
+        (each_node_once, "met before"),
+        (one_edge_short, "one edge too early"),
+        (one_edge_more, "one edge too many"),
+        (fewest_edges, "add up the lengths"),
+        (without_the_start, "start belongs"),
     ],
 }

@@ -1,5 +1,6 @@
 """Checks of notebook 07."""
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -9,32 +10,51 @@ from mocap.course.check import Check, Mistake, close, close_angles
 
 Tree = dict[int, list[tuple[float, int]]]
 
-choice_odds = Check(
-    name="choice_odds",
-    asks="a probability for each transition, in proportion to 1 / (cost + 0.001), with the sum 1",
-    start="take 1 / (costs + 0.001), and divide it by its sum.",
-    draw=lambda rng: (rng.uniform(1e-4, 0.06, rng.integers(2, 7)),),
-    truth=lambda costs: 1 / (costs + 1e-3) / np.sum(1 / (costs + 1e-3)),
+
+def _shares(costs: Array) -> Array:
+    return np.asarray(np.cumsum(1 / (costs + 1e-3)) / np.sum(1 / (costs + 1e-3)))
+
+
+def _chosen(shares: Array, chance: float) -> int:
+    """Find the first item whose running share exceeds the chance."""
+    return min(int(np.searchsorted(shares, chance, side="right")), len(shares) - 1)
+
+
+choose_transition = Check(
+    name="choose_transition",
+    asks="the number of the chosen transition, an integer from 0 on",
+    start="give each transition the share 1 / (cost + 0.001) of the sum, lay the shares end to end from "
+    "0 to 1, "
+    "and see into which of them the chance falls.",
+    draw=lambda rng: (rng.uniform(1e-4, 0.06, rng.integers(2, 7)), float(rng.uniform())),
+    truth=lambda costs, chance: _chosen(_shares(costs), chance),
+    trials=60,
     mistakes=[
         Mistake(
-            lambda costs: costs / costs.sum(),
+            lambda costs, chance: _chosen(np.cumsum(costs) / np.sum(costs), chance),
             "this is the homework's slip: the worse a transition, the likelier you make it.",
         ),
         Mistake(
-            lambda costs: (costs + 1e-3) / np.sum(costs + 1e-3),
-            "this is the homework's slip: the worse a transition, the likelier you make it.",
+            lambda costs, chance: int(np.argmin(costs)),
+            "you always take the cheapest one, so the walk is the same each time: use the chance.",
         ),
         Mistake(
-            lambda costs: 1 / (costs + 1e-3),
-            "the proportions are right, but probabilities add up to 1: divide by the sum.",
-        ),
-        Mistake(
-            lambda costs: 1 / costs / np.sum(1 / costs),
-            "a transition of cost 0 would divide by zero: add the millimetre first.",
-        ),
-        Mistake(
-            lambda costs: np.full(len(costs), 1 / len(costs)),
+            lambda costs, chance: int(chance * len(costs)),
             "all transitions have the same probability in your answer: use the costs.",
+        ),
+        Mistake(
+            lambda costs, chance: _chosen(np.cumsum(1 / (costs + 1e-3)), chance),
+            "your shares do not add up to 1, so the chance nearly always falls into the first: divide by "
+            "the sum.",
+        ),
+        Mistake(
+            lambda costs, chance: _chosen(_shares(costs), chance) + 1,
+            "the shares are right, but you count from 1: the first transition has the number 0.",
+        ),
+        Mistake(
+            lambda costs, chance: int(np.argmin(np.abs(np.diff(_shares(costs), prepend=0) - chance))),
+            "you look for the share that is nearest to the chance; lay the shares end to end "
+            "(`np.cumsum`) instead.",
         ),
     ],
 )
@@ -54,11 +74,20 @@ def _same_place(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     return close_angles(given[0], wanted[0]) and close(given[1:], wanted[1:])
 
 
+def _random_transforms(rng: np.random.Generator) -> tuple[Array]:
+    """Draw transforms; some turn by nothing, by nearly nothing, by half a turn, or do nothing at all."""
+    rows = rng.normal(size=(rng.integers(2, 8), 3)) * [1.0, 2.0, 2.0]
+    rows[rng.integers(len(rows)), 0] = rng.choice([0.0, 1e-12, np.pi, -np.pi, 3.0])
+    if rng.uniform() < 0.3:
+        rows[rng.integers(len(rows))] = 0.0
+    return (rows,)
+
+
 product_of = Check(
     name="product_of",
     asks="the angle, x and z of the product T1 T2 … Tn of the rows",
     start="go through the rows and keep the angle so far; turn each step by it before you add it.",
-    draw=lambda rng: (rng.normal(size=(rng.integers(2, 8), 3)) * [1.0, 2.0, 2.0],),
+    draw=_random_transforms,
     truth=_product,
     same=_same_place,
     mistakes=[
@@ -98,33 +127,38 @@ def _random_tree(rng: np.random.Generator) -> Tree:
 
 
 def _cheapest(tree: Tree, slip: str = "") -> tuple[float, int]:
-    best, visited, stack = np.inf, 0, [(0.0, 0, 0.0)]
+    best, expanded, stack = np.inf, 0, [(0.0, 0, 0.0)]
     while stack:
         cost, node, step = stack.pop()
-        visited += slip == "counts skipped ones"
+        expanded += slip == "counts skipped ones"
         if {"no bound": -1.0, "own cost": step}.get(slip, cost) >= best:
             continue
-        visited += slip != "counts skipped ones"
+        expanded += bool(tree[node]) if slip != "counts leaves" else 1
+        expanded -= slip == "counts skipped ones" and bool(tree[node])
         best = min(best, cost) if not tree[node] else best
         if slip == "stops early" and not tree[node]:
             break
         children = [(cost + g, child, g) for g, child in tree[node]]
         stack += children if slip == "no order" else sorted(children, reverse=slip != "expensive first")
-    return best, visited
+        stack = sorted(stack, reverse=True) if slip == "best first" else stack
+    return best, expanded
 
 
 cheapest_way = Check(
     name="cheapest_way",
-    asks="the cost of the cheapest way from node 0 to a leaf, and the number of visited nodes",
-    start="keep a stack of (cost so far, node). Pop one; skip it if it costs as much as the best leaf; else "
-    "count it, and push its children so that the cheapest is popped first.",
+    asks="the cost of the cheapest way from node 0 to a leaf, and the number of expanded nodes",
+    start="keep a stack of (cost so far, node). Pop one; skip it if it costs as much as the best leaf; "
+    "if it is "
+    "a leaf, it is the best; else count it, and push its children so that the cheapest is popped first.",
     draw=lambda rng: (_random_tree(rng),),
     truth=_cheapest,
     trials=20,
     mistakes=[
         Mistake(
             lambda tree: _cheapest(tree, "no bound"),
-            "the cost is right, but you visit every node: skip what already costs as much as the best leaf.",
+            "the cost is right, but you expand every node: skip what already costs as much as the best "
+            "leaf, and "
+            "pop the newest node, so that a leaf comes early.",
         ),
         Mistake(
             lambda tree: _cheapest(tree, "expensive first"),
@@ -135,8 +169,18 @@ cheapest_way = Check(
             "the cost is right, but you take the children in any order: an early good leaf skips more.",
         ),
         Mistake(
+            lambda tree: _cheapest(tree, "best first"),
+            "the cost is right, but this is best-first search: you take up the cheapest of all nodes "
+            "that wait, "
+            "in all branches. It expands fewer, but must keep them all. Sort only the children of one node.",
+        ),
+        Mistake(
+            lambda tree: _cheapest(tree, "counts leaves"),
+            "the cost is right, but a leaf is not expanded, because it has no children: do not count it.",
+        ),
+        Mistake(
             lambda tree: _cheapest(tree, "counts skipped ones"),
-            "the cost is right, but a skipped node is not visited: count after the test.",
+            "the cost is right, but a skipped node is not expanded: count after the test.",
         ),
         Mistake(
             lambda tree: _cheapest(tree, "own cost"),
@@ -150,34 +194,87 @@ cheapest_way = Check(
 )
 
 
-def _least(place: Array, goal: Array, steps: int, stride: float) -> float:
-    return float(max(0.0, np.hypot(*(goal - place)) - steps * stride) ** 2)
+Lengths = dict[int, dict[int, float]]
 
 
-least_cost = Check(
-    name="least_cost",
-    asks="the smallest squared distance from the goal that `steps` more steps can reach",
-    start="a straight walk to the goal is the best case: how far from the goal does it end?",
-    draw=lambda rng: (rng.normal(size=2) * 3, rng.normal(size=2) * 3, int(rng.integers(0, 8)), 0.7),
-    truth=_least,
+def _random_graph(rng: np.random.Generator) -> tuple[Lengths, int, int, int]:
+    """Draw eight nodes with three edges each, some of them loops, a start, a goal, and a limit of edges."""
+    lengths = {
+        node: {int(after): float(rng.uniform(0.1, 2)) for after in rng.choice(8, size=3, replace=False) + 1}
+        for node in range(1, 9)
+    }
+    start, goal = rng.choice(8, size=2, replace=False) + 1
+    return lengths, int(start), int(goal), int(rng.integers(3, 7))
+
+
+def _shortest(
+    lengths: Lengths, start: int, goal: int, longest: int, *, slip: str = ""
+) -> tuple[float, list[int]]:
+    """Search as the notebook does: the cost of the shortest walk of at most so many edges, and its nodes."""
+    best: tuple[float, list[int]] = (np.inf, [])
+    waiting, met = [(0.0, [start])], set()
+    while waiting:
+        cost, walk = waiting.pop()
+        if cost >= best[0] or (slip == "met once" and walk[-1] in met):
+            continue
+        met.add(walk[-1])
+        if walk[-1] == goal:
+            best = (cost, walk)
+            if slip == "first found":
+                break
+        elif len(walk) + (slip == "counts nodes") <= longest + (slip == "one too long"):
+            ways = sorted(lengths[walk[-1]].items(), key=lambda way: -way[1])
+            ways = ways[-1:] if slip == "greedy" else ways
+            waiting += [(cost + more, [*walk, node]) for node, more in ways]
+    return best
+
+
+def _fewest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[float, list[int]]:
+    each = {node: {after: more + 100 for after, more in row.items()} for node, row in lengths.items()}
+    _, walk = _shortest(each, start, goal, longest)
+    return sum(lengths[a][b] for a, b in pairwise(walk)) if walk else np.inf, walk
+
+
+shortest_walk = Check(
+    name="shortest_walk",
+    asks="the length of the shortest walk from start to goal with at most `longest` edges, and the list "
+    "of its "
+    "nodes; inf and [] where there is none",
+    start="as in `cheapest_way`, but keep (length so far, list of nodes) on the stack; a walk whose last "
+    "node is "
+    "the goal is complete, and one with `longest` edges is not lengthened.",
+    draw=_random_graph,
+    truth=_shortest,
+    same=lambda given, wanted: close(given[0], wanted[0]) and list(given[1]) == list(wanted[1]),
+    trials=60,
     mistakes=[
         Mistake(
-            lambda place, goal, steps, stride: float((np.hypot(*(goal - place)) - steps * stride) ** 2),
-            "a body that reaches the goal before its last step can stop there: the bound is 0.",
+            lambda *task: _shortest(*task, slip="first found"),
+            "you stop at the first complete walk; another one may be shorter.",
         ),
         Mistake(
-            lambda place, goal, steps, stride: float(np.sum((goal - place) ** 2)),
-            "that ignores the steps still to come: it is no lower bound, and could cut the best walk.",
+            lambda *task: _shortest(*task, slip="greedy"),
+            "you follow only the shortest edge of each node: push all of them, the shortest last.",
         ),
         Mistake(
-            lambda place, goal, steps, stride: float(max(0.0, np.hypot(*(goal - place)) - steps * stride)),
-            "right in metres, but the cost is in square metres.",
+            lambda *task: _shortest(*task, slip="met once"),
+            "you skip a node that some walk has met before; a walk may come back to it by a shorter way.",
         ),
         Mistake(
-            lambda place, goal, steps, stride: float(
-                max(0.0, np.sum((goal - place) ** 2) - (steps * stride) ** 2)
-            ),
-            "subtract the distances first, then square: a difference of squares is something else.",
+            lambda *task: _shortest(*task, slip="counts nodes"),
+            "your walks end one edge too early: a walk of n edges has n + 1 nodes.",
+        ),
+        Mistake(
+            lambda *task: _shortest(*task, slip="one too long"),
+            "your walks may have one edge too many: a walk of n edges has n + 1 nodes.",
+        ),
+        Mistake(
+            _fewest,
+            "you look for the fewest edges; add up the lengths.",
+        ),
+        Mistake(
+            lambda *task: (_shortest(*task)[0], _shortest(*task)[1][1:]),
+            "the length is right, but the start belongs to the list of nodes.",
         ),
     ],
 )
