@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from mocap import datasets, diagrams, resample
-from mocap.body import PlanarTransform
 from mocap.errors import MocapError
 from mocap.matching import align, point_cloud
 
