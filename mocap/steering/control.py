@@ -178,6 +178,27 @@ class Steered(NamedTuple):
     blending: Mask
     frames_left: Indices
 
+    def delay(self, heading: float, frame: int) -> Array:
+        """Split the delay of a command: seconds of waiting, of transitions and of clip until it is obeyed.
+
+        Parameters
+        ----------
+        heading, frame : the direction asked for, radians, and the frame of the command, from 1/3 s on.
+
+        Returns
+        -------
+        Three numbers; nan where the command is not obeyed, as `measure_delay` defines it.
+        """
+        fps, (x, _, z) = self.motion.fps, self.motion.root_positions.T
+        track, back = (z + 1j * x) * np.exp(-1j * heading), round(self.motion.fps / 3)
+        obeys = np.abs(np.angle(track[frame:] - track[frame - back : -back])) < np.pi / 9
+        if not obeys.any():
+            return np.full(3, np.nan)
+        took = int(obeys.argmax()) + 1
+        wait = min(int(self.frames_left[frame]), took)
+        blends = int(self.blending[frame + wait : frame + took].sum())
+        return np.array([wait, blends, took - wait - blends]) / fps
+
 
 def steer(graph: MotionGraph | CompiledGraph, headings: Sequence[float], speed: float = 1.1) -> Steered:
     """Steer a character by one heading per frame, and record what it does.

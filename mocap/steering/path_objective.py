@@ -62,7 +62,7 @@ class Prices:
     Parameters
     ----------
     seam : for each transition.
-    match : times D², for a transition of distance D; 30 is the price of 30 frames that are D off the path.
+    match : times D, a transition's cost in m²; 30 is the price of 30 frames that are √D off the path.
     stray : times d⁴ in each frame, 1/m²; with 100, the cost of a frame 10 cm off the path is doubled.
     label : for each frame without the label asked for.
     late : times the square of the seconds late or early, in each frame.

@@ -51,6 +51,30 @@ def test_what_it_tells_is_what_the_motion_does():
     assert len(motion) == len(followed.off) == len(followed.along)
     assert (np.diff(followed.along) > -0.3).all()
     assert f"{100 * followed.off.mean():.1f} cm off on average" in followed.report()
+    assert f"({100 * followed.off_at_length.mean():.1f} cm at equal arc length)" in followed.report()
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_distance_at_equal_arc_length_is_that_of_eq_9():
+    """As written down in [KGP02]: s grows by the root's step, or by the least progress where that is more."""
+    path = s_curve()
+    followed = follow_path(GRAPH, path)
+    steps = np.hypot(*np.diff(followed.track, axis=0).T)
+    s = np.cumsum(np.maximum(steps, Wishes.least / GRAPH.fps))
+    expected = np.hypot(*(followed.track[1:] - path.at(s)).T)
+    # Where a blend begins, the root's step is measured in the clip, which is off by millimetres.
+    assert followed.off_at_length[1:] == pytest.approx(expected, abs=0.06)
+    assert (followed.off <= followed.off_at_length + 0.5).all()
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_with_every_term_off_the_cost_is_eq_9():
+    """Then the search sums the squares of the distance at equal arc length, and nothing else."""
+    plain, beam = Prices(seam=0, match=0, stray=0), Beam(width=30, rescue=0)
+    followed = follow_path(GRAPH, s_curve(10), Wishes(slide=0), prices=plain, beam=beam, tries=1)
+    assert followed.found.cost == pytest.approx((followed.off_at_length**2).sum(), rel=1e-6)
+    slid = follow_path(GRAPH, s_curve(10), prices=plain, beam=beam, tries=1)
+    assert slid.found.cost != pytest.approx((slid.off_at_length**2).sum(), rel=0.01)
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
@@ -168,6 +192,7 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
         ),
         (STRAIGHT, Wishes(start=(0, 99999)), NoWalk, r"no node \(0, 99999\); the nearest"),
         (STRAIGHT, Wishes(least=0.0), MocapError, "above 0 m/s"),
+        (STRAIGHT, Wishes(slide=1.5), MocapError, "a share from 0 to 1, got 1.5"),
         (STRAIGHT, Wishes(heading=np.nan), MocapError, "finite number of radians"),
         (STRAIGHT, Wishes(times=[(4, 3), (8, 2)]), MocapError, "must grow along the path"),
         (STRAIGHT, Wishes(times=[(4, 3), (4, 5)]), MocapError, "in one place"),
