@@ -3,7 +3,7 @@
 A `Motion` is a `Skeleton` plus arrays: where the root is and how each joint is turned, frame by frame. All
 other rooms stand on this one.
 
-Reading order (notebooks 01, 03)
+Reading order (notebooks 01, 03, 10)
 --------------------------------
 1. `skeleton`: a tree of joints
 2. `motion`: the body over time; other frame rates; clips in a row
@@ -14,6 +14,7 @@ Reading order (notebooks 01, 03)
 7. `ground_path`: lines on the ground, by metres along them
 8. `limbs`: which joints are the legs
 9. `two_bone_ik`: bend a limb of two bones to a target
+10. `speed_labels`: where a clip walks and where it runs
 
 References
 ----------
@@ -44,5 +45,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "limbs": ["Leg", "find_legs", "name_leg"],
         "two_bone_ik": ["TwoBone", "two_bone"],
+        "speed_labels": ["label_by_speed", "smooth_speed"],
     },
 )

@@ -70,6 +70,31 @@ def walking(speeds, span, fastest_walk):
     return np.array(means) <= fastest_walk
 
 
+def upwards_and_the_frame_before(positions, fps, fastest):
+    speeds = np.sqrt(((positions[1:] - positions[:-1]) ** 2).sum(axis=1)) * fps
+    return [f for f, speed in enumerate(speeds) if speed > fastest]
+
+
+def below_zero(lengths, window):
+    return 1 - 2 * window * len(lengths) / sum(lengths)
+
+
+def at_one_end(lengths, window):
+    return sum(max(0, length - window) for length in lengths) / sum(lengths)
+
+
+def frames_kept(lengths, window):
+    return sum(max(0, length - 2 * window) for length in lengths)
+
+
+def mean_of_shares(lengths, window):
+    return np.mean([max(0, 1 - 2 * window / length) for length in lengths])
+
+
+def share_lost(lengths, window):
+    return sum(min(length, 2 * window) for length in lengths) / sum(lengths)
+
+
 WRONG = {
     "standing": [
         (the_strict_one, "the strict one"),
@@ -82,6 +107,7 @@ WRONG = {
         (without_fps, "metres per frame"),
         (upwards_too, "leave y out"),
         (as_a_mask, "that is a mask"),
+        (upwards_and_the_frame_before, "two things"),
     ],
     "running": [
         (frame_by_frame, "flickers"),
@@ -89,5 +115,12 @@ WRONG = {
         (without_ends, "the ends are missing"),
         (looking_back, "half a span late"),
         (walking, "marks walking"),
+    ],
+    "most_kept": [
+        (below_zero, "shorter than two windows"),
+        (at_one_end, "*both* ends"),
+        (frames_kept, "a number of frames"),
+        (mean_of_shares, "a mean of shares"),
+        (share_lost, "that is lost"),
     ],
 }

@@ -93,6 +93,13 @@ leaps = Check(
             "a jump upwards is not a leap over the ground; leave y out.",
         ),
         Mistake(
+            lambda positions, fps, fastest: np.flatnonzero(
+                np.linalg.norm(np.diff(positions, axis=0), axis=1) * fps > fastest
+            ),
+            "two things: leave y out, because a jump upwards is not a leap; and step f leads from frame f to "
+            "frame f + 1.",
+        ),
+        Mistake(
             lambda positions, fps, fastest: _speeds(positions, fps) > fastest,
             "that is a mask; np.flatnonzero turns it into frame numbers.",
         ),
@@ -148,6 +155,46 @@ running = Check(
         Mistake(
             lambda speeds, span, fastest_walk: _smooth(speeds, span) < fastest_walk,
             "that marks walking; running is the faster one.",
+        ),
+    ],
+)
+
+
+def _takes(rng: np.random.Generator) -> tuple[Array, int]:
+    """Draw lengths of takes and a window; some takes are shorter than two windows."""
+    return rng.integers(5, 200, int(rng.integers(1, 12))), int(rng.integers(3, 20))
+
+
+def _share_kept(lengths: Array, window: float, least: float = 0.0) -> float:
+    return float(np.maximum(least, lengths - 2 * window).sum() / lengths.sum())
+
+
+most_kept = Check(
+    name="most_kept",
+    asks="the share of all frames that lie at least a window from both ends of their clip",
+    start="how many frames does a clip of L frames keep? Add them up, and divide by all frames.",
+    draw=_takes,
+    truth=_share_kept,
+    mistakes=[
+        Mistake(
+            lambda lengths, window: _share_kept(lengths, window, -np.inf),
+            "a clip shorter than two windows keeps no frames, not fewer than none: use max(0, L - 2w).",
+        ),
+        Mistake(
+            lambda lengths, window: _share_kept(lengths, window / 2),
+            "every clip loses a window at *both* ends.",
+        ),
+        Mistake(
+            lambda lengths, window: np.maximum(0, lengths - 2 * window).sum(),
+            "that is a number of frames; divide by the number of all frames.",
+        ),
+        Mistake(
+            lambda lengths, window: np.mean(np.maximum(0, lengths - 2 * window) / lengths),
+            "a mean of shares counts short clips as much as long ones: add up the frames first.",
+        ),
+        Mistake(
+            lambda lengths, window: 1 - _share_kept(lengths, window),
+            "that is the share that is lost.",
         ),
     ],
 )
