@@ -56,7 +56,7 @@ def largest_components(
     >>> {min(labels): (sorted(nodes), frames) for labels, (nodes, frames) in found.items()}
     {'walk': ([1, 2], 18), 'run': ([3, 4], 10)}
 
-    Notebook: 06-pruning
+    Notebook: 06b-pruning-clips
     """
     edges = [edge for _, _, edge in graph.edges(data=True)]
     frames = np.array([edge["frames"] * (edge["kind"] == "clip") for edge in edges], int)
@@ -88,7 +88,7 @@ def largest_component(ways: Indices, frames: Indices, count: int) -> tuple[NDArr
     >>> largest_component(np.array([[0, 1], [1, 0], [1, 2], [2, 2]]), np.array([3, 4, 9, 5]), 3)
     (array([ True,  True, False]), 7)
 
-    Notebook: 06-pruning
+    Notebook: 06b-pruning-clips
     """
     part = component_numbers(ways, count)
     start, end = part[ways].T

@@ -123,7 +123,7 @@ def labels_between(motion: Motion, start: int, end: int) -> Labels:
     >>> labels_between(datasets.sample("walk_circle"), 0, 10)
     frozenset({'walk'})
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 
@@ -152,7 +152,7 @@ def from_transitions(
     >>> from_transitions([clip], [back], window=10)
     MotionGraph(1 clips, 4 nodes, 4 edges, 1 of them transitions)
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     _require_names(clips)
     require_alike(clips)
@@ -182,7 +182,7 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
     [((0, 0), (0, 20), 'clip'), ((0, 60), (0, 20), 'transition'), ((0, 60), (0, 90), 'clip'),
      ((0, 20), (0, 60), 'clip')]
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):

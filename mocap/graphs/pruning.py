@@ -128,7 +128,7 @@ def name(labels: Labels) -> str:
     >>> name(frozenset({"walk", "turn"})), name(NO_LABELS)
     ('turn+walk', 'no label')
 
-    Notebook: 06-pruning
+    Notebook: 06b-pruning-clips
     """
     return "+".join(sorted(labels)) or "no label"
 

@@ -31,7 +31,7 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     >>> bool(smallest_threshold([body.resample(datasets.sample("walk_curve_1"), 30)], window=10) < 0.04)
     True
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]
@@ -132,7 +132,7 @@ def threshold_curve(
     >>> curve.transitions.tolist(), curve.nodes.tolist(), curve.frames.tolist()
     ([1, 2], [4, 6], [0, 30])
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     if thresholds is None and len(transitions) == 0:
         raise NoWalk("There are no transitions: allow costlier ones.")
@@ -212,8 +212,6 @@ def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window:
     >>> same = Transitions(zero, zero, zero, zero, np.zeros(1), PlanarTransform(zero, zero, zero))
     >>> velocity_jumps([datasets.sample("walk_curve_1")], same, window=10)
     array([0.])
-
-    Notebook: 09-discussion
     """
     moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2

@@ -157,7 +157,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     >>> [(t.source, t.leave, t.target, t.enter, round(t.cost, 6)) for t in found]
     [(0, 1, 1, 1, 0.01), (1, 1, 0, 1, 0.01)]
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     require_alike(clips)
     for clip in clips:

@@ -34,44 +34,33 @@ def likeliest(costs, probabilities):
     return max(zip(probabilities, costs, strict=True))[1]
 
 
-def enter_at_window(frames, leaves, enters, window):
-    return sorted(set(leaves) | set(enters) | {0, frames})
+def one_step_too_many(probabilities, count):
+    alive = np.ones(len(probabilities))
+    for _ in range(count):
+        alive = probabilities @ alive
+    return alive.mean()
 
 
-def without_ends(frames, leaves, enters, window):
-    return np.unique([*leaves, *(np.array(enters) + window)])
+def chance_to_end(probabilities, count):
+    alive = np.ones(len(probabilities))
+    for _ in range(count - 1):
+        alive = probabilities @ alive
+    return 1 - alive.sum() / len(alive)
 
 
-def leave_after_window(frames, leaves, enters, window):
-    return np.unique([0, *(np.array(leaves) + window), *(np.array(enters) + window), frames])
+def number_by_number(probabilities, count):
+    return (probabilities ** (count - 1)).sum() / len(probabilities)
 
 
-def last_frame(frames, leaves, enters, window):
-    return np.unique([0, *leaves, *(np.array(enters) + window), frames - 1])
+def from_the_first(probabilities, count):
+    here = np.eye(len(probabilities))[0]
+    for _ in range(count - 1):
+        here = here @ probabilities
+    return here.sum()
 
 
-def repeated(frames, leaves, enters, window):
-    return np.sort([0, frames] + leaves + [enter + window for enter in enters])
-
-
-def unordered(frames, leaves, enters, window):
-    return set(leaves) | {enter + window for enter in enters} | {0, frames}
-
-
-def all_of_it(thresholds, frames, keep):
-    return thresholds[frames == frames.max()].min()
-
-
-def share_as_number(thresholds, frames, keep):
-    return min(t for t, f in zip(thresholds, frames, strict=True) if f >= keep)
-
-
-def kept_frames(thresholds, frames, keep):
-    return frames[frames >= keep * max(frames)][0]
-
-
-def place(thresholds, frames, keep):
-    return np.flatnonzero(frames / frames.max() >= keep)[0]
+def share_of_dead_ends(probabilities, count):
+    return np.mean(probabilities.sum(axis=1) > 0) ** (count - 1)
 
 
 WRONG = {
@@ -87,18 +76,11 @@ WRONG = {
         (mean_of_products, "already replace 1 / n"),
         (likeliest, "the others are taken too"),
     ],
-    "choice_points": [
-        (enter_at_window, "*after* the window"),
-        (without_ends, "start and end"),
-        (leave_after_window, "where its window starts"),
-        (last_frame, "after the last frame"),
-        (repeated, "one node, not two"),
-        (unordered, "a set has no order"),
-    ],
-    "suggested_threshold": [
-        (all_of_it, "a share of it is enough"),
-        (share_as_number, "of what?"),
-        (kept_frames, "those are frames"),
-        (place, "that is an index"),
+    "chance_to_last": [
+        (one_step_too_many, "count - 1 steps"),
+        (chance_to_end, "ends before"),
+        (number_by_number, "matrix product"),
+        (from_the_first, "the start is random"),
+        (share_of_dead_ends, "equally often"),
     ],
 }

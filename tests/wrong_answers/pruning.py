@@ -1,5 +1,3 @@
-from itertools import combinations, permutations
-
 import networkx as nx
 
 
@@ -69,48 +67,51 @@ def peeled(successors):
         graph.remove_nodes_from(gone)
 
 
-def most_nodes(components, edges):
-    return sorted(components, key=len, reverse=True)[0]
+def searched(successors, take_back=True, ask_stack=True, alone=False):
+    index, low, stack, parts = {}, {}, [], []
+
+    def visit(node):
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for child in successors[node]:
+            if child not in index:
+                visit(child)
+                low[node] = min(low[node], low[child] if take_back else low[node])
+            elif not ask_stack or child in stack:
+                low[node] = min(low[node], index[child])
+        if low[node] == index[node]:
+            part = stack[stack.index(node) :]
+            parts.append({node} if alone else set(part))
+            del stack[len(stack) - len(part) :]
+
+    for node in successors:
+        if node not in index:
+            visit(node)
+    return parts
 
 
-def leaving_too(components, edges):
-    best = max(sum(f for a, b, f in edges if a in part) for part in components)
-    return next(p for p in components if sum(f for a, b, f in edges if a in p) == best)
+def low_links_not_taken_back(successors):
+    return searched(successors, take_back=False)
 
 
-def entering_too(components, edges):
-    best = max(sum(f for a, b, f in edges if b in part) for part in components)
-    return next(p for p in components if sum(f for a, b, f in edges if b in p) == best)
+def stack_not_asked(successors):
+    return searched(successors, ask_stack=False)
 
 
-def most_edges(components, edges):
-    return max(components, key=lambda part: len([1 for a, b, _ in edges if {a, b} <= part]))
+def first_node_alone(successors):
+    return searched(successors, alone=True)
 
 
-def no_way(graph, here, there):
-    return not any(nx.has_path(graph, a, b) for a in here for b in there)
+def every_node_alone(successors):
+    return [[node] for node in successors]
 
 
-def one_order(graph, kinds):
-    return {(a, b) for a, b in combinations(kinds, 2) if no_way(graph, kinds[a], kinds[b])}
+def directions_ignored(successors):
+    return [frozenset(part) for part in nx.weakly_connected_components(nx.DiGraph(successors))]
 
 
-def undirected(graph, kinds):
-    plain = nx.Graph(graph)
-    return {(a, b) for a, b in permutations(kinds, 2) if no_way(plain, kinds[a], kinds[b])}
-
-
-def turned_round(graph, kinds):
-    return {(a, b) for a, b in permutations(kinds, 2) if no_way(graph, kinds[b], kinds[a])}
-
-
-def single_edges(graph, kinds):
-    joined = {(a, b) for a in kinds for b in kinds for u, v in graph.edges if u in kinds[a] and v in kinds[b]}
-    return set(permutations(kinds, 2)) - joined
-
-
-def with_a_way(graph, kinds):
-    return {(a, b) for a, b in permutations(kinds, 2) if not no_way(graph, kinds[a], kinds[b])}
+def nothing_added(successors):
+    return []
 
 
 WRONG = {
@@ -127,17 +128,12 @@ WRONG = {
         (small_components, "an edge to itself"),
         (peeled, "from one cycle to another"),
     ],
-    "component_to_keep": [
-        (most_nodes, "most nodes"),
-        (leaving_too, "leaves the component"),
-        (entering_too, "enters the component"),
-        (most_edges, "most edges"),
-    ],
-    "missing_ways": [
-        (one_order, "try both orders"),
-        (undirected, "follow them in both"),
-        (turned_round, "are reversed"),
-        (single_edges, "through other nodes"),
-        (with_a_way, "pairs with a way"),
+    "tarjan": [
+        (low_links_not_taken_back, "take over the low link"),
+        (stack_not_asked, "has left the stack"),
+        (first_node_alone, "from its first node upwards"),
+        (every_node_alone, "single nodes"),
+        (directions_ignored, "one direction only"),
+        (nothing_added, "no component is added"),
     ],
 }

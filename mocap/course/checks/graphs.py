@@ -1,11 +1,9 @@
 """Checks of notebook 05."""
 
-from typing import Any
-
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.course.check import Check, Mistake, close
+from mocap.course.check import Check, Mistake
 
 
 def _matches(rng: np.random.Generator) -> tuple[Array, float]:
@@ -19,23 +17,17 @@ def _with_odds(rng: np.random.Generator) -> tuple[Array, Array]:
     return costs, left * odds / odds.sum()
 
 
-def _clip(rng: np.random.Generator) -> tuple[int, list[int], list[int], int]:
-    """Draw a clip's length, where transitions leave and enter it, and their window."""
-    frames, window = int(rng.integers(60, 300)), int(rng.integers(5, 15))
-    leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
-    return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
+def _chain(rng: np.random.Generator) -> tuple[Array, int]:
+    """Draw the probabilities of going from segment to segment, some without successor, and a length."""
+    count = int(rng.integers(3, 9))
+    odds = rng.random((count, count)) * (rng.random((count, count)) < 0.5)
+    odds[rng.integers(count)] = 0
+    return odds / np.maximum(odds.sum(axis=1, keepdims=True), 1e-9), int(rng.integers(2, 9))
 
 
-def _curve(rng: np.random.Generator) -> tuple[Array, Array, float]:
-    """Draw thresholds, the frames that would be kept at each, and the share that is enough."""
-    count = rng.integers(5, 20)
-    frames = np.sort(rng.choice(3000, count, replace=False)).astype(float)
-    frames[: rng.integers(1, 3)] = 0
-    return np.linspace(0.01, 0.06, count), frames, float(rng.uniform(0.3, 0.95))
-
-
-def _same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    return bool(given == wanted) if isinstance(given, set) else close(given, wanted)
+def _alive(probabilities: Array, steps: int) -> Array:
+    """Give, for each start, the probability that this many steps can be taken."""
+    return np.asarray(np.linalg.matrix_power(probabilities, steps).sum(axis=1))
 
 
 inverse_shares = Check(
@@ -88,73 +80,32 @@ expected_seam = Check(
     ],
 )
 
-choice_points = Check(
-    name="choice_points",
-    asks="the frames of the clip's nodes, in order and each once",
-    start="a clip without transitions has two nodes, where it starts and where it ends.",
-    draw=_clip,
-    truth=lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *(e + window for e in enters)}),
-    same=_same_order,
+chance_to_last = Check(
+    name="chance_to_last",
+    asks="the probability that a walk from a random start has `count` segments",
+    start="with one segment every walk is there: begin with a vector of ones, and take a step: P @ alive.",
+    draw=_chain,
+    truth=lambda probabilities, count: _alive(probabilities, count - 1).mean(),
     mistakes=[
         Mistake(
-            lambda frames, leaves, enters, window: {0, frames, *leaves, *(e + window for e in enters)},
-            "these are the right frames, but a set has no order: sort them.",
+            lambda probabilities, count: _alive(probabilities, count).mean(),
+            "a walk of `count` segments takes count - 1 steps: the start is the first segment.",
         ),
         Mistake(
-            lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *enters}),
-            "the blend already plays the window: the clip continues *after* the window that is entered.",
+            lambda probabilities, count: 1 - _alive(probabilities, count - 1).mean(),
+            "that is the probability that the walk ends before.",
         ),
         Mistake(
-            lambda frames, leaves, enters, window: sorted({*leaves, *(e + window for e in enters)}),
-            "the clip's start and end are nodes too.",
+            lambda probabilities, count: np.sum(probabilities ** (count - 1), axis=1).mean(),
+            "** raises each number by itself; two steps are the matrix product P @ P.",
         ),
         Mistake(
-            lambda frames, leaves, enters, window: sorted(
-                {0, frames, *(i + window for i in leaves), *(e + window for e in enters)}
-            ),
-            "a transition leaves where its window starts: the blend plays the window's frames.",
+            lambda probabilities, count: _alive(probabilities, count - 1)[0],
+            "that is for walks from segment 0; the start is random, each equally likely.",
         ),
         Mistake(
-            lambda frames, leaves, enters, window: sorted(
-                {0, frames - 1, *leaves, *(e + window for e in enters)}
-            ),
-            "node f lies before frame f, so the node after the last frame is `frames`.",
-        ),
-        Mistake(
-            lambda frames, leaves, enters, window: sorted(
-                [0, frames, *leaves, *(e + window for e in enters)]
-            ),
-            "if two transitions meet the clip at the same frame, there is one node, not two.",
-        ),
-    ],
-)
-
-suggested_threshold = Check(
-    name="suggested_threshold",
-    asks="the lowest threshold that keeps at least the share `keep` of the largest number of frames",
-    start="which entries of `frames` are at least keep * frames.max()?",
-    draw=_curve,
-    truth=lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep * frames.max())],
-    mistakes=[
-        Mistake(
-            lambda thresholds, frames, keep: thresholds[np.argmax(frames)],
-            "that keeps the largest number of frames; a share of it is enough.",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep)],
-            "`keep` is a share, not a number of frames: a share of what?",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: thresholds[np.argmax(frames > 0)],
-            "that is where the first cycle appears, however short it is.",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: frames[np.argmax(frames >= keep * frames.max())],
-            "those are frames; return the threshold at the same index.",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: np.argmax(frames >= keep * frames.max()),
-            "that is an index; return the threshold at that index.",
+            lambda probabilities, count: np.mean(probabilities.any(axis=1)) ** (count - 1),
+            "walks do not come to all segments equally often: follow the probabilities, step by step.",
         ),
     ],
 )

@@ -1,7 +1,6 @@
-"""Checks of notebook 06. Graphs are {node: the nodes that its edges lead to}, or `networkx.DiGraph`."""
+"""Checks of notebook 06. A graph is {node: the nodes that its edges lead to}."""
 
 from collections.abc import Iterable, Mapping
-from itertools import combinations, permutations
 
 import networkx as nx
 import numpy as np
@@ -9,7 +8,6 @@ import numpy as np
 from mocap.course.check import Check, Mistake
 
 Successors = dict[int, list[int]]
-Weighed = list[tuple[int, int, int]]  # start, end, frames
 
 
 def _graph(rng: np.random.Generator) -> Successors:
@@ -40,41 +38,6 @@ def _stripped(successors: Successors, both_ways: bool) -> set[int]:
     while poor := [n for n in left if not left.out_degree(n) or (both_ways and not left.in_degree(n))]:
         left.remove_nodes_from(poor)
     return set(successors) - set(left)
-
-
-def _components(rng: np.random.Generator) -> tuple[list[set[int]], Weighed]:
-    """Draw the components of a graph, and its edges with the frames that they play."""
-    while True:
-        graph = _digraph(_graph(rng))
-        components = [set(part) for part in nx.strongly_connected_components(graph)]
-        edges = [(a, b, int(rng.integers(5, 400))) for a, b in graph.edges]
-        if any(_played(part, edges) for part in components):
-            return components, edges
-
-
-def _played(part: set[int], edges: Weighed) -> int:
-    return sum(frames for start, end, frames in edges if start in part and end in part)
-
-
-def _kinds(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, set[int]]]:
-    """Draw a graph of rings, some joined by an edge, some by a node that is in no ring."""
-    graph, kinds = nx.DiGraph(), {}
-    for first, kind in zip((0, 10, 20, 30), ("walk", "jog", "sneak", "stand"), strict=True):
-        ring = list(range(first, first + int(rng.integers(2, 5))))
-        nx.add_cycle(graph, ring)
-        kinds[kind] = set(ring)
-    graph.add_edge(*rng.choice([0, 10, 20, 30], 2, replace=False).tolist())
-    here, there = rng.choice([0, 10, 20, 30], 2, replace=False).tolist()
-    nx.add_path(graph, [here, 99, there])
-    return graph, kinds
-
-
-def _without_way(graph: nx.Graph, kinds: Mapping[str, set[int]]) -> set[tuple[str, str]]:
-    return {(a, b) for a, b in permutations(kinds, 2) if not _way(graph, kinds[a], kinds[b])}
-
-
-def _way(graph: nx.Graph, here: set[int], there: set[int]) -> bool:
-    return bool(nx.has_path(graph, min(here), min(there)))
 
 
 def _same_members(given: Iterable[object], wanted: set[object]) -> bool:
@@ -143,68 +106,70 @@ on_no_cycle = Check(
     ],
 )
 
-component_to_keep = Check(
-    name="component_to_keep",
-    asks="the component whose edges play the most frames",
-    start="for each component, add up the frames of the edges that stay within it; max() takes a `key`.",
-    draw=_components,
-    truth=lambda components, edges: max(components, key=lambda part: _played(part, edges)),
-    same=_same_members,
-    mistakes=[
-        Mistake(
-            lambda components, edges: max(components, key=len),
-            "that has the most nodes; a walk plays edges, so count their frames.",
-        ),
-        Mistake(
-            lambda components, edges: max(components, key=lambda p: sum(f for a, _, f in edges if a in p)),
-            "an edge that leaves the component is not part of it: both its ends must be inside.",
-        ),
-        Mistake(
-            lambda components, edges: max(components, key=lambda p: sum(f for _, b, f in edges if b in p)),
-            "an edge that enters the component is not part of it: both its ends must be inside.",
-        ),
-        Mistake(
-            lambda components, edges: max(
-                components, key=lambda p: sum(a in p and b in p for a, b, _ in edges)
-            ),
-            "that has the most edges; some are long and some short, so count their frames.",
-        ),
-    ],
-)
 
-missing_ways = Check(
-    name="missing_ways",
-    asks="the set of ordered pairs (from, to) of kinds without a way from the first to the second",
-    start="try all ordered pairs; nx.has_path(graph, a, b) says whether a way leads from a to b.",
-    draw=_kinds,
-    truth=_without_way,
-    same=_same_members,
+def _same_sets(given: Iterable[Iterable[object]], wanted: Iterable[set[int]]) -> bool:
+    parts = list(map(frozenset, given))
+    return set(parts) == set(map(frozenset, wanted)) and len(set(parts)) == len(parts)
+
+
+def _tarjan(successors: Successors, slip: str = "") -> list[set[int]]:
+    """Find the strongly connected components as Tarjan does, or with one typical slip."""
+    index: dict[int, int] = {}
+    low: dict[int, int] = {}
+    stack: list[int] = []
+    components: list[set[int]] = []
+
+    def visit(node: int) -> None:
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for child in successors[node]:
+            if child not in index:
+                visit(child)
+                if slip != "never taken back":
+                    low[node] = min(low[node], low[child])
+            elif child in stack or slip == "stack not asked":
+                low[node] = min(low[node], index[child])
+        if low[node] == index[node]:
+            at = stack.index(node)
+            components.append({node} if slip == "first alone" else set(stack[at:]))
+            del stack[at:]
+
+    for node in successors:
+        if node not in index:
+            visit(node)
+    return components
+
+
+tarjan = Check(
+    name="tarjan",
+    asks="the list of strongly connected components, each as a set of nodes",
+    start="an edge to a new node: visit it, then low[node] = min(low[node], low[child]).",
+    draw=lambda rng: (_graph(rng),),
+    truth=_tarjan,
+    same=_same_sets,
     mistakes=[
         Mistake(
-            lambda graph, kinds: {
-                pair for pair in combinations(kinds, 2) if not _way(graph, kinds[pair[0]], kinds[pair[1]])
-            },
-            "a way from a to b is not a way from b to a: try both orders.",
+            lambda successors: _tarjan(successors, "stack not asked"),
+            "a node that has left the stack belongs to another component: ignore the edge to it.",
         ),
         Mistake(
-            lambda graph, kinds: _without_way(graph.to_undirected(), kinds),
-            "edges lead in one direction only; you follow them in both.",
+            lambda successors: _tarjan(successors, "never taken back"),
+            "after visit(child), node must take over the low link of child if it is lower.",
         ),
         Mistake(
-            lambda graph, kinds: _without_way(graph.reverse(), kinds),
-            "your pairs are reversed: they must be (from, to).",
+            lambda successors: _tarjan(successors, "first alone"),
+            "a component is everything on the stack from its first node upwards, not this node alone.",
         ),
         Mistake(
-            lambda graph, kinds: {
-                (a, b)
-                for a, b in permutations(kinds, 2)
-                if not any(graph.has_edge(m, n) for m in kinds[a] for n in kinds[b])
-            },
-            "a way may lead through other nodes; you look for a single edge.",
+            lambda successors: [{node} for node in successors],
+            "these are single nodes; does an edge to a node on the stack lower a low link?",
         ),
         Mistake(
-            lambda graph, kinds: set(permutations(kinds, 2)) - _without_way(graph, kinds),
-            "those are the pairs with a way; return those without.",
+            lambda successors: [
+                set(part) for part in nx.connected_components(_digraph(successors).to_undirected())
+            ],
+            "an edge leads in one direction only; you follow it in both.",
         ),
+        Mistake(lambda successors: [], "no component is added: where is low[node] still index[node]?"),
     ],
 )

@@ -1,0 +1,158 @@
+"""Checks of notebook 05b."""
+
+from typing import Any
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.course.check import Check, Mistake, close
+
+Point = tuple[float, float]
+
+
+def _clip(rng: np.random.Generator) -> tuple[int, list[int], list[int], int]:
+    """Draw a clip's length, where transitions leave and enter it, and their window."""
+    frames, window = int(rng.integers(60, 300)), int(rng.integers(5, 15))
+    leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
+    return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
+
+
+def _curve(rng: np.random.Generator) -> tuple[Array, Array, float]:
+    """Draw thresholds, the frames that would be kept at each, and the share that is enough."""
+    count = rng.integers(5, 20)
+    frames = np.sort(rng.choice(3000, count, replace=False)).astype(float)
+    frames[: rng.integers(1, 3)] = 0
+    return np.linspace(0.01, 0.06, count), frames, float(rng.uniform(0.3, 0.95))
+
+
+def _same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    return bool(given == wanted) if isinstance(given, set) else close(given, wanted)
+
+
+def _turn(rng: np.random.Generator) -> tuple[float, float, float]:
+    """Draw a planar transform: often no turn at all, a very small one, or a half turn."""
+    angle = rng.choice([0.0, 1e-3, -1e-3, np.pi, *rng.uniform(-3, 3, 4)])
+    return float(angle), *rng.uniform(-2, 2, 2).tolist()
+
+
+def _fixed_point(angle: float, x: float, z: float) -> Point | None:
+    """Solve T c = c, with the point (x, z) as the complex number z + ix."""
+    if angle == 0:
+        return None
+    centre = complex(z, x) / (1 - np.exp(1j * angle))
+    return float(centre.imag), float(centre.real)
+
+
+def _or_nan(angle: float, x: float, z: float) -> Point:
+    return _fixed_point(angle, x, z) or (np.nan, np.nan)
+
+
+def _same_point(given: Any, wanted: Point | None) -> bool:  # noqa: ANN401
+    """Compare two points, or two answers that no point stays; a division by zero may give inf or nan."""
+    if given is None or wanted is None:
+        return given is wanted
+    a, b = np.asarray(given, float), np.asarray(wanted, float)
+    if a.shape == b.shape and not np.isfinite(b).all():
+        return not np.isfinite(a).all()
+    return a.shape == b.shape and np.allclose(a, b, rtol=1e-6, atol=1e-9)
+
+
+turning_point = Check(
+    name="turning_point",
+    asks="the point (x, z) that the transform leaves where it is, or None where there is none",
+    start="write T c = c with the formula of a planar transform: two equations for the two numbers of c.",
+    draw=_turn,
+    truth=_fixed_point,
+    same=_same_point,
+    mistakes=[
+        Mistake(_or_nan, "without a turn every point is shifted and none stays: give None for angle 0."),
+        Mistake(
+            lambda angle, x, z: _fixed_point(-angle, x, z),
+            "the turn has the wrong sign: x' = x cos θ + z sin θ + x₀.",
+        ),
+        Mistake(
+            lambda angle, x, z: (x / 2, z / 2) if angle else None,
+            "half of the shift is right for a half turn only.",
+        ),
+        Mistake(lambda angle, x, z: (x, z), "that is where the origin goes; which point stays?"),
+        Mistake(
+            lambda angle, x, z: _fixed_point(angle, -x, -z),
+            "the signs are wrong: c - R c = shift, not R c - c.",
+        ),
+        Mistake(
+            lambda angle, x, z: (_fixed_point(angle, x, z) or ())[::-1] or None,
+            "the order is (x, z).",
+        ),
+    ],
+)
+
+choice_points = Check(
+    name="choice_points",
+    asks="the frames of the clip's nodes, in order and each once",
+    start="a clip without transitions has two nodes, where it starts and where it ends.",
+    draw=_clip,
+    truth=lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *(e + window for e in enters)}),
+    same=_same_order,
+    mistakes=[
+        Mistake(
+            lambda frames, leaves, enters, window: {0, frames, *leaves, *(e + window for e in enters)},
+            "these are the right frames, but a set has no order: sort them.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted({0, frames, *leaves, *enters}),
+            "the blend already plays the window: the clip continues *after* the window that is entered.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted({*leaves, *(e + window for e in enters)}),
+            "the clip's start and end are nodes too.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted(
+                {0, frames, *(i + window for i in leaves), *(e + window for e in enters)}
+            ),
+            "a transition leaves where its window starts: the blend plays the window's frames.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted(
+                {0, frames - 1, *leaves, *(e + window for e in enters)}
+            ),
+            "node f lies before frame f, so the node after the last frame is `frames`.",
+        ),
+        Mistake(
+            lambda frames, leaves, enters, window: sorted(
+                [0, frames, *leaves, *(e + window for e in enters)]
+            ),
+            "if two transitions meet the clip at the same frame, there is one node, not two.",
+        ),
+    ],
+)
+
+suggested_threshold = Check(
+    name="suggested_threshold",
+    asks="the lowest threshold that keeps at least the share `keep` of the largest number of frames",
+    start="which entries of `frames` are at least keep * frames.max()?",
+    draw=_curve,
+    truth=lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep * frames.max())],
+    mistakes=[
+        Mistake(
+            lambda thresholds, frames, keep: thresholds[np.argmax(frames)],
+            "that keeps the largest number of frames; a share of it is enough.",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep)],
+            "`keep` is a share, not a number of frames: a share of what?",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: thresholds[np.argmax(frames > 0)],
+            "that is where the first cycle appears, however short it is.",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: frames[np.argmax(frames >= keep * frames.max())],
+            "those are frames; return the threshold at the same index.",
+        ),
+        Mistake(
+            lambda thresholds, frames, keep: np.argmax(frames >= keep * frames.max()),
+            "that is an index; return the threshold at that index.",
+        ),
+    ],
+)
