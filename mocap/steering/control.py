@@ -53,8 +53,6 @@ class Controller:
     >>> controller = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
     >>> controller.step(heading=0.0, speed=1.0).rotations.shape
     (38, 4)
-
-    Notebook: 08b-steering
     """
 
     def __init__(
