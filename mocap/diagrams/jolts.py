@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -48,6 +50,8 @@ def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint a
     >>> figure = added_by_blend(join(walk, 20, walk, 20, 10), walk, walk, 20, cubic_weights(10), step=2)
     >>> [len(ax.lines) for ax in figure.axes]
     [3, 0]
+
+    Notebook: 09b-blend-window
     """
     window = len(np.asarray(weights))
     figure = Figure(figsize=(7.5, 5.2), layout="constrained")
@@ -97,6 +101,6 @@ def _jolts(ax: Axes, motions: tuple[Motion, ...]) -> None:
     ax.axhline(0, color=QUIET, linewidth=0.8)
 
 
-def _styles(labels: tuple[str, ...]) -> list[dict[str, object]]:
+def _styles(labels: tuple[str, ...]) -> list[dict[str, Any]]:
     looks = zip((FIRST, SECOND, RESULT), (2.6, 2.6, 1.3), labels, strict=True)
     return [{"color": colour, "linewidth": width, "label": label} for colour, width, label in looks]

@@ -75,6 +75,8 @@ def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> Ax
     >>> image = walk_rows([[0, 150, np.nan], [300, 0, 0]], highest=300)
     >>> image.get_array().mask.tolist()  # neither grey boxes nor white ones have a cost
     [[True, False, True], [False, True, True]]
+
+    Notebook: 09-discussion
     """
     ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
     values = np.asarray(costs, float)

@@ -149,6 +149,8 @@ def ground_slides(motion: Motion, legs: Sequence[Leg] | None = None) -> Array:
     >>> walk = sample("walk_straight")
     >>> bool(ground_slides(walk).sum() < 1e-6)  # in the bundled clips planted feet stand still
     True
+
+    Notebook: 09b-blend-window
     """
     feet = [joint for leg in legs_of(motion.skeleton, legs) for joint in leg[2:]]
     names = [motion.skeleton.names[joint] for joint in feet]
@@ -170,6 +172,8 @@ def knee_turns(motion: Motion, legs: Sequence[Leg] | None = None) -> Array:
     >>> walk = sample("walk_straight")
     >>> knee_turns(walk).shape, bool(knee_turns(walk).max() < 5)  # at 120 Hz
     ((1200, 2), True)
+
+    Notebook: 09b-blend-window
     """
     knees = [leg.knee for leg in legs_of(motion.skeleton, legs)]
     turned = motion.rotations[:, knees]

@@ -1,109 +1,102 @@
 import numpy as np
 
 
-def how_many(seams, control):
-    limit = np.quantile(control, 0.95)
-    return len([jump for jump in seams if jump > limit])
+def all_alike(costs):
+    return sum(costs) / len(costs)
 
 
-def above_the_median(seams, control):
-    return sum(seams > np.median(control)) / len(seams)
+def the_cheapest(costs):
+    return min(costs)
 
 
-def above_the_largest(seams, control):
-    return sum(seams > max(control)) / len(seams)
+def as_in_the_homework(costs):
+    odds = costs / costs.sum()
+    return odds @ costs
 
 
-def among_themselves(seams, control):
-    return sum(seams > np.quantile(seams, 0.95)) / len(seams)
+def no_probabilities(costs):
+    return float((1 / costs) @ costs)
 
 
-def in_ones(seams, control):
-    return (seams > np.percentile(control, 0.95)).mean()
+def half_of_it(costs):
+    odds = 1 / costs / sum(1 / costs)
+    return 0.5 * (odds @ costs)
 
 
-def second_differences(x):
-    return np.sqrt(((x[2:] - 2 * x[1:-1] + x[:-2]) ** 2).sum(axis=1))
+def one_product(costs):
+    odds = 1 / costs / sum(1 / costs)
+    return (odds * costs)[0]
 
 
-def a_frame_late(positions, start, stop, fps):
-    return max(second_differences(positions)[start:stop]) * fps
+def entry_by_entry(odds, steps):
+    return np.mean((odds**steps).sum(axis=1))
 
 
-def per_frame(positions, start, stop, fps):
-    return max(second_differences(positions)[start - 1 : stop - 1])
+def those_that_die(odds, steps):
+    return 1 - np.mean(np.linalg.matrix_power(odds, steps).sum(axis=1))
 
 
-def an_acceleration(positions, start, stop, fps):
-    return per_frame(positions, start, stop, fps) * fps * fps
+def added_up(odds, steps):
+    return np.linalg.matrix_power(odds, steps).sum()
 
 
-def anywhere(positions, start, stop, fps):
-    return second_differences(positions).max() * fps
+def to_a_power(odds, steps):
+    return np.mean(odds.sum(axis=1)) ** steps
 
 
-def in_frames(weights, fps):
-    return next(frame for frame, weight in enumerate(weights) if weight < 0.5)
+def never_moves(odds, steps):
+    return np.mean(odds.sum(axis=1) ** steps)
 
 
-def half_of_it(weights, fps):
-    return 0.5 * len(weights) / fps
+def one_short(odds, steps):
+    share = np.ones(len(odds))
+    for _ in range(steps - 1):
+        share = odds @ share
+    return share.mean()
 
 
-def all_of_it(weights, fps):
-    return weights.size / fps
+def unpaired(before, after):
+    return [np.percentile(before, q) - np.percentile(after, q) for q in (25, 50, 75)]
 
 
-def of_the_new(weights, fps):
-    return next(frame for frame, weight in enumerate(weights) if weight > 0.5) / fps
+def the_wrong_way(before, after):
+    return np.quantile(after - before, [0.25, 0.5, 0.75])
 
 
-def way(steps):
-    return float(np.sqrt((steps[:, [0, 2]] ** 2).sum(axis=1)).sum())
+def in_ones(before, after):
+    return np.percentile(before - after, [0.25, 0.5, 0.75])
 
 
-def in_space(positions, planted):
-    steps = (positions[1:] - positions[:-1])[planted[:-1] & planted[1:]]
-    return np.sqrt((steps**2).sum(axis=1)).sum()
+def sorted_first(before, after):
+    return np.percentile(np.sort(before) - np.sort(after), [25, 50, 75])
 
 
-def with_touch_down(positions, planted):
-    return way((positions[1:] - positions[:-1])[planted[1:]])
-
-
-def between_plants(positions, planted):
-    standing = positions[planted]
-    return way(standing[1:] - standing[:-1])
-
-
-def with_swings(positions, planted):
-    return way(positions[1:] - positions[:-1])
+def median_alone(before, after):
+    return np.median(before - after)
 
 
 WRONG = {
-    "beyond_control": [
-        (how_many, "number of all seams"),
-        (above_the_median, "nothing special"),
-        (above_the_largest, "one extreme value"),
-        (among_themselves, "with themselves"),
-        (in_ones, "95, not 0.95"),
+    "expected_cost": [
+        (all_alike, "the cheap ones more often"),
+        (the_cheapest, "does not always take the cheapest"),
+        (as_in_the_homework, "must be to 1 / cost"),
+        (no_probabilities, "no probability yet"),
+        (half_of_it, "not which one"),
+        (one_product, "of one transition"),
     ],
-    "seam_jump": [
-        (a_frame_late, "one frame too late"),
-        (per_frame, "metres per frame"),
-        (an_acceleration, "acceleration"),
-        (anywhere, "the whole clip"),
+    "alive": [
+        (entry_by_entry, "matrix power multiplies matrices"),
+        (those_that_die, "the share that dies"),
+        (added_up, "over all starts"),
+        (to_a_power, "evenly spread"),
+        (never_moves, "the walk moves on"),
+        (one_short, "one step too few"),
     ],
-    "reaction_time": [
-        (in_frames, "those are frames"),
-        (half_of_it, "fall evenly"),
-        (all_of_it, "when the blend ends"),
-        (of_the_new, "those of the old motion"),
-    ],
-    "ground_slid": [
-        (in_space, "includes the height"),
-        (with_touch_down, "comes down"),
-        (between_plants, "from one plant to the next"),
-        (with_swings, "only planted feet slide"),
+    "paired_gain": [
+        (unpaired, "Subtract first"),
+        (the_wrong_way, "other way round"),
+        (in_ones, "25, not 0.25"),
+        (sorted_first, "breaks the pairs"),
+        (median_alone, "that is the median"),
     ],
 }

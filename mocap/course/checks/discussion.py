@@ -1,169 +1,135 @@
 """Checks of notebook 09."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.course.check import Check, Mistake
 
-beyond_control = Check(
-    name="beyond_control",
-    asks="the share of the seams that jump more than 95 % of the control, where no seam is",
-    start="95 % of the control is below np.percentile(control, 95).",
-    draw=lambda rng: (rng.gamma(4.0, 0.1, rng.integers(20, 60)), rng.gamma(4.0, 0.07, rng.integers(20, 60))),
-    truth=lambda seams, control: np.mean(seams > np.percentile(control, 95)),
+expected_cost = Check(
+    name="expected_cost",
+    asks="the mean cost of the transition that a walk takes, with odds in proportion to 1 / cost",
+    start="divide 1 / costs by its sum to get probabilities; add up probability times cost.",
+    draw=lambda rng: (rng.uniform(90, 600, rng.integers(1, 12)),),
+    truth=lambda costs: len(costs) / np.sum(1 / costs),
     mistakes=[
+        Mistake(np.mean, "that is the mean of all costs; a walk takes the cheap ones more often."),
+        Mistake(np.min, "a walk does not always take the cheapest; it only takes it more often."),
         Mistake(
-            lambda seams, control: np.sum(seams > np.percentile(control, 95)),
-            "that is the number of seams; divide it by the number of all seams.",
+            lambda costs: np.sum(costs**2) / np.sum(costs),
+            "your odds are in proportion to the cost, as in the homework; they must be to 1 / cost.",
         ),
         Mistake(
-            lambda seams, control: np.mean(seams > np.median(control)),
-            "half of the control itself is above its median: such a jump is nothing special.",
+            lambda costs: float(len(costs)),
+            "1 / costs does not add up to 1, so it is no probability yet; divide it by its sum.",
         ),
         Mistake(
-            lambda seams, control: np.mean(seams > control.mean()),
-            "much of the control itself is above its mean: such a jump is nothing special.",
+            lambda costs: len(costs) / np.sum(1 / costs) / 2,
+            "that the successor gets half decides whether a transition is taken, not which one.",
         ),
         Mistake(
-            lambda seams, control: np.mean(seams > control.max()),
-            "one extreme value in the control would hide every bad seam; take its 95th percentile.",
+            lambda costs: np.mean(1 / costs),
+            "that is the mean of 1 / cost; the probabilities weight the costs.",
         ),
         Mistake(
-            lambda seams, control: np.mean(seams > np.percentile(seams, 95)),
-            "you compare the seams with themselves: 5 % are always above.",
-        ),
-        Mistake(
-            lambda seams, control: np.mean(seams > np.percentile(control, 0.95)),
-            "np.percentile takes percent: 95, not 0.95.",
+            lambda costs: 1 / np.sum(1 / costs),
+            "that is probability times cost of one transition; add up over all of them.",
         ),
     ],
 )
 
 
-def _track(rng: np.random.Generator) -> Array:
-    return np.asarray(rng.normal(size=(int(rng.integers(12, 40)), 3)).cumsum(axis=0))
+def _odds(rng: np.random.Generator) -> tuple[Array, int]:
+    """Draw the probabilities of a small graph in which some nodes have no successor."""
+    size = int(rng.integers(4, 9))
+    odds = rng.uniform(size=(size, size)) * (rng.uniform(size=(size, size)) < 0.5)
+    odds[rng.integers(size)] = 0
+    sums = odds.sum(axis=1, keepdims=True)
+    return np.divide(odds, sums, out=np.zeros_like(odds), where=sums > 0), int(rng.integers(2, 12))
 
 
-def _seam(rng: np.random.Generator) -> tuple[Array, int, int, float]:
-    positions = _track(rng)
-    start = int(rng.integers(2, len(positions) - 6))
-    stop = int(rng.integers(start + 2, len(positions) - 2))
-    return positions, start, stop, float(rng.integers(24, 121))
-
-
-def _jumps(positions: Array) -> Array:
-    """Measure how much the step changes at each frame but the first and the last."""
-    return np.asarray(np.linalg.norm(np.diff(positions, 2, axis=0), axis=1))
-
-
-seam_jump = Check(
-    name="seam_jump",
-    asks="the largest of |x[f+1] - 2 x[f] + x[f-1]| times fps over the frames start <= f < stop",
-    start="np.diff(positions, 2, axis=0) holds the changes of step; its entry 0 belongs to frame 1.",
-    draw=_seam,
-    truth=lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max() * fps,
+alive = Check(
+    name="alive",
+    asks="the share of all walks that can take this many steps, from starts that are equally likely",
+    start="np.linalg.matrix_power(odds, steps)[i, j] is the probability to come from i to j.",
+    draw=_odds,
+    truth=lambda odds, steps: np.linalg.matrix_power(odds, steps).sum(axis=1).mean(),
     mistakes=[
         Mistake(
-            lambda positions, start, stop, fps: _jumps(positions)[start:stop].max() * fps,
-            "you look one frame too late: entry 0 of the second differences belongs to frame 1.",
+            lambda odds, steps: (odds**steps).sum(axis=1).mean(),
+            "`**` raises each entry to a power; a matrix power multiplies matrices: np.linalg.matrix_power.",
         ),
         Mistake(
-            lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max(),
-            "that is in metres per frame; velocities are in metres per second.",
+            lambda odds, steps: 1 - np.linalg.matrix_power(odds, steps).sum(axis=1).mean(),
+            "that is the share that dies; give the share that lives.",
         ),
         Mistake(
-            lambda positions, start, stop, fps: _jumps(positions)[start - 1 : stop - 1].max() * fps**2,
-            "times fps squared, it is an acceleration; for a jump in velocity, multiply by fps once.",
+            lambda odds, steps: np.linalg.matrix_power(odds, steps).sum(),
+            "that adds up over all starts; each start has the same probability, so take their mean.",
         ),
         Mistake(
-            lambda positions, start, stop, fps: _jumps(positions).max() * fps,
-            "that is the largest of the whole clip; look at the seam alone.",
+            lambda odds, steps: np.linalg.matrix_power(odds, steps).mean(),
+            "add up over all places where a walk can be, and take the mean over the starts only.",
         ),
         Mistake(
-            lambda positions, start, stop, fps: (
-                np.linalg.norm(np.diff(positions, axis=0), axis=1)[start:stop].max() * fps
-            ),
-            "that is the speed; a steady walk has speed but no jump. Take the difference once more.",
+            lambda odds, steps: odds.sum(axis=1).mean() ** steps,
+            "this is the share after one step, to a power; but walks do not stay evenly spread.",
+        ),
+        Mistake(
+            lambda odds, steps: (odds.sum(axis=1) ** steps).mean(),
+            "this asks `steps` times whether the *start* has a successor; the walk moves on.",
+        ),
+        Mistake(
+            lambda odds, steps: np.linalg.matrix_power(odds, steps - 1).sum(axis=1).mean(),
+            "that is one step too few.",
+        ),
+        Mistake(
+            lambda odds, steps: np.linalg.matrix_power(odds, steps + 1).sum(axis=1).mean(),
+            "that is one step too many.",
+        ),
+        Mistake(
+            lambda odds, steps: odds.sum(axis=1).mean(),
+            "that is the share after one step.",
         ),
     ],
 )
 
 
-def _weights(rng: np.random.Generator) -> tuple[Array, float]:
-    """Draw weights that fall from nearly 1 to 0 and rarely pass 0.5 in the middle."""
-    steps = np.arange(1, int(rng.integers(8, 60)) + 1)
-    return (1 - steps / len(steps)) ** rng.uniform(1.5, 4), float(rng.integers(24, 121))
+def _pairs(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw two measurements on the same paths, which differ less than the paths do."""
+    before = rng.gamma(3.0, 2.0, int(rng.integers(5, 20)))
+    return before, before * rng.uniform(0.7, 1.1) + rng.normal(0, 0.3, len(before))
 
 
-reaction_time = Check(
-    name="reaction_time",
-    asks="the seconds from the window's first frame to the first that holds more of the new motion",
-    start="find the first frame whose weight is below a half; frame p comes p / fps seconds after frame 0.",
-    draw=_weights,
-    truth=lambda weights, fps: int(np.argmax(weights < 0.5)) / fps,
+paired_gain = Check(
+    name="paired_gain",
+    asks="the quartiles and the median (25, 50, 75 %) of before - after, path by path",
+    start="subtract first, path by path; then np.percentile(differences, [25, 50, 75]).",
+    draw=_pairs,
+    truth=lambda before, after: np.percentile(before - after, [25, 50, 75]),
     mistakes=[
         Mistake(
-            lambda weights, fps: int(np.argmax(weights < 0.5)),
-            "those are frames; a second has `fps` of them.",
+            lambda before, after: np.percentile(before, [25, 50, 75]) - np.percentile(after, [25, 50, 75]),
+            "you subtract the quartiles; that forgets which results belong to the same path. Subtract first.",
         ),
         Mistake(
-            lambda weights, fps: len(weights) / 2 / fps,
-            "half the window is right only for weights that fall evenly.",
+            lambda before, after: np.percentile(after - before, [25, 50, 75]),
+            "the sign is the other way round: a gain is what `after` has less than `before`.",
         ),
         Mistake(
-            lambda weights, fps: len(weights) / fps,
-            "that is when the blend ends; the new motion leads before that.",
+            lambda before, after: np.percentile(np.abs(before - after), [25, 50, 75]),
+            "the absolute value hides the paths on which it became worse.",
         ),
         Mistake(
-            lambda weights, fps: int(np.argmax(weights > 0.5)) / fps,
-            "the weights are those of the old motion: it leads while they are above a half.",
-        ),
-    ],
-)
-
-
-def _steps(positions: Array) -> Array:
-    return np.asarray(np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T))
-
-
-def _standing(rng: np.random.Generator) -> tuple[Array, NDArray[np.bool_]]:
-    """Draw a track, and two stretches of it in which the foot is planted."""
-    positions = _track(rng)
-    planted = np.zeros(len(positions), bool)
-    first, second = rng.integers(2, 5, 2)
-    planted[1 : 1 + first] = planted[7 : 7 + second] = True
-    return positions, planted
-
-
-ground_slid = Check(
-    name="ground_slid",
-    asks="the distance over the ground, in metres, of the steps with the foot planted at both ends",
-    start="the step from frame f to f+1 counts if planted[f] and planted[f+1]; the ground is x and z.",
-    draw=_standing,
-    truth=lambda positions, planted: _steps(positions)[planted[1:] & planted[:-1]].sum(),
-    mistakes=[
-        Mistake(
-            lambda positions, planted: np.linalg.norm(np.diff(positions, axis=0), axis=1)[
-                planted[1:] & planted[:-1]
-            ].sum(),
-            "your sum includes the height; sliding is over the ground, x and z.",
+            lambda before, after: np.percentile(np.sort(before) - np.sort(after), [25, 50, 75]),
+            "sorting breaks the pairs: entry n of both must be the same path.",
         ),
         Mistake(
-            lambda positions, planted: _steps(positions)[planted[1:]].sum(),
-            "your sum includes the step in which the foot comes down; both its ends must be planted.",
+            lambda before, after: np.median(before - after),
+            "that is the median; the quartiles are asked for, too.",
         ),
         Mistake(
-            lambda positions, planted: _steps(positions)[planted[:-1]].sum(),
-            "your sum includes the step in which the foot leaves; both its ends must be planted.",
-        ),
-        Mistake(
-            lambda positions, planted: _steps(positions[planted]).sum(),
-            "your sum includes the way from one plant to the next, where the foot swings.",
-        ),
-        Mistake(
-            lambda positions, planted: _steps(positions).sum(),
-            "your sum includes the swings; only planted feet slide.",
+            lambda before, after: np.percentile(before - after, [0.25, 0.5, 0.75]),
+            "np.percentile takes percent: 25, not 0.25.",
         ),
     ],
 )
