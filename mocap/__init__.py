@@ -25,7 +25,7 @@ matching    which moments are alike: metrics, distance grids, transitions (02, 0
 feet        feet that stand still: footplants, footskate clean-up (04)
 datasets    clips to start with: bundled ones, the CMU database (01, 10)
 blending    from one motion into another: blends, inertialization (04)
-quality     numbers that judge clips and seams (01, 04, 10)
+quality     numbers that judge clips and seams (01, 04, 09, 10)
 graphs      motion graphs: build, prune, choose a threshold, save (05, 06)
 synthesis   walks through a graph, at random or by search, and their motions (07)
 steering    walks that follow a wish: paths, waypoints, crowds, control (08)
