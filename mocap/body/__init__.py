@@ -3,7 +3,7 @@
 A `Motion` is a `Skeleton` plus arrays: where the root is and how each joint is turned, frame by frame. All
 other rooms stand on this one.
 
-Reading order (notebooks 01, 03, 10)
+Reading order (notebooks 01, 03)
 --------------------------------
 1. `skeleton`: a tree of joints
 2. `motion`: the body over time; other frame rates; clips in a row

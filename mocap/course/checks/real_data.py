@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array, Indices, Mask
 from mocap.course.check import Check, Mistake
 from mocap.feet.footplants import hysteresis
 
@@ -160,12 +160,12 @@ running = Check(
 )
 
 
-def _takes(rng: np.random.Generator) -> tuple[Array, int]:
+def _takes(rng: np.random.Generator) -> tuple[Indices, int]:
     """Draw lengths of takes and a window; some takes are shorter than two windows."""
     return rng.integers(5, 200, int(rng.integers(1, 12))), int(rng.integers(3, 20))
 
 
-def _share_kept(lengths: Array, window: float, least: float = 0.0) -> float:
+def _share_kept(lengths: Indices, window: float, least: float = 0.0) -> float:
     return float(np.maximum(least, lengths - 2 * window).sum() / lengths.sum())
 
 
