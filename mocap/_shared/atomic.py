@@ -44,10 +44,44 @@ def replacing(path: str | Path) -> Iterator[Path]:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
 
 
+def require_writable(path: str | Path) -> None:
+    """Raise, before any work is done for it, where a file could not be written.
+
+    Examples
+    --------
+    >>> require_writable("nowhere/walk.bvh")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
+    """
+    path = Path(path)
+    if path.is_dir():
+        raise MocapError(f"Cannot write {path}: it is a folder.")
+    try:
+        tempfile.TemporaryDirectory(prefix=".", dir=path.parent).cleanup()
+    except OSError as error:
+        raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
+
+
 def write_text(path: str | Path, text: str) -> None:
     """Write a text file as UTF-8, whole or not at all."""
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8", newline="\n")
+
+
+def require_folder(path: Path) -> None:
+    """Raise, before any work is done for it, where a folder could not be made or written into.
+
+    Examples
+    --------
+    >>> require_folder(Path(__file__) / "below")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: Cannot make the folder ...below: Not a directory.
+    """
+    nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
+    try:
+        tempfile.TemporaryDirectory(prefix=".", dir=nearest).cleanup()
+    except OSError as error:
+        raise MocapError(f"Cannot make the folder {path}: {error.strerror or error}.") from error
 
 
 def make_folder(path: Path) -> None:

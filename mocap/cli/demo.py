@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import body, datasets, files, graphs, quality, synthesis, widgets
-from mocap._shared.atomic import make_folder
+from mocap._shared.atomic import make_folder, require_folder
 from mocap._shared.progress import Progress
-from mocap.cli.options import add_building, bar, window_frames
+from mocap.cli.options import SEED, add_building, bar, number, window_frames
 from mocap.errors import NoWalk
 
 if TYPE_CHECKING:
@@ -39,12 +39,18 @@ def add_demo(commands: "Commands") -> None:
         "-o", "--out", type=Path, default=Path("mocap-demo"), help="folder to write to (default: %(default)s)"
     )
     add_building(demo)
-    add("--seconds", type=float, default=12.0, help="duration of the new walk (default: %(default)g)")
-    add("--seed", type=int, default=0, help="seed of the random walk (default: %(default)s)")
+    add(
+        "--seconds",
+        type=number(0.1, 3600),
+        default=12.0,
+        help="duration of the new walk (default: %(default)g)",
+    )
+    add("--seed", type=SEED, default=0, help="seed of the random walk (default: %(default)s)")
     demo.set_defaults(run=_demo)
 
 
 def _demo(options: argparse.Namespace) -> int:
+    require_folder(options.out)
     if options.clips:
         clips = files.load_all(
             options.clips, skeleton=options.skeleton, scale=options.scale, progress=bar("reading")

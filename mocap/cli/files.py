@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import datasets, files, quality
-from mocap.cli.options import add_reading, bar
+from mocap.cli.options import add_reading, bar, require_amc, whole
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
@@ -24,6 +24,7 @@ def add_info(commands: "Commands") -> None:
 
 
 def _info(options: argparse.Namespace) -> int:
+    require_amc(options.file, options.skeleton)
     motion = files.load(options.file, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
     angles = files.read_angles(options.file, skeleton=options.skeleton)
     print(quality.inspect(motion, angles).table())
@@ -74,7 +75,7 @@ def add_data(commands: "Commands") -> None:
         help="list the trials of the CMU database that datasets.cmu fetches",
         description="List the trials of the CMU database that datasets.cmu fetches by name.",
     )
-    listing.add_argument("--subject", type=int, help="only this person's trials")
+    listing.add_argument("--subject", type=whole(1, 999), help="only this person's trials")
     listing.add_argument("--kind", help="only trials with this word in their description")
     listing.set_defaults(run=_list)
 

@@ -4,8 +4,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import body, files, graphs
+from mocap import body, datasets, files, graphs
+from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_building, bar, window_frames
+from mocap.errors import MocapError
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
@@ -20,6 +22,7 @@ def add_graph(commands: "Commands") -> None:
         help="build a motion graph and save it, or describe a saved one",
         usage="mocap graph [build] CLIPS... -o graph.npz\n       mocap graph info graph.npz",
         description="Build the motion graph of some clips, prune it and save it; or describe a saved graph. "
+        "The graph remembers where its clips are. "
         "The word `build` may be left out. For a folder of clips that is called info, write ./info.",
     )
     actions = graph.add_subparsers(prog="mocap graph", title="actions", required=True, metavar="ACTION")
@@ -47,11 +50,13 @@ def add_graph(commands: "Commands") -> None:
 
 def _build(options: argparse.Namespace) -> int:
     graphs.require_suffix(options.out, ".npz")
-    graphs.require_suffix(options.graphml or "x.graphml", ".graphml")
+    for target in filter(None, (options.out, options.graphml)):
+        require_writable(target)
+    if options.graphml and options.graphml.suffix.lower() != ".graphml":
+        raise MocapError(f"--graphml writes .graphml, got '{options.graphml}'.")
     window = window_frames(options.window, options.fps)
-    clips = files.load_all(
-        options.clips, skeleton=options.skeleton, scale=options.scale, progress=bar("reading")
-    )
+    found = files.find_files(options.clips)
+    clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
     graph = graphs.build(
         [body.resample(clip, options.fps) for clip in clips],
         window=window,
@@ -61,7 +66,9 @@ def _build(options: argparse.Namespace) -> int:
     if not options.whole:
         graph = graphs.prune(graph, by_labels=options.by_labels)
     print(graphs.summary(graph.graph, fps=graph.fps).table())
-    graphs.save(graph, options.out)
+    graphs.save(
+        graph, options.out, [datasets.Origin(file, options.skeleton, options.scale) for file in found]
+    )
     print(f"{'wrote':<12} {options.out}")
     if options.graphml:
         graphs.write_graphml(graph, options.graphml)

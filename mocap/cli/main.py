@@ -1,9 +1,12 @@
 """The command `mocap`, or `python -m mocap`."""
 
 import argparse
+import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
+from typing import NoReturn
 
 import mocap
 from mocap.cli.course import add_course, add_lab
@@ -14,9 +17,18 @@ from mocap.cli.view import add_view
 from mocap.cli.walk import add_walk
 from mocap.errors import MocapError, MocapWarning
 
+LONGEST = 150  # letters of a sentence about options, which may quote what was typed
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        """Raise, so that bad options are one sentence like all other errors."""
+        shown = message if len(message) <= LONGEST else f"{message[:LONGEST]}…"
+        raise MocapError(f"{shown} (see {self.prog} --help)")
+
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="mocap", description="New human motion out of captured motion.")
+    parser = _Parser(prog="mocap", description="New human motion out of captured motion.")
     parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for add in (
@@ -31,7 +43,31 @@ def _parser() -> argparse.ArgumentParser:
         add_lab,
     ):
         add(commands)
+    _name_parsers(parser)
     return parser
+
+
+def _name_parsers(parser: argparse.ArgumentParser) -> None:
+    """Let each command's options name its parser, whose usage an error shows."""
+    parser.set_defaults(parser=parser)
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for command in action.choices.values():
+                _name_parsers(command)
+
+
+def _for_jupyterlab(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split off what stands after `--` in `mocap lab`: it is for JupyterLab.
+
+    Examples
+    --------
+    >>> _for_jupyterlab(["lab", "mine", "--", "--no-browser"])
+    (['lab', 'mine'], ['--no-browser'])
+    """
+    if words[:1] != ["lab"] or "--" not in words:
+        return list(words), []
+    at = list(words).index("--")
+    return list(words[:at]), list(words[at + 1 :])
 
 
 def _with_action(arguments: Sequence[str]) -> list[str]:
@@ -48,26 +84,54 @@ def _with_action(arguments: Sequence[str]) -> list[str]:
 
 
 def _say(message: Warning | str, *_place: object, **_more: object) -> None:
-    """Write an error or a warning as one line."""
-    print(f"mocap: {message}", file=sys.stderr)
+    """Write an error or a warning as one line, with the names that options have on a command line.
+
+    Examples
+    --------
+    >>> _as_options("choose another name, or set skeleton= to it; widen=True also writes one")
+    'choose another name, or set --skeleton to it; --widen also writes one'
+    """
+    print(f"mocap: {_as_options(str(message))}", file=sys.stderr)
+
+
+def _as_options(message: str) -> str:
+    return re.sub(r"\b(skeleton|scale|fps|widen|clips)=(True)?(?=\W|$)", r"--\1", message)
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    words, after = _for_jupyterlab(_with_action(arguments))
+    options, unknown = _parser().parse_known_args(words)
+    if unknown:
+        options.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
+    options.after = after
+    return options
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command and return its exit status: 0, 2 for bad input, or 130 after Ctrl-C.
+    """Run the command and return its exit status.
+
+    It is 0, 2 for bad input, 130 after Ctrl-C, or 141 after a closed pipe.
 
     Parameters
     ----------
     arguments : the words after `mocap`; those of the command line by default.
     """
-    options = _parser().parse_args(_with_action(sys.argv[1:] if arguments is None else arguments))
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="replace")  # a terminal that knows no ° shows ?
     try:
+        options = _options(sys.argv[1:] if arguments is None else arguments)
         with warnings.catch_warnings():
             warnings.simplefilter("always", MocapWarning)
             warnings.showwarning = _say
-            return int(options.run(options))
+            status = int(options.run(options))
+            sys.stdout.flush()
+            return status
     except MocapError as error:
         _say(str(error))
         return 2
+    except BrokenPipeError:  # the reader has seen enough, as with `mocap data list | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 141
     except KeyboardInterrupt:
         _say("interrupted; no half-written file is left.")
         return 130

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import files, widgets
-from mocap.cli.options import add_reading, bar
+from mocap._shared.atomic import require_writable
+from mocap.cli.options import add_reading, bar, require_amc
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
@@ -29,6 +30,9 @@ def add_view(commands: "Commands") -> None:
 
 
 def _view(options: argparse.Namespace) -> int:
+    if options.out:
+        require_writable(options.out)
+    require_amc(options.clip, options.skeleton)
     clip = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
     out = options.out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{options.clip.stem}.html")
     widgets.save_animation(clip, out, progress=bar("drawing"))

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import body, files, graphs, steering, synthesis
-from mocap.cli.options import SKELETON, bar
+from mocap._shared.atomic import require_writable
+from mocap.cli.options import LENGTH, SEED, SKELETON, bar, whole
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from mocap.steering.path_following import Followed
 
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+LONGEST = 24 * 3600.0  # seconds of a random walk
 
 
 def add_walk(commands: "Commands") -> None:
@@ -23,7 +25,8 @@ def add_walk(commands: "Commands") -> None:
         "walk",
         help="walk through a saved graph, along a path or at random",
         description="Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at "
-        "random, and write the motion as .bvh (centimetres).",
+        "random, and write the motion as .bvh (centimetres). Ctrl-C while it searches writes the "
+        "best walk so far.",
     )
     add = walk.add_argument
     add("graph", type=Path, help="an .npz file from `mocap graph`")
@@ -35,28 +38,31 @@ def add_walk(commands: "Commands") -> None:
         "--clips",
         nargs="+",
         type=Path,
-        help="the clips of the graph (default: those in its folder, or the bundled ones)",
+        help="the clips of the graph (default: those that it was built of, where it remembers them)",
     )
     add("--skeleton", type=Path, help=SKELETON)
-    add("--unit", type=float, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
+    add("--scale", type=LENGTH, help="metres per unit of length in the .bvh clips that --clips names")
+    add("--unit", type=LENGTH, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
     wish = "kind of motion from that many metres along the path, as in 6.5:sneak; may be repeated"
     add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
-    add("--width", type=int, default=100, help="walks that the search keeps at a time (default: %(default)s)")
+    add("--width", type=whole(1, 10_000), help="walks that the search keeps at a time (default: 100)")
     add("--clean", action="store_true", help="clean up footskate: planted feet stand still")
-    add("--seed", type=int, default=0, help="seed of the random walk (default: %(default)s)")
+    add("--seed", type=SEED, help="seed of the random walk (default: 0)")
     walk.set_defaults(run=_walk)
 
 
 def _walk(options: argparse.Namespace) -> int:
     if options.out.suffix.lower() != ".bvh":
         raise MocapError(f"A walk is written as .bvh, got '{options.out}'.")
+    require_writable(options.out)
+    _require_together(options)
     if options.random is not None:
         seconds, graph = _seconds(options.random), _graph(options)
         frames = synthesis.dump(
             graph,
             options.out,
             seconds=seconds,
-            seed=options.seed,
+            seed=options.seed or 0,
             clean=options.clean,
             progress=bar("writing"),
         )
@@ -66,13 +72,23 @@ def _walk(options: argparse.Namespace) -> int:
         print(f"{'walked':<12} {followed.report()}")
         files.save(followed.motion(clean=options.clean), options.out)
     print(f"{'wrote':<12} {options.out}")
-    return 0
+    return 130 if options.random is None and followed.found.stopped else 0
+
+
+def _require_together(options: argparse.Namespace) -> None:
+    """Raise for options that would have no effect."""
+    if options.random is not None and (options.label or options.width or options.unit):
+        raise MocapError("--label, --width and --unit belong to --path, not to --random.")
+    if options.random is None and options.seed is not None:
+        raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
+    if options.scale and not options.clips:
+        raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
 
 
 def _followed(options: argparse.Namespace) -> "Followed":
     path = files.load_path(options.path, scale=options.unit)
     wishes = steering.Wishes(labels=[_label(text) for text in options.label])
-    beam = steering.Beam(width=options.width, progress=bar("searching"))
+    beam = steering.Beam(width=options.width or 100, progress=bar("searching"))
     followed: Followed = steering.follow_path(_graph(options), path, wishes, beam=beam)
     return followed
 
@@ -86,9 +102,10 @@ def _seconds(text: str) -> float:
     (60.0, 90.0, 2.0)
     """
     found = re.fullmatch(r"(\d+\.?\d*|\.\d+)\s*(s|min|h)?", text.strip())
-    if found is None or float(found[1]) == 0:
-        raise MocapError(f"How long is '{text}'? Write 60s, 10min or 1h.")
-    return float(found[1]) * UNITS[found[2] or "s"]
+    seconds = float(found[1]) * UNITS[found[2] or "s"] if found else 0.0
+    if not 0 < seconds <= LONGEST:
+        raise MocapError(f"How long is '{text[:40]}'? Write 60s, 10min or 1h, up to 24h.")
+    return seconds
 
 
 def _label(text: str) -> tuple[float, str]:
@@ -97,7 +114,7 @@ def _label(text: str) -> tuple[float, str]:
     try:
         return float(metres), label
     except ValueError:
-        raise MocapError(f"From where on is '{text}'? Write METRES:LABEL, as in 6.5:sneak.") from None
+        raise MocapError(f"From where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak.") from None
 
 
 def _graph(options: argparse.Namespace) -> "MotionGraph":
@@ -105,7 +122,9 @@ def _graph(options: argparse.Namespace) -> "MotionGraph":
     found = graphs.read(options.graph)
     progress = bar("reading")
     if options.clips:
-        clips = files.load_all(options.clips, skeleton=options.skeleton, scale=None, progress=progress)
+        clips = files.load_all(
+            options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
+        )
     else:
         clips = graphs.find_clips(options.graph, skeleton=options.skeleton, progress=progress)
     graph: MotionGraph = graphs.load(options.graph, [body.resample(clip, found.fps) for clip in clips])

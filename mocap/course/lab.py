@@ -1,9 +1,11 @@
 """The course in JupyterLab."""
 
 import importlib.util
+import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from mocap.errors import MocapError
@@ -48,12 +50,16 @@ def course_folder(copy: Path) -> Path:
     return copy
 
 
-def open_course(copy: Path) -> int:
+def open_course(copy: Path, options: Sequence[str] = ()) -> int:
     """Start JupyterLab on the first notebook, wait until it ends, and return its exit status.
+
+    Ctrl-C is JupyterLab's: it asks whether to shut down, and a second one ends it.
 
     Parameters
     ----------
     copy : as for `course_folder`.
+    options : for JupyterLab, such as `--no-browser`. The administrator's account gets `--allow-root`, which
+        JupyterLab asks for there.
 
     Raises
     ------
@@ -63,5 +69,11 @@ def open_course(copy: Path) -> int:
         raise MocapError(
             "The course runs in JupyterLab, which is not installed: pip install 'mocap[notebooks]'."
         )
-    folder = course_folder(copy)
-    return subprocess.run([sys.executable, "-m", "jupyterlab", str(folder / FIRST)], check=False).returncode
+    root = ["--allow-root"] if getattr(os, "geteuid", lambda: 1)() == 0 else []
+    first = str(course_folder(copy) / FIRST)
+    started = subprocess.Popen([sys.executable, "-m", "jupyterlab", first, *root, *options])
+    while True:
+        try:
+            return started.wait()
+        except KeyboardInterrupt:  # JupyterLab has it as well, and answers it
+            continue

@@ -1,17 +1,18 @@
 """Clips to begin with: seven that come with the package, and those of the CMU database.
 
 The bundled clips are generated: footsteps planned along a path, a few harmonics for each joint, and inverse
-kinematics for the legs. The course does not need to know how: files 3 to 7 can be read last.
+kinematics for the legs. The course does not need to know how: files 4 to 8 can be read last.
 
 Reading order (notebooks 01, 10)
 --------------------------------
 1. `samples`: the bundled clips by name
 2. `cmu_database`: trials of the CMU database, fetched once
-3. `generated`: walks generated from tables of figures
-4. `gait`: what a body does in one cycle, as tables
-5. `gait_timing`: how far, in which phase and gait, frame by frame
-6. `footsteps`: where the feet go
-7. `walking_body`: the body that walks, and its legs
+3. `clip_origins`: where clips were read from, to read them again
+4. `generated`: walks generated from tables of figures
+5. `gait`: what a body does in one cycle, as tables
+6. `gait_timing`: how far, in which phase and gait, frame by frame
+7. `footsteps`: where the feet go
+8. `walking_body`: the body that walks, and its legs
 """
 
 import lazy_loader
@@ -20,6 +21,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "samples": ["SAMPLES", "sample"],
+        "clip_origins": ["Origin"],
         "cmu_database": ["TERMS", "Trial", "cmu", "trials"],
         "generated": ["generate", "generate_walk"],
     },

@@ -23,7 +23,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "load_save": ["load", "load_all", "load_skeleton", "read_angles", "save"],
+        "load_save": ["find_files", "load", "load_all", "load_skeleton", "read_angles", "save"],
         "path_files": ["load_path"],
         "conversion": ["Options", "Outcome", "convert", "plan"],
     },

@@ -44,7 +44,8 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
 
     Raises
     ------
-    MocapError : when there is nothing to convert, or two files would become one.
+    MocapError : when there is nothing to convert, a file would replace one that is converted, or two files
+        would become one.
 
     Examples
     --------
@@ -53,13 +54,20 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     """
     source, target = Path(source), Path(target)
     if not source.is_dir():
-        return [(source, target)]
+        return _checked([(source, target)])
     found = sorted(path for path in source.rglob("*") if path.suffix.lower() in FORMATS and path.is_file())
     if not found:
         raise MocapError(f"The folder {source} holds no .amc or .bvh file.")
     pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
+    return _checked(pairs)
+
+
+def _checked(pairs: list[tuple[Path, Path]]) -> list[tuple[Path, Path]]:
+    sources = {path.resolve() for path, _ in pairs}
     taken: dict[Path, Path] = {}
     for path, new in pairs:
+        if new.resolve() in sources:
+            raise MocapError(f"{new} is one of the files to convert: choose another name or folder.")
         if (first := taken.setdefault(new, path)) != path:
             raise MocapError(f"{first} and {path} would both become {new}: convert them one by one.")
     return pairs

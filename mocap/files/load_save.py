@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TypedDict, Unpack
 
 from mocap._shared.arrays import Array
-from mocap._shared.atomic import write_text
+from mocap._shared.atomic import replacing, write_text
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -19,6 +19,31 @@ from mocap.files.text import read_text
 FORMATS = (".amc", ".bvh")  # suffixes of the motion files that are found in folders
 
 
+def find_files(paths: Sequence[Path]) -> list[Path]:
+    """List files, and every `.amc` and `.bvh` file of folders.
+
+    Parameters
+    ----------
+    paths : files and folders.
+
+    Raises
+    ------
+    MocapError : for a folder without such files, or one that cannot be read.
+
+    Examples
+    --------
+    >>> find_files([Path("walk.amc"), Path("run.bvh")]) == [Path("walk.amc"), Path("run.bvh")]
+    True
+    """
+    found: list[Path] = []
+    for path in paths:
+        inside = sorted(p for p in path.iterdir() if p.suffix.lower() in FORMATS) if path.is_dir() else [path]
+        if not inside:
+            raise MocapError(f"The folder {path} holds no .amc or .bvh file.")
+        found += inside
+    return found
+
+
 def load_all(
     paths: Sequence[Path], *, skeleton: Path | None, scale: float | None, progress: Progress
 ) -> list[Motion]:
@@ -26,13 +51,13 @@ def load_all(
 
     Parameters
     ----------
-    paths : files and folders.
+    paths : as for `find_files`.
     skeleton, scale : as for `load`.
     progress : wraps the files while they are read.
 
     Raises
     ------
-    MocapError, FormatError : as for `load`, and for a folder without such files.
+    MocapError, FormatError : as for `load` and `find_files`.
 
     Examples
     --------
@@ -42,13 +67,7 @@ def load_all(
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder ... holds no .amc or .bvh file.
     """
-    found: list[Path] = []
-    for path in paths:
-        inside = sorted(p for p in path.iterdir() if p.suffix.lower() in FORMATS) if path.is_dir() else [path]
-        if not inside:
-            raise MocapError(f"The folder {path} holds no .amc or .bvh file.")
-        found += inside
-    return [load(path, skeleton=skeleton, scale=scale) for path in progress(found)]
+    return [load(path, skeleton=skeleton, scale=scale) for path in progress(find_files(paths))]
 
 
 def load(
@@ -229,8 +248,9 @@ def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> 
             f"{beside} holds another skeleton: choose another name for {path.name}, or delete that file, "
             f"or set skeleton= to it if the motion fits."
         )
-    write_text(beside, text)
-    write_text(path, amc)
+    with replacing(beside) as skeleton:  # both files or none
+        skeleton.write_text(text, encoding="utf-8", newline="\n")
+        write_text(path, amc)
 
 
 def _check(name: str, value: float | None) -> None:

@@ -10,8 +10,8 @@ Reading order (notebooks 05, 06)
  3. `pruning`: remove dead ends and sinks, with a reason for each edge
  4. `thresholds`: the size of the graph at each threshold
  5. `choice_points`: merge choice points that are close together
- 6. `graph_summary`: what a graph can play, in numbers
- 7. `storage`: save a graph to .npz, or to GraphML for other tools
+ 6. `graph_summary`: what a graph can play, in numbers; GraphML for other tools
+ 7. `storage`: save a graph to .npz, and read it again
  8. `edge_tables`: the frames that each edge and each hop plays, as arrays
  9. `compiled_graph`: a whole graph as arrays, for searches
 10. `homework_graph`: the homework's simpler graph of segments
@@ -38,8 +38,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "pruning": ["Pruning", "Reason", "prune", "prune_graph", "notes_example"],
         "thresholds": ["ThresholdCurve", "smallest_threshold", "threshold_curve", "velocity_jumps"],
         "choice_points": ["merge_choice_points"],
-        "graph_summary": ["Summary", "summary"],
-        "storage": ["find_clips", "load", "read", "require_suffix", "save", "write_graphml"],
+        "graph_summary": ["Summary", "summary", "write_graphml"],
+        "storage": ["find_clips", "load", "read", "require_suffix", "save"],
         "edge_tables": ["EdgeTable", "FrameTable", "Hops", "edge_table", "frame_table", "require_node"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
         "homework_graph": [

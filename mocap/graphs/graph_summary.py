@@ -1,11 +1,15 @@
-"""A graph in numbers: what it can play, how soon a walk can turn off, which kinds of motion it can reach."""
+"""A graph for people: what it can play, how soon a walk can turn off; and as GraphML for other tools."""
 
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import networkx as nx
 import numpy as np
 
+from mocap._shared.atomic import replacing
+from mocap.errors import MocapError
 from mocap.graphs.components import Labels, reached
+from mocap.graphs.motion_graph import MotionGraph
 from mocap.graphs.pruning import name
 
 
@@ -68,7 +72,7 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
     edges        2, of them 1 transitions
     turn-off     0.68 s away on average, 1.33 s at worst
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     transitions = [edge["kind"] == "transition" for _, _, edge in graph.edges(data=True)]
     frames, mean_wait, worst_wait = _waits(graph)
@@ -115,3 +119,39 @@ def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
         here: frozenset(there for there in starts if there != here and starts[there] & ways[here])
         for here in starts
     }
+
+
+def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
+    """Write a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap does not read it.
+
+    Nodes have `clip`, `frame` and `seconds`; edges have `kind`, `frames` and `labels`; transitions also have
+    `cost` (m), `angle` (rad), `x` and `z` (m).
+
+    Raises
+    ------
+    MocapError : for another suffix, a clip's name that XML cannot hold, and a file that cannot be written.
+
+    Notebook: 05b-choice-points
+    """
+    if Path(path).suffix.lower() != ".graphml":
+        raise MocapError(f"This graph is written as .graphml, got '{path}'.")
+    plain = nx.MultiDiGraph()
+    names = [clip.name for clip in motion_graph.clips]
+    if unfit := [name for name in names if not name.isprintable()]:
+        raise MocapError(f"GraphML cannot hold the clip's name {unfit[0]!r}.")
+    for clip, frame in motion_graph.graph:
+        plain.add_node(
+            f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=frame / motion_graph.fps
+        )
+    for (a, leave), (b, enter), key, edge in motion_graph.graph.edges(keys=True, data=True):
+        fields: dict[str, Any] = {
+            "kind": edge["kind"],
+            "frames": edge["frames"],
+            "labels": "+".join(sorted(edge["labels"])),
+        }
+        if edge["kind"] == "transition":
+            fields |= {"cost": float(edge["cost"])}
+            fields |= {name: float(number) for name, number in edge["transform"]._asdict().items()}
+        plain.add_edge(f"{names[a]}:{leave}", f"{names[b]}:{enter}", key, **fields)
+    with replacing(path) as beside:
+        nx.write_graphml_xml(plain, beside)

@@ -4,6 +4,7 @@ The file holds no frames of the clips and no code: it is safe to read a file fro
 """
 
 import hashlib
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,6 +17,7 @@ from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
+from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import FormatError, MocapError
 from mocap.files.load_save import FORMATS
@@ -52,6 +54,7 @@ class GraphFile(NamedTuple):
     frames: tuple[int, ...]
     fingerprints: tuple[str, ...]
     graph: nx.MultiDiGraph
+    origins: tuple[str, ...] = ()
 
 
 def fingerprint(motion: Motion) -> str:
@@ -71,13 +74,15 @@ def require_suffix(path: str | Path, suffix: str) -> None:
         raise MocapError(f"This graph is written as {suffix}, got '{path}'.")
 
 
-def save(motion_graph: MotionGraph, path: str | Path) -> None:
+def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = ()) -> None:
     """Write a motion graph to an `.npz` file; an old file is replaced when the new one is complete.
 
     Parameters
     ----------
     motion_graph : as from `graphs.build` or `prune`.
     path : the file.
+    origins : where the clips were read from, so that `find_clips` finds them again; one for each, or none.
+        Each place is kept twice: from the file's own folder, and from the root.
 
     Raises
     ------
@@ -93,7 +98,7 @@ def save(motion_graph: MotionGraph, path: str | Path) -> None:
     ...     load(f"{folder}/walks.npz", clips)
     MotionGraph(1 clips, 2 nodes, 1 edges, 0 of them transitions)
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     require_suffix(path, ".npz")
     clips, graph = motion_graph.clips, motion_graph.graph
@@ -109,6 +114,7 @@ def save(motion_graph: MotionGraph, path: str | Path) -> None:
         "names": np.array([clip.name for clip in clips]),
         "frames": np.array([len(clip) for clip in clips]),
         "fingerprints": np.array([fingerprint(clip) for clip in clips]),
+        "origins": np.array([origin.text(Path(path).parent) for origin in origins], str),
         "nodes": np.array(list(graph), int).reshape(-1, 2),
         "edges": np.array([(number[a], number[b], key, e["frames"]) for a, b, key, e in edges], int).reshape(
             -1, 4
@@ -142,7 +148,7 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
     FormatError : for a file that is no motion graph, is damaged, or has a newer version.
     MocapError : for a clip that is missing or has changed.
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     found = read(path)
     by_name = {clip.name: clip for clip in clips}
@@ -150,10 +156,9 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
         if name not in by_name:
             raise MocapError(f"{path} needs the clip '{name}'; given are: {', '.join(by_name) or 'none'}.")
         if fingerprint(by_name[name]) != known:
-            raise MocapError(
-                f"{path} was built of another '{name}' than this: {frames} frames at {found.fps:g} Hz then, "
-                f"{len(by_name[name])} at {by_name[name].fps:g} Hz now. Take the old clip, or build anew."
-            )
+            now = len(by_name[name])
+            other = f"{frames} frames then, {now} now" if now != frames else "other poses, bones or units"
+            raise MocapError(f"{path} was built of another '{name}': {other}. Take that clip, or build anew.")
     return MotionGraph(tuple(by_name[name] for name in found.names), found.window, found.graph)
 
 
@@ -164,7 +169,7 @@ def read(path: str | Path) -> GraphFile:
     ------
     FormatError, MocapError : as for `load`.
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     arrays = _arrays(path)
     _check(path, arrays)
@@ -182,17 +187,20 @@ def read(path: str | Path) -> GraphFile:
             edge |= {"kind": "transition", "cost": cost, "transform": PlanarTransform(*transform)}
         graph.add_edge(nodes[start], nodes[end], key, **edge)
     names, frames, known = (tuple(arrays[key].tolist()) for key in ("names", "frames", "fingerprints"))
-    return GraphFile(float(arrays["fps"]), int(arrays["window"]), names, frames, known, graph)
+    origins = tuple(arrays["origins"].tolist()) if "origins" in arrays else ()
+    return GraphFile(float(arrays["fps"]), int(arrays["window"]), names, frames, known, graph, origins)
 
 
 def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Progress = iter) -> list[Motion]:
-    """Load the clips that a saved graph was built of: bundled samples, or files with their names beside it.
+    """Load the clips that a saved graph was built of.
+
+    They are bundled samples, or the files that the graph remembers, or files of their names beside it.
 
     Parameters
     ----------
     path : a file from `save`.
-    skeleton : the `.asf` file of `.amc` clips; by default the one beside them that fits.
-    progress : wraps the names of the clips, to show a bar.
+    skeleton : the `.asf` file of `.amc` clips; by default the one that the graph remembers, or one that fits.
+    progress : wraps the clips, to show a bar.
 
     Returns
     -------
@@ -200,16 +208,20 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
 
     Raises
     ------
-    MocapError : where the file of a clip is not beside the graph, or cannot be read.
+    MocapError : where the file of a clip is in none of these places, or cannot be read.
     """
-    names = read(path).names
-    if set(names) <= set(SAMPLES):
-        return [sample(name) for name in names]
-    around = sorted(Path(path).parent.iterdir())
-    beside = {file.stem: file for file in around if file.suffix.lower() in FORMATS}
-    if missing := [name for name in names if name not in beside]:
-        raise MocapError(f"Clip '{missing[0]}' is not beside {path}: name the clips by --clips.")
-    return [load_motion(beside[name], skeleton=skeleton) for name in progress(names)]
+    found = read(path)
+    if set(found.names) <= set(SAMPLES) and not found.origins:
+        return [sample(name) for name in found.names]
+    folder = Path(path).parent
+    beside = {file.stem: file for file in sorted(folder.iterdir()) if file.suffix.lower() in FORMATS}
+    placed: list[Origin] = []
+    for name, text in itertools.zip_longest(found.names, found.origins):
+        origin = find_again(text, folder) if text else None
+        if origin is None and name not in beside:
+            raise MocapError(f"The clip '{name}' is no longer where {path} found it: give clips=.")
+        placed.append(origin or Origin(beside[name]))
+    return [load_motion(o.path, skeleton=skeleton or o.skeleton, scale=o.scale) for o in progress(placed)]
 
 
 def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
@@ -218,7 +230,7 @@ def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
     try:
         with np.load(path, allow_pickle=False) as archive:
             kind, version = str(archive["format"]), int(archive["version"])
-            arrays = {key: archive[key] for key in ARRAYS if key in archive}
+            arrays = {key: archive[key] for key in (*ARRAYS, "origins") if key in archive}
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
     except Exception as error:  # NumPy raises many kinds of errors for other files
@@ -251,6 +263,9 @@ def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]
     """Yield what must hold; each rule needs those before it."""
     window, lengths, nodes = arrays["window"], arrays["frames"], arrays["nodes"]
     edges, is_transition = arrays["edges"], arrays["is_transition"]
+    origins = arrays.get("origins", np.empty(0, str))
+    yield "origins are one for each clip, or none", len(origins) in (0, len(lengths)) and origins.ndim == 1
+    yield "origins are text", origins.dtype.kind == "U" and all(map(is_origin, origins.tolist()))
     yield "window and rate are above 0", window > 0 and 0 < arrays["fps"] < np.inf
     yield "there are clips with names of their own", 0 < len(set(arrays["names"].tolist())) == len(lengths)
     yield "nodes lie in clips", (nodes[:, 0] >= 0) & (nodes[:, 0] < len(lengths))
@@ -265,34 +280,3 @@ def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]
     yield "each transition has a cost", is_transition.sum() == len(arrays["costs"])
     yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
     yield "transforms are finite", np.isfinite(arrays["transforms"])
-
-
-def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
-    """Write a motion graph as GraphML, for tools such as Gephi, yEd or Cytoscape; mocap does not read it.
-
-    Nodes have `clip`, `frame` and `seconds`; edges have `kind`, `frames` and `labels`; transitions also have
-    `cost` (m), `angle` (rad), `x` and `z` (m).
-
-    Raises
-    ------
-    MocapError : for another suffix, a clip's name that XML cannot hold, and a file that cannot be written.
-
-    Notebook: 05-motion-graph
-    """
-    require_suffix(path, ".graphml")
-    plain = nx.MultiDiGraph()
-    names = [clip.name for clip in motion_graph.clips]
-    if unfit := [name for name in names if not name.isprintable()]:
-        raise MocapError(f"GraphML cannot hold the clip's name {unfit[0]!r}.")
-    for clip, frame in motion_graph.graph:
-        plain.add_node(
-            f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=frame / motion_graph.fps
-        )
-    for (a, leave), (b, enter), key, edge in motion_graph.graph.edges(keys=True, data=True):
-        told = {"kind": edge["kind"], "frames": edge["frames"], "labels": "+".join(sorted(edge["labels"]))}
-        if edge["kind"] == "transition":
-            told |= {"cost": float(edge["cost"])}
-            told |= {field: float(number) for field, number in edge["transform"]._asdict().items()}
-        plain.add_edge(f"{names[a]}:{leave}", f"{names[b]}:{enter}", key, **told)
-    with replacing(path) as beside:
-        nx.write_graphml_xml(plain, beside)

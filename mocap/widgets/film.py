@@ -1,7 +1,10 @@
 """Motions as files to look at: films, strips of poses, pages with the player."""
 
+import subprocess
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryFile
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -92,15 +95,24 @@ def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) ->
 
 
 def _write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
+    """Give ffmpeg the pictures, one after the other, and raise what it complains of."""
     import imageio_ffmpeg
 
-    writer = imageio_ffmpeg.write_frames(str(path), (500, 500), fps=fps, macro_block_size=2)
-    writer.send(None)
-    try:
-        for picture in pictures:
-            writer.send(np.ascontiguousarray(picture))
-    finally:
-        writer.close()
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "500x500", "-r", f"{fps:g}", "-i", "-"]
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-y", *raw, "-pix_fmt", "yuv420p", str(path)]
+    with TemporaryFile() as said:
+        ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
+        assert ffmpeg.stdin
+        try:
+            with suppress(BrokenPipeError), ffmpeg.stdin as pipe:
+                for picture in pictures:
+                    pipe.write(np.ascontiguousarray(picture).data)
+        finally:
+            failed = ffmpeg.wait()
+        said.seek(0)
+        if failed:
+            *_, last = said.read().decode(errors="replace").splitlines() or ["it ended early"]
+            raise MocapError(f"ffmpeg cannot write the film: {last[:120].strip()}.")
 
 
 def _require_ffmpeg() -> None:

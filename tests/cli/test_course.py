@@ -1,7 +1,5 @@
 """`mocap course run` and `mocap lab`, as a person types them; the other commands are in tests/course."""
 
-import subprocess
-
 import nbformat
 
 from mocap.cli.main import main
@@ -18,17 +16,43 @@ def test_a_cell_that_fails_is_named_in_one_sentence(tmp_path, capsys):
     assert path.read_text("utf-8") == before
 
 
-def test_lab_opens_the_first_notebook(monkeypatch, tmp_path):
+class Started:
+    """A JupyterLab that ends when it has been asked twice."""
+
+    def __init__(self, command):
+        self.command, self.asked = command, 0
+
+    def wait(self):
+        self.asked += 1
+        if self.asked == 1:
+            raise KeyboardInterrupt
+        return 7
+
+
+def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatch, tmp_path):
     started = []
+    monkeypatch.setattr(
+        lab.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
+    )
+    monkeypatch.setattr(lab.os, "geteuid", lambda: 0, raising=False)
+    assert (
+        main(["lab", str(tmp_path), "--", "--no-browser", "--port", "8890"]) == 7
+    )  # JupyterLab's own status
+    command = started[0].command
+    assert command[1:3] == ["-m", "jupyterlab"]
+    assert command[3].endswith("00-quickstart.ipynb")
+    assert command[4:] == ["--allow-root", "--no-browser", "--port", "8890"]
+    assert started[0].asked == 2
 
-    def run(command, check):
-        started.append(command)
-        return subprocess.CompletedProcess(command, 7)
 
-    monkeypatch.setattr(lab.subprocess, "run", run)
-    assert main(["lab", str(tmp_path)]) == 7  # what JupyterLab itself ends with
-    assert started[0][1:3] == ["-m", "jupyterlab"]
-    assert started[0][3].endswith("00-quickstart.ipynb")
+def test_without_root_jupyterlab_is_not_told_to_allow_it(monkeypatch):
+    started = []
+    monkeypatch.setattr(
+        lab.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
+    )
+    monkeypatch.setattr(lab.os, "geteuid", lambda: 1000, raising=False)
+    assert main(["lab"]) == 7
+    assert len(started[0].command) == 4
 
 
 def test_lab_says_what_to_install(monkeypatch, capsys):

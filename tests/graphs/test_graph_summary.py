@@ -1,14 +1,17 @@
-"""A summary counts what a walk meets; a sweep tells what building at each threshold would."""
+"""A summary counts what a walk meets; a sweep says what each threshold would build; GraphML holds all."""
 
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 
+import networkx as nx
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import IDENTITY
-from mocap.graphs.graph_summary import summary
+from mocap.errors import MocapError
+from mocap.graphs.graph_summary import summary, write_graphml
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import notes_example, prune
 from mocap.matching.transitions import Transition
@@ -16,6 +19,8 @@ from tests.strategies import wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
 WINDOW = 8
+MARK = {"walk": np.arange(90) < 60, "stroll": np.arange(90) > 40}
+LABELLED = prune(build([replace(CLIPS[0], labels=MARK), CLIPS[1]], window=WINDOW, threshold=0.05))
 LEVELS = np.array([1e-5, *np.linspace(0.001, 0.1, 24)])
 
 
@@ -67,3 +72,24 @@ def test_an_empty_graph_has_a_summary():
     graph = notes_example()
     graph.clear()
     assert summary(graph, fps=30.0)[:8] == (0, 0.0, 0, 0, 0, 0.0, 0.0, 0.0)
+
+
+def test_graphml_holds_every_node_and_edge(tmp_path):
+    path = tmp_path / "graph.graphml"
+    write_graphml(LABELLED, path)
+    back = nx.read_graphml(path, force_multigraph=True)
+    assert len(back) == len(LABELLED.graph)
+    assert back.number_of_edges() == LABELLED.graph.number_of_edges()
+    for (a, leave), (b, enter), edge in LABELLED.graph.edges(data=True):
+        found = back[f"{LABELLED.clips[a].name}:{leave}"][f"{LABELLED.clips[b].name}:{enter}"].values()
+        match = next(e for e in found if e["kind"] == edge["kind"])
+        assert match["frames"] == edge["frames"]
+        if edge["kind"] == "transition":
+            assert match["cost"] == edge["cost"]
+            assert (match["angle"], match["x"], match["z"]) == edge["transform"]
+    assert ET.parse(path).getroot().tag.endswith("graphml")
+    with pytest.raises(MocapError, match=r"written as .graphml, got"):
+        write_graphml(LABELLED, tmp_path / "graph.xml")
+    odd = replace(LABELLED, clips=(replace(CLIPS[0], name="a\x01"), CLIPS[1]))
+    with pytest.raises(MocapError, match="cannot hold the clip's name"):
+        write_graphml(odd, path)

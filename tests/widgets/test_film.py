@@ -76,3 +76,19 @@ def test_a_strip_and_a_page_are_the_players(tmp_path):
 def test_another_ending_is_refused(tmp_path):
     with pytest.raises(MocapError, match=r"written as \.gif, \.mp4, \.png or \.html, got"):
         film.save_animation(wave(9), tmp_path / "wave.mov")
+
+
+@pytest.mark.parametrize("reads", [True, False])
+def test_what_ffmpeg_complains_of_is_the_error_and_the_old_film_stays(tmp_path, monkeypatch, reads):
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+    fake = tmp_path / "ffmpeg"
+    rest = "cat > /dev/null\n" if reads else ""
+    fake.write_text(f"#!/bin/sh\n{rest}echo 'av_write: No space left on device' >&2\nexit 1\n")
+    fake.chmod(0o755)
+    monkeypatch.setattr(ffmpeg, "get_ffmpeg_exe", lambda: str(fake))
+    old = tmp_path / "wave.mp4"
+    old.write_bytes(b"an old film")
+    with pytest.raises(MocapError, match="ffmpeg cannot write the film: av_write: No space left on device"):
+        film.save_animation(wave(31), old)
+    assert old.read_bytes() == b"an old film"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["ffmpeg", "wave.mp4"]

@@ -1,0 +1,69 @@
+"""Where clips were read from, and how, so that they can be read again."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+
+class Origin(NamedTuple):
+    """The file that a clip was read from; `skeleton` and `scale` are those of `mocap.load`."""
+
+    path: Path
+    skeleton: Path | None = None
+    scale: float | None = None
+
+    def text(self, folder: Path) -> str:
+        """Write an origin as JSON: each file by its place seen from a folder, and by its absolute place.
+
+        Examples
+        --------
+        >>> Origin(Path("clips/walk.bvh"), scale=0.0254).text(Path("graphs"))
+        '{"path": ["../clips/walk.bvh", "/.../clips/walk.bvh"], "skeleton": [], "scale": 0.0254}'
+        """
+        skeleton = _places(self.skeleton, folder) if self.skeleton else []
+        scale = None if self.scale is None else float(self.scale)
+        return json.dumps({"path": _places(self.path, folder), "skeleton": skeleton, "scale": scale})
+
+
+def _places(file: Path, folder: Path) -> list[str]:
+    try:
+        near = [Path(os.path.relpath(file, folder)).as_posix()]
+    except ValueError:  # on Windows, from one drive to another
+        near = []
+    return [*near, str(file.resolve())]
+
+
+def find_again(text: str, folder: Path) -> Origin | None:
+    """Find a clip where `Origin.text` says it was, seen from a folder or from the root; None if it is gone.
+
+    Examples
+    --------
+    >>> find_again(Origin(Path("clips/gone.bvh")).text(Path("graphs")), Path("graphs"))
+    """
+    kept = json.loads(text)
+    path, skeleton = (_existing(kept[name], folder) for name in ("path", "skeleton"))
+    return Origin(path, skeleton, kept["scale"]) if path else None
+
+
+def _existing(places: list[str], folder: Path) -> Path | None:
+    return next((place for place in (folder / name for name in places) if place.is_file()), None)
+
+
+def is_origin(text: str) -> bool:
+    """Say whether a text is one that `Origin.text` could have written.
+
+    Examples
+    --------
+    >>> is_origin('{"path": ["walk.bvh"], "skeleton": [], "scale": null}'), is_origin("walk.bvh")
+    (True, False)
+    """
+    try:
+        kept = json.loads(text)
+        places = [*kept["path"], *kept["skeleton"]]
+        scale = kept["scale"]
+    except (ValueError, TypeError, KeyError):
+        return False
+    return (scale is None or isinstance(scale, float)) and all(isinstance(place, str) for place in places)
