@@ -77,7 +77,8 @@ def _run(options: argparse.Namespace) -> int:
 def add_lab(commands: "Commands") -> None:
     """Add `mocap lab`."""
     what = "open the course in JupyterLab"
-    lab = commands.add_parser("lab", help=what, description=f"{what.capitalize()}.")
+    more = "What stands after -- goes to JupyterLab: mocap lab -- --no-browser --port 8890"
+    lab = commands.add_parser("lab", help=what, description=f"{what[0].upper()}{what[1:]}. {more}.")
     lab.add_argument(
         "folder",
         nargs="?",
@@ -89,4 +90,4 @@ def add_lab(commands: "Commands") -> None:
 
 
 def _lab(options: argparse.Namespace) -> int:
-    return int(course.open_course(options.folder))
+    return int(course.open_course(options.folder, options.after))
