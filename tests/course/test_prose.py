@@ -1,0 +1,115 @@
+"""The prose of the notebooks: no computed number is typed by hand, words are plain, minutes are honest."""
+
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from mocap.course import notebooks
+from mocap.course.marked_values import marked
+
+FOLDER = Path(__file__).parents[2] / "notebooks"
+NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
+PAGES = sorted(path.name for path in FOLDER.glob("*.md"))
+every_notebook = pytest.mark.parametrize("name", NAMES)
+
+# Words that a reader of English as a second language stumbles over, or that have a plainer word.
+UNUSUAL = (
+    r"lest|thrice|shall|whoever|whomever|whence|hence|thereby|wherein|whilst|dear(?:er|est)?|mend(?:s|ed|ing)?|"
+    r"at hand|goes by|told|betwixt|amongst|alas|nay|acquitted"
+)
+COUNTED = r"frames?|metres?|centimetres?|degrees?|steps?|seams?|cm|turns?|transitions?|times|poses?"
+PER = rf"(?:{COUNTED}) an? (?:second|frame|step|metre|minute)\b"
+
+
+@cache
+def read(name):
+    return notebooks.read(FOLDER / f"{name}.ipynb")
+
+
+def prose(text):
+    """Return Markdown without code, formulas, addresses, tags, marked numbers and names of sections."""
+    for unwanted in (
+        r"```.*?```",
+        r"`[^`]*`",
+        r"\$\$.*?\$\$",
+        r"\$[^$\n]*\$",
+        r"[-−\w.]+(?: \d{3})*<!--[=~].*?-->",
+        r"<!--.*?-->",
+        r"\]\([^)]*\)",
+        r"<[^>]*>",
+        r"(?:[Ss]ections?|Eqs?\.|[Ff]igures?|[Cc]hapters?) [\d.]+(?:(?:,| and|–| to) [\d.]+)*",
+        r"[\d.]+ Hz|\b(?:19|20)\d\d\b|\b\d\d_\d\d\b",
+    ):
+        text = re.sub(unwanted, " ", text, flags=re.DOTALL)
+    return text
+
+
+def said(text):
+    """List the numbers that are no small whole numbers."""
+    numbers = re.findall(
+        r"(?<![\w.])\d{1,3}(?: \d{3})+(?:\.\d+)?(?![\w])|(?<![\w.])\d+(?:\.\d+)?(?![\w])", text
+    )
+    return {
+        number.replace(" ", "") for number in numbers if len(re.sub(r"\D", "", number)) >= 3 or "." in number
+    }
+
+
+def printed(name):
+    """Join all that the cells of a notebook print or show as text, pictures' sentences too."""
+    parts = []
+    for cell in read(name).cells:
+        for output in cell.get("outputs", ()):
+            parts.append(output.get("text", ""))
+            parts += [text for kind, text in output.get("data", {}).items() if kind == "text/plain"]
+    return "\n".join(parts)
+
+
+@every_notebook
+def test_no_number_that_a_cell_prints_is_typed_by_hand(name):
+    shown = said(printed(name).replace(",", " "))
+    typed = {
+        (number, cell.id)
+        for cell in read(name).cells
+        if cell.cell_type == "markdown"
+        for number in said(prose(cell.source.split("## Read on")[0]))
+    }
+    assert sorted(pair for pair in typed if pair[0] in shown) == []
+
+
+@every_notebook
+def test_every_mark_stands_behind_a_number(name):
+    for cell in read(name).cells:
+        if cell.cell_type == "markdown":
+            list(marked(cell.source))
+
+
+@pytest.mark.parametrize("page", [*NAMES, *PAGES])
+def test_words_are_plain(page):
+    cells = read(page).cells if page in NAMES else ()
+    text = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    text = prose(text or (FOLDER / page).read_text("utf-8"))
+    assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", text) == []
+
+
+def minutes(name):
+    """Work out how long a notebook takes: 180 words and seven lines of code per minute, then the tasks."""
+    words = lines = exercises = experiments = 0
+    for cell in read(name).cells:
+        if cell.cell_type == "markdown":
+            words += len(re.sub(r"```.*?```|<!--.*?-->|<[^>]*>", "", cell.source, flags=re.DOTALL).split())
+        else:
+            lines += sum(bool(line.strip()) for line in cell.source.splitlines())
+            tags = cell.metadata.get("tags", ())
+            exercises += any(tag.startswith("exercise:") for tag in tags)
+            experiments += any(tag.startswith("experiment:") for tag in tags)
+    return words / 180 + lines * 8 / 60 + 8 * exercises + 4 * experiments
+
+
+@every_notebook
+def test_the_minutes_are_honest(name):
+    text = "\n".join(cell.source for cell in read(name).cells)
+    stated = int(re.search(r"\*\*About (\d+) minutes", text)[1])
+    assert abs(stated - minutes(name)) <= 5
+    assert stated <= 90
