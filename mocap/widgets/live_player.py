@@ -48,6 +48,22 @@ class _Shown:
         finally:
             self.known = False
 
+    def in_range(self, proposal: dict[str, Any]) -> int:
+        frame, frames = int(proposal["value"]), self.scene["frames"]
+        if not 0 <= frame < frames:
+            raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
+        return frame
+
+    def reader_moves(self, change: dict[str, Any]) -> None:
+        number, frame = change["new"]
+        if number == self.scene["number"]:
+            with self.silent():
+                self.frame = frame
+
+    def python_moves(self, change: dict[str, Any]) -> None:
+        if not self.known:
+            self.move = [self.scene["number"], change["new"]]
+
     def __repr__(self) -> str:
         return f"LivePlayer({self.player.alt!r})"
 
@@ -75,24 +91,9 @@ def _live_player() -> type[Any]:
         path: traitlets.List[Any] = traitlets.List().tag(sync=True)
         message = traitlets.Unicode().tag(sync=True)
 
-        @traitlets.validate("frame")
-        def _in_range(self, proposal: dict[str, Any]) -> int:
-            frame, frames = int(proposal["value"]), self.scene["frames"]
-            if not 0 <= frame < frames:
-                raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
-            return frame
-
-        @traitlets.observe("at")
-        def _reader_moved(self, change: dict[str, Any]) -> None:
-            number, frame = change["new"]
-            if number == self.scene["number"]:
-                with self.silent():
-                    self.frame = frame
-
-        @traitlets.observe("frame")
-        def _moved(self, change: dict[str, Any]) -> None:
-            if not self.known:
-                self.move = [self.scene["number"], change["new"]]
+        _in_range = traitlets.validate("frame")(_Shown.in_range)
+        _reader_moves = traitlets.observe("at")(_Shown.reader_moves)
+        _python_moves = traitlets.observe("frame")(_Shown.python_moves)
 
     return LivePlayer
 
