@@ -209,15 +209,20 @@ def tarjan_step(
     discs.set_linewidth([4 if node == state.node else 1 for node in graph])
     for name, node in zip(left.texts, graph, strict=True):
         name.set_color("white" if node in done else "black")
-    for node in state.number:
-        x, y = places[node]
-        numbers = left.text(x + 0.2, y - 0.36, f"{state.number[node]} / {state.low[node]}", fontsize=9)
-        numbers.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
+    _write_numbers(left, state, places)
     left.set_title(f"step {step}: {state.message}", fontsize=11)
     left.margins(0.12)
     _legend(left, len(state.components))
     _draw_stack(right, state.stack, len(graph))
     return figure
+
+
+def _write_numbers(ax: Axes, state: SearchState, places: Mapping[Node, tuple[float, float]]) -> None:
+    """Write the index and the low link beside each node that the search has seen."""
+    for node in state.number:
+        x, y = places[node]
+        numbers = ax.text(x + 0.2, y - 0.36, f"{state.number[node]} / {state.low[node]}", fontsize=9)
+        numbers.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
 
 
 def _legend(ax: Axes, components: int) -> None:

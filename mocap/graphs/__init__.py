@@ -36,7 +36,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "NO_LABELS",
         ],
         "pruning": ["Pruning", "Reason", "prune", "prune_graph", "notes_example"],
-        "thresholds": ["ThresholdCurve", "smallest_threshold", "threshold_curve", "velocity_jumps"],
+        "thresholds": ["ThresholdCurve", "smallest_threshold", "threshold_curve", "velocity_gaps"],
         "choice_points": ["merge_choice_points"],
         "graph_summary": ["Summary", "summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "require_suffix", "save"],

@@ -64,7 +64,7 @@ class ThresholdCurve(NamedTuple):
     transitions, nodes, edges : the numbers of these in the whole graph.
     frames : frames of the clips that the largest strongly connected component can play.
     cost : the mean cost of the transitions, metres; 0 without transitions.
-    jump : the mean of their `velocity_jumps`, metres per second: how visible the seams are.
+    gap : the mean of their `velocity_gaps`, metres per second: how visible the seams are.
     """
 
     threshold: Array
@@ -73,7 +73,7 @@ class ThresholdCurve(NamedTuple):
     edges: Counts
     frames: Counts
     cost: Array
-    jump: Array
+    gap: Array
 
     def suggest(self, keep: float = 0.9) -> float:
         """Give the lowest threshold at which the largest component plays enough of the clips.
@@ -150,11 +150,11 @@ def threshold_curve(
     nodes = np.searchsorted(np.sort(costs), values)
     frames = np.array([_largest(places, ends, leave[:count], enter[:count]) for count in counts], np.intp)
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
-    jumps = velocity_jumps(clips, transitions, window=window)
-    cost, jump = (
-        np.cumsum([0.0, *column])[counts] / np.maximum(counts, 1) for column in (transitions.cost, jumps)
+    gaps = velocity_gaps(clips, transitions, window=window)
+    cost, gap = (
+        np.cumsum([0.0, *column])[counts] / np.maximum(counts, 1) for column in (transitions.cost, gaps)
     )
-    return ThresholdCurve(values, counts, nodes, edges, frames, cost, jump)
+    return ThresholdCurve(values, counts, nodes, edges, frames, cost, gap)
 
 
 def _places(
@@ -190,7 +190,7 @@ def _largest(places: Counts, ends: Counts, leave: Counts, enter: Counts) -> int:
     return largest_component(np.stack([tails, heads], axis=1), frames, len(places))[1]
 
 
-def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
+def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:
     """Measure the difference of the points' velocities in the two clips, in the middle of each transition.
 
     Parameters
@@ -205,22 +205,22 @@ def velocity_jumps(clips: Sequence[Motion], transitions: Transitions, *, window:
 
     Examples
     --------
-    A transition from a frame to itself has no jump:
+    A transition from a frame to itself has no gap:
 
     >>> from mocap import datasets
     >>> zero = np.zeros(1, int)
     >>> same = Transitions(zero, zero, zero, zero, np.zeros(1), PlanarTransform(zero, zero, zero))
-    >>> velocity_jumps([datasets.sample("walk_curve_1")], same, window=10)
+    >>> velocity_gaps([datasets.sample("walk_curve_1")], same, window=10)
     array([0.])
     """
     moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
-    jumps = np.empty(len(transitions))
-    for first in range(0, len(jumps), AT_ONCE):
+    gaps = np.empty(len(transitions))
+    for first in range(0, len(gaps), AT_ONCE):
         some = transitions[first : first + AT_ONCE]
         turn = PlanarTransform(np.asarray(some.transform.angle)[:, None], 0.0, 0.0)
-        gaps = moving[middles[some.source] + some.leave] - turn.apply_points(
+        apart = moving[middles[some.source] + some.leave] - turn.apply_points(
             moving[middles[some.target] + some.enter]
         )
-        jumps[first : first + AT_ONCE] = np.sqrt((gaps**2).sum(-1).mean(-1))
-    return jumps
+        gaps[first : first + AT_ONCE] = np.sqrt((apart**2).sum(-1).mean(-1))
+    return gaps

@@ -11,7 +11,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.motion_graph import from_transitions
 from mocap.graphs.pruning import prune
-from mocap.graphs.thresholds import ThresholdCurve, threshold_curve, velocity_jumps
+from mocap.graphs.thresholds import ThresholdCurve, threshold_curve, velocity_gaps
 from mocap.matching.transitions import Transitions, find_transitions
 from tests.strategies import planar, seeds, wave
 
@@ -40,14 +40,14 @@ def kept_frames(graph):
 @given(seeds, st.integers(0, 20))
 def test_the_curve_is_what_building_and_pruning_gives(seed, count):
     found = made_up(seed, count)
-    jumps = velocity_jumps(CLIPS, found, window=WINDOW)
+    gaps = velocity_gaps(CLIPS, found, window=WINDOW)
     curve = threshold_curve(CLIPS, found, window=WINDOW, thresholds=[0, 0.02, 0.035, 0.05, 1])
     for row in zip(*curve, strict=True):
         close = found.cost < row[0]
         graph = from_transitions(CLIPS, found[close], window=WINDOW)
         size = graph.count("transition"), len(graph.graph), graph.graph.number_of_edges()
         assert row[1:5] == (*size, kept_frames(graph))
-        means = [column[close].mean() if close.any() else 0.0 for column in (found.cost, jumps)]
+        means = [column[close].mean() if close.any() else 0.0 for column in (found.cost, gaps)]
         np.testing.assert_allclose(row[5:], means, atol=1e-12)
 
 
@@ -83,24 +83,24 @@ def test_what_makes_no_curve():
         threshold_curve(CLIPS, found, window=80)
 
 
-def jumps_of(clips, ways):
+def gaps_of(clips, ways):
     """Measure transitions from frame 30 of clip 0 to frame 30 of clip 1, laid by each of some transforms."""
     count = len(ways)
     zero, thirty = np.zeros(count, int), np.full(count, 30)
     found = Transitions(zero, thirty, zero + 1, thirty, np.zeros(count), PlanarTransform(*np.array(ways).T))
-    return velocity_jumps(clips, found, window=WINDOW)
+    return velocity_gaps(clips, found, window=WINDOW)
 
 
 @given(planar)
 def test_a_copy_moves_as_the_original(transform):
     back = transform.inverse()
     turned = back._replace(angle=back.angle + np.pi)
-    right, wrong = jumps_of([CLIPS[0], transform.apply_motion(CLIPS[0])], [back, turned])
+    right, wrong = gaps_of([CLIPS[0], transform.apply_motion(CLIPS[0])], [back, turned])
     assert right == pytest.approx(0, abs=1e-9)
     assert wrong > 0.5
 
 
-def test_a_jump_is_in_metres_a_second():
+def test_a_gap_is_in_metres_a_second():
     away = np.outer(np.arange(90) / 30, [3.0, 0, 0])
     faster = replace(CLIPS[0], root_positions=CLIPS[0].root_positions + away)
-    assert jumps_of([CLIPS[0], faster], [PlanarTransform(0.0, 0.0, 0.0)]) == pytest.approx(3.0)
+    assert gaps_of([CLIPS[0], faster], [PlanarTransform(0.0, 0.0, 0.0)]) == pytest.approx(3.0)
