@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, overload
 
 from mocap.body.motion import Motion
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
 
 if TYPE_CHECKING:
@@ -80,8 +80,9 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
             found.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
     if not found:
         subjects = ", ".join(sorted({name.split("/")[0] for name in _registry()}))
-        wanted = f"subject {subject or 'any'} with '{kind or ''}'"
-        raise MocapError(f"No trial of {wanted} is listed; the subjects are {subjects}.")
+        person_asked = f" of subject {subject}" if subject is not None else ""
+        word_asked = f" with '{shortened(kind, 40)}' in its description" if kind is not None else ""
+        raise MocapError(f"No trial{person_asked}{word_asked} is listed; the subjects are {subjects}.")
     return found
 
 

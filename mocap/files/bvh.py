@@ -24,7 +24,7 @@ from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
-from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers
+from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers, wrong_number
 
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
@@ -85,9 +85,10 @@ def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
     times = TIMES.match(text, start.end())
     if times is None:
         line = text.count("\n", 0, start.end()) + 2
-        got = f"'{' '.join(text[start.end() :][:80].split())}'"
+        got = f"'{' '.join(text[start.end() :][:200].split()[:4])}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
-    values = _values(path, text, times, sum(len(joint.channels) for joint in joints))
+    channels = [f"the {name} of '{joint.name}'" for joint in joints for name in joint.channels]
+    values = _values(path, text, times, channels)
     check_room(path, len(values) * len(joints), values.size)
     return Channels(joints, values, fps or _rate(path, text, times))
 
@@ -103,8 +104,9 @@ def read_angles(path: str | Path) -> dict[str, Array]:
     return found
 
 
-def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
-    """Read the frames (F, width); `times` is the match with their count."""
+def _values(path: str | Path, text: str, times: re.Match[str], channels: list[str]) -> Array:
+    """Read the frames (F, channels); `times` is the match with their count."""
+    width = len(channels)
     line = text.count("\n", 0, times.start(1)) + 1
     count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
     if count < 1 or width == 0:
@@ -117,12 +119,24 @@ def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Ar
             values = np.array([np.nan])
         if np.all(np.abs(values) < LARGEST):
             return values.reshape(-1, width)
-    found = 0
-    for number, row in enumerate(text[times.end() :].split("\n"), text.count("\n", 0, times.end()) + 1):
-        if row.strip():
-            to_numbers(path, number, row.split(), f"{width} numbers after {found} complete frames", width)
-            found += 1
+    found = _check_rows(path, text, times.end(), channels, len(words) == count * width)
     raise FormatError(path, line, f"'Frames: {found}', as many as follow", f"'Frames: {times[1]}'")
+
+
+def _check_rows(path: str | Path, text: str, start: int, channels: list[str], wrapped: bool) -> int:
+    """Raise at the first wrong row, else count the frames; if `wrapped`, rows may have any length."""
+    width, before = len(channels), 0
+    for number, row in enumerate(text[start:].split("\n"), text.count("\n", 0, start) + 1):
+        words = row.split()
+        if (wrapped or len(words) == width) and (place := wrong_number(words)) >= 0:
+            frame, channel = divmod(before + place, width)
+            expected = f"a number below {LARGEST:g} for {channels[channel]} in frame {frame + 1}"
+            raise FormatError(path, number, expected, f"'{shortened(words[place], 40)}'")
+        if words and not wrapped:
+            expected = f"{width} numbers after {before // width} complete frames"
+            to_numbers(path, number, words, expected, width)
+        before += len(words)
+    return before // width
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:

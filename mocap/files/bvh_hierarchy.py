@@ -86,9 +86,12 @@ def _allowed(joints: list[Joint], inside: list[int]) -> tuple[str, ...]:
 
 def _channels(path: str | Path, line: int, words: list[str]) -> list[str]:
     count, *names = words or [""]
-    if count != str(len(names)) or set(names) - set(POSITIONS + ROTATIONS) or len(set(names)) < len(names):
+    unknown = [name for name in names if name not in POSITIONS + ROTATIONS]
+    twice = [name for name, times in Counter(names).items() if times > 1]
+    if count != str(len(names)) or unknown or twice:
+        got = f"'{(unknown or twice)[0]}'{' twice' * bool(twice)}" if unknown or twice else ""
         expected = "the number of channels and their names, such as '3 Zrotation Xrotation Yrotation'"
-        raise FormatError(path, line, expected, f"'{' '.join(words)}'")
+        raise FormatError(path, line, expected, got or f"'{shortened(count, 30)}' and {len(names)} names")
     return names
 
 

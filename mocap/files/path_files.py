@@ -2,23 +2,29 @@
 
 import re
 from collections.abc import Iterator
+from math import comb
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
-from scipy.interpolate import BPoly
 
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
-from mocap.errors import FormatError, MocapError
-from mocap.files.text import read_text, to_numbers
+from mocap.errors import FormatError, MocapError, shortened
+from mocap.files.text import LARGEST, read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 BETWEEN = " ,\t\n"  # what parts numbers, besides their signs
 TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}  # numbers
 _NEXT = rf"(?>{NUMBER.pattern})[{BETWEEN}]*+"  # a whole number, and what parts it from the next
 ARC = re.compile(rf"[{BETWEEN}]*+({_NEXT * 3})([01])[{BETWEEN}]*+([01])[{BETWEEN}]*+({_NEXT * 2})")
-CURVE = np.linspace(0, 1, 33)[1:]  # a curve becomes 32 straight pieces
+TOKEN = re.compile(rf"{NUMBER.pattern}|[^{BETWEEN}]")
+LENGTH = re.compile(rf"[{BETWEEN}]*+({NUMBER.pattern})(%|[a-z]*)[{BETWEEN}]*+")
+PIXELS = {"": 1, "px": 1, "in": 96, "cm": 96 / 2.54, "mm": 96 / 25.4, "pt": 96 / 72, "pc": 16}  # in a unit
+MOST = 500_000  # points, each of a millimetre in half a kilometre
+T = np.linspace(0, 1, 33)[1:]  # a curve becomes 32 straight pieces
+CURVES = {n: np.stack([comb(n, k) * (1 - T) ** (n - k) * T**k for k in range(n + 1)], axis=1) for n in (2, 3)}
+ARC_SHARES = np.linspace(0, 1, 129)[1:]
 DRAWN = {"path", "polyline", "polygon", "line"}
 UNDRAWN = {"clipPath", "defs", "marker", "mask", "pattern", "symbol"}
 
@@ -28,8 +34,8 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
 
     A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks; a first line
     that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line`
-    is taken, with its `transform` and those of the groups around it; the picture is the ground seen from
-    above, so its right is -x and its top +z.
+    that is shown is taken, with its `transform` and those of the groups around it; a length in mm, cm, in or
+    pt counts in pixels, 96 to the inch. The picture is the ground seen from above: right is -x, top is +z.
 
     Parameters
     ----------
@@ -68,6 +74,8 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
 
 
 def _on_ground(path: Path, points: Array) -> GroundPath:
+    if len(points) < 2:
+        raise FormatError(path, None, "a line through two points or more", f"{len(points)}")
     try:
         return GroundPath(points)
     except MocapError as error:
@@ -76,12 +84,16 @@ def _on_ground(path: Path, points: Array) -> GroundPath:
 
 def _read_csv(path: Path) -> Array:
     rows: list[Array] = []
+    expected = "x and z in each line, such as '1.5, 2'"
     for number, line in enumerate(read_text(path).split("\n"), 1):
-        words = re.split(r"\s*[,;]\s*|\s+", line.partition("#")[0].strip())
-        if words == [""] or (not rows and not re.search(r"\d", line)):
+        text = line.partition("#")[0]
+        parts = [part.split() or [""] for part in text.replace(";", ",").split(",")]
+        if not text.strip() or (not rows and not re.search(r"\d", line)):
             continue
-        rows.append(to_numbers(path, number, words, "x and z", 2))
-    return np.array(rows).reshape(-1, 2)
+        rows.append(to_numbers(path, number, [word for part in parts for word in part], expected, 2))
+    if not rows:
+        raise FormatError(path, None, expected, "no numbers")
+    return np.array(rows)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # `GroundPath` refuses what is not finite
@@ -95,13 +107,18 @@ def _read_svg(path: Path) -> Array:
     while waiting:
         element, matrix = waiting.pop()
         kind = element.tag.rpartition("}")[2]
-        if kind in UNDRAWN:
+        if kind in UNDRAWN or _hidden(element):
             continue
         matrix = _transformed(path, matrix, element.get("transform", ""))
         if kind in DRAWN:
-            return np.asarray(_corners(path, kind, element) @ matrix[:2, :2].T + matrix[:2, 2])
+            return np.asarray(_corners(path, kind, element, root) @ matrix[:2, :2].T + matrix[:2, 2])
         waiting += [(child, matrix) for child in reversed(element)]
     raise FormatError(path, None, "a path, polyline, polygon or line", "none")
+
+
+def _hidden(element: ElementTree.Element) -> bool:
+    style = "".join(element.get("style", "").split())
+    return element.get("display") == "none" or "display:none" in style.split(";")
 
 
 def _transformed(path: Path, matrix: Array, text: str) -> Array:
@@ -140,101 +157,135 @@ def _numbers(path: Path, text: str, expected: str) -> Array:
     return to_numbers(path, None, words, expected, len(words))
 
 
-def _corners(path: Path, kind: str, element: ElementTree.Element) -> Array:
+def _corners(path: Path, kind: str, element: ElementTree.Element, root: ElementTree.Element) -> Array:
     """List the points (n, 2) of one line drawn."""
     if kind == "path":
         return _outline(path, element.get("d", ""))
     if kind == "line":
-        text = " ".join(element.get(name, "0") for name in ("x1", "y1", "x2", "y2"))
-    else:
-        text = element.get("points", "")
-    numbers = _numbers(path, text, f"numbers for a {kind}")
-    if len(numbers) % 2 or (kind == "line" and len(numbers) != 4):
+        ends = [_length(path, element.get(name, "0"), name, root) for name in ("x1", "y1", "x2", "y2")]
+        return np.reshape(ends, (2, 2))
+    numbers = _numbers(path, element.get("points", ""), f"numbers for a {kind}")
+    if len(numbers) % 2:
         raise FormatError(path, None, f"x and y for each point of a {kind}", f"{len(numbers)} numbers")
     points = numbers.reshape(-1, 2)
     return np.vstack([points, points[:1]]) if kind == "polygon" else points
 
 
+def _length(path: Path, text: str, name: str, root: ElementTree.Element) -> float:
+    """Read a length with its unit, in pixels; a share is one of the picture's width or height."""
+    found = LENGTH.fullmatch(text)
+    if found is None or found[2] not in (*PIXELS, "%"):
+        raise FormatError(path, None, f"a length for '{name}', such as 20 or 5mm", f"'{text}'")
+    number = to_numbers(path, None, [found[1]], f"a length for '{name}'", 1)[0]
+    if found[2] != "%":
+        return float(number * PIXELS[found[2]])
+    box = _numbers(path, root.get("viewBox", ""), "numbers of a viewBox")
+    if len(box) != 4:
+        raise FormatError(
+            path, None, f"a viewBox of 4 numbers, as '{name}' is {shortened(text, 20)}", f"{len(box)}"
+        )
+    return float(number / 100 * box[2 if name.startswith("x") else 3])
+
+
 def _outline(path: Path, text: str) -> Array:
     """Follow the pen of a path's `d` along its first stroke; curves become short straight pieces."""
-    here = start = control = np.zeros(2)
-    pieces: list[Array] = []
+    here = start = control = 0j  # x + iy
+    points: list[complex] = []
     before = ""
     for letter, numbers in _commands(path, text):
-        kind, base = letter.upper(), here if letter.islower() else np.zeros(2)
-        match kind:
-            case "M" if pieces:
-                break  # a second stroke
-            case "H":
-                points = np.array([[base[0] + numbers[0], here[1]]])
-            case "V":
-                points = np.array([[here[0], base[1] + numbers[0]]])
-            case "Z":
-                points = start[None]
-            case "A":
-                points = _arc(here, numbers, base + numbers[5:])
-            case _:
-                points = base + numbers.reshape(-1, 2)
-        if kind in "ST":  # the control point not given mirrors the last one
-            smooth = before in ("CS" if kind == "S" else "QT")
-            points = np.vstack([2 * here - control if smooth else here, points])
+        kind, base = letter.upper(), here if letter.islower() else 0j
+        if len(points) > MOST:
+            raise FormatError(path, None, f"a line of {MOST:,} points at most", "more")
+        end = _end(kind, (here, base, start), numbers)
         if kind == "M":
-            start = points[0]
-        if kind in "CSQT":
-            control = points[-2]
-            points = BPoly(np.vstack([here, points])[:, None], [0.0, 1.0])(CURVE)
-        pieces.append(points)
-        here, before = points[-1], kind
-    return np.vstack(pieces)
+            if len(points) > 1:
+                break  # a second stroke
+            points.clear()
+            start = end
+        elif kind == "A":
+            points += _arc(here, numbers, end)[:-1]
+        elif kind in "CSQT":
+            corners = [base + complex(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
+            if kind in "ST":  # the control point not given mirrors the last one
+                smooth = before in ("CS" if kind == "S" else "QT")
+                corners.insert(0, 2 * here - control if smooth else here)
+            control = corners[-2]
+            points += (CURVES[len(corners)] @ [here, *corners])[:-1].tolist()
+        points.append(end)
+        here, before = end, kind
+    return np.array(points).view(float).reshape(-1, 2)
 
 
-def _commands(path: Path, text: str) -> Iterator[tuple[str, Array]]:
+def _end(kind: str, pens: tuple[complex, complex, complex], numbers: list[float]) -> complex:
+    """Say where a command ends; `pens` are where the pen is, what the numbers count from, and its start."""
+    here, base, start = pens
+    match kind:
+        case "H":
+            return complex(base.real + numbers[0], here.imag)
+        case "V":
+            return complex(here.real, base.imag + numbers[0])
+        case "Z":
+            return start
+    return base + complex(*numbers[-2:])
+
+
+def _commands(path: Path, text: str) -> Iterator[tuple[str, list[float]]]:
     """Split a path's `d` into commands with as many numbers as each takes; repeated ones need no letter."""
-    blank, *parts = re.split(r"([A-DF-Za-df-z])", text)  # an e belongs to a number
-    if blank.strip(BETWEEN) or parts[:1] not in (["M"], ["m"]):
-        raise FormatError(path, None, "a path that starts with 'M'", f"'{text}'")
-    for letter, arguments in zip(parts[::2], parts[1::2], strict=True):
+    words = TOKEN.findall(re.sub(r"[Aa][^A-DF-Za-df-z]*", _parted, text))
+    if words[:1] not in (["M"], ["m"]):
+        raise FormatError(path, None, "a path that starts with 'M'", f"'{text[:99]}'")
+    places = [place for place, word in enumerate(words) if word.isalpha()]
+    for place, after in zip(places, [*places[1:], len(words)], strict=True):
+        letter = words[place]
         if letter.upper() not in TAKES:
             raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{letter}'")
+        numbers = _read(path, letter, words[place + 1 : after])
         count = TAKES[letter.upper()]
-        if count == 7:  # the two flags of an arc may stand without anything between: 01
-            arguments = _parted(arguments)
-        numbers = _numbers(path, arguments, f"numbers for '{letter}'")
-        blocks = len(numbers) // count if count else 1
-        if blocks == 0 or blocks * count != len(numbers):
-            expected = f"{count} numbers for '{letter}'"
-            raise FormatError(path, None, expected, f"'{arguments.strip(BETWEEN)}'")
-        for block in numbers.reshape(blocks, count):
-            if count == 7 and not set(block[3:5]) <= {0, 1}:
-                raise FormatError(path, None, f"flags 0 or 1 for '{letter}'", f"'{arguments.strip(BETWEEN)}'")
-            yield letter, block
+        for start in range(0, max(1, len(numbers)), max(1, count)):
+            yield letter, numbers[start : start + count]
             letter = {"M": "L", "m": "l"}.get(letter, letter)
 
 
-def _parted(arguments: str) -> str:
-    """Put blanks around the flags of arcs, as far as arcs can be read."""
-    parts: list[str] = []
-    at = 0
-    while found := ARC.match(arguments, at):
-        parts += found.groups()
-        at = found.end()
+def _read(path: Path, letter: str, words: list[str]) -> list[float]:
+    """Read the numbers of a command, for one time or several."""
+    count = TAKES[letter.upper()]
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        numbers = []
+    if not all(abs(number) < LARGEST for number in numbers) or (words and not numbers):
+        to_numbers(path, None, words, f"numbers for '{letter}'", len(words))  # which raises
+    if (len(numbers) % count or not numbers) if count else numbers:
+        raise FormatError(path, None, f"{count} numbers for '{letter}'", f"{len(numbers)}")
+    if count == 7 and not set(numbers[3::7] + numbers[4::7]) <= {0, 1}:
+        raise FormatError(path, None, f"flags 0 or 1 for '{letter}'", f"'{' '.join(words[:7])}'")
+    return numbers
+
+
+def _parted(found: re.Match[str]) -> str:
+    """Put blanks around the flags of an arc, which may stand without anything between, such as 01."""
+    arguments, parts = found[0], [found[0][0]]
+    at = 1
+    while arc := ARC.match(arguments, at):
+        parts += arc.groups()
+        at = arc.end()
     return " ".join([*parts, arguments[at:]])
 
 
-def _arc(here: Array, numbers: Array, end: Array) -> Array:
+def _arc(here: complex, numbers: list[float], end: complex) -> list[complex]:
     """Draw an elliptic arc from its end points, without the first [SVG 1.1, F.6.5 and F.6.6]."""
-    (rx, ry), (tilt, large, sweep) = np.abs(numbers[:2]), numbers[2:5]
-    if rx * ry == 0 or (here == end).all():
-        return end[None]
+    rx, ry, tilt, large, sweep = abs(numbers[0]), abs(numbers[1]), *numbers[2:5]
+    if rx * ry == 0 or here == end:
+        return [end]
     # Upright and divided by its radii, as complex numbers x + iy, the ellipse is a circle of radius 1.
     tilted = np.exp(1j * np.radians(tilt))
-    upright = np.array([complex(*here), complex(*end)]) / tilted
+    upright = np.array([here, end]) / tilted
     first, last = upright.real / rx + 1j * upright.imag / ry
     half = (last - first) / 2
     grow = max(1.0, abs(half))  # where the radii are too short to reach
     aside = 1j * half / abs(half) * np.sqrt(grow**2 - abs(half) ** 2)
     centre = (first + last) / 2 + (aside if large != sweep else -aside)
     angle = np.angle((last - centre) / (first - centre)) % (2 * np.pi) - (0 if sweep else 2 * np.pi)
-    circle = centre + (first - centre) * np.exp(1j * angle * np.linspace(0, 1, 129)[1:])
-    ellipse = (circle.real * rx + 1j * circle.imag * ry) * tilted
-    return np.vstack([np.stack([ellipse.real, ellipse.imag], axis=1)[:-1], end])
+    circle = centre + (first - centre) * np.exp(1j * angle * ARC_SHARES)
+    ellipse: list[complex] = ((circle.real * rx + 1j * circle.imag * ry) * tilted).tolist()
+    return [*ellipse[:-1], end]

@@ -124,10 +124,39 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
     """
     if len(words) != count:
         raise FormatError(path, line, expected, str(len(words)))
+    place = wrong_number(words)
+    if place >= 0:
+        word = shortened(words[place], 40)
+        got = f"'{word}' as number {place + 1}" if count > 1 else f"'{word}'"
+        large = is_number(words[place])
+        raise FormatError(path, line, f"{expected}, all below {LARGEST:g}" if large else expected, got)
+    return np.array([float(word) for word in words])
+
+
+def is_number(word: str) -> bool:
+    """Check whether a word is a number of any size, or nan.
+
+    Examples
+    --------
+    >>> is_number("1e99"), is_number("nan"), is_number("1,5")
+    (True, True, False)
+    """
     try:
-        numbers = np.array([float(word) for word in words])
-    except ValueError as error:
-        raise FormatError(path, line, expected, f"'{' '.join(words)}'") from error
-    if not np.all(np.abs(numbers) < LARGEST):  # false for nan, too
-        raise FormatError(path, line, f"{expected}, all below {LARGEST:g}", f"'{' '.join(words)}'")
-    return numbers
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def wrong_number(words: list[str]) -> int:
+    """Find the first word that is no number, or not a finite one below 10⁹; -1 where there is none.
+
+    Examples
+    --------
+    >>> wrong_number(["1.5", "nan", "x"])
+    1
+    """
+    for place, word in enumerate(words):
+        if not is_number(word) or not abs(float(word)) < LARGEST:  # true for nan, too
+            return place
+    return -1

@@ -97,10 +97,11 @@ def test_a_trial_is_fetched_once(server, tmp_path, capsys):
 def test_a_subject_and_a_kind(server):
     assert [motion.name for motion in cmu_database.cmu(subject=7)] == ["07_01", "07_02"]
     assert [motion.name for motion in cmu_database.cmu(kind="run")] == ["07_01", "08_01"]
-    with pytest.raises(
-        MocapError, match="No trial of subject 8 with 'swim' is listed; the subjects are 07, 08"
-    ):
+    where = "in its description is listed; the subjects are 07, 08"
+    with pytest.raises(MocapError, match=f"No trial of subject 8 with 'swim' {where}"):
         cmu_database.cmu(subject=8, kind="swim")
+    with pytest.raises(MocapError, match=f"No trial with 'zzz' {where}"):
+        cmu_database.cmu(kind="zzz")
     with pytest.raises(MocapError, match="Which trials"):
         cmu_database.cmu()
     with pytest.raises(MocapError, match=r"No trial '../../x_1' is listed; `mocap data list`"):

@@ -216,8 +216,12 @@ def test_joints_that_move_in_their_parent_are_refused(write):
         ("0.0333333", "-0.03", r"line 31: expected a frame time"),
         ("0.0333333", "30", r"line 31: expected a frame time"),
         ("0.0333333", "nan", r"line 31: expected seconds, all below"),
-        ("90 90 0", "90 nan 0", r"line 33: expected 12 numbers after 1 complete frames, all below"),
-        ("90 90 0", "90 x 0", r"line 33: expected 12 numbers after 1 complete frames, got '0 100"),
+        (
+            "90 90 0",
+            "90 nan 0",
+            r"line 33: expected a number below 1e\+09 for the xrotation of 'left leg' in frame 2, got 'nan'",
+        ),
+        ("90 90 0", "90 x 0", r"line 33: expected a number .* 'left leg' in frame 2, got 'x'"),
         ("90 90 0 0 0 0", "90 9", r"line 33: expected 12 numbers after 1 complete frames, got 8"),
         ("MOTION\n", "", r"expected a line 'MOTION'"),
         ("ROOT hips", "ROOT", r"line 2: expected a name after ROOT"),
@@ -362,3 +366,15 @@ def test_whatever_is_in_the_file_the_answer_is_a_motion_or_a_sentence(tmp_path_f
         assert isinstance(bvh.read(path), Motion)
     except MocapError as error:
         assert "\n" not in str(error)
+
+
+def test_a_wrong_number_is_found_by_its_channel_and_frame(write):
+    """In a file whose frames go over several lines, too; the message never quotes the whole frame."""
+    numbers = ["0"] * 24
+    numbers[18] = "nan"  # the seventh of the second frame: the first channel below the root
+    wrapped = "\n".join(" ".join(numbers[start : start + 5]) for start in range(0, 24, 5))
+    text = f"{BVH.split('0.0333333')[0]}0.0333333\n{wrapped}\n"
+    with pytest.raises(FormatError) as raised:
+        bvh.read(write(text))
+    expected = "a number below 1e+09 for the zrotation of 'left leg' in frame 2"
+    assert str(raised.value).endswith(f"a.bvh, line 35: expected {expected}, got 'nan'")

@@ -184,6 +184,24 @@ def test_long_words_in_paths_make_no_long_messages(tmp_path, suffix, text):
         assert complaints(path_files.load_path, tmp_path / f"a{suffix}", long_ones(variant)) > 20
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("suffix", "text"), [(".csv", "x,z\n0 , 0\n0 ; 5\n5 5\n" + "1 2\n" * 9), (".svg", DRAWING)]
+)
+def test_broken_paths_are_read_or_refused_in_a_short_sentence(tmp_path, suffix, text):
+    chance, path = random.Random(suffix), tmp_path / f"a{suffix}"
+    for _ in range(1500):
+        path.write_text(mutated(text, chance), encoding="utf-8", errors="surrogatepass")
+        start = time.process_time()
+        try:
+            assert path_files.load_path(path).length > 0
+        except MocapError as error:
+            assert short(error, path)
+            whole = [line for line in path.read_text(errors="replace").split("\n") if len(line) > 80]
+            assert not any(line in str(error) for line in whole)
+        assert time.process_time() - start < 5
+
+
 @pytest.mark.parametrize("suffix", [".amc", ".bvh"])
 def test_long_names_make_no_long_messages_in_writing(tmp_path, suffix):
     motion, long = wave(2, name="n" * 5_000), "j" * 5_000

@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from mocap.errors import MocapError
+from mocap.errors import FormatError, MocapError
 from mocap.files.path_files import load_path
 
 
@@ -126,12 +126,12 @@ def test_groups_carry_what_is_in_them(tmp_path):
         ("", "a path, polyline, polygon or line, got none"),
         ('<path d=""/>', "starts with 'M'"),
         ('<path d="M 0 0 L 5"/>', "2 numbers for 'L'"),
-        ('<path d="M 0 0 L 55"/>', "2 numbers for 'L', got '55'"),
-        ('<path d="M 0 0 C 1 2 3 4 5 6 7"/>', "6 numbers for 'C', got '1 2 3 4 5 6 7'"),
-        ('<path d="M 0 0 L"/>', "2 numbers for 'L', got ''"),
-        ('<path d="M 0 0 L 5 *"/>', "numbers for 'L', got '5 [*]'"),
+        ('<path d="M 0 0 L 55"/>', "2 numbers for 'L', got 1"),
+        ('<path d="M 0 0 C 1 2 3 4 5 6 7"/>', "6 numbers for 'C', got 7"),
+        ('<path d="M 0 0 L"/>', "2 numbers for 'L', got 0"),
+        ('<path d="M 0 0 L 5 *"/>', "numbers for 'L', got '[*]' as number 2"),
         ('<path d="M 0 0 B 5 5"/>', "the commands M L H V C S Q T A Z, got 'B'"),
-        ('<path d="M 0 0 L 5 5 z 9 9"/>', "0 numbers for 'z', got '9 9'"),
+        ('<path d="M 0 0 L 5 5 z 9 9"/>', "0 numbers for 'z', got 2"),
         ('<path d="M 0 0 A 5 5 0 2 1 9 9"/>', "flags 0 or 1 for 'A', got '5 5 0 2 1 9 9'"),
         ('<path transform="scale(1, 2, 3)" d="M 0 0 L 5 5"/>', r"a transform, got 'scale\(1, 2, 3\)'"),
         ('<path transform="perspective(9)" d="M 0 0 L 5 5"/>', "a transform, got 'perspective"),
@@ -141,8 +141,10 @@ def test_groups_carry_what_is_in_them(tmp_path):
         ('<polyline points="0 0"/>', "two points"),
         ('<polyline points="0 0 9 9 5"/>', "x and y for each point of a polyline, got 5 numbers"),
         ('<polyline points="0 0 9 x"/>', "numbers for a polyline, got '0 0 9 x'"),
-        ('<line x2="10mm"/>', "numbers for a line, got '0 0 10mm 0'"),
-        ('<line x2=""/>', "x and y for each point of a line, got 3 numbers"),
+        ('<line x2="10em"/>', "a length for 'x2', such as 20 or 5mm, got '10em'"),
+        ('<line x2=""/>', "a length for 'x2', such as 20 or 5mm, got ''"),
+        ('<line x2="10%"/>', "a viewBox of 4 numbers, as 'x2' is 10%, got 0"),
+        ('<g display="none"><path d="M 0 0 L 5 5"/></g>', "got none"),
         ("<path", "SVG picture"),
     ],
 )
@@ -155,8 +157,14 @@ def test_pictures_without_a_path_are_told(tmp_path, body, message):
     ("name", "text", "message"),
     [
         ("path.csv", "0,0\n1,nan", "line 2: expected x and z"),
-        ("path.csv", "x,z\n0,0\n1", "line 3: expected x and z, got 1"),
+        ("path.csv", "x,z\n0,0\n1", "line 3: expected x and z in each line, such as '1.5, 2', got 1"),
         ("path.csv", "1,1", "two points"),
+        (
+            "path.csv",
+            "a walk\nto the door\n",
+            "expected x and z in each line, such as '1.5, 2', got no numbers",
+        ),
+        ("path.csv", f"0 0\n1{' ' * 500_000}x 2", "line 2: expected x and z .*, got 3"),
         ("path.csv", "", "an empty file"),
         ("path.png", "x", "give a .csv or .svg"),
     ],
@@ -182,10 +190,10 @@ BOMB = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
         ('<g transform="scale(1e8)">' * 99 + '<line x2="1"/>' + "</g>" * 99, "not finite"),
         ('<path d="M 0 0 L 1e999 0"/>', "numbers for 'L', all below 1e[+]09"),
         (f'<path d="M 0 0 C {"1" * 200_000}"/>', "numbers for 'C', all below"),
-        (f'<path d="M 0 0 L {"1 " * 100_001}"/>', "2 numbers for 'L', got '1 1 .* .200001 characters"),
-        (f'<path d="{"M 0 0 " * 30_000} x"/>', "two points"),
+        (f'<path d="M 0 0 L {"1 " * 100_001}"/>', "2 numbers for 'L', got 100001"),
+        (f'<path d="{"M 0 0 " * 30_000} x"/>', "the commands M L .* got 'x'"),
         (f'<path d="M 0 0 A {"1" * 200_000}"/>', "numbers for 'A', all below"),
-        (f'<path d="M 0 0 A {"1 " * 100_001}"/>', "7 numbers for 'A', got '1 1 .* characters"),
+        (f'<path d="M 0 0 A {"1 " * 100_001}"/>', "7 numbers for 'A', got 100001"),
         (f'<path transform="{"translate(1)  " * 9999}!" d="M 0 0 L 1 1"/>', "a transform, got '!'"),
         (f'<polyline points="{" " * 100_000}x"/>', "numbers for a polyline, got 'x'"),
     ],
@@ -204,3 +212,60 @@ def test_a_picture_of_many_curves_is_read_soon(tmp_path):
     path = load_path(svg(tmp_path, f'<path d="M 0 0{"c 1 2 3 4 5 6 l 7 8" * 3000}"/>'))
     assert path.points[-1] == pytest.approx([-360, -420])
     assert time.process_time() - start < 5
+
+
+@pytest.mark.parametrize(
+    ("line", "end"),
+    [
+        ('x2="10px" y2="2in"', (10, 192)),
+        ('x2="254mm" y2="25.4cm"', (960, 960)),
+        ('x2="72pt" y2=" 6pc "', (96, 96)),
+        ('x2="10%" y2="-50%"', (20, -150)),
+        ('x2="1e2px" y2="1e1"', (100, 10)),
+    ],
+)
+def test_lengths_have_units(tmp_path, line, end):
+    file = tmp_path / "path.svg"
+    file.write_text(f'<svg viewBox="0 0 200 300"><line {line}/></svg>')
+    assert load_path(file, scale=1).points[-1] == pytest.approx(np.negative(end))
+
+
+@pytest.mark.parametrize("hidden", ['display="none"', 'style="fill:red; display : none"'])
+def test_what_is_not_shown_is_not_walked(tmp_path, hidden):
+    body = f'<g {hidden}><line x2="1"/></g><line {hidden} x2="2"/><line x2="3"/>'
+    assert load_path(svg(tmp_path, body), scale=1).points[-1].tolist() == [-3, 0]
+
+
+def test_groups_may_be_nested_to_any_depth(tmp_path):
+    body = '<g transform="translate(1)">' * 5000 + '<line x2="3"/>' + "</g>" * 5000
+    assert load_path(svg(tmp_path, body), scale=1).points[-1].tolist() == [-5003, 0]
+
+
+def test_moves_without_a_line_draw_nothing(tmp_path):
+    path = load_path(svg(tmp_path, '<path d="M 900 900 M 0 0 L 100 0 M 5 5 L 6 6"/>'))
+    assert path.points.tolist() == [[0, 0], [-1, 0]]
+
+
+@pytest.mark.parametrize("step", ["L 12.3 45.6 L 22.1 17.9 ", "12.3 45.6 22.1 17.9 "])
+def test_a_long_path_is_read_in_a_second_or_two(tmp_path, step):
+    file = svg(tmp_path, f'<path d="M 0 0 {step * (3_400_000 // len(step))}"/>')
+    start = time.process_time()
+    assert load_path(file).points[-1] == pytest.approx([-0.221, -0.179])
+    assert time.process_time() - start < 4  # 0.5 to 0.9 on a quiet machine
+
+
+@pytest.mark.parametrize("step", ["a 9 9 0 01 5 5 ", "c 1 2 3 4 5 6 ", "l1 1c1 1 2 2 3 3", "h1v1"])
+def test_a_line_of_too_many_points_is_refused(tmp_path, step):
+    file = svg(tmp_path, f'<path d="M 0 0 {step * (3_400_000 // len(step))}"/>')
+    start = time.process_time()
+    with pytest.raises(FormatError, match="a line of 500,000 points at most"):
+        load_path(file)
+    assert time.process_time() - start < 6
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("line", ['<line x1="1" x2="1e8"/>', '<path d="M 1 1 A 1e8 1e-8 9 1 1 1e8 -1e8"/>'])
+def test_numpy_does_not_warn_beside_an_error(tmp_path, line):
+    groups = '<g transform="scale(1e8 -1e8) skewX(45)">'
+    with pytest.raises(MocapError, match="not finite"):
+        load_path(svg(tmp_path, f"{groups * 60}{line}{'</g>' * 60}"))
