@@ -1,11 +1,11 @@
 """The moving picture at the head of the README: short, small, and it moves."""
 
+from itertools import pairwise
 from pathlib import Path
 
+import idea
 import numpy as np
 from PIL import Image
-
-import idea
 
 FILE = Path(idea.__file__).with_name("idea.gif")
 
@@ -19,12 +19,12 @@ def test_it_is_short_small_and_moves():
         for frame in (0, film.n_frames // 2, film.n_frames - 1):
             film.seek(frame)
             pictures.append(np.asarray(film.convert("RGB")).astype(int))
-    assert all(np.abs(a - b).mean() > 0.5 for a, b in zip(pictures, pictures[1:], strict=False))
+    assert all(np.abs(a - b).mean() > 0.5 for a, b in pairwise(pictures))
 
 
 def test_it_draws_what_it_says():
     picture = idea.Picture()
-    assert 0.02 < picture.followed.off.mean() + 0.02 < 0.1  # the walk is on the line
+    assert picture.followed.off.mean() < 0.08  # metres: the walk is on the line
     assert len(picture.seams) >= 3
     assert len({name for _, name in picture.sources}) >= 2
     first = next(picture.frames())
