@@ -26,7 +26,7 @@ class Sheet(NamedTuple):
 
 
 SHEETS = (
-    Sheet("1. the plane of school", ("x", "y"), (1 + 0j, 1j)),
+    Sheet("1. as in school", ("x", "y"), (1 + 0j, 1j)),
     Sheet("2. the sheet turned by a quarter", ("x", "y"), (1j, -1 + 0j)),
     Sheet("3. the ground from above", ("z", "x"), (1j, -1 + 0j)),
 )
@@ -47,7 +47,7 @@ def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
     --------
     >>> figure = turn_on_ground(step=2)
     >>> [ax.get_title() for ax in figure.axes]
-    ['1. the plane of school', '2. the sheet turned by a quarter']
+    ['1. as in school', '2. the sheet turned by a quarter']
 
     Notebook: 03-transforms
     """
@@ -79,10 +79,12 @@ def _draw_sheet(ax: Axes, sheet: Sheet, angle: float) -> None:
     ax.text(0.5, -0.02, lines, transform=ax.transAxes, ha="center", va="top", fontsize=11)
 
 
-STEPS = ("1. as the clips are", "2. turned about the origin", "3. moved over the ground")
+TURNED, MOVED = "turned about the origin", "moved over the ground"
 
 
-def alignment(target: Motion, moving: Motion, transform: PlanarTransform, *, step: int = 3) -> Figure:
+def alignment(
+    target: Motion, moving: Motion, transform: PlanarTransform, *, step: int = 3, shift_first: bool = False
+) -> Figure:
     """Draw how a clip is aligned with another, seen from above: first it is turned, then it is moved.
 
     Parameters
@@ -91,6 +93,7 @@ def alignment(target: Motion, moving: Motion, transform: PlanarTransform, *, ste
     moving : the other motion from that moment on.
     transform : the planar transform that aligns `moving`.
     step : how many of the three panels are drawn.
+    shift_first : exchange the turn and the shift, which leads to another place.
 
     Examples
     --------
@@ -102,23 +105,27 @@ def alignment(target: Motion, moving: Motion, transform: PlanarTransform, *, ste
 
     Notebook: 03-transforms
     """
-    turned = PlanarTransform(transform.angle, 0.0, 0.0)
-    places = [moving, turned.apply_motion(moving), transform.apply_motion(moving)]
+    places, titles = [moving], ["1. as the clips are"]
+    turn = PlanarTransform(transform.angle, 0.0, 0.0), TURNED
+    shift = PlanarTransform(0.0, transform.x, transform.z), MOVED
+    for number, (part, name) in enumerate((shift, turn) if shift_first else (turn, shift), 2):
+        places.append(part.apply_motion(places[-1]))
+        titles.append(f"{number}. {name}")
     corners = np.concatenate([m.root_positions[:, [0, 2]] for m in (target, *places)] + [np.zeros((1, 2))])
     low, high = corners.min(axis=0) - 0.8, corners.max(axis=0) + 0.8
-    figure = Figure(figsize=(9, 3.9), layout="constrained")
+    figure = Figure(figsize=(9, 3.4), layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     for number, ax in enumerate(panels):
         if number >= step:
             ax.remove()
             continue
         ax.set(xlim=(high[0], low[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)")
-        ax.set_title(STEPS[number], fontsize=11)
+        ax.set_title(titles[number], fontsize=11)
         _draw_walker(ax, target, SOURCES[0], at=-1)
         if number:
             _draw_walker(ax, places[number - 1], FLOOR, at=0)
             ends = [complex(*m.root_positions[0, [0, 2]]) for m in places[number - 1 : number + 1]]
-            _draw_way(ax, *ends, turns=number == 1)
+            _draw_way(ax, *ends, turns=TURNED in titles[number])
         _draw_walker(ax, places[number], SOURCES[1], at=0)
         ax.plot(0, 0, "+", color=INK, markersize=11)
     panels[0].set_ylabel("z (m)")
@@ -197,16 +204,16 @@ def compass(headings: Mapping[str, float], ax: Axes) -> None:
     Notebook: 03b-angles
     """
     for row, (name, angle) in enumerate(headings.items()):
-        text = f"{name}: {np.degrees(angle):.0f}°"
+        text = f"{name}: {np.degrees(angle):.0f}°".replace("-", "−")
         ax.text(-1.5, -1.75 - 0.25 * row, text, color=CURVES[row], fontsize=10)
-        _draw_heading(ax, angle, CURVES[row])
+        _draw_heading(ax, angle, CURVES[row], wide=7.0 if row == 0 else 1.8)  # so that all are seen
     _draw_compass(ax)
     ax.set(ylim=(-1.8 - 0.25 * len(headings), 1.4))
 
 
-def _draw_heading(ax: Axes, angle: float, colour: str) -> None:
+def _draw_heading(ax: Axes, angle: float, colour: str, wide: float = 1.8) -> None:
     """Draw a heading as an arrow: z points up the page and x to the left, so θ points to i exp(iθ)."""
-    _arrow(ax, 0j, 1j * np.exp(1j * angle), colour)
+    _arrow(ax, 0j, 1j * np.exp(1j * angle), colour, wide)
 
 
 def _draw_compass(ax: Axes) -> None:
@@ -235,6 +242,6 @@ def _draw_way(ax: Axes, start: complex, end: complex, *, turns: bool) -> None:
     ax.plot(line.real, line.imag, color=INK, linewidth=1, linestyle="--")
 
 
-def _arrow(ax: Axes, start: complex, end: complex, colour: str) -> None:
-    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
+def _arrow(ax: Axes, start: complex, end: complex, colour: str, wide: float = 1.8) -> None:
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": wide, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=style)

@@ -23,7 +23,7 @@ def test_each_step_draws_one_sheet_more(step):
     assert (
         titles
         == [
-            "1. the plane of school",
+            "1. as in school",
             "2. the sheet turned by a quarter",
             "3. the ground from above",
         ][:step]
@@ -59,6 +59,17 @@ def test_the_clip_is_turned_and_then_moved(step):
         assert dots(ax)[0] == pytest.approx(TARGET.root_positions[-1, [0, 2]])
         assert dots(ax)[-1] == pytest.approx(places[number].root_positions[0, [0, 2]])
         assert ax.xaxis_inverted()
+
+
+@pytest.mark.parametrize("shift_first", [False, True])
+def test_the_order_of_turn_and_shift_decides_on_the_place(shift_first):
+    panels = alignment(TARGET, MOVING, TRANSFORM, shift_first=shift_first).axes
+    turn, shift = PlanarTransform(TRANSFORM.angle, 0.0, 0.0), PlanarTransform(0.0, TRANSFORM.x, TRANSFORM.z)
+    first, second = (shift, turn) if shift_first else (turn, shift)
+    spot = MOVING.root_positions[0]
+    wanted = [spot, first.apply_points(spot), second.apply_points(first.apply_points(spot))]
+    assert [dots(ax)[-1] for ax in panels] == [pytest.approx(point[[0, 2]]) for point in wanted]
+    assert [("turned" in ax.get_title()) for ax in panels] == [False, not shift_first, shift_first]
 
 
 def test_the_turn_leads_round_the_origin():

@@ -115,7 +115,7 @@ def _turned_otherwise(moving: Placed, target: Placed) -> Placed:
 
 lay_on = Check(
     name="lay_on",
-    asks="the angle, x and z of the transform that lays `moving` on `target`",
+    asks="the angle, x and z of the transform that aligns `moving` with `target`",
     start="find the angle first. Turn the moving (x, z) by it, and see how far the target still is.",
     draw=_places,
     truth=_lay_on,
@@ -127,7 +127,7 @@ lay_on = Check(
         ),
         Mistake(
             lambda moving, target: _lay_on(target, moving),
-            "that lays `target` on `moving`; it is `moving` that should move.",
+            "that aligns `target` with `moving`; it is `moving` that should move.",
         ),
         Mistake(
             _turned_otherwise,
