@@ -32,7 +32,8 @@ steering    walks that follow a wish: paths, waypoints, crowds, control (08)
 plotting    pictures, by matplotlib (00 to 10)
 diagrams    ideas drawn step by step (00 to 09)
 widgets     players and experiments for notebooks (00 to 10)
-course      the notebooks: checks of exercises, hand-outs, marks, pages
+course      the notebooks: checks of exercises, hand-outs, pages
+marking     marks for notebooks handed in, whose code runs sealed
 cli         the command `mocap`
 
 Below them are `mocap.errors`, all errors that the package raises on purpose, and small helpers in `_shared`.
@@ -63,6 +64,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "feet",
         "files",
         "graphs",
+        "marking",
         "matching",
         "plotting",
         "quality",

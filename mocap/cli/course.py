@@ -4,12 +4,19 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import course
-from mocap._shared.atomic import write_text
+from mocap import course, marking
+from mocap._shared.atomic import require_writable, write_text
 from mocap.cli.options import bar
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
+
+MARKING = """Mark a folder of handed-in notebooks into two .csv files: OUT has a line for each exercise, and
+OUT-table a line for each student. Each notebook runs in a process of its own, with a new folder as its home,
+few variables in its environment, and limits of time, memory, processes and file size. This does not keep it
+from using the network, from reading or writing what you can read or write, or from an attack on the marker
+by somebody who knows how. If you do not trust those who hand in, mark in a container without a network:
+notebooks/README.md has the command."""
 
 
 def add_course(commands: "Commands") -> None:
@@ -24,7 +31,8 @@ def add_course(commands: "Commands") -> None:
     _add(doing, "site", _site, "write the course as HTML pages that need no network", Path("mocap-site"))
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
-    mark.add_argument("folder", type=Path, help="folder with the notebooks, such as name/02-matching.ipynb")
+    mark.description = MARKING
+    mark.add_argument("folder", type=Path, help="holds a folder for each student, with notebooks")
     again = "run notebooks again and store them with their outputs"
     run = doing.add_parser("run", help=again, description=f"{again.capitalize()}.")
     run.add_argument("notebooks", nargs="*", type=Path, help="files to run (default: the whole course)")
@@ -55,16 +63,25 @@ def _lite(options: argparse.Namespace) -> int:
 
 
 def _mark(options: argparse.Namespace) -> int:
-    marks = []
+    table = options.out.with_stem(f"{options.out.stem}-table")
+    require_writable(options.out)
+    marks: list[marking.Mark] = []
     try:
-        for one in course.mark(options.folder, bar("marking")):
-            marks.append(one)  # one by one, so that Ctrl-C keeps the marks made so far
-    finally:
-        if marks:
-            write_text(options.out, course.to_csv(marks))
+        for one in marking.mark(options.folder, bar("marking")):
+            if marks and one.handed_in != marks[-1].handed_in:
+                _write_marks(marks, options.out, table)
+            marks.append(one)
+    finally:  # so that Ctrl-C keeps the marks made so far
+        _write_marks(marks, options.out, table)
     right = sum(mark.right for mark in marks)
-    print(f"wrote {options.out}: {right} of {len(marks)} are right")
+    print(f"wrote {options.out} and {table}: {right} of {len(marks)} are right")
     return 0
+
+
+def _write_marks(marks: "list[marking.Mark]", out: Path, table: Path) -> None:
+    if marks:
+        write_text(out, marking.to_csv(marks))
+        write_text(table, marking.to_table(marks))
 
 
 def _run(options: argparse.Namespace) -> int:

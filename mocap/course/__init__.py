@@ -1,8 +1,8 @@
 """The notebooks of the course as data, and the checks of their exercises.
 
-Teachers hand the notebooks out, mark them and publish them. Authors run them again, with the package's own
-code in their cells. The command `mocap course` does all of this. A new exercise is four cells of a notebook,
-with the tags that `notebooks` lists, and a `Check` in the notebook's file of `checks`.
+Teachers hand the notebooks out and publish them; `mocap.marking` marks them. Authors run them again, with
+the package's own code in their cells. The command `mocap course` does all of this. A new exercise is four
+cells of a notebook, with the tags that `notebooks` lists, and a `Check` in the notebook's file of `checks`.
 
 Reading order
 -------------
@@ -12,7 +12,7 @@ Reading order
 4. `real_clips`: captured clips for notebooks that can do without
 5. `marked_values`: numbers in prose, and the expressions that compute them
 6. `notebooks`: read a notebook, find its cells by their tags, run it
-7. `handout`: copies without solutions, and marks
+7. `handout`: copies without solutions
 8. `site`: the course as HTML pages
 9. `lite`: the course in JupyterLite
 10. `lab`: the course in JupyterLab
@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "real_clips": ["people"],
         "notebooks": ["read", "run", "shown_source", "tagged"],
-        "handout": ["Mark", "hand_out", "mark", "to_csv"],
+        "handout": ["hand_out"],
         "site": ["build_site"],
         "lite": ["build_lite"],
         "lab": ["open_course", "stored"],

@@ -1,0 +1,132 @@
+"""What the course asks for, and which cells of a notebook an exercise needs."""
+
+from __future__ import annotations
+
+import re
+import symtable
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mocap.course.notebooks import read, tagged
+
+
+class Cell(NamedTuple):
+    """A cell of code: the exercises that its tags name, and its source."""
+
+    exercises: tuple[str, ...]
+    source: str
+
+
+class Sheet(NamedTuple):
+    """A notebook of the course: its name, its exercises, and by what a copy of it is recognised."""
+
+    name: str
+    exercises: tuple[str, ...]
+    traits: frozenset[str]
+
+
+def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
+    """List the cells of code of a notebook.
+
+    Examples
+    --------
+    >>> from nbformat.v4 import new_code_cell, new_notebook
+    >>> cell = new_code_cell("def speed(): ...", metadata={"tags": ["exercise:speed"]})
+    >>> code_cells(new_notebook(cells=[cell]))
+    [Cell(exercises=('speed',), source='def speed(): ...')]
+    """
+    names: dict[int, list[str]] = {}
+    for name, cell in tagged(notebook, "exercise"):
+        names.setdefault(id(cell), []).append(name)
+    return [
+        Cell(tuple(names.get(id(cell), ())), cell.source)
+        for cell in notebook.cells
+        if cell.cell_type == "code"
+    ]
+
+
+def course_sheets(folder: Path) -> list[Sheet]:
+    """Read what each notebook of the course asks for."""
+    sheets = []
+    for file in sorted(folder.glob("*.ipynb")):
+        notebook = read(file)
+        names = tuple(name for name, _ in tagged(notebook, "exercise"))
+        sheets.append(Sheet(file.stem, names, _traits(notebook)))
+    return sheets
+
+
+def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: ANN401
+    """Find the notebook of the course that a notebook is a copy of, whatever its file is called.
+
+    It is the one with which it has the most cells, tags and names of functions in common.
+
+    Examples
+    --------
+    >>> from nbformat.v4 import new_notebook
+    >>> sheet_of(new_notebook(), [Sheet("00-quickstart", ("speed",), frozenset(["exercise:speed"]))])
+    """
+    traits = _traits(notebook)
+    best = max(sheets, key=lambda sheet: len(sheet.traits & traits), default=None)
+    return best if best and best.traits & traits else None
+
+
+def _traits(notebook: Any) -> frozenset[str]:  # noqa: ANN401
+    tags = (str(tag) for cell in notebook.cells for tag in cell.metadata.get("tags", ()))
+    sources = [cell.source.strip() for cell in notebook.cells]
+    functions = re.findall(r"^def \w+", "\n".join(sources), re.MULTILINE)
+    long = (text for text in sources if len(text) > 20)
+    return frozenset((*(tag for tag in tags if ":" in tag), *long, *functions))
+
+
+def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = str) -> list[int]:
+    """Find the cells that an exercise needs, in order: its own, and those that define the names it uses.
+
+    Of the cells that define a name, those before the one that uses it count, or else those after it. Without
+    a cell of its own an exercise has those that define a function with its name.
+
+    Parameters
+    ----------
+    cells : of the notebook.
+    exercise : the name.
+    plain : turns a cell with IPython's commands into Python.
+
+    Returns
+    -------
+    The numbers of the cells; none if the notebook has nothing for the exercise.
+
+    Examples
+    --------
+    >>> cells = [Cell((), "def half(x): return x / 2"), Cell(("f",), "def f(x): return half(x)")]
+    >>> needed(cells, "f"), needed(cells[:1], "g")
+    ([0, 1], [])
+    """
+    known = [_names(plain, cell.source) for cell in cells]
+    own = [number for number, cell in enumerate(cells) if exercise in cell.exercises]
+    left = own or [number for number, (defined, _) in enumerate(known) if exercise in defined]
+    found: set[int] = set()
+    while left:
+        number = left.pop()
+        if number not in found:
+            found.add(number)
+            for name in known[number][1]:
+                at = [other for other, (defined, _) in enumerate(known) if name in defined]
+                left += [other for other in at if other < number] or at
+    return sorted(found)
+
+
+def _names(plain: Callable[[str], str], source: str) -> tuple[set[str], set[str]]:
+    """Return the names that a cell defines, and those that it uses."""
+    try:
+        top = symtable.symtable(plain(source), "", "exec")
+    except (SyntaxError, ValueError):
+        return set(), set()
+    made = [symbol for symbol in top.get_symbols() if symbol.is_assigned() or symbol.is_imported()]
+    defined = {symbol.get_name() for symbol in made}
+    used, tables = set(), [top]
+    while tables:
+        table = tables.pop()
+        tables += table.get_children()
+        symbols = [symbol for symbol in table.get_symbols() if symbol.is_referenced()]
+        used |= {symbol.get_name() for symbol in symbols if table is top or symbol.is_global()}
+    return defined, used
