@@ -141,8 +141,7 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
 
     Notebook: 06-pruning
     """
-    index: dict[Node, int] = {}
-    low: dict[Node, int] = {}
+    index, low = dict[Node, int](), dict[Node, int]()
     stack: list[Node] = []
     components: list[set[Node]] = []
     states: list[SearchState] = []
