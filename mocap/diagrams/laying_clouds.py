@@ -54,12 +54,14 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
 
 
 def turning(first: Motion, second: Motion, *, degrees: float = 0.0) -> Figure:
-    """Draw two centred windows from above, the second turned by hand, and the distance left at each angle.
+    """Draw two centred windows from above, the second turned by hand, and the distance left so far.
+
+    The curve ends at the angle to which the second is turned, so that nobody sees the rest before they turn.
 
     Parameters
     ----------
     first, second : windows of as many frames.
-    degrees : how far to turn the second about its mean.
+    degrees : how far to turn the second about its mean, -180 to 180.
 
     Examples
     --------
@@ -75,7 +77,7 @@ def turning(first: Motion, second: Motion, *, degrees: float = 0.0) -> Figure:
     ground, curve = figure.subplots(1, 2)
     _from_above(ground, first, PlanarTransform(np.radians(degrees), 0.0, 0.0).apply_motion(second))
     clouds = [point_cloud(motion).reshape(-1, 3) for motion in (first, second)]
-    angles = range(-180, 181, 3)
+    angles = np.append(np.arange(-180, degrees, 3), degrees)
 
     def left(angle: float) -> float:
         turned = PlanarTransform(np.radians(angle), 0.0, 0.0).apply_points(clouds[1])
@@ -83,7 +85,9 @@ def turning(first: Motion, second: Motion, *, degrees: float = 0.0) -> Figure:
 
     curve.plot(angles, [left(angle) for angle in angles], color=CURVES[0])
     curve.plot([degrees], [left(degrees)], "o", color="#000000", markersize=8)
-    curve.set(xlabel="θ (degrees)", ylabel="RMS distance (cm)", ylim=(0, None), xticks=range(-180, 181, 90))
+    highest = max(left(angle) for angle in range(-180, 181, 10))
+    curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
+    curve.set(ylabel="RMS distance (cm)", ylim=(0, 1.1 * max(highest, 1)))
     curve.set_title(f"{degrees:g}°: {left(degrees):.1f} cm".replace("-", "−"))
     curve.spines[["top", "right"]].set_visible(False)
     return figure

@@ -134,7 +134,9 @@ def _draw_circle(ax: Axes, points: dict[str, float]) -> None:
         at = np.exp(1j * np.radians(degrees))
         ax.plot([0, at.real], [0, at.imag], color=COLOURS["middle"], linewidth=1.2)
         ax.plot(at.real, at.imag, "o", color=COLOURS["middle"], markersize=7)
-        ax.text(1.22 * at.real, 1.16 * at.imag, name, ha="center", va="center")
+        beside = "left" if at.real > 0.5 else "right" if at.real < -0.5 else "center"
+        above = 1.33 if name == "no turn" else 1.16  # a small turn must not hide it
+        ax.text(1.1 * at.real, above * at.imag, name, ha=beside, va="center")
     ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 
 
@@ -173,7 +175,7 @@ def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
         names = ("forwards", "to the left") if row == 0 else ("to the left", "forwards")
         turn = rotations.IDENTITY
         for shown in range(step + 1):
-            ax = figure.add_axes((shown / 3, 0.5 - row / 2, 1 / 3, 0.44), projection="3d")
+            ax = figure.add_axes((shown / 3, 0.53 - 0.49 * row, 1 / 3, 0.42), projection="3d")
             turn = rotations.multiply(turns[shown - 1], turn) if shown else turn
             _draw_body(ax, body, turn)
             ax.set_title("at rest" if shown == 0 else f"{shown}. {names[shown - 1]}", y=1, fontsize=10)

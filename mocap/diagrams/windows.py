@@ -45,7 +45,8 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
     _require_step(step, len(WINDOW_STEPS))
     points, cloud = joint_positions(motion), point_cloud(motion)
     figure = Figure(figsize=(5.2, 4.8))
-    ax = _beside(figure.add_axes((0, 0, 1, 0.92), projection="3d"), motion, points)
+    above_and_below = np.concatenate([points, points * [1, 0, 1]])  # the shadow must fit as well
+    ax = _beside(figure.add_axes((0, 0, 1, 0.92), projection="3d"), motion, above_and_below)
     middle = len(motion) // 2
     shown = range(len(motion)) if step in (2, 3) else [middle] if step == 1 else []
     for frame in shown:

@@ -54,12 +54,23 @@ def test_a_step_that_is_not_there_is_named(pair):
 def test_the_curve_over_a_turn_has_its_valley_at_the_closed_form(pair):
     a, b = (point_cloud(motion).reshape(-1, 3) for motion in pair)
     best = np.degrees(align(a, b).angle)
-    curve, dot = diagrams.turning(*pair, degrees=best).axes[1].lines
+    curve, _ = diagrams.turning(*pair, degrees=180).axes[1].lines
     angles, lefts = curve.get_xydata().T
     assert abs(angles[lefts.argmin()] - best) <= 1.5
+    _, dot = diagrams.turning(*pair, degrees=best).axes[1].lines
     assert dot.get_xydata()[0] == pytest.approx([best, lefts.min()], abs=0.1)
     rising = np.diff(np.roll(lefts[:-1], -lefts.argmin())) > 0
     assert np.count_nonzero(np.diff(rising)) == 1  # up to one highest point, then down
+
+
+@pytest.mark.parametrize("degrees", [-180, -60, 100])
+def test_the_curve_over_a_turn_ends_at_its_dot_and_its_axes_stay(pair, degrees):
+    shown = diagrams.turning(*pair, degrees=degrees).axes[1]
+    curve, dot = shown.lines
+    assert curve.get_xydata()[-1] == pytest.approx(dot.get_xydata()[0])
+    assert curve.get_xdata().max() == degrees
+    whole = diagrams.turning(*pair, degrees=180).axes[1]
+    assert (shown.get_xlim(), shown.get_ylim()) == (whole.get_xlim(), whole.get_ylim())
 
 
 def test_the_title_of_a_turn_says_the_angle_and_what_is_left(pair):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.patches import Rectangle
+from mpl_toolkits.mplot3d import proj3d
 
 from mocap import datasets, diagrams, resample
 from mocap.body import PlanarTransform, joint_positions
@@ -43,6 +44,14 @@ def test_the_cloud_has_a_point_on_each_joint_of_each_frame_and_a_shadow_on_the_g
     wanted = to_picture(point_cloud(window).reshape(-1, 3))
     assert np.transpose(cloud.get_data_3d()) == pytest.approx(wanted)
     assert np.transpose(shadow.get_data_3d()) == pytest.approx(wanted * [1, 1, 0])
+
+
+def test_the_shadow_of_the_cloud_is_inside_the_picture(window):
+    figure = diagrams.window_cloud(window, step=4)
+    (ax,), (shadow,) = figure.axes, dots(figure, QUIET)
+    figure.canvas.draw()
+    across, up, _ = proj3d.proj_transform(*shadow.get_data_3d(), ax.get_proj())
+    assert ax.bbox.contains(*ax.transData.transform(np.stack([across, up], axis=-1)).min(axis=0))
 
 
 @pytest.mark.parametrize("step", [0, 5])
