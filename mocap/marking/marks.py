@@ -105,7 +105,7 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
         notebook = read(file)
         return _Handed(path, code_cells(notebook), sheet_of(notebook, sheets), "")
     except MocapError as error:
-        return _Handed(path, [], None, str(error))
+        return _Handed(path, [], None, str(error).replace(str(file), path))
     except Exception:  # nbformat lets some things pass that are no notebooks
         return _Handed(path, [], None, f"{path}: is not a notebook.")
 

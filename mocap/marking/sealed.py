@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -116,8 +116,6 @@ def sealed(fonts: Path | None = None) -> Iterator[Sealed]:
     ------
     MocapError : on Windows, which has no such limits.
     """
-    if os.name != "posix":
-        raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
     ours, theirs = socket.socketpair()
     with _home(fonts) as (folder, environment), ours:
         with theirs:
@@ -145,21 +143,23 @@ def _end(keeper: subprocess.Popen[bytes]) -> str:
         return keeper.communicate(timeout=10)[0].decode()
     except subprocess.TimeoutExpired:  # as when the student's process has stopped the keeper
         keeper.kill()
+        keeper.wait()
         return ""
 
 
 @contextmanager
 def _home(fonts: Path | None) -> Iterator[tuple[str, Mapping[str, str]]]:
     """Make a folder, and the few variables of an environment in which it is the home."""
+    if os.name != "posix":
+        raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
     folder = tempfile.mkdtemp(prefix="marking-")
     try:
         config = shutil.copytree(fonts, Path(folder, "fonts")) if fonts else Path(folder)
         places = {"HOME": folder, "TMPDIR": folder, "MPLCONFIGDIR": str(config)}
         kept = {name: os.environ[name] for name in KEPT if name in os.environ}
         yield folder, {**kept, **FIXED, **places, "PYTHONPATH": os.pathsep.join(_python_path())}
-    finally:
-        with suppress(RecursionError):  # of folders in folders in folders
-            shutil.rmtree(folder, ignore_errors=True)
+    finally:  # not by shutil.rmtree, which gives up on folders in folders in folders
+        subprocess.run(["rm", "-rf", folder], check=False, stderr=subprocess.DEVNULL)
 
 
 def _python_path() -> list[str]:

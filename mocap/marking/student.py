@@ -63,7 +63,7 @@ class Student:
         done = run(self.cells[number].source)
         error = done.error_before_exec or done.error_in_exec
         if error:
-            self.failed[number] = f"{type(error).__name__}: {error}"
+            self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
 
     def call(self, name: str, arguments: tuple[Any, ...]) -> dict[str, Any]:
         """Call a function, and return its answer, and which arrays it changed."""

@@ -6,6 +6,7 @@ import resource
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -175,6 +176,25 @@ def test_junk_on_the_channel_is_no_answer(tmp_path):
     found = {one.exercise: one for one in mark(tmp_path)}
     assert not found["speed"].right
     assert found["cheapest"].right
+
+
+def test_folders_in_folders_leave_nothing_behind(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    deep = "import os\nfor _ in range(1500):\n    os.mkdir('d')\n    os.chdir('d')"
+    hand_in([START, ("exercise:speed", deep)], tmp_path / "in" / "00.ipynb")
+    assert len(list(mark(tmp_path / "in"))) == 3
+    assert [path.name for path in tmp_path.iterdir()] == ["in"]
+
+
+def test_what_is_no_file_is_said_at_once(tmp_path):
+    (tmp_path / "zero.ipynb").symlink_to("/dev/zero")
+    os.mkfifo(tmp_path / "fifo.ipynb")
+    (tmp_path / "deep.ipynb").write_text("[" * 100_000)
+    assert [one.said for one in mark(tmp_path)] == [
+        "deep.ipynb: is not a notebook.",
+        "fifo.ipynb: is no file, or one of more than 50 MB.",
+        "zero.ipynb: is no file, or one of more than 50 MB.",
+    ]
 
 
 def test_an_interruption_is_one_sentence_and_keeps_the_marks(tmp_path):
