@@ -212,6 +212,8 @@ def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: 
     >>> same = Transitions(zero, zero, zero, zero, np.zeros(1), PlanarTransform(zero, zero, zero))
     >>> velocity_gaps([datasets.sample("walk_curve_1")], same, window=10)
     array([0.])
+
+    Notebook: 05b-choice-points
     """
     moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
