@@ -8,6 +8,7 @@ ends all. On Linux it adopts the orphans among its descendants, so that none can
 from __future__ import annotations
 
 import ctypes
+import itertools
 import os
 import resource
 import select
@@ -19,7 +20,8 @@ from pathlib import Path
 
 MEMORY = 2 << 30  # bytes of a process; all together may hold twice that
 PROCESSES = 16
-FILE = 50 << 20  # bytes of a file
+FILE, FILES = 50 << 20, 500 << 20  # bytes of a file, and of all in the folder
+MOST = 2000  # files
 LIMITS = {"RLIMIT_AS": MEMORY, "RLIMIT_FSIZE": FILE, "RLIMIT_NOFILE": 256, "RLIMIT_CORE": 0}
 LINUX = sys.platform == "linux"
 DIE_WITH_PARENT, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 36, 38  # of prctl(2)
@@ -77,6 +79,9 @@ def _watch(student: int) -> str:
             return f"starts more than {PROCESSES} processes"
         if sum(family.values()) > 2 * MEMORY:
             return f"takes more than {2 * MEMORY >> 30} GB of memory"
+        sizes = _sizes()
+        if len(sizes) == MOST or sum(sizes) > FILES:
+            return f"writes {MOST} files, or more than {FILES >> 20} MB"
     return ""
 
 
@@ -99,6 +104,16 @@ def _descendants() -> dict[int, int]:
     while more := {pid for pid, parent in parents.items() if parent in family} - family:
         family |= more
     return {pid: sizes[pid] for pid in family - {os.getpid()} if pid in sizes}
+
+
+def _sizes() -> list[int]:
+    """Return the bytes on disk of the files in this folder and those in it, up to the most there may be."""
+    files = (f"{place}/{name}" for place, _, names in os.walk(".") for name in names)
+    sizes = []
+    for file in itertools.islice(files, MOST):
+        with suppress(OSError):  # it is gone
+            sizes.append(512 * os.lstat(file).st_blocks)
+    return sizes
 
 
 def _kill_all(student: int) -> None:

@@ -169,6 +169,15 @@ def test_no_answer_stops_the_marker(answer, tmp_path):
     assert not any(one.right for one in mark(tmp_path))
 
 
+@pytest.mark.parametrize(
+    ("times", "size", "says"), [(20, 45_000_000, "writes 2000 files, or"), (1, 60_000_000, "File too large")]
+)
+def test_no_notebook_fills_the_disk(times, size, says, tmp_path):
+    write = f"for n in range({times}): open(f'{{n}}', 'wb').write(b'x' * {size})\nimport time\ntime.sleep(1)"
+    hand_in([START, ("exercise:speed", write)], tmp_path / "00.ipynb")
+    assert says in next(mark(tmp_path)).said
+
+
 def test_junk_on_the_channel_is_no_answer(tmp_path):
     write = "  try: os.write(fd, b'[' * 100000 + b'\\n')\n  except OSError: pass"
     junk = f"import os\nfor fd in range(3, 30):\n{write}"
