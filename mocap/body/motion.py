@@ -198,7 +198,7 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     >>> concatenate([still, still], "stiller")
     Motion('stiller', 8 frames at 30 Hz, 1 joints)
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 00-quickstart
     """
     if not motions:
         raise MocapError("There is nothing to concatenate.")

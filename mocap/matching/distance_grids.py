@@ -158,8 +158,6 @@ def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
     >>> diagonal_sum(np.array([[1, 2, 0], [0, 3, 4], [0, 0, 5]]), 2)
     array([[4, 6],
            [0, 8]])
-
-    Notebook: 02b-distance-grids
     """
     if window == 1:
         return products
