@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mocap._shared.atomic import write_text
 from mocap.course.notebooks import read
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened
 
 WIDGETS = ["anywidget", "ipywidgets"]  # that the browser's Python does not have
 
@@ -76,4 +76,4 @@ def _call(folder: str, command: list[str | Path]) -> None:
     )
     if done.returncode:
         last = (done.stderr or done.stdout).strip().splitlines()[-1:]
-        raise MocapError(f"'{command[0]} {command[1]}' failed: {''.join(last)}")
+        raise MocapError(f"'{command[0]} {command[1]}' failed: {shortened(''.join(last), 120)}")

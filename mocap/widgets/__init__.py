@@ -10,7 +10,8 @@ Reading order (notebooks 00 to 10)
 3. `experiments`: a picture with controls
 4. `pointing`: an image to click on
 5. `reopening`: live while Python runs, a picture when the notebook is opened again
-6. `film`: a motion as a film, a strip of poses or a page
+6. `recording`: positions of an experiment, as pictures for pages without Python
+7. `film`: a motion as a film, a strip of poses or a page
 """
 
 import lazy_loader

@@ -1,9 +1,13 @@
 """The course's site, its pages opened as files: they load nothing, they play, and the search finds."""
 
+import re
+
+import nbformat
 import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.course.lab import stored
-from mocap.course.site import build_site
+from mocap.course.site import PAGES, build_site
 from tests.browser.conftest import wait_until
 
 
@@ -12,7 +16,7 @@ def site(tmp_path_factory):
     return build_site(stored(), tmp_path_factory.mktemp("site"))
 
 
-def test_a_page_plays_folds_and_is_searched(page, site, artefacts):
+def test_a_page_plays_and_folds(page, site):
     page.goto(site.as_uri())
     players = page.locator(".mocap-player")
     assert players.count() >= 3
@@ -24,14 +28,93 @@ def test_a_page_plays_folds_and_is_searched(page, site, artefacts):
     wait_until(folded.locator("p, pre").first.is_visible)
     formula = page.locator("math[display=block]").first
     assert formula.bounding_box()["height"] > 15  # the browser itself draws it
-    page.locator("#search").fill("one transition")
+
+
+def test_the_search_answers(page, site, artefacts):
+    page.goto(site.as_uri())
+    heading = page.locator("h2").nth(1)
+    words, at = heading.inner_text().removesuffix("¶"), heading.get_attribute("id")
+    page.locator("#search").fill(words)
     hit = page.locator("#found a").first
-    assert hit.inner_text().startswith("One transition")
+    assert hit.inner_text().startswith(words)
     page.screenshot(path=artefacts / "site-search.png")
     hit.click()
-    wait_until(lambda: "#one-transition" in page.url)
-    page.locator("#search").fill("no such word")
+    wait_until(lambda: page.url.endswith(f"#{at}"))
+    for found in ("θ", "explore(", "(", "draw_path"):  # one letter, and code
+        page.locator("#search").fill(found)
+        wait_until(lambda found=found: found in page.locator("#found").inner_text().lower())
+    page.locator("#search").fill("no such wwword")
     wait_until(lambda: page.locator("#found").inner_text() == "Nothing found.")
+    page.locator("#search").fill("ж")
+    wait_until(lambda: page.locator("#found").inner_text() == "Nothing found.")
+    page.locator("#search").fill("glossary")
+    target = page.locator("#found a").first.get_attribute("href")
+    page.locator("#search").press("Enter")
+    wait_until(lambda: page.url.endswith(target))
+
+
+def test_a_heading_has_a_link_to_itself(page, site):
+    page.goto(site.as_uri())
+    link = page.locator("h2 a.anchor-link").nth(2)
+    link.click()
+    at = link.get_attribute("href")
+    wait_until(lambda: page.url.endswith(at))
+    assert abs(page.locator(at).bounding_box()["y"]) < 60  # the page has scrolled there
+
+
+def test_the_menu_folds_on_a_phone(page, site, artefacts):
+    page.goto(site.as_uri())
+    assert page.locator("#menu").is_visible()
+    assert page.locator("#fold").is_hidden()
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.goto(site.as_uri())
+    fold, menu = page.locator("#fold"), page.locator("#menu")
+    assert page.locator("main").bounding_box()["y"] < 120
+    assert menu.is_hidden()
+    fold.press("Enter")
+    assert menu.is_visible()
+    assert fold.get_attribute("aria-expanded") == "true"
+    page.screenshot(path=artefacts / "site-phone-menu.png")
+    menu.locator("ul a").first.click()
+    assert menu.is_hidden()
+
+
+def test_pages_are_dark_where_the_reader_wants_it(page, site, artefacts):
+    page.emulate_media(color_scheme="dark")
+    page.goto(site.as_uri())
+    paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert max(map(int, re.findall(r"\d+", paper))) < 60
+    assert page.evaluate("getComputedStyle(document.querySelector('main img')).backgroundColor").endswith(
+        "(255, 255, 255)"
+    )
+    page.screenshot(path=artefacts / "site-dark.png")
+
+
+EXPERIMENT = """import matplotlib.pyplot as plt
+from mocap.widgets import explore
+
+def draw(steps_taken=2):
+    return plt.figure(figsize=(steps_taken + 1, 1))
+
+explore(draw, alt="A white picture, as wide as the slider says.", steps_taken=(0, 3))"""
+
+
+def test_a_recorded_experiment_moves(page, tmp_path, artefacts):
+    still = new_output("display_data", {"text/html": '<div class="mocap-still"></div>'})
+    cells = [new_markdown_cell("# One"), new_code_cell(EXPERIMENT, outputs=[still])]
+    nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
+    for name in PAGES:
+        (tmp_path / f"{name}.md").write_text("# A page\n")
+    page.goto(build_site(tmp_path, tmp_path / "out", moving=True).as_uri())
+    slider, picture = page.get_by_label("steps taken"), page.locator(".moving img")
+    wide = picture.bounding_box()["width"]
+    slider.press("ArrowRight")
+    wait_until(lambda: picture.bounding_box()["width"] > wide)
+    assert page.locator(".moving output").inner_text() == "3"
+    assert slider.get_attribute("aria-valuetext") == "3"
+    slider.press("Home")
+    wait_until(lambda: picture.bounding_box()["width"] < wide)
+    page.screenshot(path=artefacts / "site-moving.png")
 
 
 def test_every_page_fits_a_phone(page, site, artefacts):

@@ -26,3 +26,10 @@ def test_without_jupyterlite_or_a_checkout_one_sentence_says_what_to_do(tmp_path
     monkeypatch.setattr(lite, "found", lambda: False)
     with pytest.raises(MocapError, match="mocap\\[lite\\]"):
         lite.build_lite(tmp_path, tmp_path / "out")
+
+
+def test_what_a_failing_build_says_is_cut_to_a_short_sentence(tmp_path):
+    (tmp_path / "loud.py").write_text("raise SystemExit('x' * 5000)")
+    with pytest.raises(MocapError, match="'loud build' failed: xxx") as raised:
+        lite._call(str(tmp_path), ["loud", "build"])
+    assert len(str(raised.value)) <= 200

@@ -1,0 +1,151 @@
+"""Positions of an experiment's first control, recorded as pictures for pages where no Python runs.
+
+`watch` records each experiment that a notebook shows: the course's site runs it in the notebook's own kernel.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from mocap.widgets.experiments import Experiment
+from mocap.widgets.pointing import Pointed
+
+ROOM = 200_000  # bytes for the pictures of one experiment
+COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
+SIZES = (1.0, 0.8, 0.64, 0.5, 0.4, 0.3, 0.2)  # of the pictures, as shares of their width
+COLOURS = 64
+
+
+def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None:
+    """Move an experiment's first control through its range, and keep the pictures.
+
+    Parameters
+    ----------
+    experiment : what `explore` returns; its control is back in its place afterwards.
+    room : bytes for all pictures; they become fewer and smaller until they fit.
+
+    Returns
+    -------
+    The control's `name`, the `labels` of its positions, the `pictures` as PNGs in base64, the number `at` of
+    the position at rest, and the sentence `alt`; None for an experiment without such a control.
+
+    Raises
+    ------
+    Exception : whatever `draw` raises.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from mocap.widgets.experiments import explore
+    >>> line, = plt.figure().add_subplot().plot([0, 1], [0, 0])
+    >>> def draw(slope=2):
+    ...     line.set_ydata([0, slope])
+    ...     return [line]
+    >>> recorded = record(explore(draw, alt="A line that rises as its slope does.", slope=(0, 4, 2)))
+    >>> recorded["labels"], recorded["at"], len(recorded["pictures"])
+    (['0', '2', '4'], 1, 3)
+    """
+    movable = {name: c for name, c in experiment.controls.items() if not isinstance(c, Pointed)}
+    for name, control in movable.items():
+        if positions := _positions(control):
+            rest = control.value
+            at = next(number for number, (_, value) in enumerate(positions) if value == rest)
+            pictures = []
+            try:
+                for _, value in positions:
+                    pictures.append(_picture(experiment.set(**{name: value})))
+            finally:
+                experiment.set(**{name: rest})
+            kept, small = _fitting(pictures, at, room)
+            return {
+                "name": name.replace("_", " "),
+                "labels": [positions[number][0] for number in kept],
+                "pictures": [base64.b64encode(data).decode() for data in small],
+                "at": kept.index(at),
+                "alt": experiment.alt,
+            }
+    return None
+
+
+def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
+    """List labels and values of a slider, choice or check box, the one at rest among them."""
+    if hasattr(control, "options"):
+        choices = [(str(label), value) for label, value in control._options_full]
+        at = next(number for number, (_, value) in enumerate(choices) if value == control.value)
+        return [choices[number] for number in _spread(len(choices), at, COUNTS[0])]
+    if isinstance(control.value, bool):
+        return [("off", False), ("on", True)]
+    if not hasattr(control, "step"):
+        return []
+    steps = max(1, round((control.max - control.min) / control.step))
+    at = round((control.value - control.min) / control.step)
+    values = [
+        control.value if number == at else type(control.value)(control.min + number * control.step)
+        for number in _spread(steps + 1, at, COUNTS[0])
+    ]
+    return [(f"{value:.6g}", value) for value in (min(value, control.max) for value in values)]
+
+
+def _spread(count: int, at: int, most: int) -> list[int]:
+    """Choose at most `most` of `count` places, evenly, with both ends and the place `at`."""
+    places = np.unique(np.linspace(0, count - 1, min(most, count)).round().astype(int))
+    if at not in places:
+        inner = places[1:-1] if len(places) > 2 else places
+        places[np.flatnonzero(places == inner[np.abs(inner - at).argmin()])] = at
+    return [int(place) for place in np.sort(places)]
+
+
+def _picture(experiment: Experiment) -> Image.Image:
+    return Image.open(io.BytesIO(base64.b64decode(experiment.still()[0]["image/png"]))).convert("RGB")
+
+
+def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int], list[bytes]]:
+    """Choose pictures, and encode them, so that they fit: first smaller, then fewer, then smaller still."""
+    encoded = cache(lambda number, size: _encoded(pictures[number], size))
+    tries = [(count, size) for count in COUNTS for size in SIZES[:2]]
+    for count, size in [*tries, *((COUNTS[-1], size) for size in SIZES[2:])]:
+        kept = _spread(len(pictures), at, count)
+        small = [encoded(number, size) for number in kept]
+        if sum(map(len, small)) <= room:
+            break
+    return kept, small
+
+
+def _encoded(picture: Image.Image, size: float) -> bytes:
+    if size < 1:
+        wide, high = (max(1, round(size * length)) for length in picture.size)
+        picture = picture.resize((wide, high), Image.Resampling.LANCZOS)
+    data = io.BytesIO()
+    picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(data, "png", optimize=True)
+    return data.getvalue()
+
+
+def watch(folder: str) -> None:
+    """Record each experiment that the cells of this kernel show from now on, into a folder of JSON files.
+
+    Parameters
+    ----------
+    folder : for a file per experiment: what `record` returns and the cell's `source`, or the `error`.
+    """
+    from IPython import get_ipython
+
+    def keep(cell: Any) -> None:  # noqa: ANN401
+        if isinstance(cell.result, Experiment):
+            try:
+                recorded = record(cell.result)
+            except Exception as error:  # of any kind: it comes from the notebook
+                recorded = {"error": f"{type(error).__name__}: {error}"}
+            if recorded:
+                recorded["source"] = cell.info.raw_cell
+                file = Path(folder, f"{len(list(Path(folder).iterdir())):03}.json")
+                file.write_text(json.dumps(recorded), "utf-8")
+
+    get_ipython().events.register("post_run_cell", keep)
