@@ -1,16 +1,20 @@
 """Measure how the search for transitions grows with the number of frames, and draw it.
 
-`python figures/draw_growth.py FOLDER`, where FOLDER holds subject 16 of the CMU database, `16.asf` and its
-`.amc` files. The clips are those at 30 Hz, from each of four starting frames, repeated up to the number of
-frames. Each size runs in a process of its own, so that its memory can be measured; two threads work.
+`python figures/draw_growth.py FOLDER`, where FOLDER holds subjects of the CMU database, each in a folder with
+its `.asf` and `.amc` files. So many frames of different motion are not at hand, so a set is made of these
+clips: each time a clip is taken again, it is played at other, changing speeds, and all its joints are turned
+a little. Each size runs in a process of its own, so that its memory can be measured; two threads work.
+
+`python figures/draw_growth.py FOLDER 650000 bound` measures one size, here that of the whole database.
 """
 
 import json
-import resource
+import os
 import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import matplotlib
@@ -21,74 +25,93 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import mocap
+from mocap.body import rotations
 from mocap.matching import find_transitions
 
 FOLDER = Path(__file__).parent
 SIZES = (5_000, 10_000, 20_000, 40_000, 80_000, 200_000)
-CMU = 650_000  # frames of the whole database at 30 Hz
+COLOURS = {"products": "#D55E00", "bound": "#0072B2"}
+BELOW = 0.04  # metres
+
+
+def varied(take: mocap.Motion, random: np.random.Generator) -> mocap.Motion:
+    """Play a take of 120 Hz at 30 Hz and at changing speeds, with its joints turned by a degree or so."""
+    pace = np.exp(random.normal(0, 0.1)) * (1 + 0.2 * np.sin(np.arange(len(take)) / random.uniform(40, 120)))
+    times = np.cumsum(4 * pace)
+    frames = np.round(times[times < len(take) - 1]).astype(int)
+    shape = (take.rotations.shape[1], 3)
+    always, phase, rate = (
+        random.normal(0, 1, shape),
+        random.uniform(0, 6, shape),
+        random.uniform(0.02, 0.1, shape),
+    )
+    turn = np.radians(always + np.sin(np.arange(len(frames))[:, None, None] * rate + phase))
+    small = np.concatenate([np.ones((*turn.shape[:-1], 1)), turn / 2], axis=-1)
+    small /= np.linalg.norm(small, axis=-1, keepdims=True)
+    turned = rotations.multiply(take.rotations[frames], small)
+    return mocap.Motion(take.skeleton, take.root_positions[frames], turned, 30.0)
 
 
 def clips_of(folder: Path, frames: int) -> list[mocap.Motion]:
-    """Repeat a folder's clips until they have at least this many frames."""
-    takes = [mocap.load(path) for path in sorted(folder.glob("*.amc"))]
-    short = [take[start::4] for start in range(4) for take in takes if len(take) > 60]
+    """Make clips of at least so many frames at 30 Hz, on one skeleton, from all takes that a folder holds."""
+    takes = [take for path in sorted(folder.glob("*/*.amc")) if len(take := mocap.load(path)) > 120]
+    takes = [replace(take, skeleton=takes[0].skeleton) for take in takes]
+    random = np.random.default_rng(0)
     clips: list[mocap.Motion] = []
-    while sum(map(len, clips)) < frames:
-        clips.append(short[len(clips) % len(short)])
+    total = 0
+    while total < frames:
+        take = takes[random.integers(len(takes))]
+        clips.append(replace(varied(take, random), name=str(len(clips))))
+        total += len(clips[-1])
     return clips
 
 
-def measure(folder: Path, frames: int) -> dict[str, float]:
-    """Find the transitions below 2 cm; measure the seconds, and the most megabytes that the process took."""
+def measure(folder: Path, frames: int, method: str) -> dict[str, float]:
+    """Find the transitions; measure the seconds, and the most megabytes that the process took."""
     clips = clips_of(folder, frames)
+    Path("/proc/self/clear_refs").write_text("5")  # forget the most memory that reading the takes took
     start, busy = time.perf_counter(), time.process_time()
     with ThreadPoolExecutor(2) as pool:
-        found = find_transitions(clips, window=10, below=0.02, executor=pool)
+        found = find_transitions(clips, window=10, below=BELOW, method=method, executor=pool)
     seconds, busy = time.perf_counter() - start, time.process_time() - busy
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
+    memory = int(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0]) / 1000
     frames = sum(map(len, clips))
     return {"frames": frames, "seconds": seconds, "cpu": busy, "memory": memory, "found": len(found)}
 
 
-def draw(runs: list[dict[str, float]]) -> None:
-    """Draw CPU seconds and memory against frames, and the square law up to the whole database."""
-    frames, busy, memory = (np.array([run[key] for run in runs]) for key in ("frames", "cpu", "memory"))
-    law = busy[-1] / frames[-1] ** 2
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-    span = np.geomspace(frames[0], CMU, 50)
-    axes[0].plot(span, law * span**2, color="#999999", linewidth=1, label="as the square of the frames")
-    axes[0].plot(frames, busy, "o", color="#0072B2", label="measured")
-    axes[0].plot(CMU, law * CMU**2, "o", mfc="none", color="#D55E00")
-    label = f"the whole CMU database:\n{law * CMU**2 / 60:.0f} core minutes"
-    axes[0].annotate(label, (CMU, law * CMU**2), (-9, 0), textcoords="offset points", ha="right", va="center")
-    axes[0].plot(6000, 25 * 60, "s", color="#CC79A7", label="Kovar et al., 2002")
-    axes[0].set(
-        xscale="log",
-        yscale="log",
-        ylim=(None, 3 * law * CMU**2),
-        xlabel="frames at 30 Hz",
-        ylabel="core seconds",
-        title="time",
-    )
-    axes[0].legend(loc="lower right", fontsize=8)
-    axes[1].plot(frames / 1000, memory, "o-", color="#0072B2")
-    axes[1].set(xlabel="thousand frames at 30 Hz", ylabel="MB", ylim=(0, None), title="memory, clips and all")
+def draw(runs: dict[str, list[dict[str, float]]]) -> None:
+    """Draw CPU seconds, memory and transitions found against frames."""
+    figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
+    labels = {"products": "all pairs, by products", "bound": "what the bound leaves"}
+    for method, colour in COLOURS.items():
+        frames = [run["frames"] for run in runs[method]]
+        for ax, key in zip(axes, ("cpu", "memory", "found"), strict=True):
+            ax.plot(frames, [run[key] for run in runs[method]], "o-", color=colour, label=labels[method])
+    axes[0].set(xscale="log", yscale="log", ylabel="core seconds", title="time")
+    axes[1].set(ylabel="MB", ylim=(0, None), title="memory, clips and all")
+    axes[2].set(xscale="log", yscale="log", ylabel="transitions", title=f"found below {100 * BELOW:g} cm")
+    axes[0].legend(fontsize=8)
     for ax in axes:
+        ax.set(xlabel="frames at 30 Hz")
         ax.grid(alpha=0.3)
     figure.savefig(FOLDER / "growth.png", dpi=110)
     plt.close(figure)
 
 
+def run_alone(folder: Path, frames: int, method: str) -> dict[str, float]:
+    """Measure in a process of its own, where each thread's products take one core."""
+    command = [sys.executable, __file__, str(folder), str(frames), method]
+    done = subprocess.run(
+        command, capture_output=True, text=True, check=True, env=os.environ | {"OMP_NUM_THREADS": "1"}
+    )
+    return json.loads(done.stdout)
+
+
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
-    if len(sys.argv) == 3:
-        print(json.dumps(measure(folder, int(sys.argv[2]))))
+    if len(sys.argv) == 4:
+        print(json.dumps(measure(folder, int(sys.argv[2]), sys.argv[3])))
     else:
-        runs = []
-        for size in SIZES:
-            command = [sys.executable, __file__, str(folder), str(size)]
-            runs.append(
-                json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-            )
-            print(runs[-1], flush=True)
+        runs = {method: [run_alone(folder, frames, method) for frames in SIZES] for method in COLOURS}
+        print(json.dumps(runs))
         draw(runs)

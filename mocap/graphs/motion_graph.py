@@ -6,18 +6,17 @@ each edge plays some frames, and the frames of a walk are those of its edges in 
 """
 
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Unpack
 
 import networkx as nx
 
 from mocap._shared.collector import uncollected
-from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels
-from mocap.matching.transitions import Precision, Thresholds, Transition, find_transitions
+from mocap.matching.transitions import Search, Thresholds, Transition, find_transitions
 
 Node = tuple[int, int]
 
@@ -70,14 +69,8 @@ class MotionGraph:
         return sum(e["frames"] for _, _, e in self.graph.edges(data=True) if e["kind"] == "clip")
 
 
-def build(  # noqa: PLR0913 (what to find, how exactly, and where to work)
-    clips: Sequence[Motion],
-    *,
-    window: int,
-    threshold: Thresholds,
-    precision: Precision = "auto",
-    progress: Progress = iter,
-    executor: Executor | None = None,
+def build(
+    clips: Sequence[Motion], *, window: int, threshold: Thresholds, **search: Unpack[Search]
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
@@ -87,8 +80,8 @@ def build(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     window : frames in a transition, about a third of a second.
     threshold : every transition has an RMS distance of the points below this, metres; or one threshold for
         each pair of labels, as for `matching.find_transitions`.
-    precision, progress, executor : the precision of the comparison, a progress bar, and where the work is
-        done, as for `matching.find_transitions`.
+    **search : joint_weights, taper, precision, method, progress and executor, as for
+        `matching.find_transitions`.
 
     Raises
     ------
@@ -108,9 +101,7 @@ def build(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     Notebook: 00-quickstart
     """
     _require_names(clips)
-    found = find_transitions(
-        clips, window=window, below=threshold, precision=precision, progress=progress, executor=executor
-    )
+    found = find_transitions(clips, window=window, below=threshold, **search)
     return from_transitions(clips, found, window=window)
 
 

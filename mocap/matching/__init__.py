@@ -10,12 +10,20 @@ Reading order (notebooks 02, 05)
 2. `distance_grids`: all windows against all, by matrix products
 3. `other_metrics`: three metrics that fail, and why; `Metric`, the signature that all four have
 4. `minima`: the entries of a grid that are lower than all eight neighbours
-5. `tiled_search`: the minima of a grid that is too large to hold
-6. `transitions`: where one clip can pass into another
+5. `chosen_pairs`: some pairs of windows, one by one, and the transform that aligns each
+6. `tasks`: work by threads, processes or a cluster
+7. `lower_bound`: why most pairs need no look, with the proof
+8. `tiled_search`: the minima of a grid that is too large to hold
+9. `bounded_search`: the same minima from the pairs that the lower bound leaves
+10. `transitions`: where one clip can pass into another
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [FRM94] C. Faloutsos, M. Ranganathan, Y. Manolopoulos, *Fast Subsequence Matching in Time-Series
+   Databases*, SIGMOD 1994, doi 10.1145/191839.191925.
+.. [Keo02] E. Keogh, *Exact Indexing of Dynamic Time Warping*, VLDB 2002,
+   doi 10.1016/B978-155860869-6/50043-3.
 """
 
 import lazy_loader
@@ -41,8 +49,20 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "pose_grid",
             "file_angles",
         ],
-        "minima": ["local_minima"],
+        "minima": ["listed_minima", "local_minima"],
+        "chosen_pairs": ["pair_distances"],
+        "lower_bound": [
+            "Directions",
+            "Weights",
+            "evenly",
+            "principal_directions",
+            "projections",
+            "reach",
+            "whole_windows",
+            "window_numbers",
+        ],
         "tiled_search": ["find_minima"],
+        "bounded_search": ["find_minima_by_bound"],
         "transitions": ["Transition", "Transitions", "find_transitions"],
     },
 )

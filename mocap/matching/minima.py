@@ -1,5 +1,7 @@
 """The local minima of a distance grid: pairs of windows that are more alike than all their neighbours."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -45,3 +47,40 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> NDArray[np.intp]:
         lowest = value < neighbour if (row, column) < (0, 0) else value <= neighbour
         rows, columns = rows[lowest], columns[lowest]
     return np.stack([rows, columns], axis=-1)
+
+
+def listed_minima(pairs: NDArray[np.intp], values: NDArray[Any]) -> NDArray[np.intp]:
+    """Find the local minima of a grid of which only some entries are listed, as by `local_minima`.
+
+    Parameters
+    ----------
+    pairs : rows and columns, shape (2, N), each pair once; entries that are not listed count as infinite.
+    values : shape (N,).
+
+    Returns
+    -------
+    Which of the pairs are minima, as indices in reading order.
+
+    Examples
+    --------
+    >>> listed_minima(np.array([[0, 0, 7], [0, 1, 2]]), np.array([3.0, 2.0, 5.0]))
+    array([1, 2])
+
+    Notebook: 02c-most-pairs
+    """
+    rows, columns = pairs
+    width = columns.max(initial=0) + 3  # the entries beside a row's ends are those of no other row
+    keys = rows * width + columns
+    order = np.argsort(keys)
+    keys, values = keys[order], np.append(values[order], np.inf)
+    left = np.arange(len(keys))
+    for step in (
+        row * width + column for row in (-1, 0, 1) for column in (-1, 0, 1) if (row, column) != (0, 0)
+    ):
+        wanted = keys[left] + step
+        at = np.searchsorted(keys, wanted)
+        there = np.append(keys, -1)[at] == wanted
+        neighbour = np.where(there, values[at], np.inf)
+        lowest = values[left] < neighbour if step < 0 else values[left] <= neighbour
+        left = left[lowest]
+    return np.asarray(order[left])

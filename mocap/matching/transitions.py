@@ -5,25 +5,40 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, get_args, overload
+from typing import Any, Literal, NamedTuple, TypedDict, get_args, overload
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
+from mocap.matching.bounded_search import find_minima_by_bound, is_quicker
 from mocap.matching.distance_grids import Cloud, check_window, cloud
-from mocap.matching.point_clouds import point_cloud, require_near, unit_weights
+from mocap.matching.lower_bound import Weights
+from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
 from mocap.matching.tiled_search import find_minima
 
 Integers = NDArray[np.integer[Any]]
+Method = Literal["auto", "products", "bound"]
 Precision = Literal["auto", "single", "double"]
 Thresholds = float | Mapping[tuple[str, str], float]
 """One threshold in metres, or one for each pair of labels."""
+
+
+class Search(TypedDict, total=False):
+    """How `find_transitions` searches: its parameters that have defaults, for functions that pass them on."""
+
+    joint_weights: ArrayLike | None
+    taper: ArrayLike | None
+    precision: Precision
+    method: Method
+    progress: Progress
+    executor: Executor | None
+
 
 FEW = 20_000  # frames up to which "auto" is "double"
 
@@ -108,14 +123,17 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     *,
     window: int,
     below: Thresholds,
+    joint_weights: ArrayLike | None = None,
+    taper: ArrayLike | None = None,
     precision: Precision = "auto",
+    method: Method = "auto",
     progress: Progress = iter,
     executor: Executor | None = None,
 ) -> Transitions:
     """Find where one clip can pass into another: local minima of the distance grids of all pairs.
 
-    The grids are worked through in blocks and never held as a whole: memory grows with the number of
-    frames and of transitions found. A pair of windows is measured once, for both ways between them.
+    The grids are never held as a whole: memory grows with the number of frames and of transitions found. A
+    pair of windows is measured once, for both ways between them.
 
     Parameters
     ----------
@@ -125,10 +143,14 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         "run"): 0.05, ...}: from windows in which the first label is on to windows with the second, or back
         where that pair is not named itself. Where several pairs apply the strictest counts; where none
         applies there is no transition.
+    joint_weights, taper : of the points and of the frames of a window, as for `distance_grid`.
     precision : "double" works in 64 bits and finds the minima of `distance_grid`. "single" works in 32
         bits, up to twice as fast. Where a valley of the grid is flat, it can find a minimum a few frames
         further, or twice: measured on CMU subject 16, 1 minimum in 2000 at 30 frames per second, and 7 in
         1000 at 120. "auto" is "double" up to 20 000 frames in all clips together, and "single" above.
+    method : how to search; the transitions are the same. "products" measures all pairs of windows by matrix
+        products. "bound" measures only those that a lower bound of the distance leaves (`lower_bound` has
+        the proof). "auto" is "bound" above 20 000 windows, if a sample says that it leaves few pairs.
     progress : wraps the pairs of blocks as they are worked through, to show a bar.
     executor : where to work: threads, processes, or a cluster by `dask.distributed`'s
         `Client.get_executor()`; by default here, one block after the other. On machines of one kind the
@@ -143,7 +165,8 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
-        out of reach, thresholds that are not above 0, labels that no clip has, and another precision.
+        out of reach, thresholds that are not above 0, labels that no clip has, weights that are negative, all
+        0 or of the wrong shape, and another precision or method.
 
     Examples
     --------
@@ -164,11 +187,18 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         check_window(window, len(clip), f"'{clip.name}'")
     _check_thresholds(below, clips)
     dtype = _dtype(precision, sum(map(len, clips)))
+    _require_choice("method", method, Method)
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     if not clips:
         return _join(np.empty((6, 0)), clips, gap)
+    weights = Weights(
+        unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton))), unit_weights(taper, window)
+    )
+    ready = _prepare(clips, weights, gap, dtype)
     loosest = max(below.values()) if isinstance(below, Mapping) else below
-    found = find_minima(_prepare(clips, window, gap, dtype), loosest, progress=progress, executor=executor)
+    by_bound = method == "bound" or (method == "auto" and is_quicker(ready, weights, loosest))
+    search = find_minima_by_bound if by_bound else find_minima
+    found = search(ready, weights, loosest, progress=progress, executor=executor)
     transitions = _join(found, clips, gap)
     return transitions[transitions.cost < _limits(below, clips, window, transitions)]
 
@@ -187,25 +217,30 @@ def _check_thresholds(below: Thresholds, clips: Sequence[Motion]) -> None:
 
 
 def _dtype(precision: Precision, frames: int) -> type[np.floating[Any]]:
-    if precision not in get_args(Precision):
-        raise MocapError(f'A precision is "auto", "single" or "double", got {precision!r}.')
+    _require_choice("precision", precision, Precision)
     double = precision == "double" or (precision == "auto" and frames <= FEW)
     return np.float64 if double else np.float32
 
 
-def _prepare(clips: Sequence[Motion], window: int, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
+def _require_choice(name: str, choice: str, choices: Any) -> None:  # noqa: ANN401 (a Literal has no type)
+    if choice not in get_args(choices):
+        first, second, third = get_args(choices)
+        raise MocapError(f'A {name} is "{first}", "{second}" or "{third}", got {choice!r}.')
+
+
+def _prepare(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
     """Put all clips one after the other; windows that would run from one into the next have infinite size.
 
     After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
     """
-    clouds, level, taper = [], None, unit_weights(None, window)
+    clouds, level = [], None
     for clip in clips:
         points = point_cloud(clip)
         require_near(points, f"'{clip.name}'")
         level = points[..., 1].mean(0) if level is None else level
         points = np.pad(points, ((0, gap), (0, 0), (0, 0)), mode="edge")
-        clouds.append(cloud(points, level, unit_weights(None, points.shape[1]), taper, dtype))
-        clouds[-1].sizes[len(clip) - window + 1 :] = np.inf
+        clouds.append(cloud(points, level, *weights, dtype))
+        clouds[-1].sizes[len(clip) - len(weights.taper) + 1 :] = np.inf
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*clouds, strict=True)))
 
 

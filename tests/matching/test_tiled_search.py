@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.matching import distance_grids, tiled_search
+from mocap.matching import distance_grids, tasks, tiled_search
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
+from mocap.matching.lower_bound import Weights
 from mocap.matching.minima import local_minima
 from mocap.matching.tiled_search import find_minima
 from tests.strategies import seeds
@@ -21,10 +22,13 @@ def smooth_points(seed, frames):
     return np.sin(t + random.uniform(0, 6, (4, 3))) + random.normal(size=(frames, 4, 3)) * 0.01
 
 
+def equal(window):
+    return Weights(np.full(4, 0.25), np.full(window, 1 / window))
+
+
 def clouds(lengths, window, seed):
-    taper, weights = np.full(window, 1 / window), np.full(4, 0.25)
     parts = [
-        cloud(smooth_points(seed + n, length), np.zeros(4), weights, taper, np.float32)
+        cloud(smooth_points(seed + n, length), np.zeros(4), *equal(window), np.float32)
         for n, length in enumerate(lengths)
     ]
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
@@ -42,7 +46,7 @@ def test_blocks_and_tiles_do_not_show(below, seed, lengths, window, block):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tiled_search, "BLOCK", block)
         patch.setattr(distance_grids, "TILE", (5, 7))
-        found = find_minima(whole, below)
+        found = find_minima(whole, equal(window), below)
     order = np.lexsort(found[1::-1])
     i, j = found[:2].astype(int)
     assert np.stack([i, j], 1)[order].tolist() == expected
@@ -61,7 +65,7 @@ def test_no_more_is_measured_than_tiles_and_their_neighbours(monkeypatch):
     monkeypatch.setattr(tiled_search, "cloud_distances", recorded)
     monkeypatch.setattr(tiled_search, "BLOCK", 10)
     monkeypatch.setattr(distance_grids, "TILE", (3, 4))
-    find_minima(clouds([30], 2, 0), 0.8)
+    find_minima(clouds([30], 2, 0), equal(2), 0.8)
     assert (max(rows for rows, _ in shapes), max(columns for _, columns in shapes)) == (5, 6)
     assert len(shapes) == 3 * 12 + 7 + 7 + 6  # of the blocks on the diagonal, only the tiles above it
 
@@ -87,11 +91,11 @@ class Late:
 
 def test_only_a_few_blocks_are_out_at_once(monkeypatch):
     monkeypatch.setattr(tiled_search, "BLOCK", 4)
-    monkeypatch.setattr(tiled_search, "AHEAD", 5)
+    monkeypatch.setattr(tasks, "AHEAD", 5)
     whole, executor = clouds([30], 2, 0), Late()
-    expected = find_minima(whole, 2.0)
+    expected = find_minima(whole, equal(2), 2.0)
     assert expected.shape[1] > 3
-    assert np.array_equal(find_minima(whole, 2.0, executor=executor), expected)
+    assert np.array_equal(find_minima(whole, equal(2), 2.0, executor=executor), expected)
     assert (executor.most, executor.done, executor.out) == (5, 36, 0)
 
 
@@ -107,6 +111,6 @@ def test_after_an_error_nothing_is_left_waiting(monkeypatch):
             return futures[-1]
 
     with pytest.raises(KeyboardInterrupt):
-        find_minima(clouds([30], 2, 0), 0.8, executor=Failing())
+        find_minima(clouds([30], 2, 0), equal(2), 0.8, executor=Failing())
     assert len(futures) == 36
     assert all(future.cancelled() for future in futures[1:])

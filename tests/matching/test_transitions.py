@@ -12,7 +12,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.matching import tiled_search, transitions
+from mocap.matching import tasks, tiled_search, transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import point_cloud
@@ -245,7 +245,7 @@ def test_the_work_can_be_done_elsewhere(executor, monkeypatch):
 def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch):
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(tiled_search, "BLOCK", 40)
-    monkeypatch.setattr(tiled_search, "AHEAD", 2)
+    monkeypatch.setattr(tasks, "AHEAD", 2)
     expected = find_transitions(CLIPS, window=8, below=0.1)
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
     with cluster, distributed.Client(cluster) as client:

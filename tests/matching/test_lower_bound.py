@@ -1,0 +1,150 @@
+"""The bound never exceeds the distance, in 32 bits and in 64, and its margin covers what rounding does."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap import load, resample
+from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
+from mocap.matching.lower_bound import (
+    MOST,
+    Weights,
+    evenly,
+    principal_directions,
+    projections,
+    reach,
+    whole_windows,
+    window_numbers,
+)
+from mocap.matching.point_clouds import align, point_cloud, unit_weights
+from tests.strategies import planar, seeds
+
+precisions = pytest.mark.parametrize("dtype", [np.float32, np.float64])
+
+
+def prepared(points, window, dtype, random=None):
+    """Prepare points, with equal weights or random ones of which some are 0."""
+    sizes = points.shape[1], window
+    drawn = [None if random is None else random.integers(0, 4, n) + (np.arange(n) == 0) for n in sizes]
+    weights = Weights(*map(unit_weights, drawn, sizes))
+    return cloud(points, points[..., 1].mean(0), *weights, dtype), weights
+
+
+def apart(rows):
+    return np.linalg.norm(rows[:, None].astype(float) - rows, axis=-1)
+
+
+def measured(ready, taper):
+    count = len(whole_windows(ready))
+    return cloud_distances(*[ready.part(slice(0, count))] * 2, taper).astype(float)
+
+
+@precisions
+@settings(max_examples=25)
+@given(seeds, st.integers(1, 6), st.integers(1, 5), st.sampled_from([0.01, 1.0, 100.0]), st.booleans())
+def test_the_bound_is_below_the_distance_of_random_clouds(dtype, seed, window, points, size, weighted):
+    random = np.random.default_rng(seed)
+    clip = random.normal(size=(14 + window, points, 3)) * size
+    ready, weights = prepared(clip, window, dtype, random if weighted else None)
+    starts = whole_windows(ready)
+    numbers = window_numbers(ready, starts, weights)
+    grid = measured(ready, weights.taper)
+    for count in (1, 3, MOST):
+        found = projections(ready, starts, weights, principal_directions(numbers, count))
+        least = apart(found)
+        assert np.all(least <= np.vectorize(lambda cost: reach(ready, cost))(np.sqrt(grid)))
+        assert np.all(least <= apart(numbers) + 1e-4 * size)
+
+
+@given(seeds, planar)
+def test_no_planar_transform_changes_the_numbers(seed, transform):
+    clip = np.random.default_rng(seed).normal(size=(9, 4, 3))
+    ready, weights = prepared(clip, 3, np.float64)
+    moved, _ = prepared(transform.apply_points(clip), 3, np.float64)
+    starts = whole_windows(ready)
+    numbers, others = (window_numbers(each, starts, weights) for each in (ready, moved))
+    assert numbers == pytest.approx(others, abs=1e-9)
+
+
+@given(seeds)
+def test_the_numbers_are_heights_and_distances_from_the_middle_of_the_window(seed):
+    clip = np.random.default_rng(seed).normal(size=(5, 4, 3))
+    weights = Weights(np.full(4, 1 / 4), np.full(5, 1 / 5))
+    ready = cloud(clip, np.zeros(4), *weights, np.float64)
+    ((*heights_and_radii,),) = window_numbers(ready, np.array([0]), weights)
+    middle = clip[..., [0, 2]].mean((0, 1))
+    radii = np.linalg.norm(clip[..., [0, 2]] - middle, axis=-1)
+    wanted = np.concatenate([clip[..., 1], radii], axis=1).ravel() / np.sqrt(20)
+    assert heights_and_radii == pytest.approx(wanted)
+
+
+def test_where_only_heights_differ_the_bound_is_the_distance():
+    """So it cannot be higher: a better bound has to look at directions on the ground."""
+    clip = np.random.default_rng(0).normal(size=(1, 6, 3))
+    lifted = clip + np.random.default_rng(1).normal(size=(1, 6, 1)) * [0, 1, 0]
+    weights = Weights(np.full(6, 1 / 6), np.ones(1))
+    both = [cloud(each, np.zeros(6), *weights, np.float64) for each in (clip, lifted)]
+    first, second = (window_numbers(each, np.array([0]), weights) for each in both)
+    left = clip - align(clip[0], lifted[0]).apply_points(lifted)
+    assert ((first - second) ** 2).sum() == pytest.approx((left**2).sum(-1).mean())
+
+
+@precisions
+def test_the_margin_is_small_beside_a_threshold_and_grows_with_the_bodies(dtype):
+    body = np.random.default_rng(0).normal(size=(40, 31, 3)) * [0.3, 0.5, 0.3]
+    ready, _ = prepared(body, 10, dtype)
+    large, _ = prepared(10 * body, 10, dtype)
+    margins = [reach(each, 0.04) - 0.04 for each in (ready, large)]
+    assert 0 < margins[0] < (3e-4 if dtype == np.float32 else 1e-11)
+    assert margins[1] > 5 * margins[0]
+
+
+def test_a_margin_of_nothing_would_lose_pairs_in_32_bits():
+    """The measured distance of two windows can be less than the bound: this is what `reach` is for."""
+    random = np.random.default_rng(5)
+    clip = random.normal(size=(30, 8, 3)) * [0, 1, 0] + [0, 5, 0]  # only heights differ, so bound = distance
+    ready, weights = prepared(
+        np.concatenate([clip, clip + 1e-3 * random.normal(size=clip.shape)]), 1, np.float32
+    )
+    starts = whole_windows(ready)
+    numbers = window_numbers(ready, starts, weights)
+    least = apart(projections(ready, starts, weights, principal_directions(numbers)))
+    cost = np.sqrt(measured(ready, weights.taper))
+    assert np.any(least > cost)
+    assert np.all(least <= np.vectorize(lambda each: reach(ready, each))(cost))
+
+
+def test_directions_are_orthonormal_and_those_of_most_variance_come_first():
+    numbers = np.random.default_rng(0).normal(size=(200, 12)) * np.arange(1, 13)
+    _, axes = principal_directions(numbers, 5)
+    assert axes.T @ axes == pytest.approx(np.eye(5), abs=1e-12)
+    spread = ((numbers - numbers.mean(0)) @ axes).var(0)
+    assert np.all(np.diff(spread) < 0) and spread[0] == pytest.approx(
+        np.linalg.eigvalsh(np.cov(numbers.T, bias=True))[-1]
+    )
+
+
+def test_items_are_taken_evenly():
+    assert [len(evenly(np.arange(n), 7)) for n in (0, 3, 7, 8, 100)] == [0, 3, 7, 4, 7]
+
+
+@precisions
+def test_the_bound_is_below_the_distance_of_real_windows(real_data, dtype):
+    random = np.random.default_rng(0)
+    paths = sorted((real_data / "cmu").glob("*/*.amc"))
+    points = [point_cloud(resample(load(path), 30)) for path in random.permutation(np.array(paths))[:8]]
+    window, level = 10, points[0][..., 1].mean(0)
+    weights = Weights(unit_weights(None, 31), unit_weights(None, window))
+    parts = [cloud(each[:300], level, *weights, dtype) for each in points if len(each) > 40]
+    ready = Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+    starts = whole_windows(ready)
+    numbers = window_numbers(ready, starts, weights)
+    count = len(ready.sizes) - window + 1
+    whole = ready.part(slice(0, count))
+    cost = np.sqrt(cloud_distances(whole, whole, weights.taper).astype(float))[np.ix_(starts, starts)]
+    least = apart(projections(ready, starts, weights, principal_directions(numbers, 16)))
+    far = reach(ready, 0.04)
+    assert np.all(least[cost < 0.04] <= far)
+    assert np.all(least <= np.sqrt(cost**2 + far**2 - 0.04**2) + far - 0.04)
+    assert np.mean(least < 0.04) < 0.2
