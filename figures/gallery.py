@@ -226,8 +226,12 @@ def draw_seam() -> Figure:
     ankles = [walk.skeleton.index(name) for name in ("lfoot", "rfoot")]
     heights = 100 * joint_positions(walk)[:, ankles, 1]
     seams = [(seam.frame, seam.frame + WINDOW) for seam in synthesis.seams(graph, edges)]
-    labels = ["left ankle (cm)", "right ankle (cm)"]
-    plotting.joint_curve(heights, fps=30, seams=seams, labels=labels)
+    curves = plotting.joint_curve(heights, fps=30, seams=seams)
+    for curve, side in zip(curves, ("left", "right"), strict=True):
+        curve.set(color=COLOURS[side], label=f"{side} ankle")
+    ax = curves[0].axes
+    ax.set_ylabel("height (cm)")
+    ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2)
     return plt.gcf()
 
 
@@ -254,7 +258,7 @@ def draw_feet() -> Figure:
     ground.xaxis.set_inverted(True)
     ground.margins(0.15)
     speed.set(xlim=(-0.8, 1.2), ylim=(0, 80), xlabel="seconds from the start of the seam")
-    speed.set(ylabel="cm/s", title="speed of the toes")
+    speed.set(ylabel="speed (cm/s)", title="the toes over time")
     speed.legend(frameon=False, loc="upper left")
     return figure
 
