@@ -124,7 +124,8 @@ def _recorded(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
         watching = f"from mocap.widgets import recording\nrecording.watch({folder!r})"
         again.cells.insert(0, new_code_cell(watching))
         try:
-            NotebookClient(again, timeout=600, resources={"metadata": {"path": file.parent}}).execute()
+            place, quiet = {"metadata": {"path": file.parent}}, ["--log-level=ERROR"]
+            NotebookClient(again, timeout=600, resources=place, extra_arguments=quiet).execute()
         except CellExecutionError as error:
             raise MocapError(f"{file}: a cell fails with {error.ename}: {error.evalue:.99}") from error
         recorded = [json.loads(kept.read_text("utf-8")) for kept in sorted(Path(folder).iterdir())]
