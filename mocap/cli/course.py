@@ -28,7 +28,14 @@ def add_course(commands: "Commands") -> None:
     )
     doing = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add(doing, "handout", _handout, "copy the notebooks without their solutions", Path("mocap-handout"))
-    _add(doing, "site", _site, "write the course as HTML pages that need no network", Path("mocap-site"))
+    site = _add(
+        doing, "site", _site, "write the course as HTML pages that need no network", Path("mocap-site")
+    )
+    site.add_argument(
+        "--moving",
+        action="store_true",
+        help="run the notebooks (minutes) and record the experiments' sliders",
+    )
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
     mark.description = MARKING
@@ -53,7 +60,9 @@ def _handout(options: argparse.Namespace) -> int:
 
 
 def _site(options: argparse.Namespace) -> int:
-    print(f"wrote {course.build_site(course.stored(), options.out, bar('converting'))}")
+    print(
+        f"wrote {course.build_site(course.stored(), options.out, bar('converting'), moving=options.moving)}"
+    )
     return 0
 
 
