@@ -74,7 +74,7 @@ def row(name: str, followed: Followed, seconds: float) -> str:
     return (
         f"| {name} | {followed.path.length:.1f} | {followed.seconds:.1f} "
         f"| {100 * followed.off.mean():.1f} | {100 * followed.off.max():.1f} "
-        f"| {100 * followed.off_at_length.mean():.1f} | {followed.seams_a_second:.2f} "
+        f"| {100 * followed.off_at_length.mean():.1f} | {followed.seams_per_second:.2f} "
         f"| 1/{followed.seconds / seconds:.0f} "
         f"| {slides[0]:.1f} | {slides[1]:.1f} |"
     )
@@ -189,7 +189,7 @@ def _mean(graph: CompiledGraph, price: float) -> tuple[float, float, float]:
     beam, prices = Beam(width=100, rescue=max(1.5, 2 * price)), Prices(seam=price)
     walks = [follow_path(graph, draw(), beam=beam, prices=prices, tries=1) for draw in SHAPES.values()]
     near, equal = (np.mean([100 * off.mean() for off in offs]) for offs in _offs(walks))
-    return float(np.mean([w.seams_a_second for w in walks])), float(near), float(equal)
+    return float(np.mean([w.seams_per_second for w in walks])), float(near), float(equal)
 
 
 def _offs(walks: list[Followed]) -> tuple[list[Array], list[Array]]:

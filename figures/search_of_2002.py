@@ -56,7 +56,7 @@ def row(name: str, walks: list[Followed]) -> str:
     return (
         f"| {name} | {quartiles([100 * walk.off.mean() for walk in walks])} "
         f"| {quartiles([100 * walk.off_at_length.mean() for walk in walks])} "
-        f"| {np.median([walk.seams_a_second for walk in walks]):.2f} "
+        f"| {np.median([walk.seams_per_second for walk in walks]):.2f} "
         f"| {np.median([walk.found.expanded for walk in walks]):.0f} | {complete} of {len(walks)} |"
     )
 

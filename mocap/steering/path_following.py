@@ -81,7 +81,7 @@ class Followed:
         return len(self.off) / self.graph.clips[0].fps
 
     @property
-    def seams_a_second(self) -> float:
+    def seams_per_second(self) -> float:
         """Transitions per second of motion."""
         kinds = [self.graph.graph.edges[edge]["kind"] for edge in self.walk]
         return kinds.count("transition") / self.seconds
@@ -89,7 +89,7 @@ class Followed:
     @property
     def excess(self) -> float:
         """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
-        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_a_second / SEAMS))
+        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_per_second / SEAMS))
 
     @property
     def progress(self) -> float:
@@ -112,7 +112,7 @@ class Followed:
             f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
             f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst "
             f"({100 * self.off_at_length.mean():.1f} cm at equal arc length), "
-            f"{self.seams_a_second:.2f} seams per second"
+            f"{self.seams_per_second:.2f} seams per second"
         )
         if self.unlabelled.any():
             line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
@@ -192,7 +192,7 @@ def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Pri
     for again in range(1, tries):
         if best.excess <= 1 or last.found.stopped:
             return best
-        seam = prices.seam * (AGAIN if best.seams_a_second > SEAMS else 1 / AGAIN)
+        seam = prices.seam * (AGAIN if best.seams_per_second > SEAMS else 1 / AGAIN)
         left = beam.seconds - (time.monotonic() - begun)
         wider = replace(beam, width=round((1 + again / 2) * (beam.width or 0)), seconds=left)
         try:

@@ -37,7 +37,7 @@ def test_walks_stay_on_their_paths(shape):
     assert followed.off.mean() < 0.06
     assert followed.off.max() < 0.3
     assert followed.progress == 1.0
-    assert followed.seams_a_second < 1.6
+    assert followed.seams_per_second < 1.6
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
@@ -80,7 +80,7 @@ def test_with_every_term_off_the_cost_is_eq_9():
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_dear_seams_are_few():
     cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam), tries=1) for seam in (0.01, 2.0))
-    assert dear.seams_a_second < 0.8 * cheap.seams_a_second
+    assert dear.seams_per_second < 0.8 * cheap.seams_per_second
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
@@ -108,7 +108,7 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     assert widths() == [50]
     better = follow_path(GRAPH, s_curve())
     assert better.excess == min(walk.excess for walk in walks)
-    assert (tried[1][1].seam > Prices.seam) == (once.seams_a_second > 1)
+    assert (tried[1][1].seam > Prices.seam) == (once.seams_per_second > 1)
     assert widths() in ([50, 75], [50, 75, 100])
     with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
         slow.setattr("mocap.steering.beam_search.time", SimpleNamespace(monotonic=count().__next__))
@@ -227,4 +227,4 @@ def test_real_walks_stay_on_their_paths(cmu, shape):
     followed = follow_path(cmu, ground_path.SHAPES[shape]())
     assert followed.off.mean() <= 0.04
     assert followed.off.max() <= 0.15
-    assert followed.seams_a_second <= 1.0
+    assert followed.seams_per_second <= 1.0
