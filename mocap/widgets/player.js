@@ -87,7 +87,7 @@ class Player {
     const span = (i) => places.reduce(([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])], [Infinity, -Infinity]);
     const [[x0, x1], [z0, z1]] = [span(0), span(1)];
     this.centre = [(x0 + x1) / 2, 0.8, (z0 + z1) / 2];
-    const corners = places.flatMap(([x, z]) => [[x - 0.3, 0, z - 0.3], [x + 0.3, 1.9, z + 0.3]]);
+    const corners = places.flatMap(([x, z]) => [-0.3, 0.3].flatMap((d) => [[x + d, 0, z + d], [x + d, 1.9, z + d]]));
     const wide = this.canvas.clientWidth || 720, high = this.canvas.clientHeight || 380;
     const outside = ([x, y]) => Math.abs(x / wide - 0.5) > 0.47 || Math.abs(y / high - 0.5) > 0.47;
     const fits = () => {

@@ -228,6 +228,21 @@ def test_figure_path_and_controls_are_in_sight(resting, wide, high, page, artefa
     assert page.evaluate(f"{PLAYER}.reach") > 3
 
 
+@pytest.mark.parametrize("drawable", ["false", "true"])
+def test_a_corner_near_the_reader_is_off_the_edge(resting, drawable):
+    page = resting(play(wave(60), path=[(0, 0), (0, 3), (2, 5), (2, 9), (-1, 10)], follow=False))
+    heights = page.evaluate(f"""() => {{
+        const p = {PLAYER};
+        p.scene.drawable = {drawable};
+        p.frameAll();
+        p.draw();
+        const high = p.canvas.clientHeight;
+        return p.scene.asked.map(([x, z]) => p.camera.pixel(p.camera.see(x, 0, z))[1] / high);
+    }}""")
+    assert min(heights) > 0.03
+    assert max(heights) < 0.97
+
+
 def test_fingers_have_room(browser, tmp_path):
     file = tmp_path / "player.html"
     file.write_text(play(wave(60)).page(), "utf-8")
