@@ -1,5 +1,6 @@
 """Motions as files to look at: films, strips of poses, pages with the player."""
 
+import re
 import subprocess
 from collections.abc import Iterator
 from contextlib import suppress
@@ -112,7 +113,8 @@ def _write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) ->
         said.seek(0)
         if failed:
             *_, last = said.read().decode(errors="replace").splitlines() or ["it ended early"]
-            raise MocapError(f"ffmpeg cannot write the film: {last[:120].strip()}.")
+            reason = re.sub(r"^(\[[^]]*\] )*", "", last)  # without ffmpeg's own names
+            raise MocapError(f"ffmpeg cannot write the film: {reason[:120].strip()}.")
 
 
 def _require_ffmpeg() -> None:

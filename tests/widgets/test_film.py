@@ -83,7 +83,9 @@ def test_what_ffmpeg_complains_of_is_the_error_and_the_old_film_stays(tmp_path, 
     ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
     fake = tmp_path / "ffmpeg"
     rest = "cat > /dev/null\n" if reads else ""
-    fake.write_text(f"#!/bin/sh\n{rest}echo 'av_write: No space left on device' >&2\nexit 1\n")
+    fake.write_text(
+        f"#!/bin/sh\n{rest}echo '[out#0/mp4 @ 0x5f] av_write: No space left on device' >&2\nexit 1\n"
+    )
     fake.chmod(0o755)
     monkeypatch.setattr(ffmpeg, "get_ffmpeg_exe", lambda: str(fake))
     old = tmp_path / "wave.mp4"
