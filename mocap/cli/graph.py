@@ -54,6 +54,8 @@ def _build(options: argparse.Namespace) -> int:
         require_writable(target)
     if options.graphml and options.graphml.suffix.lower() != ".graphml":
         raise MocapError(f"--graphml writes .graphml, got '{options.graphml}'.")
+    if options.by_labels and options.whole:
+        raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
     window = window_frames(options.window, options.fps)
     found = files.find_files(options.clips)
     clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))

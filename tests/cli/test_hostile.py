@@ -110,6 +110,7 @@ def test_an_option_gets_an_answer_or_one_sentence(folder, monkeypatch, capfd, co
         (["walk", "g.npz", "--path", "p.csv", "--width", "-1"], "--width: '-1' is not a whole number from 1"),
         (["walk", "g.npz", "--path", "p.csv", "--seed", "1"], "--seed belongs to --random"),
         (["walk", "g.npz", "--random", "1s", "-o", "nowhere/x.bvh"], "Cannot write nowhere"),
+        (["graph", "a.bvh", "--by-labels", "--whole"], "give one of them"),
         (["info", "a.bvh", "--skeleton", "nothing.asf"], "--skeleton is for .amc clips"),
         (["info", "a.bvh", "--nope"], "unrecognized arguments: --nope (see mocap info --help)"),
         (["convert", "a.bvh", "a.bvh"], "is one of the files to convert"),
