@@ -269,9 +269,9 @@ def _skeleton_for(path: Path) -> Path:
                 return file
     if len(fitting) == 1:
         return fitting[0]
-    found = ", ".join(file.name for file in fitting or beside) or "no .asf file"
-    problem = "several fit" if fitting else "none fits"
-    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", f"{problem} ({found})")
+    found = ", ".join(file.name for file in fitting or beside)
+    problem = f"{'several that fit' if fitting else 'none that fits'} ({found})" if beside else "none"
+    raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", problem)
 
 
 def _fits(file: Path, counts: dict[str, int]) -> bool:

@@ -65,9 +65,9 @@ def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
 @pytest.mark.parametrize(
     ("skeletons", "message"),
     [
-        ({}, r"named by skeleton=, got none fits \(no .asf file\)"),
-        ({"a": ("tail", 1), "b": ("tail", 1)}, r"none fits \(a.ASF, b.ASF\)"),
-        ({"a": ("spine", 1), "b": ("spine", 2)}, r"several fit \(a.ASF, b.ASF\)"),
+        ({}, r"named by skeleton=, got none$"),
+        ({"a": ("tail", 1), "b": ("tail", 1)}, r"none that fits \(a.ASF, b.ASF\)"),
+        ({"a": ("spine", 1), "b": ("spine", 2)}, r"several that fit \(a.ASF, b.ASF\)"),
     ],
 )
 def test_the_candidates_are_named(folder, skeletons, message):
