@@ -32,16 +32,17 @@ FOLDER = Path(__file__).parent
 SIZES = (5_000, 10_000, 20_000, 40_000, 80_000, 200_000)
 COLOURS = {"products": "#D55E00", "bound": "#0072B2"}
 BELOW = 0.04  # metres
+SPREAD = 1.75  # degrees by which a joint is turned, the standard deviation
 
 
 def varied(take: mocap.Motion, random: np.random.Generator) -> mocap.Motion:
-    """Play a take of 120 Hz at 30 Hz and at changing speeds, with its joints turned by a degree or so."""
+    """Play a take of 120 Hz at 30 Hz and at changing speeds, with each joint turned by a small angle."""
     pace = np.exp(random.normal(0, 0.1)) * (1 + 0.2 * np.sin(np.arange(len(take)) / random.uniform(40, 120)))
     times = np.cumsum(4 * pace)
     frames = np.round(times[times < len(take) - 1]).astype(int)
     shape = (take.rotations.shape[1], 3)
     always, phase, rate = (
-        random.normal(0, 1, shape),
+        random.normal(0, SPREAD, shape),
         random.uniform(0, 6, shape),
         random.uniform(0.02, 0.1, shape),
     )

@@ -31,9 +31,9 @@ from mocap.matching.tasks import run_in_order
 
 Indices = NDArray[np.intp]
 
-BLOCK = 8192  # windows on each side of the part of the grid that a worker gets at a time
-ROWS = 512  # of these on one side are looked up at a time, so that even a loose threshold leaves memory
-FIRST = 16  # directions of the k-d tree
+BLOCK = 16384  # windows on each side of the part of the grid that a worker gets at a time
+ROWS = 1024  # of these on one side are looked up at a time, so that even a loose threshold leaves memory
+FIRST = 12  # directions of the k-d tree
 AT_ONCE = 1 << 16  # pairs in a second look
 MANY = 20_000  # windows up to which products are quicker
 LOOSE = 0.005  # share of pairs within reach above which products are quicker

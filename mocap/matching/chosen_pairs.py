@@ -50,10 +50,10 @@ def _distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Floats) -> Flo
     ends = np.cumsum(fresh)  # of each window's products, in the list of all
     frames = np.arange(ends[-1]) - np.repeat(ends - window, fresh)
     rows, columns = np.repeat(i, fresh) + frames, np.repeat(j, fresh) + frames
-    ground = np.einsum("np,np->n", a.ground[rows], b.ground[columns].conj())
-    heights = np.einsum("np,np->n", a.heights[rows], b.heights[columns])
+    ground = np.vecdot(a.ground[rows], b.ground[columns])
+    heights = np.vecdot(a.heights[rows], b.heights[columns])
     starts = ends - window
-    across = np.einsum("nf,nf->n", a.paths[i], b.paths[j].conj())
+    across = np.vecdot(a.paths[i], b.paths[j])
     across += sum(weight * ground[starts + f] for f, weight in enumerate(taper))
     up = sum(weight * heights[starts + f] for f, weight in enumerate(taper))
     return np.asarray(np.maximum(a.sizes[i] + b.sizes[j] - 2 * (np.abs(across) + up), 0))

@@ -117,10 +117,7 @@ def sample_directions(cloud: Cloud, weights: Weights) -> Directions:
 
 
 def projections(cloud: Cloud, starts: NDArray[np.intp], weights: Weights, directions: Directions) -> Floats:
-    """Project the f of windows, some at a time; in the cloud's precision, shape (N, d).
-
-    Notebook: 02c-most-pairs
-    """
+    """Project the f of windows, some at a time; in the cloud's precision, shape (N, d)."""
     found = np.empty((len(starts), directions.axes.shape[1]), cloud.heights.dtype)
     for start in range(0, len(starts), AT_ONCE):
         part = slice(start, start + AT_ONCE)

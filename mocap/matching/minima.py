@@ -65,8 +65,6 @@ def listed_minima(pairs: NDArray[np.intp], values: NDArray[Any]) -> NDArray[np.i
     --------
     >>> listed_minima(np.array([[0, 0, 7], [0, 1, 2]]), np.array([3.0, 2.0, 5.0]))
     array([1, 2])
-
-    Notebook: 02c-most-pairs
     """
     rows, columns = pairs
     width = columns.max(initial=0) + 3  # the entries beside a row's ends are those of no other row

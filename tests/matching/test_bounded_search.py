@@ -178,7 +178,7 @@ def assert_all_found(clips):
 
 
 def test_every_transition_of_some_real_clips_is_found(real_data):
-    assert_all_found(real_clips(real_data, "16/16_[1-3]*.amc"))
+    assert_all_found(real_clips(real_data, "16/16_[13][5-7].amc"))
 
 
 @pytest.mark.exhaustive
