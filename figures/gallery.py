@@ -187,6 +187,26 @@ def draw_distances() -> Figure:
     return plt.gcf()
 
 
+def draw_most_pairs() -> Figure:
+    """Draw the lower bound of pairs of windows against their RMS distance, and the few below 4 cm."""
+    clips = [resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2")]
+    points = [matching.point_cloud(clip) for clip in clips]
+    weights = matching.Weights(np.full(31, 1 / 31), np.full(WINDOW, 1 / WINDOW))
+    ready = [matching.cloud(each, np.zeros(31), *weights, np.float64) for each in points]
+    rows = [matching.window_numbers(each, matching.whole_windows(each)[::8], weights) for each in ready]
+    bound = 100 * np.linalg.norm(rows[0][:, None] - rows[1], axis=-1)
+    rms = 100 * np.sqrt(matching.distance_grid(*points, window=WINDOW)[::8, ::8])
+    figure = plt.figure(figsize=(6, 4), layout="constrained")
+    ax = figure.add_subplot()
+    for looked_at, colour in ((bound > 4, plotting.QUIET), (bound <= 4, CURVES[0])):
+        ax.plot(rms[looked_at], bound[looked_at], ".", color=colour, markersize=4)
+    ax.axline((0, 0), slope=1, color=ASKED, linewidth=1)
+    ax.axhline(4, color=CURVES[1])
+    ax.axvline(4, color=CURVES[1], linestyle=":")
+    ax.set(xlabel="RMS distance (cm)", ylabel="lower bound (cm)", xlim=(0, None), ylim=(0, None))
+    return figure
+
+
 def draw_pruning() -> Figure:
     """Draw the graph of eight nodes before and after pruning."""
     graph, places = graphs.notes_example(), diagrams.EIGHT_PLACES
@@ -423,6 +443,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "nodes": draw_nodes,
     "clouds": draw_clouds,
     "distances": draw_distances,
+    "most_pairs": draw_most_pairs,
     "pruning": draw_pruning,
     "components": draw_components,
     "path": draw_path,

@@ -8,7 +8,7 @@ Reading order (notebooks 00 to 09)
 ----------------------------------
 1. `two_clips`: a motion graph's nodes and edges on the timelines of two clips
 2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
-3. `windows`: what a window is, what two windows have in common, and sums along diagonals
+3. `windows`: what a window is, what two windows have in common, their lower bound, and sums along diagonals
 4. `laying_clouds`: one cloud of points laid on another, from above
 5. `ground`: turns, headings, and one clip aligned with another, seen from above
 6. `seams`: frames of a transition, ways between two rotations, and a leg as a triangle
@@ -30,7 +30,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "two_clips": ["nodes_and_edges"],
         "quaternions": ["double_cover", "half_turns", "turns_in_order"],
         "laying_clouds": ["laying_on", "turning"],
-        "windows": ["diagonal_sums", "matched_windows", "window_cloud"],
+        "windows": ["diagonal_sums", "matched_windows", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],
         "seams": ["blended_seam", "knee_triangle", "turning_paths"],
         "small_graphs": ["EIGHT_PLACES", "segments_in_rows", "tarjan_states", "tarjan_step"],

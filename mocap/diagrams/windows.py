@@ -1,4 +1,4 @@
-"""What a window is, what Eq. 1 of [KGP02] compares, and how sums along diagonals cover all windows."""
+"""What a window is, what Eq. 1 of [KGP02] compares, a lower bound of it, and sums along diagonals."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Circle, Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike
@@ -110,6 +110,60 @@ def _sides_and_bodies(figure: Figure, names: Sequence[str]) -> None:
         keys.append(line)
     (thread,) = figure.axes[0].plot([], [], [], color=QUIET, linewidth=1, label="joint to joint")
     figure.legend(handles=[*keys, thread], loc="lower center", ncols=5, frameon=False, fontsize=9)
+
+
+CIRCLE_STEPS = ("each from its own middle", "where a turn can move each point", "what no turn can remove")
+
+
+def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: int = 3) -> Figure:
+    """Draw from above why two windows cannot come nearer than their points' distances from the middle.
+
+    Parameters
+    ----------
+    first, second : windows of as many frames; their middle frames are drawn.
+    joints : the names of the joints to draw.
+    step : 1 the points, each from the middle of its window; 2 the circles on which a turn of the second
+        moves its points, and those of the first; 3 the gap between the two circles of each joint.
+
+    Examples
+    --------
+    >>> from mocap import datasets, resample
+    >>> walk = resample(datasets.sample("walk_straight"), 30)
+    >>> radius_gaps(walk[:10], walk[:10], ["head"], step=3).axes[0].get_title()
+    'what no turn can remove: head 0 cm'
+
+    Notebook: 02c-most-pairs
+    """
+    _require_step(step, len(CIRCLE_STEPS))
+    figure = Figure(figsize=(5.6, 5.2), layout="constrained")
+    ax = figure.add_subplot()
+    places = [_from_middle(motion, joints) for motion in (first, second)]
+    radii = np.linalg.norm(places, axis=-1)
+    for motion, points, sizes, colour in zip((first, second), places, radii, SOURCES, strict=False):
+        ax.plot(*points.T, "o", color=colour, label=motion.name)
+        for radius in sizes if step > 1 else ():
+            ax.add_patch(Circle((0, 0), radius, fill=False, color=colour, linewidth=0.8))
+    for name, point, (inner, outer) in zip(joints, places[0], np.sort(radii.T, axis=1), strict=True):
+        ax.annotate(name, point, (4, 4), textcoords="offset points", fontsize=9)
+        if step == len(CIRCLE_STEPS):
+            ray = point / max(np.linalg.norm(point), 1e-9)
+            ax.plot(*np.outer(ray, (inner, outer)), color=COLOURS["middle"], linewidth=4)
+    gaps = ", ".join(
+        f"{n} {100 * g:.0f} cm" for n, g in zip(joints, np.abs(np.diff(radii, axis=0))[0], strict=True)
+    )
+    ax.set_title(CIRCLE_STEPS[step - 1] + (f": {gaps}" if step == len(CIRCLE_STEPS) else ""), fontsize=11)
+    ax.plot(0, 0, "+", color=QUIET)
+    limit = 1.15 * radii.max() + 0.01
+    ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))
+    ax.legend(fontsize=9)
+    return figure
+
+
+def _from_middle(motion: Motion, joints: Sequence[str]) -> Array:
+    """Give (z, x) of joints in the middle frame, from the middle of all points of the window."""
+    numbers = [motion.skeleton.index(name) for name in joints]
+    middle = point_cloud(motion).mean((0, 1))
+    return np.asarray((joint_positions(motion)[len(motion) // 2, numbers] - middle)[:, [2, 0]])
 
 
 def _beside(ax: Axes3D, motion: Motion, points: Array) -> Axes3D:

@@ -105,3 +105,25 @@ def test_windows_that_do_not_fit_are_refused():
 
 def test_the_steps_have_names():
     assert len(windows.WINDOW_STEPS) == 4
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.0, -2.5])
+def test_the_gaps_between_circles_are_the_same_however_a_window_is_turned(turn):
+    first, second = (resample(datasets.sample(name), 30)[60:70] for name in ("walk_curve_1", "jog"))
+    moved = PlanarTransform(turn, 3.0, -1.0).apply_motion(second)
+    figure = diagrams.radius_gaps(first, moved, ["lfoot", "rhand", "head"], step=3)
+    assert (
+        figure.axes[0].get_title()
+        == diagrams.radius_gaps(first, second, ["lfoot", "rhand", "head"], step=3).axes[0].get_title()
+    )
+    assert len(figure.axes[0].patches) == 6
+
+
+def test_circles_and_gaps_come_one_after_the_other():
+    window = resample(datasets.sample("jog"), 30)[:10]
+    drawn = [diagrams.radius_gaps(window, window, ["lfoot", "head"], step=step).axes[0] for step in (1, 2, 3)]
+    assert [len(ax.patches) for ax in drawn] == [0, 4, 4]
+    assert [len(ax.lines) for ax in drawn] == [3, 3, 5]
+    assert drawn[2].get_title() == "what no turn can remove: lfoot 0 cm, head 0 cm"
+    with pytest.raises(MocapError, match="steps 1 to 3, got 4"):
+        diagrams.radius_gaps(window, window, ["head"], step=4)
