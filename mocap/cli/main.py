@@ -28,7 +28,9 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser: argparse.ArgumentParser = _Parser(prog="mocap", description="New human motion out of captured motion.")
+    parser: argparse.ArgumentParser = _Parser(
+        prog="mocap", description="New human motion out of captured motion."
+    )
     parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     for add in (
