@@ -11,7 +11,7 @@ from mocap.matching.distance_grids import Cloud, Floats
 
 Indices = NDArray[np.intp]
 
-AT_ONCE = 8192  # pairs measured together, to limit the memory
+AT_ONCE = 1024  # pairs measured together, to limit the memory
 
 
 def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Floats:

@@ -40,8 +40,8 @@ from mocap._shared.arrays import Array
 from mocap.matching.distance_grids import Cloud, Floats
 
 MOST = 96  # directions; more leave hardly fewer pairs
-SAMPLE = 4000  # windows that decide on the directions: any orthonormal ones are right, these are good
-AT_ONCE = 1024  # windows whose f is held at a time
+SAMPLE = 2000  # windows that decide on the directions: any orthonormal ones are right, these are good
+AT_ONCE = 256  # windows whose f is held at a time
 
 
 class Weights(NamedTuple):
