@@ -27,10 +27,11 @@ import numpy as np
 import mocap
 from mocap.body import rotations
 from mocap.matching import find_transitions
+from mocap.plotting import CURVES
 
 FOLDER = Path(__file__).parent
 SIZES = (5_000, 10_000, 20_000, 40_000, 80_000, 200_000)
-COLOURS = {"products": "#D55E00", "bound": "#0072B2"}
+COLOURS = {"bound": CURVES[0], "products": CURVES[1]}
 BELOW = 0.04  # metres
 SPREAD = 1.75  # degrees by which a joint is turned, the standard deviation
 
@@ -85,7 +86,7 @@ def draw(runs: dict[str, list[dict[str, float]]]) -> None:
     figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
     labels = {"products": "all pairs, by products", "bound": "what the bound leaves"}
     for method, colour in COLOURS.items():
-        frames = [run["frames"] for run in runs[method]]
+        frames = [run["frames"] / 1000 for run in runs[method]]
         for ax, key in zip(axes, ("cpu", "memory", "found"), strict=True):
             ax.plot(frames, [run[key] for run in runs[method]], "o-", color=colour, label=labels[method])
     axes[0].set(xscale="log", yscale="log", ylabel="core seconds", title="time")
@@ -93,7 +94,7 @@ def draw(runs: dict[str, list[dict[str, float]]]) -> None:
     axes[2].set(xscale="log", yscale="log", ylabel="transitions", title=f"found below {100 * BELOW:g} cm")
     axes[0].legend(fontsize=8)
     for ax in axes:
-        ax.set(xlabel="frames at 30 Hz")
+        ax.set(xlabel="thousand frames at 30 Hz")
         ax.grid(alpha=0.3)
     figure.savefig(FOLDER / "growth.png", dpi=110)
     plt.close(figure)

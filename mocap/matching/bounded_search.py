@@ -35,7 +35,7 @@ BLOCK = 16384  # windows on each side of the part of the grid that a worker gets
 ROWS = 1024  # of these on one side are looked up at a time, so that even a loose threshold leaves memory
 FIRST = 12  # directions of the k-d tree
 AT_ONCE = 1 << 13  # pairs in a second look
-MANY = 20_000  # windows up to which products are quicker
+MANY = 5_000  # windows up to which products are quicker
 LOOSE = 0.005  # share of pairs within reach above which products are quicker
 SAMPLE = 2000  # windows that decide on this share
 

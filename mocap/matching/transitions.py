@@ -150,7 +150,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         1000 at 120. "auto" is "double" up to 20 000 frames in all clips together, and "single" above.
     method : how to search; the transitions are the same. "products" measures all pairs of windows by matrix
         products. "bound" measures only those that a lower bound of the distance leaves (`lower_bound` has
-        the proof). "auto" is "bound" above 20 000 windows, if a sample says that it leaves few pairs.
+        the proof). "auto" is "bound" above 5 000 windows, if a sample says that it leaves few pairs.
     progress : wraps the pairs of blocks as they are worked through, to show a bar.
     executor : where to work: threads, processes, or a cluster by `dask.distributed`'s
         `Client.get_executor()`; by default here, one block after the other. On machines of one kind the
