@@ -66,7 +66,9 @@ def test_every_function_that_the_course_uses_names_a_notebook_that_teaches_it():
         for function in met(code(path.stem)):
             where = f"{function.__module__}.{function.__name__}"
             told = f"{function.__doc__}\n{import_module(function.__module__).__doc__}"
-            assert re.search(r"^ *Notebooks?: \d\d[bc]?-", told, re.MULTILINE), f"{where}, used in {path.name}"
+            assert re.search(r"^ *Notebooks?: \d\d[bc]?-", told, re.MULTILINE), (
+                f"{where}, used in {path.name}"
+            )
             seen.add(where)
     assert len(seen) > 100
 
