@@ -7,7 +7,7 @@ from typing import NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import FillBetweenPolyCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
@@ -22,7 +22,7 @@ class Band(NamedTuple):
     """A median as a line, and the middle half of the samples as a band."""
 
     median: Line2D
-    quartiles: FillBetweenPolyCollection
+    quartiles: PolyCollection
 
 
 def quartile_band(
