@@ -112,12 +112,14 @@ class _Scene:
         self.ax.add_collection(LineCollection(list(lines), colors=FLOOR, linewidths=0.8, zorder=0))
 
     def line(self, ground: Array, colour: str, name: str, wide: float = 1.6) -> None:
+        """Draw a line over the ground, points (x, z); each name stands in the legend once."""
         if len(ground):
             known = name in self.ax.get_legend_handles_labels()[1]
             label = None if known else name
             self.ax.plot(*self.see(_level(ground)).T, color=colour, linewidth=wide, label=label, zorder=1)
 
     def diamonds(self, points: Array) -> None:
+        """Mark seams at points, shape (N, 3)."""
         if len(points):
             self.ax.plot(*self.see(points).T, "D", color=MARK, markersize=6, label="seam", zorder=2)
 

@@ -49,18 +49,21 @@ class _Shown:
             self.known = False
 
     def in_range(self, proposal: dict[str, Any]) -> int:
+        """Refuse a frame that the scene does not have."""
         frame, frames = int(proposal["value"]), self.scene["frames"]
         if not 0 <= frame < frames:
             raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
         return frame
 
     def reader_moves(self, change: dict[str, Any]) -> None:
+        """Take the frame that the browser shows, if it is one of this scene."""
         number, frame = change["new"]
         if number == self.scene["number"]:
             with self.silent():
                 self.frame = frame
 
     def python_moves(self, change: dict[str, Any]) -> None:
+        """Send the browser a frame that Python has set."""
         if not self.known:
             self.move = [self.scene["number"], change["new"]]
 
