@@ -5,4 +5,5 @@
 3. `atomic`: a file is written whole or not at all
 4. `progress`: what functions take as `progress=`
 5. `collector`: pause Python's garbage collector while a graph grows
+6. `tasks`: work by threads, processes or a cluster
 """

@@ -11,11 +11,10 @@ Reading order (notebooks 02, 05)
 3. `other_metrics`: three metrics that fail, and why; `Metric`, the signature that all four have
 4. `minima`: the entries of a grid that are lower than all eight neighbours
 5. `chosen_pairs`: some pairs of windows, one by one, and the transform that aligns each
-6. `tasks`: work by threads, processes or a cluster
-7. `lower_bound`: why most pairs need no look, with the proof
-8. `tiled_search`: the minima of a grid that is too large to hold
-9. `bounded_search`: the same minima from the pairs that the lower bound leaves
-10. `transitions`: where one clip can pass into another
+6. `lower_bound`: why most pairs need no look, with the proof
+7. `tiled_search`: the minima of a grid that is too large to hold
+8. `bounded_search`: the same minima from the pairs that the lower bound leaves
+9. `transitions`: where one clip can pass into another
 
 References
 ----------

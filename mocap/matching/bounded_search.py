@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
+from mocap._shared.tasks import run_in_order
 from mocap.matching.chosen_pairs import fit, pair_distances, runs
 from mocap.matching.distance_grids import Cloud, Floats
 from mocap.matching.lower_bound import (
@@ -27,7 +28,6 @@ from mocap.matching.lower_bound import (
     whole_windows,
 )
 from mocap.matching.minima import listed_minima
-from mocap.matching.tasks import run_in_order
 
 Indices = NDArray[np.intp]
 

@@ -7,11 +7,11 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap._shared.progress import Progress
+from mocap._shared.tasks import run_in_order
 from mocap.matching.chosen_pairs import fit
 from mocap.matching.distance_grids import Cloud, cloud_distances, tiles
 from mocap.matching.lower_bound import Weights
 from mocap.matching.minima import local_minima
-from mocap.matching.tasks import run_in_order
 
 BLOCK = 1280  # windows on each side of the part of the grid that a worker gets at a time
 

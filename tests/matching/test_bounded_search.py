@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap import load, resample
+from mocap._shared import tasks
 from mocap.graphs.motion_graph import build
-from mocap.matching import bounded_search, tasks, transitions
+from mocap.matching import bounded_search, transitions
 from mocap.matching.bounded_search import find_minima_by_bound, is_quicker
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima

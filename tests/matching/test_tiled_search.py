@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.matching import distance_grids, tasks, tiled_search
+from mocap._shared import tasks
+from mocap.matching import distance_grids, tiled_search
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
 from mocap.matching.lower_bound import Weights
 from mocap.matching.minima import local_minima

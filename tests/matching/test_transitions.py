@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mocap._shared import tasks
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.matching import tasks, tiled_search, transitions
+from mocap.matching import tiled_search, transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import point_cloud
