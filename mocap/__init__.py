@@ -20,12 +20,14 @@ The rooms of the package, from the ground floor up, with the notebooks that teac
 on lower floors. `help(mocap.graphs)`, for example, lists the files of a room in reading order.
 
 body        what a moving body is: skeletons, motions, rotations, kinematics (01, 03)
-files       motion files, ASF/AMC and BVH; paths from CSV and SVG (01, 10)
+formats     the formats of motion files: ASF/AMC and BVH (01)
+files       motion files by their suffix, whole folders of them; paths from CSV and SVG (01, 10)
 matching    which moments are alike: metrics, distance grids, transitions (02, 05)
 feet        feet that stand still: footplants, footskate clean-up (04)
-datasets    clips to start with: bundled ones, the CMU database (01, 10)
 blending    from one motion into another: blends, inertialization (04)
 quality     numbers that judge clips and seams (01, 04, 09, 10)
+editing     the motion itself changed: keys, pins, paths, other bodies (11 to 14)
+datasets    clips to start with: bundled ones, the CMU database (01, 10)
 graphs      motion graphs: build, prune, choose a threshold, save (05, 06)
 synthesis   walks through a graph, at random or by search, and their motions (07)
 steering    walks that follow a wish: paths, waypoints, crowds, control (08)
@@ -41,7 +43,7 @@ Below them are `mocap.errors`, all errors that the package raises on purpose, an
 Where something new goes
 ------------------------
 - A metric: a function with the signature of `matching.Metric`, in a file of `matching`.
-- A file format: a reader and a writer in a file of `files`; `load_save` chooses them by the suffix.
+- A file format: a reader and a writer in a file of `formats`; `files.load_save` chooses them by the suffix.
 - A way of steering: a file of `steering`; most of them give `follow_path` a path and some wishes.
 - A method of its own kind: a room of its own, on the lowest floor that is above all it uses.
 
@@ -61,8 +63,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "course",
         "datasets",
         "diagrams",
+        "editing",
         "feet",
         "files",
+        "formats",
         "graphs",
         "marking",
         "matching",

@@ -1,21 +1,14 @@
-"""Where motion comes from and goes to: ASF/AMC, BVH, and paths as CSV or SVG.
+"""Where motion comes from and goes to: motion files by their suffix, and paths as CSV or SVG.
 
-Units are converted here and nowhere else: inside the package all lengths are metres and all angles radians.
-A file is read whole or refused, with the line that breaks its format. A new format gets a file with its
-reader and its writer; `load_save` chooses them by the suffix, and lists the suffixes in `FORMATS`.
+A file is read whole or refused, with the line that breaks its format. The room `formats` below holds the
+reader and the writer of each format; `load_save` chooses them by the suffix, and lists the suffixes in
+`FORMATS`.
 
 Reading order (notebooks 01, 10)
 --------------------------------
- 1. `load_save`: load and save; the suffix decides
- 2. `text`: text files, their lines and numbers, checked
- 3. `asf`: the skeleton of Acclaim files
- 4. `amc`: the numbers of Acclaim files, bone by bone
- 5. `acclaim`: what those numbers mean
- 6. `acclaim_writer`: motions as Acclaim files
- 7. `bvh_hierarchy`: the skeleton of BVH files
- 8. `bvh`: BVH files, read and written
- 9. `path_files`: paths from .csv and .svg
-10. `conversion`: whole folders at once
+1. `load_save`: load and save; the suffix decides
+2. `path_files`: paths from .csv and .svg
+3. `conversion`: whole folders at once
 """
 
 import lazy_loader

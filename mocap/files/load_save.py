@@ -11,10 +11,10 @@ from mocap._shared.progress import Progress
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
-from mocap.files import acclaim, amc, bvh
-from mocap.files.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
-from mocap.files.asf import read_skeleton
-from mocap.files.text import read_text
+from mocap.formats import acclaim, amc, bvh
+from mocap.formats.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
+from mocap.formats.asf import read_skeleton
+from mocap.formats.text import read_text
 
 FORMATS = (".amc", ".bvh")  # suffixes of the motion files that are found in folders
 

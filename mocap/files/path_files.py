@@ -11,7 +11,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.errors import FormatError, MocapError, shortened
-from mocap.files.text import LARGEST, read_text, to_numbers
+from mocap.formats.text import LARGEST, read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 BETWEEN = " ,\t\n"  # what parts numbers, besides their signs

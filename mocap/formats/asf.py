@@ -17,7 +17,7 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
-from mocap.files.text import lines, read_text, to_numbers
+from mocap.formats.text import lines, read_text, to_numbers
 
 Line = tuple[int, list[str]]  # its number, from 1, and its words
 Fields = dict[str, Line]  # lines by their first words

@@ -13,7 +13,7 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.files import load_save
-from mocap.files.acclaim_writer import to_acclaim, to_amc, widened
+from mocap.formats.acclaim_writer import to_acclaim, to_amc, widened
 from tests.strategies import random_quaternions, seeds
 
 DOFS = ["", "x", "z", "yx", "zy", "xz", "xyz", "zxy", "yzx"]

@@ -23,8 +23,8 @@ from mocap.body import euler, rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened
-from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
-from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers, wrong_number
+from mocap.formats.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.formats.text import LARGEST, check_room, read_text, rounded, to_numbers, wrong_number
 
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last

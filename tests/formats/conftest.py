@@ -1,4 +1,4 @@
-"""What the tests of files share."""
+"""What the tests of formats share."""
 
 import pytest
 

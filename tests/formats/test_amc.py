@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mocap.errors import FormatError
-from mocap.files import amc
-from mocap.files.asf import read_skeleton
-from tests.files.acclaim_clips import AMC, read_clip
+from mocap.formats import amc
+from mocap.formats.asf import read_skeleton
+from tests.formats.acclaim_clips import AMC, read_clip
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,9 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.errors import FormatError
-from mocap.files.amc import read_frames
-from mocap.files.asf import MOVES, TURNS, AcclaimSkeleton, Bone
-from mocap.files.text import check_room
+from mocap.formats.amc import read_frames
+from mocap.formats.asf import MOVES, TURNS, AcclaimSkeleton, Bone
+from mocap.formats.text import check_room
 
 CMU_RATE = 120.0  # frames per second in most of the CMU database
 

@@ -1,7 +1,7 @@
 """A small skeleton and a clip, as texts, that several tests read."""
 
-from mocap.files import acclaim
-from mocap.files.asf import read_skeleton
+from mocap.formats import acclaim
+from mocap.formats.asf import read_skeleton
 
 ASF = """# a leg and an arm
 :version 1.10

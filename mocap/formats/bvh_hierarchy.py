@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, shortened
-from mocap.files.text import to_numbers
+from mocap.formats.text import to_numbers
 
 OUTSIDE, OPENING = ("HIERARCHY", "ROOT"), ("ROOT", "JOINT", "END")
 WITHIN, WITHIN_END = ("OFFSET", "CHANNELS", "JOINT", "END", "}"), ("OFFSET", "}")

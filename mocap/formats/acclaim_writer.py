@@ -16,9 +16,9 @@ from mocap.body import euler, rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
-from mocap.files.acclaim import conjugation, turned
-from mocap.files.asf import INCH, MOVES, TURNS, AcclaimSkeleton, Bone, grown
-from mocap.files.text import rounded
+from mocap.formats.acclaim import conjugation, turned
+from mocap.formats.asf import INCH, MOVES, TURNS, AcclaimSkeleton, Bone, grown
+from mocap.formats.text import rounded
 
 UNIT = INCH / 0.45  # metres: the unit of most Acclaim files
 LOST = 1e-7  # degrees that count as none

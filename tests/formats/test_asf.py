@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mocap.errors import FormatError
-from mocap.files.asf import read_skeleton
-from tests.files.acclaim_clips import ASF
+from mocap.formats.asf import read_skeleton
+from tests.formats.acclaim_clips import ASF
 
 
 def test_joints_sit_where_bones_start(write):

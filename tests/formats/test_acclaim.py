@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import FormatError, MocapError
-from mocap.files import acclaim, amc
-from mocap.files.asf import read_skeleton
-from tests.files.acclaim_clips import AMC, ASF, read_clip
+from mocap.formats import acclaim, amc
+from mocap.formats.asf import read_skeleton
+from tests.formats.acclaim_clips import AMC, ASF, read_clip
 
 
 def where(motion, frame):

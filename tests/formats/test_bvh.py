@@ -12,7 +12,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
-from mocap.files import bvh
+from mocap.formats import bvh
 
 BVH = """HIERARCHY
 ROOT hips

@@ -3,7 +3,7 @@
 import pytest
 
 from mocap.errors import FormatError, MocapError
-from mocap.files.text import lines, read_text, to_numbers
+from mocap.formats.text import lines, read_text, to_numbers
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import FormatError
-from mocap.files.text import LARGEST, lines, read_text, to_numbers
+from mocap.formats.text import LARGEST, lines, read_text, to_numbers
 
 Dofs = Mapping[str, Collection[str]]
 
