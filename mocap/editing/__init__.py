@@ -1,0 +1,27 @@
+"""The motion itself, edited: displacement maps, pins, and the four papers that build on them.
+
+A motion graph can only turn where its clips turn. Here a captured motion is changed: a pose is moved at a key
+[WP95], a walk is laid on another path [Gle01], a motion is worn by another body [Gle98], a foot steps on a
+stone [LS99]. All four add a displacement map to a motion: a smooth curve for the root and for each joint.
+
+Reading order (notebooks 11 to 14)
+----------------------------------
+1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
+
+References
+----------
+.. [WP95] A. Witkin, Z. Popović, *Motion Warping*, SIGGRAPH 1995, doi 10.1145/218380.218422.
+.. [Gle98] M. Gleicher, *Retargetting Motion to New Characters*, SIGGRAPH 1998, doi 10.1145/280814.280820.
+.. [LS99] J. Lee, S. Y. Shin, *A Hierarchical Approach to Interactive Motion Editing for Human-like Figures*,
+   SIGGRAPH 1999, doi 10.1145/311535.311539.
+.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
+    },
+)

@@ -1,0 +1,139 @@
+"""What an edit adds to a motion: a place for the root, a turn for each joint, and splines for both.
+
+The idea is [WP95]'s, the turns in each joint's own frame are [LS99]'s: m = m₀ ⊕ d, and d = m ⊖ m₀. The fine
+structure of the captured motion stays, because d is smooth: a B-spline with a knot every h seconds cannot
+answer faster than in about 2 h.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy import sparse
+from scipy.interpolate import BSpline
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+
+
+class Displacement(NamedTuple):
+    """How far a motion is from another: `root` (F, 3), metres, and `turns` (F, J, 3), rotation vectors.
+
+    A joint's turn is in its own frame, radians.
+
+    Examples
+    --------
+    >>> nothing = Displacement(np.zeros((9, 3)), np.zeros((9, 38, 3)))
+    >>> nothing.turns.shape
+    (9, 38, 3)
+    """
+
+    root: Array
+    turns: Array
+
+
+def difference(motion: Motion, base: Motion) -> Displacement:
+    """Measure m ⊖ m₀: p - p₀ for the root, and log(q₀⁻¹ q) for each joint, in its own frame.
+
+    Parameters
+    ----------
+    motion, base : F frames of one skeleton.
+
+    Returns
+    -------
+    The displacement that `displaced` adds to `base` to give `motion`; turns are at most π.
+
+    Raises
+    ------
+    SkeletonMismatch : for two skeletons.
+    MocapError : for two numbers of frames.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:9]
+    >>> float(abs(difference(walk, walk).turns).max().round(9))
+    0.0
+    """
+    motion.skeleton.require_same(base.skeleton)
+    if len(motion) != len(base):
+        raise MocapError(
+            f"A difference is taken frame by frame: '{motion.name}' has {len(motion)} frames, "
+            f"'{base.name}' has {len(base)}."
+        )
+    turns = rotations.to_rotvec(rotations.multiply(rotations.inverse(base.rotations), motion.rotations))
+    return Displacement(motion.root_positions - base.root_positions, turns)
+
+
+def displaced(base: Motion, change: Displacement) -> Motion:
+    """Add a displacement, m₀ ⊕ d: p = p₀ + d_root, q = q₀ exp(d).
+
+    ⊕ does not commute: (m₀ ⊕ a) ⊕ b is m₀ ⊕ (a + b) only where the axes of a and b agree. So several
+    displacements are added one after the other. The turn stands on the right, in the joint's own frame;
+    exp(d) q₀ would turn about the parent's axes.
+
+    Parameters
+    ----------
+    base : F frames of J joints.
+    change : F frames of J joints.
+
+    Returns
+    -------
+    The same frames, labels and contacts; a joint that never turns keeps its numbers to the last bit.
+
+    Raises
+    ------
+    MocapError : for another number of frames or joints.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:9]
+    >>> lifted = displaced(walk, Displacement(np.tile([0, 0.1, 0], (9, 1)), np.zeros((9, 38, 3))))
+    >>> (lifted.root_positions - walk.root_positions)[0].round(9) + 0.0
+    array([0. , 0.1, 0. ])
+    """
+    frames, joints = base.rotations.shape[:2]
+    if np.shape(change.root) != (frames, 3) or np.shape(change.turns) != (frames, joints, 3):
+        raise MocapError(
+            f"'{base.name}' needs a displacement of ({frames}, 3) and ({frames}, {joints}, 3), "
+            f"got {np.shape(change.root)} and {np.shape(change.turns)}."
+        )
+    turned = base.rotations.copy()
+    moved = np.flatnonzero(np.any(change.turns, axis=(0, 2)))
+    turned[:, moved] = rotations.multiply(turned[:, moved], rotations.from_rotvec(change.turns[:, moved]))
+    return replace(base, root_positions=base.root_positions + change.root, rotations=turned)
+
+
+def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
+    """Build uniform cubic B-splines over frames 0 … F - 1, with knots about `spacing` frames apart.
+
+    With n = max(1, round((F - 1) / spacing)) spans, frame f lies at u = f n / (F - 1), and the knots lie at
+    -3 … n + 3. A curve is B c, where c holds a control point for each of the n + 3 splines.
+
+    Parameters
+    ----------
+    frames : how many, F ≥ 1.
+    spacing : between knots, in frames, above 0; `seconds * fps`, so that it does not depend on the rate.
+
+    Returns
+    -------
+    B, shape (F, n + 3): four entries for each frame at most, and each row adds up to 1.
+
+    Raises
+    ------
+    MocapError : for no frames, or a spacing that is not above 0.
+
+    Examples
+    --------
+    >>> spline_basis(11, 5).toarray()[[0, 5]].round(3)
+    array([[0.167, 0.667, 0.167, 0.   , 0.   ],
+           [0.   , 0.167, 0.667, 0.167, 0.   ]])
+    """
+    if not (frames >= 1 and spacing > 0):
+        raise MocapError(f"A basis needs a frame and knots above 0 apart, got {frames} and {spacing}.")
+    spans = max(1, round((frames - 1) / spacing))
+    at = np.minimum(np.arange(frames) * (spans / max(frames - 1, 1)), spans)
+    return sparse.csr_array(BSpline.design_matrix(at, np.arange(-3.0, spans + 4), 3))

@@ -1,0 +1,97 @@
+"""⊕ and ⊖ undo each other, in each joint's own frame; splines add up to 1."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from mocap.body import rotations
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import Displacement, difference, displaced, spline_basis
+from mocap.errors import MocapError, SkeletonMismatch
+from tests.strategies import random_motion, seeds
+
+
+def random_change(seed, frames=5, joints=6, most=3.0):
+    random = np.random.default_rng(seed)
+    turns = random.normal(size=(frames, joints, 3))
+    turns *= most * random.random((frames, joints, 1)) / np.linalg.norm(turns, axis=-1, keepdims=True)
+    return Displacement(random.normal(size=(frames, 3)), turns)
+
+
+@given(seeds, seeds)
+@settings(max_examples=20)
+def test_adding_and_taking_the_difference_undo_each_other(motion, change):
+    base, change = random_motion(motion), random_change(change)
+    again = difference(displaced(base, change), base)
+    np.testing.assert_allclose(again.root, change.root, atol=1e-14)
+    np.testing.assert_allclose(again.turns, change.turns, atol=1e-12)
+
+
+def test_a_turn_is_in_the_joints_own_frame():
+    base, change = random_motion(1), random_change(2)
+    turned = displaced(base, change).rotations
+    own = Rotation.from_quat(base.rotations.reshape(-1, 4), scalar_first=True)
+    wanted = (own * Rotation.from_rotvec(change.turns.reshape(-1, 3))).as_matrix()
+    np.testing.assert_allclose(rotations.to_matrix(turned).reshape(-1, 3, 3), wanted, atol=1e-12)
+
+
+def test_displacements_are_added_one_after_the_other_for_their_sum_is_something_else():
+    base, a, b = random_motion(1), random_change(2, most=1.0), random_change(3, most=1.0)
+    both = displaced(displaced(base, a), b)
+    together = displaced(base, Displacement(a.root + b.root, a.turns + b.turns))
+    assert rotations.angle_between(both.rotations, together.rotations).max() > 0.1
+    # About one axis they agree.
+    b = Displacement(b.root, 0.3 * a.turns)
+    both = displaced(displaced(base, a), b)
+    together = displaced(base, Displacement(a.root + b.root, a.turns + b.turns))
+    assert rotations.angle_between(both.rotations, together.rotations).max() < 1e-12
+
+
+def test_what_is_not_turned_keeps_its_numbers_to_the_last_bit():
+    walk = sample("walk_straight")[:20]
+    turns = np.zeros((20, 38, 3))
+    turns[:, 3, 0] = 0.1
+    edited = displaced(walk, Displacement(np.zeros((20, 3)), turns))
+    others = np.arange(38) != 3
+    assert np.array_equal(edited.rotations[:, others], walk.rotations[:, others])
+    assert np.array_equal(edited.root_positions, walk.root_positions)
+    assert edited.contacts.keys() == walk.contacts.keys()
+
+
+def test_a_basis_has_the_values_of_uniform_cubic_splines():
+    rows = spline_basis(11, 5).toarray()
+    np.testing.assert_allclose(rows[0], [1 / 6, 4 / 6, 1 / 6, 0, 0], atol=1e-15)
+    np.testing.assert_allclose(rows[5], [0, 1 / 6, 4 / 6, 1 / 6, 0], atol=1e-15)
+    np.testing.assert_allclose(rows[2], [0.036, 0.538667, 0.414667, 0.010667, 0], atol=1e-6)
+
+
+@given(st.integers(1, 300), st.floats(0.1, 1000))
+@settings(max_examples=30)
+def test_the_splines_of_a_frame_add_up_to_1(frames, spacing):
+    basis = spline_basis(frames, spacing)
+    assert basis.shape == (frames, max(1, round((frames - 1) / spacing)) + 3)
+    np.testing.assert_allclose(basis.sum(axis=1), 1.0, atol=1e-12)
+    assert np.diff(basis.indptr).max() <= 4 and basis.data.min() >= 0
+
+
+def test_a_spacing_in_seconds_gives_the_same_curve_at_two_rates():
+    slow, fast = spline_basis(31, 0.125 * 30), spline_basis(121, 0.125 * 120)
+    np.testing.assert_allclose(fast.toarray()[::4], slow.toarray(), atol=1e-12)
+
+
+def test_bad_input():
+    walk = sample("walk_straight")[:20]
+    other = replace(walk.skeleton, names=[f"x{n}" for n in walk.skeleton.names])
+    with pytest.raises(SkeletonMismatch):
+        difference(walk, replace(walk, skeleton=other, contacts={}))
+    with pytest.raises(MocapError, match="has 20 frames, 'walk_straight' has 10"):
+        difference(walk, walk[:10])
+    with pytest.raises(MocapError, match=r"needs a displacement of \(20, 3\)"):
+        displaced(walk, Displacement(np.zeros((10, 3)), np.zeros((10, 38, 3))))
+    for frames, spacing in ((0, 1), (5, 0), (5, -1), (5, np.nan)):
+        with pytest.raises(MocapError, match="above 0"):
+            spline_basis(frames, spacing)
