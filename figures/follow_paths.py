@@ -24,6 +24,7 @@ import mocap
 from mocap import datasets, graphs
 from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, arcs, circle, s_curve, spline
+from mocap.control import Controller, measure_delay
 from mocap.graphs import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
 from mocap.quality import seam_quality, spread
@@ -34,7 +35,6 @@ from mocap.steering import (
     Wishes,
     follow_as_2002,
     follow_path,
-    measure_delay,
     walk_crowd,
 )
 from mocap.synthesis import Budget, with_plants
@@ -200,7 +200,7 @@ def _offs(walks: list[Followed]) -> tuple[list[Array], list[Array]]:
 def others(name: str, graph: CompiledGraph) -> str:
     """Measure control and a crowd."""
     gc.freeze()  # so that the collector does not visit older objects in the middle of a step
-    delay = measure_delay(graph)
+    delay = measure_delay(Controller(graph))
     paths = [GroundPath(ends) for ends in ([[0, 0], [0, 8]], [[4, 4], [-4, 4]], [[0.2, 8], [0.2, 0]])]
     alone = [follow_path(graph, path) for path in paths]
     crowd = walk_crowd(graph, paths)

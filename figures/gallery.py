@@ -33,6 +33,7 @@ from mocap import (
     Motion,
     Skeleton,
     blending,
+    control,
     datasets,
     diagrams,
     feet,
@@ -423,7 +424,7 @@ def draw_bound() -> Figure:
 def draw_steered() -> Figure:
     """Draw the path of a steered walk, with an arrow wherever a new heading was commanded."""
     headings = np.repeat([0.0, np.pi / 2, np.pi / 6, np.pi, np.pi / 2], 105)
-    steered = steering.steer(_graph(), headings).motion
+    steered = control.steer(control.Controller(_graph()), headings).motion
     figure = plt.figure(figsize=(8, 4.2), layout="constrained")
     ax = figure.add_subplot()
     plotting.path_from_above(steered, ax=ax)

@@ -30,7 +30,8 @@ editing     the motion itself changed: keys, pins, paths, other bodies (11 to 14
 datasets    clips to start with: bundled ones, the CMU database (01, 10)
 graphs      motion graphs: build, prune, choose a threshold, save (05, 06)
 synthesis   walks through a graph, at random or by search, and their motions (07)
-steering    walks that follow a wish: paths, waypoints, crowds, control (08)
+steering    walks that follow a wish: paths, waypoints, crowds (08)
+control     characters that get a new command in any frame (08)
 plotting    pictures, by matplotlib (00 to 10)
 diagrams    ideas drawn step by step (00 to 09)
 widgets     players and experiments for notebooks (00 to 10)
@@ -44,7 +45,8 @@ Where something new goes
 ------------------------
 - A metric: a function with the signature of `matching.Metric`, in a file of `matching`.
 - A file format: a reader and a writer in a file of `formats`; `files.load_save` chooses them by the suffix.
-- A way of steering: a file of `steering`; most of them give `follow_path` a path and some wishes.
+- A way of steering: a file of `steering`; most of them give `follow_path` a path and some wishes. One that
+  reacts frame by frame: a class that fits `control.Character`, in a file of `control`.
 - A method of its own kind: a room of its own, on the lowest floor that is above all it uses.
 
 A room's `__init__.py` lists its files and exports its public names; the tests of a room are in `tests/ROOM`.
@@ -60,6 +62,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submodules=[
         "blending",
         "body",
+        "control",
         "course",
         "datasets",
         "diagrams",

@@ -1,9 +1,9 @@
-"""Steering: walks that follow a wish: along a path, through waypoints, in a crowd, or by commands.
+"""Steering: walks that follow a wish: along a path, through waypoints, or in a crowd.
 
 The path objective defines what a walk is asked for and what each deviation costs. A beam search finds the
 walk with the lowest cost. `follow_path` joins the two; `waypoints` and `crowd` call it. A new way of steering
-gets a file of its own: one that leads to a path calls `follow_path`, one that reacts frame by frame works as
-`control` does. A new kind of wish is a field of `Wishes`, with its price in `Prices` and its cost in
+that leads to a path gets a file of its own and calls `follow_path`; one that reacts frame by frame belongs to
+the room `control`. A new kind of wish is a field of `Wishes`, with its price in `Prices` and its cost in
 `search_states.hop_costs`.
 
 Reading order (notebook 08)
@@ -15,8 +15,6 @@ Reading order (notebook 08)
 5. `paper_search`: the same by the paper's branch and bound
 6. `waypoints`: places, labels and times to pass
 7. `crowd`: many characters that keep apart
-8. `look_ahead`: the walks ahead of a controlled character, and their cost
-9. `control`: a character that gets a new command in any frame
 
 References
 ----------
@@ -35,7 +33,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
         "waypoints": ["Arrival", "Waypoint", "WaypointWalk", "through_waypoints"],
         "crowd": ["Crowd", "walk_crowd"],
-        "look_ahead": ["Command"],
-        "control": ["Controller", "Delay", "Pose", "Steered", "measure_delay", "steer"],
     },
 )

@@ -9,7 +9,7 @@ import pytest
 
 from mocap.body import ground_path
 from mocap.body.ground_path import s_curve
-from mocap.steering.control import measure_delay
+from mocap.control import Controller, measure_delay
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
@@ -55,6 +55,6 @@ def test_following_is_linear():
 
 
 def test_a_step_takes_a_millisecond():
-    delay = measure_delay(walking(), turns=20)
+    delay = measure_delay(Controller(walking()), turns=20)
     assert delay.step < 1.0
     assert delay.worst < 5.0

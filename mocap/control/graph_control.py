@@ -1,28 +1,18 @@
-"""Interactive control: a character that gets a new command in any frame while it walks [KGP02, 5.3]."""
-
-import time
-from collections.abc import Sequence
-from typing import NamedTuple
+"""Control on a motion graph: a character that gets a new command in any frame while it walks [KGP02, 5.3]."""
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
+from mocap.body.skeleton import Skeleton
+from mocap.control.characters import Pose
+from mocap.control.look_ahead import Command, lengthen, look_ahead_by, start_walk
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
-from mocap.steering.look_ahead import Command, lengthen, look_ahead_by, start_walk
-
-
-class Pose(NamedTuple):
-    """One frame: root position (3,) in metres, rotations (J, 4), and whether a transition is under way."""
-
-    root_position: Array
-    rotations: Array
-    blending: bool
 
 
 class Controller:
@@ -105,6 +95,16 @@ class Controller:
         return pose
 
     @property
+    def skeleton(self) -> Skeleton:
+        """The joints of the graph's clips."""
+        return self.graph.source.clips[0].skeleton
+
+    @property
+    def fps(self) -> float:
+        """Frames per second, those of the graph."""
+        return self.graph.fps
+
+    @property
     def frames_left(self) -> int:
         """The frames until the next choice: the rest of the hop under way."""
         return sum(int(self.graph.frames[edge]) for edge in self.edges) - self.frame * bool(self.edges)
@@ -163,131 +163,3 @@ def _placed(motion: Motion, frame: int, turn: complex, move: complex) -> tuple[A
     turns = motion.rotations[frame].copy()
     turns[0] = place.apply_orientations(turns[0])
     return place.apply_points(motion.root_positions[frame]), turns
-
-
-class Steered(NamedTuple):
-    """A steered motion, F frames, and what the character did in each.
-
-    `blending` (F,) says whether a transition was under way, `frames_left` (F,) how many frames the character
-    still had to play before its next choice.
-    """
-
-    motion: Motion
-    blending: Mask
-    frames_left: Indices
-
-    def delay(self, heading: float, frame: int) -> Array:
-        """Split the delay of a command: seconds of waiting, of transitions and of clip until it is obeyed.
-
-        Parameters
-        ----------
-        heading, frame : the direction asked for, radians, and the frame of the command, from 1/3 s on.
-
-        Returns
-        -------
-        Three numbers; nan where the command is not obeyed, as `measure_delay` defines it.
-        """
-        fps, (x, _, z) = self.motion.fps, self.motion.root_positions.T
-        track, back = (z + 1j * x) * np.exp(-1j * heading), round(self.motion.fps / 3)
-        obeys = np.abs(np.angle(track[frame:] - track[frame - back : -back])) < np.pi / 9
-        if not obeys.any():
-            return np.full(3, np.nan)
-        took = int(obeys.argmax()) + 1
-        wait = min(int(self.frames_left[frame]), took)
-        blends = int(self.blending[frame + wait : frame + took].sum())
-        return np.array([wait, blends, took - wait - blends]) / fps
-
-
-def steer(graph: MotionGraph | CompiledGraph, headings: Sequence[float], speed: float = 1.1) -> Steered:
-    """Steer a character by one heading per frame, and record what it does.
-
-    Parameters
-    ----------
-    graph : pruned.
-    headings : shape (F,), radians; 0 is +z, π/2 is +x.
-    speed : metres per second.
-
-    Examples
-    --------
-    Two seconds ahead, then to the left:
-
-    >>> from mocap import body, datasets, graphs
-    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
-    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> steered = steer(graph, [0.0] * 60 + [np.pi / 2] * 60)
-    >>> len(steered.motion), steered.blending.shape
-    (120, (120,))
-
-    Notebook: 08b-steering
-    """
-    controller = Controller(graph)
-    poses, left = [], []
-    for heading in headings:
-        left.append(controller.frames_left)
-        poses.append(controller.step(float(heading), speed))
-    roots, turns, blending = (np.array(values) for values in zip(*poses, strict=True))
-    skeleton = controller.graph.source.clips[0].skeleton
-    return Steered(Motion(skeleton, roots, turns, controller.graph.fps, "steered"), blending, np.array(left))
-
-
-class Delay(NamedTuple):
-    """The delay until a character obeys, and the CPU time per step.
-
-    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms. Two mean
-    parts of the delay are `waiting`, until the hop under way ends, and `blending`, in transitions after it.
-    The rest is spent in clips that turn.
-    """
-
-    mean: float
-    slowest: float
-    step: float
-    worst: float
-    waiting: float
-    blending: float
-
-
-def measure_delay(
-    graph: MotionGraph | CompiledGraph, *, turns: int = 60, speed: float = 1.1, seed: int = 0
-) -> Delay:
-    """Command a character to turn by 30 to 120 degrees many times, and measure how soon it obeys.
-
-    It obeys when its direction over the last third of a second is within 20 degrees of the command. A turn
-    that takes longer than 8 s counts as 8 s.
-
-    Parameters
-    ----------
-    graph : pruned.
-    turns : the number of turns.
-    speed : metres per second.
-    seed : of the random turns.
-
-    Examples
-    --------
-    >>> from mocap import body, datasets, graphs
-    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
-    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
-    >>> 0 < measure_delay(graph, turns=1).mean <= 8
-    True
-
-    Notebook: 08b-steering
-    """
-    controller, random = Controller(graph), np.random.default_rng(seed)
-    heading, back = 0.0, round(controller.graph.fps / 3)
-    track, costs, delays = [0j] * back, [0.0], []
-    for _ in range(turns):
-        heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
-        wait, frames, blends = controller.frames_left, 0, 0
-        obeys = False
-        while not obeys and frames < round(8 * controller.graph.fps):
-            start = time.thread_time()
-            pose = controller.step(heading, speed)
-            costs.append(time.thread_time() - start)
-            track.append(complex(pose.root_position[2], pose.root_position[0]))
-            blends += pose.blending and frames >= wait
-            way = (track[-1] - track[-1 - back]) * np.exp(-1j * heading)
-            obeys, frames = frames >= back and abs(np.angle(way)) < np.pi / 9, frames + 1
-        delays.append((frames, min(wait, frames), blends))
-    took, waited, blended = np.transpose(delays) / controller.graph.fps
-    slowest, cost = float(np.percentile(took, 95)), np.array(costs[1:]) * 1e3
-    parts = float(waited.mean()), float(blended.mean())
-    return Delay(float(took.mean()), slowest, float(cost.mean()), float(cost.max()), *parts)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mocap.body.motion import Motion
+from mocap.control.graph_control import Controller
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.motion_graph import from_transitions
-from mocap.steering.control import Controller, measure_delay, steer
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import sneaking, walking
@@ -65,35 +65,6 @@ def test_it_moves_as_it_is_told():
         controller.step(0.0, 0.5, "sneak")
         edges.append(graph.source.graph.edges[graph.edges[controller.edges[0]]]["labels"])
     assert np.mean(["sneak" in labels for labels in edges[-200:]]) > 0.9
-
-
-def test_delays_are_measured():
-    delay = measure_delay(GRAPH, turns=6)
-    assert 0.3 < delay.mean <= delay.slowest <= 8
-    assert 0 < delay.step < delay.worst
-
-
-def test_the_parts_of_a_delay_are_those_of_the_frames():
-    """All of it waits, blends or plays a clip; the recorded frames say which."""
-    heading, frame = 1.5, 90
-    steered = steer(GRAPH, np.where(np.arange(240) < frame, 0.0, heading))
-    waiting, blending, clip = np.round(30 * steered.delay(heading, frame)).astype(int)
-    assert waiting == steered.frames_left[frame]
-    took = waiting + blending + clip
-    assert blending == steered.blending[frame + waiting : frame + took].sum()
-    x, _, z = steered.motion.root_positions.T
-    ways = np.arctan2(x[10:] - x[:-10], z[10:] - z[:-10])  # of the third of a second up to frames 10, 11, ...
-    off = np.abs((ways[frame - 10 :] - heading + np.pi) % (2 * np.pi) - np.pi)
-    assert (off[: took - 1] >= np.pi / 9).all()
-    assert off[took - 1] < np.pi / 9
-    assert np.isnan(steered.delay(heading + np.pi, 200)).all()
-    assert (np.diff(steered.frames_left) <= 0).sum() > 200  # they count down between two choices
-
-
-def test_the_parts_of_the_mean_delay():
-    delay = measure_delay(GRAPH, turns=6)
-    assert 0 < delay.waiting < delay.mean
-    assert 0 < delay.blending < delay.mean - delay.waiting
 
 
 def test_nonsense_is_refused():

@@ -1,0 +1,31 @@
+"""Control: characters that get a new command in any frame, and how soon they obey.
+
+All fit one protocol, `Character`: its `step` takes a heading and a speed and gives the next pose. So whatever
+steers, records or measures one of them does so for all. A new way of control is a class with the same
+members, in a file of its own.
+
+Reading order (notebook 08)
+---------------------------
+1. `characters`: the protocol, and the pose that a step gives
+2. `look_ahead`: the walks ahead of a controlled character, and their cost
+3. `graph_control`: a character on a motion graph
+4. `steered_motion`: steer a character by a list of headings
+5. `obedience`: how soon a character obeys
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "characters": ["Character", "Pose"],
+        "look_ahead": ["Command"],
+        "graph_control": ["Controller"],
+        "steered_motion": ["Steered", "steer"],
+        "obedience": ["Delay", "measure_delay"],
+    },
+)
