@@ -15,6 +15,7 @@ Reading order (notebooks 02, 05)
 7. `tiled_search`: the minima of a grid that is too large to hold
 8. `bounded_search`: the same minima from the pairs that the lower bound leaves
 9. `transitions`: where one clip can pass into another
+10. `time_paths`: which frame of one clip belongs to which of another
 
 References
 ----------
@@ -23,6 +24,12 @@ References
    Databases*, SIGMOD 1994, doi 10.1145/191839.191925.
 .. [Keo02] E. Keogh, *Exact Indexing of Dynamic Time Warping*, VLDB 2002,
    doi 10.1016/B978-155860869-6/50043-3.
+.. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
+   doi 10.5555/846276.846307.
+.. [SC78] H. Sakoe, S. Chiba, *Dynamic Programming Algorithm Optimization for Spoken Word Recognition*, IEEE
+   Transactions on Acoustics, Speech, and Signal Processing 26, 1978, doi 10.1109/TASSP.1978.1163055.
+.. [Din67] W. Dinkelbach, *On Nonlinear Fractional Programming*, Management Science 13, 1967,
+   doi 10.1287/mnsc.13.7.492.
 """
 
 import lazy_loader
@@ -63,5 +70,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "tiled_search": ["find_minima"],
         "bounded_search": ["find_minima_by_bound"],
         "transitions": ["Transition", "Transitions", "find_transitions"],
+        "time_paths": ["time_path", "path_mean", "PathSums", "path_sums", "trace", "origins"],
     },
 )

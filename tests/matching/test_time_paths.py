@@ -1,0 +1,221 @@
+"""Paths through grids against a slow recursion, another implementation, and a way that looks right."""
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body.motion import resample
+from mocap.datasets import sample
+from mocap.errors import MocapError
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.point_clouds import point_cloud
+from mocap.matching.time_paths import origins, path_mean, path_sums, time_path, trace
+from tests.strategies import seeds
+
+slopes = st.integers(1, 3)
+sides = st.integers(2, 11)
+
+
+def least_sum(grid, slope, begin=(0, 0), end=None):
+    """The least sum of a path between two cells, as the rule is written: a state for each length of a run."""
+    (top, left), (bottom, right) = begin, end or (grid.shape[0] - 1, grid.shape[1] - 1)
+
+    @lru_cache(None)
+    def best(i, j, state):
+        if i < top or j < left:
+            return np.inf
+        if state == 0:
+            if (i, j) == begin:
+                return 2 * grid[i, j]
+            return 2 * grid[i, j] + min(best(i - 1, j - 1, other) for other in range(2 * slope + 1))
+        if state <= slope:
+            return grid[i, j] + best(i - 1, j, state - 1)
+        return grid[i, j] + best(i, j - 1, 0 if state == slope + 1 else state - 1)
+
+    return min(best(bottom, right, state) for state in range(2 * slope + 1))
+
+
+def advanced(path):
+    return np.append(2, np.abs(np.diff(path, axis=0)).sum(axis=1))
+
+
+def total(grid, path):
+    return float(grid[path[:, 0], path[:, 1]] @ advanced(path))
+
+
+def longest_run(path):
+    """Count the straight steps of one direction that follow each other."""
+    runs, run, last = [0], 0, None
+    for step in map(tuple, np.diff(path, axis=0).tolist()):
+        run = run + 1 if step == last else 1
+        last = step
+        runs += [run] * (step != (1, 1))
+    return max(runs)
+
+
+def random_grid(seed, rows, columns):
+    return np.random.default_rng(seed).random((rows, columns))
+
+
+def test_a_valley_of_twice_the_pace_is_followed():
+    rows, columns = np.indices((7, 4))
+    grid = np.abs(rows - 2 * columns)
+    for slope in (1, 2):
+        path = time_path(grid, slope=slope)
+        assert path.tolist() == [[0, 0], [1, 0], [2, 1], [3, 1], [4, 2], [5, 2], [6, 3]]
+        assert path_mean(grid, path) == 3 / 11
+
+
+@given(seeds, sides, sides, slopes)
+@settings(max_examples=40)
+def test_no_path_has_a_lower_sum(seed, rows, columns, slope):
+    grid = random_grid(seed, rows, columns)
+    best = least_sum(grid, slope)
+    if not np.isfinite(best):
+        with pytest.raises(MocapError, match=f"at most {slope + 1} to 1"):
+            time_path(grid, slope=slope)
+        return
+    path = time_path(grid, slope=slope)
+    assert total(grid, path) == pytest.approx(best, abs=1e-14)
+    assert path[0].tolist() == [0, 0] and path[-1].tolist() == [rows - 1, columns - 1]
+    assert set(map(tuple, np.diff(path, axis=0).tolist())) <= {(1, 1), (1, 0), (0, 1)}
+    assert longest_run(path) <= slope
+
+
+@pytest.mark.parametrize(("slope", "pattern"), [(1, "symmetricP1"), (2, "symmetricP05")])
+def test_the_limit_is_that_of_sakoe_and_chiba(slope, pattern):
+    """A row and column before the grid let the judge's path, like ours, go straight on from the corner."""
+    dtw = pytest.importorskip("dtw", reason="pip install dtw-python: it judges the paths here")
+    for seed in range(20):
+        grid = random_grid(seed, 17, 14)
+        before = np.pad(grid, ((1, 0), (1, 0)), constant_values=1e9)
+        before[0, 0] = 0
+        assert total(grid, time_path(grid, slope=slope)) == pytest.approx(
+            dtw.dtw(before, step_pattern=pattern).distance, abs=1e-12
+        )
+
+
+def test_with_a_wide_limit_the_sum_is_within_a_tenth_of_plain_dynamic_time_warping():
+    """Plain warping has no limit, and may go right after it went down: so its sum is the lower one."""
+    dtaidistance = pytest.importorskip("dtaidistance", reason="pip install dtaidistance: it judges the sums")
+    first, second = np.cumsum(random_grid(3, 2, 40), axis=1)
+    grid = np.abs(first[:, None] - second)
+    plain, _ = dtaidistance.dtw.warping_paths(first, second, inner_dist="euclidean")
+    path = time_path(grid, slope=39)
+    straight = grid[path[:, 0], path[:, 1]].sum()
+    assert plain <= straight <= 1.1 * plain
+
+
+@given(seeds, st.integers(4, 8), st.integers(4, 8), slopes)
+@settings(max_examples=15)
+def test_free_ends_give_the_least_mean_of_all_ends(seed, rows, columns, slope):
+    grid, slack = random_grid(seed, rows, columns), 2
+    begins = [(i, 0) for i in range(slack + 1)] + [(0, j) for j in range(1, slack + 1)]
+    means = []
+    for begin in begins:
+        for end in [(rows - 1 - i, columns - 1 - j) for i, j in begins]:
+            frames = end[0] - begin[0] + end[1] - begin[1] + 2
+            means.append(least_sum(grid, slope, begin, end) / frames)
+    if not np.isfinite(min(means)):
+        return
+    path = time_path(grid, slope=slope, slack=slack)
+    assert path_mean(grid, path) == pytest.approx(min(means), abs=1e-12)
+    assert longest_run(path) <= slope
+
+
+def test_slack_finds_a_valley_beside_the_corners():
+    rows, columns = np.indices((12, 12))
+    grid = np.abs(rows - columns - 3) + 0.1
+    path = time_path(grid, slack=4)
+    assert path[0].tolist() == [3, 0] and path[-1].tolist() == [11, 8]
+    assert path_mean(grid, path) == pytest.approx(0.1)
+    assert path_mean(grid, time_path(grid)) == pytest.approx(0.8917, abs=1e-4)
+
+
+def test_the_least_sum_cuts_corners_that_the_least_mean_keeps():
+    """On a flat grid each path has the same mean, and the shortest one has the least sum."""
+    rows, columns = np.indices((30, 30))
+    grid = 0.05 + 0.001 * np.abs(rows - columns)
+    starts = ((rows == 0) | (columns == 0)) & (rows + columns <= 8)
+    sums = path_sums(grid, starts, slope=2)
+    ends = np.where(starts[::-1, ::-1], sums.totals, np.inf)
+    cut = trace(sums, np.unravel_index(ends.argmin(), ends.shape))
+    whole = time_path(grid, slack=8)
+    assert advanced(whole).sum() == 60 > advanced(cut).sum() + 8
+    assert path_mean(grid, whole) < path_mean(grid, cut)
+
+
+def one_counter(grid, slope):
+    """The slope limit kept as one counter for each cell, that of its cheapest predecessor: it looks right."""
+    best = np.full(grid.shape, np.inf)
+    down, right = (np.zeros(grid.shape, int) for _ in range(2))
+    best[0, 0] = 2 * grid[0, 0]
+    for i, j in np.ndindex(grid.shape):
+        ways = []
+        if i and j:
+            ways.append((best[i - 1, j - 1] + 2 * grid[i, j], 0, 0))
+        if i and down[i - 1, j] < slope and not right[i - 1, j]:
+            ways.append((best[i - 1, j] + grid[i, j], down[i - 1, j] + 1, 0))
+        if j and right[i, j - 1] < slope and not down[i, j - 1]:
+            ways.append((best[i, j - 1] + grid[i, j], 0, right[i, j - 1] + 1))
+        if ways and np.isfinite(min(ways)[0]):
+            best[i, j], down[i, j], right[i, j] = min(ways)
+    return best[-1, -1]
+
+
+def test_one_counter_for_each_cell_misses_the_best_path():
+    grids = [random_grid(seed, 12, 9) for seed in range(60)]
+    ratios = [one_counter(grid, 2) / total(grid, time_path(grid)) for grid in grids]
+    assert min(ratios) >= 1 - 1e-12
+    assert np.mean(np.array(ratios) > 1 + 1e-9) >= 0.1
+
+
+def test_without_a_limit_one_body_stands_still_while_the_other_goes_on():
+    walk, jog = (resample(sample(name), 30) for name in ("walk_straight", "jog"))
+    grid = np.sqrt(distance_grid(point_cloud(walk), point_cloud(jog)[60:360], window=5))
+    assert longest_run(time_path(grid, slope=63)) >= 10
+    assert longest_run(time_path(grid)) <= 2
+
+
+@given(seeds, st.integers(2, 7), st.integers(2, 7), slopes)
+@settings(max_examples=25)
+def test_begun_anywhere_the_sums_are_those_of_a_local_alignment(seed, rows, columns, slope):
+    costs = random_grid(seed, rows, columns) - 0.5
+    sums = path_sums(costs, np.ones(costs.shape, bool), slope=slope)
+    begins = origins(sums)
+    for end in np.ndindex(rows, columns):
+        best = min(least_sum(costs, slope, begin, end) for begin in np.ndindex(end[0] + 1, end[1] + 1))
+        path = trace(sums, end)
+        assert total(costs, path) == pytest.approx(sums.totals[end], abs=1e-12)
+        assert sums.totals[end] == pytest.approx(best, abs=1e-12)
+        assert divmod(begins[end], columns) == tuple(path[0])
+        assert longest_run(path) <= slope
+
+
+def test_32_bits_stay_32_bits():
+    costs = random_grid(1, 6, 5).astype(np.float32)
+    assert path_sums(costs, np.ones(costs.shape, bool), slope=2).totals.dtype == np.float32
+
+
+@pytest.mark.parametrize(
+    ("grid", "settings", "message"),
+    [
+        (np.ones(4), {}, r"two dimensions and some entries, got shape \(4,\)"),
+        (np.ones((0, 4)), {}, r"some entries, got shape \(0, 4\)"),
+        ([[1.0, np.nan], [1.0, 1.0]], {}, r"finite numbers; it holds nan at \[0, 1\]"),
+        ([[1.0, 1.0], [1.0, np.inf]], {}, r"it holds inf at \[1, 1\]"),
+        (np.ones((9, 4)), {"slope": 1}, "9 frames cannot be laid on 4 with slope 1: at most 2 to 1"),
+        (np.ones((471, 90)), {}, "471 frames cannot be laid on 90 with slope 2: at most 3 to 1"),
+        (np.ones((4, 4)), {"slope": 0}, "from 1 to 63, got 0"),
+        (np.ones((4, 4)), {"slope": 1.5}, "from 1 to 63, got 1.5"),
+        (np.ones((4, 4)), {"slack": -1}, "from 0 to less than either clip has .4 and 4., got -1"),
+        (np.ones((9, 4)), {"slack": 4}, "less than either clip has .9 and 4., got 4"),
+    ],
+)
+def test_what_has_no_path_is_refused(grid, settings, message):
+    with pytest.raises(MocapError, match=message):
+        time_path(grid, **settings)
+    assert len(time_path(np.ones((8, 4)), slope=1)) == 8
