@@ -194,7 +194,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     weights = Weights(
         unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton))), unit_weights(taper, window)
     )
-    ready = _prepare(clips, weights, gap, dtype)
+    ready = join_clouds(clips, weights, gap, dtype)
     loosest = max(below.values()) if isinstance(below, Mapping) else below
     by_bound = method == "bound" or (method == "auto" and is_quicker(ready, weights, loosest))
     search = find_minima_by_bound if by_bound else find_minima
@@ -228,7 +228,7 @@ def _require_choice(name: str, choice: str, choices: Any) -> None:  # noqa: ANN4
         raise MocapError(f'A {name} is "{first}", "{second}" or "{third}", got {choice!r}.')
 
 
-def _prepare(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
+def join_clouds(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
     """Put all clips one after the other; windows that would run from one into the next have infinite size.
 
     After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
