@@ -1,0 +1,278 @@
+"""Take the path off a motion, change it, and put the motion back on [Gle01].
+
+A displacement of the root's curve alone leaves the body looking, and stepping, the old way. So the motion is
+held relative to a frame that moves along its path, and put into the frame that moves along another path. The
+feet slide where the path bends; `feet.clean_up` lets them stand again.
+"""
+
+import warnings
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+
+from mocap._shared.arrays import Array, frozen
+from mocap.body.ground_path import CLOSEST, GroundPath
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, from_ground, on_ground
+from mocap.editing.displacements import spline_basis
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footskate import clean_up
+
+# Seconds between knots: too slow for the sway, of which 4.9 to 5.1 cm stay in the motion. With 0.4 the path
+# takes half of the sway, and its heading wags by 13°; 0.9, near a stride, aliases.
+STRIDE = 1.2
+
+# Metres before and after a place between which its heading is measured. With 0.02 the body turns at 3000° per
+# second at a corner, and by more than 100° while it stands; with 0.5 bends are cut.
+CHORD = 0.25
+
+SHORTEST = 0.5  # metres: a shorter path is one of a body that stands
+RIDGE = 1e-12  # of the largest diagonal: for clips of fewer frames than control points
+
+
+@dataclass(frozen=True, eq=False)
+class Ride:
+    """A motion's path, and where on it the motion is in each of its F frames; `ride_of` shows an example.
+
+    Parameters
+    ----------
+    path : the path over the ground.
+    along : shape (F,), metres along the path.
+    handles : shape (K, 2), the control points of the path, (x, z) in metres.
+    """
+
+    path: GroundPath
+    along: Array
+    handles: Array
+
+    def __post_init__(self) -> None:
+        for name in ("along", "handles"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
+
+    def with_handles(self, handles: ArrayLike) -> GroundPath:
+        """Draw the path that other handles (K, 2) give; a handle moves it within two knots to either side."""
+        new = np.asarray(handles, float)
+        if new.shape != self.handles.shape or not np.isfinite(new).all():
+            raise MocapError(f"The path has {len(self.handles)} handles (x, z), got an array {new.shape}.")
+        frames = len(self.along)
+        return GroundPath(spline_basis(frames, max(frames - 1, 1) / (len(new) - 3)) @ new)
+
+
+def ride_of(motion: Motion, *, stride: float = STRIDE) -> Ride:
+    """Fit a path to a motion: a least-squares cubic B-spline through the root's ground track [Gle01, 3].
+
+    P(t) = B(t) c with c = argmin ‖B c - g‖², g the track; a frame's place on the path is its arc length. The
+    knots' distance in time is ours: the paper leaves it to the user.
+
+    Parameters
+    ----------
+    motion : F frames.
+    stride : seconds between the knots of the spline.
+
+    Returns
+    -------
+    The path, the metres along it in each frame, and its control points: the handles to drag.
+
+    Raises
+    ------
+    MocapError : for a motion that goes nowhere, and a stride that is not above 0.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> ride = ride_of(sample("walk_straight"))
+    >>> ride.path, ride.handles.shape
+    (GroundPath(1201 points, 10.9 m), (11, 2))
+
+    Notebook: 12-path-editing
+    """
+    if not (np.isfinite(stride) and stride > 0):
+        raise MocapError(f"Knots must be more than 0 s apart, got stride={stride}.")
+    basis = spline_basis(len(motion), stride * motion.fps)
+    track = motion.root_positions[:, [0, 2]]
+    middle, normal = track.mean(axis=0), (basis.T @ basis).tocsc()
+    ridge = RIDGE * normal.diagonal().max() * sparse.eye_array(normal.shape[0])
+    handles = spsolve(normal + ridge, basis.T @ (track - middle)) + middle
+    smooth = basis @ handles
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(smooth, axis=0).T))])
+    if along[-1] < SHORTEST:
+        raise MocapError(f"'{motion.name}' goes {along[-1]:.2f} m only: it stands; there is no path to edit.")
+    return Ride(GroundPath(smooth), along, handles)
+
+
+def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -> PlanarTransform:
+    """Give the frames N(s) that move along a path: each stands at P(s) and heads as the path does there.
+
+    The heading is that of the chord from P(s - `chord`) to P(s + `chord`), unwrapped. It is ours: [Gle01]
+    takes the tangent, which jumps at a corner and spins where the body stands. Beyond both ends the path goes
+    straight on.
+
+    Parameters
+    ----------
+    path : the path.
+    along : shape (F,), metres along it.
+    chord : metres before and after.
+
+    Returns
+    -------
+    A transform of arrays (F,), which takes the origin to P(s) and +z to the heading.
+
+    Raises
+    ------
+    MocapError : for a chord that is not above 0.
+
+    Examples
+    --------
+    >>> corner = GroundPath([[0, 0], [0, 2], [2, 2]])
+    >>> np.degrees(moving_frames(corner, [0.0, 2.0, 4.0]).angle).round()
+    array([ 0., 45., 90.])
+
+    Notebook: 12-path-editing
+    """
+    if not (np.isfinite(chord) and chord > 0):
+        raise MocapError(f"A chord reaches more than 0 m before and after, got chord={chord}.")
+    along = np.asarray(along, float)
+    way = _points(path, along + chord, chord) - _points(path, along - chord, chord)
+    defined = np.abs(way) > CLOSEST  # not where the path comes back on itself
+    angle = np.zeros(len(along))
+    if defined.any():
+        frames = np.arange(len(along))
+        angle = np.interp(frames, frames[defined], np.unwrap(np.angle(way[defined])))
+    place = _points(path, along, chord)
+    return PlanarTransform(angle, place.imag, place.real)
+
+
+def _points(path: GroundPath, along: Array, chord: float) -> Array:
+    """Give the points `along` metres from the start as complex numbers; beyond the ends straight on."""
+    ends = on_ground(path.points[[0, -1]])
+    inner = on_ground(path.at([min(chord, path.length), max(path.length - chord, 0)]))
+    way = np.array([inner[0] - ends[0], ends[1] - inner[1]])
+    steps = np.diff(on_ground(path.points))[[0, -1]]
+    way = np.where(np.abs(way) > CLOSEST, way, steps)
+    way /= np.abs(way)
+    beyond = np.minimum(along, 0) * way[0] + np.maximum(along - path.length, 0) * way[1]
+    return np.asarray(on_ground(path.at(along)) + beyond)
+
+
+def start_at(path: GroundPath, ride: Ride) -> GroundPath:
+    """Move a path so that it starts where a motion's own path starts, and heads as that does.
+
+    Parameters
+    ----------
+    path : the path to move.
+    ride : of the motion.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> ride = ride_of(sample("walk_straight"))
+    >>> moved = start_at(GroundPath([[5, 5], [5, 9]]), ride)
+    >>> bool(abs(moved.points[0] - ride.path.points[0]).max() < 1e-9), moved
+    (True, GroundPath(2 points, 4.0 m))
+
+    Notebook: 12-path-editing
+    """
+    old, new = (moving_frames(line, [0.0]) for line in (ride.path, path))
+    moved = old @ new.inverse()
+    return GroundPath(from_ground(moved.turn * on_ground(path.points) + moved.move))
+
+
+def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
+    motion: Motion,
+    path: GroundPath,
+    ride: Ride | None = None,
+    *,
+    keep: Literal["speed", "ends"] = "speed",
+    turn: bool = True,
+    chord: float = CHORD,
+) -> Motion:
+    """Put a motion on another path: m'_f = N'(s'_f) N(s_f)⁻¹ m_f [Gle01, 4].
+
+    N moves along the motion's own path, N' along the new one. The feet slide by about 7 cm divided by the
+    radius of the bend in metres; `feet.clean_up` gives each plant one place, the mean of those that it was
+    carried to. People lean into bends and slow down; a bent walk leans and walks as before.
+
+    Parameters
+    ----------
+    motion : F frames; mark and clean its plants first, because bent feet do not look planted.
+    path : the new path; `start_at` moves it to where the motion starts.
+    ride : of the motion; `ride_of(motion)` by default.
+    keep : "speed" for s' = s: of a longer path the end stays unwalked, and past a shorter one the motion goes
+        straight on. "ends" for s' = s L'/L: the steps become longer or shorter.
+    turn : whether the body turns with the path; else it only moves, as a crab does.
+    chord : metres before and after, as for `moving_frames`.
+
+    Returns
+    -------
+    The same frames, labels and contacts; only the root differs.
+
+    Raises
+    ------
+    MocapError : for a motion that goes nowhere, a ride of another motion, and choices that there are not.
+
+    Warns
+    -----
+    MocapWarning : with "ends", for a path shorter than half or longer than twice the motion's own.
+
+    Examples
+    --------
+    >>> from mocap.body import circle
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> ride = ride_of(walk)
+    >>> bent = on_path(walk, start_at(circle(2.0), ride), ride)
+    >>> bool(np.ptp(bent.root_positions[:, 0]) > 3.8)
+    True
+
+    Notebook: 12-path-editing
+    """
+    ride = ride or ride_of(motion)
+    if len(ride.along) != len(motion):
+        raise MocapError(f"The ride has {len(ride.along)} frames, '{motion.name}' has {len(motion)}.")
+    if keep not in ("speed", "ends"):
+        raise MocapError(f"A motion keeps its 'speed' or the path's 'ends', got keep={keep!r}.")
+    if turn not in (True, False):
+        raise MocapError(f"A body turns with its path or not, got turn={turn!r}.")
+    longer = path.length / ride.path.length if keep == "ends" else 1.0
+    old, new = (
+        moving_frames(line, along, chord=chord)
+        for line, along in ((ride.path, ride.along), (path, longer * ride.along))
+    )
+    if not turn:
+        old, new = (frames._replace(angle=np.zeros(len(motion))) for frames in (old, new))
+    bent = (new @ old.inverse()).apply_motion(motion)
+    if not 0.5 <= longer <= 2:
+        _warn(bent, longer)
+    return bent
+
+
+def _warn(bent: Motion, longer: float) -> None:
+    """Warn of steps that no leg takes, with the share of the plants that a clean-up keeps."""
+    kept = ""
+    if bent.contacts:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MocapWarning)
+            kept = f"; a clean-up keeps {plants_kept(clean_up(bent), bent):.0%} of its plants"
+    warnings.warn(
+        f"'{bent.name}' takes steps {longer:.2f} times as long on this path{kept}.",
+        MocapWarning,
+        stacklevel=3,
+    )
+
+
+def plants_kept(cleaned: Motion, bent: Motion) -> float:
+    """Give the share of planted frames, of all joints, that a clean-up kept; 1 where there are none.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> plants_kept(walk, walk)
+    1.0
+    """
+    after, before = (sum(int(mark.sum()) for mark in m.contacts.values()) for m in (cleaned, bent))
+    return after / before if before else 1.0

@@ -1,0 +1,359 @@
+"""A walk on another path walks as before, stands as before, and is as near to its path as it was."""
+
+import warnings
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from mocap.body.ground_path import GroundPath, arcs, circle
+from mocap.body.kinematics import joint_positions
+from mocap.body.planar import PlanarTransform, from_ground, heading, on_ground
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import spline_basis
+from mocap.editing.path_editing import moving_frames, on_path, plants_kept, ride_of, start_at
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footplants import mark_plants, runs
+from mocap.feet.footskate import clean_up
+from mocap.files.load_save import load
+from tests.strategies import planar
+
+CLIPS = {"walk_straight": slice(0, 600), "jog": slice(600, 1100)}
+NOISY = ("hand", "finger", "thumb", "_end")  # joints whose accelerations are the capture's noise
+
+
+@cache
+def clip(name):
+    return clean_up(sample(name)[CLIPS[name]])
+
+
+@cache
+def straight():
+    return clip("walk_straight"), ride_of(clip("walk_straight"))
+
+
+def captured(real_data, name):
+    motion = load(real_data / "cmu" / name.split("_")[0] / f"{name}.amc")
+    return clean_up(mark_plants(motion[12:]))  # an arm of 16_15 leaps in its first frames
+
+
+def s_bends(length, turn=0.45 * np.pi, first=0.0):
+    return arcs((0, 0), first, [(length / 2, turn), (length / 2, -turn)])
+
+
+def slide(motion):
+    """Metres that a planted joint strays from its mean place, at most."""
+    positions = joint_positions(motion)
+    plants = [
+        positions[start:stop, motion.skeleton.index(name)]
+        for name, mark in motion.contacts.items()
+        for start, stop in runs(mark)
+    ]
+    return max(np.linalg.norm(plant - plant.mean(axis=0), axis=-1).max() for plant in plants)
+
+
+def acc99(motion, base):
+    """The 99th percentile of the accelerations, over that of another motion."""
+    names = motion.skeleton.names
+    own = [j for j, name in enumerate(names) if not any(word in name.lower() for word in NOISY)]
+    both = [np.diff(joint_positions(m)[:, own], 2, axis=0) for m in (motion, base)]
+    after, before = (np.percentile(np.linalg.norm(a, axis=-1), 99) for a in both)
+    return after / before
+
+
+def off(motion, path):
+    return cKDTree(path.resampled(0.005).points).query(motion.root_positions[:, [0, 2]])[0]
+
+
+def turning(motion):
+    """Degrees per second that the body turns, at most."""
+    return np.degrees(np.abs(np.diff(np.unwrap(heading(motion.rotations[:, 0])))).max()) * motion.fps
+
+
+def sway(motion, stride=1.2):
+    """Metres that the root sways from side to side of its path."""
+    ride = ride_of(motion, stride=stride)
+    local = moving_frames(ride.path, ride.along, chord=0.02).inverse().apply_points(motion.root_positions)
+    return np.ptp(np.percentile(local[:, 0], [1, 99]))
+
+
+# ---------------------------------------------------------------------------------------------- the path
+def test_the_path_is_the_least_squares_spline():
+    motion, ride = straight()
+    basis = spline_basis(len(motion), 1.2 * motion.fps).toarray()
+    expected = np.linalg.lstsq(basis, motion.root_positions[:, [0, 2]], rcond=None)[0]
+    assert ride.handles == pytest.approx(expected, abs=1e-7)
+    assert ride.path.points == pytest.approx(basis @ expected, abs=1e-8)
+    assert ride.along[-1] == pytest.approx(ride.path.length, abs=1e-9)
+    assert ride.with_handles(ride.handles).points == pytest.approx(ride.path.points, abs=1e-9)
+
+
+def test_a_handle_moves_the_path_within_two_knots():
+    motion, ride = straight()
+    handles = ride.handles.copy()
+    handles[4] += [0.5, 0]
+    moved = np.hypot(*(ride.with_handles(handles).points - ride.path.points).T) > 1e-12
+    knot = (len(motion) - 1) / (len(handles) - 3)
+    assert np.flatnonzero(moved).min() >= (4 - 3) * knot - 1
+    assert np.flatnonzero(moved).max() <= (4 + 1) * knot + 1
+    assert 0.2 < np.hypot(*(ride.with_handles(handles).points - ride.path.points).T).max() < 0.5
+
+
+def test_finer_knots_put_the_sway_into_the_path():
+    motion = straight()[0]
+    kept = {stride: sway(motion, stride) for stride in (0.2, 0.4, 1.2, 1.6)}
+    assert abs(kept[1.2] - kept[1.6]) < 0.003
+    assert kept[0.2] < 0.1 * kept[1.2]
+    assert kept[0.4] < 0.7 * kept[1.2]
+
+
+@pytest.mark.parametrize("name", ["16_15", "16_31", "16_47"])
+def test_captured_sway_stays_in_the_motion(real_data, name):
+    motion = captured(real_data, name)
+    assert 0.045 <= sway(motion) <= 0.054  # 4.5 to 5.1 cm by the walk's own line
+    assert sway(motion, 0.2) < 0.006
+    assert abs(sway(motion) - sway(motion, 1.6)) < 0.003
+
+
+def test_with_finer_knots_the_heading_wags(real_data):
+    motion = captured(real_data, "16_47")
+    rides = [ride_of(motion, stride=stride) for stride in (0.4, 1.2)]
+    fine, coarse = (np.ptp(moving_frames(r.path, r.along, chord=0.02).angle[12:-12]) for r in rides)
+    assert fine > 2 * coarse
+
+
+def test_the_heading_is_calm_while_the_body_stands(real_data):
+    motion = load(real_data / "cmu" / "16" / "16_33.amc")[4:]
+    ride = ride_of(motion)
+    speed = np.hypot(*np.gradient(motion.root_positions[:, [0, 2]], axis=0).T) * motion.fps
+    stands = speed < 0.1
+
+    def turn(stride, chord):
+        ride = ride_of(motion, stride=stride)
+        return np.degrees(np.ptp(moving_frames(ride.path, ride.along, chord=chord).angle[stands]))
+
+    assert stands.sum() > 30
+    assert turn(1.2, 0.25) <= 3
+    assert turn(0.4, 0.005) > 90  # the tangent
+    assert len(ride.along) == len(motion)
+
+
+# ------------------------------------------------------------------------------------------- the transform
+@pytest.mark.parametrize("name", CLIPS)
+def test_on_its_own_path_nothing_changes(name):
+    motion = clip(name)
+    same = on_path(motion, ride_of(motion).path)
+    assert np.abs(joint_positions(same) - joint_positions(motion)).max() <= 1e-12
+    assert same.contacts is not None and list(same.contacts) == list(motion.contacts)
+
+
+@settings(max_examples=10)
+@given(planar)
+def test_it_commutes_with_planar_transforms(place):
+    motion, ride = straight()
+    path = start_at(circle(2.0), ride)
+    moved = GroundPath(from_ground(place.turn * on_ground(path.points) + place.move))
+    there = on_path(motion[::8], moved, replace(ride, along=ride.along[::8]))
+    then = place.apply_motion(on_path(motion[::8], path, replace(ride, along=ride.along[::8])))
+    assert joint_positions(there) == pytest.approx(joint_positions(then), abs=1e-9)
+
+
+@settings(max_examples=10)
+@given(st.floats(0.3, 5), st.floats(-3, 3))
+def test_a_moving_frame_on_a_circle_heads_along_it(radius, turn):
+    arc = arcs((0, 0), 0.0, [(3 * radius, 3.0)])
+    frames = moving_frames(arc, [radius, 2 * radius], chord=0.1 * radius)
+    assert frames.angle == pytest.approx([1.0, 2.0], abs=0.02 / radius)
+    ride = straight()[1]
+    assert moving_frames(start_at(arc, ride), [0.0]).angle == pytest.approx(
+        moving_frames(ride.path, [0.0]).angle, abs=1e-9
+    )
+
+
+def test_beyond_its_ends_a_path_goes_straight_on():
+    path = GroundPath([[0, 0], [0, 2], [2, 2]])
+    frames = moving_frames(path, [-1.0, 5.0])
+    assert np.stack([frames.x, frames.z], axis=1) == pytest.approx(np.array([[0, -1], [3, 2]]), abs=1e-12)
+    assert frames.angle == pytest.approx([0, np.pi / 2])
+
+
+def test_headings_do_not_spin_where_angles_wrap():
+    arc = arcs((0, 0), 0.9 * np.pi, [(4.0, 1.0)])
+    assert np.abs(np.diff(moving_frames(arc, np.linspace(0, 4, 99)).angle)).max() < 0.02
+
+
+def test_a_path_that_comes_back_on_itself_has_a_heading_everywhere():
+    back = GroundPath([[0, 0], [0, 2], [0, 0]])
+    frames = moving_frames(back, np.linspace(0, 4, 9))
+    assert np.isfinite(frames.angle).all()
+    assert abs(frames.angle[-1] - frames.angle[0]) == pytest.approx(np.pi)
+    tiny = GroundPath([[0, 0], [0.05, 0.1], [0, 0]])
+    assert np.isfinite(np.stack(moving_frames(tiny, [-1.0, 0.1, 1.0]))).all()
+
+
+# ------------------------------------------------------------------------------------------------- bending
+@pytest.mark.parametrize("name", CLIPS)
+@pytest.mark.parametrize("radius", [4, 2, 1, 0.75])
+def test_bent_walks_stand_as_before_and_keep_to_the_path(name, radius):
+    motion = clip(name)
+    ride = ride_of(motion)
+    path = start_at(arcs((0, 0), 0, [(ride.path.length, ride.path.length / radius)]), ride)
+    bent = on_path(motion, path, ride)
+    cleaned = clean_up(bent)
+    assert 0.015 / radius < slide(bent) < 0.15 / radius
+    assert slide(cleaned) <= 1e-6
+    assert plants_kept(cleaned, bent) >= 0.95
+    assert acc99(cleaned, motion) <= (1.15 if name == "jog" else 1.12)
+    assert abs(off(cleaned, path).mean() - off(motion, ride.path).mean()) < 0.003
+    assert abs(off(cleaned, path).max() - off(motion, ride.path).max()) < 0.003
+
+
+@pytest.mark.parametrize("radius", [4, 2, 1])
+def test_the_slide_goes_as_one_over_the_radius(radius):
+    motion, ride = straight()
+    path = start_at(arcs((0, 0), 0, [(5.0, 5.0 / radius)]), ride)
+    assert slide(on_path(motion, path, ride)) * radius == pytest.approx(0.044, rel=0.1)
+
+
+def test_a_warp_of_the_root_alone_looks_and_steps_the_old_way():
+    """The naive way: the track is moved from one path to the other, and nothing turns."""
+    motion, ride = straight()
+    path = start_at(s_bends(ride.path.length, 0.9 * np.pi, 0.45 * np.pi), ride)
+    bent, locked = on_path(motion, path, ride), on_path(motion, path, ride, turn=False)
+    faces = moving_frames(path, ride.along).angle
+
+    def away(m):
+        return np.degrees(np.abs(np.angle(np.exp(1j * (heading(m.rotations[:, 0]) - faces)))).mean())
+
+    assert away(bent) < 8
+    assert away(locked) > 60
+    assert slide(locked) > 5 * slide(bent)
+
+
+def test_a_tangent_jolts_at_a_corner():
+    motion, ride = straight()
+    corner = start_at(GroundPath([[0, 0], [0, 2.2], [3.4, 2.2]]), ride)
+    sharp, round_ = (on_path(motion, corner, ride, chord=chord) for chord in (0.02, 0.25))
+    assert turning(sharp) > 6 * turning(round_)
+    assert acc99(sharp, motion) > 1.3
+    assert acc99(round_, motion) < acc99(sharp, motion) - 0.2
+
+
+def test_a_plant_belongs_in_the_middle_of_its_places():
+    """Held where its first frame is carried, a foot is corrected by more than from the mean of all frames."""
+    motion, ride = straight()
+    path = start_at(s_bends(ride.path.length, 0.9 * np.pi, 0.45 * np.pi), ride)
+    positions = joint_positions(on_path(motion, path, ride))
+    worst = {"first": 0.0, "mean": 0.0}
+    for name, mark in motion.contacts.items():
+        for start, stop in runs(mark):
+            plant = positions[start:stop, motion.skeleton.index(name)]
+            for kind, place in (("first", plant[0]), ("mean", plant.mean(axis=0))):
+                worst[kind] = max(worst[kind], np.linalg.norm(plant - place, axis=-1).max())
+    assert worst["first"] > 1.5 * worst["mean"]
+
+
+def test_bent_feet_do_not_look_planted():
+    """So plants are marked before: of the true ones, fewer are found afterwards."""
+    motion, ride = straight()
+    path = start_at(arcs((0, 0), 0, [(ride.path.length, ride.path.length / 0.5)]), ride)
+    bent = on_path(motion, path, ride)
+    again = mark_plants(replace(bent, contacts={}))
+    found = sum((again.contacts[name] & mark).sum() for name, mark in bent.contacts.items())
+    assert found < 0.9 * sum(mark.sum() for mark in bent.contacts.values())
+    assert plants_kept(clean_up(bent), bent) == 1.0
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_longer_steps_cost_plants():
+    motion, ride = straight()
+    kept = []
+    for longer in (1.0, 1.44, 1.92):
+        path = start_at(s_bends(longer * ride.path.length), ride)
+        bent = on_path(motion, path, ride, keep="ends")
+        end = np.hypot(*(bent.root_positions[-1, [0, 2]] - path.points[-1]))
+        assert end == pytest.approx(off(motion[-1:], GroundPath(ride.path.points[-3:]))[0], abs=0.03)
+        kept.append(plants_kept(clean_up(bent), bent))
+    assert kept[0] == 1.0
+    assert kept[2] < kept[1] < 0.9
+    assert plants_kept(replace(motion, contacts={}), replace(motion, contacts={})) == 1.0
+
+
+def test_steps_twice_as_long_are_warned_of():
+    motion, ride = straight()
+    far = start_at(GroundPath([[0, 0], [0, 2.5 * ride.path.length]]), ride)
+    with pytest.warns(MocapWarning, match=r"takes steps 2\.50 times as long .* keeps \d+% of its plants"):
+        on_path(motion, far, ride, keep="ends")
+    with pytest.warns(MocapWarning, match=r"times as long on this path\.$"):
+        on_path(replace(motion, contacts={}), far, ride, keep="ends")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        on_path(motion, far, ride)
+
+
+# -------------------------------------------------------------------------------------------- captured ones
+WALKS = ("16_15", "16_31", "16_47", "16_58", "16_21", "16_17", "16_19", "02_01", "49_01")
+
+
+@pytest.mark.exhaustive
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+@pytest.mark.parametrize("name", WALKS)
+def test_captured_walks_bend(real_data, name):
+    motion = captured(real_data, name)
+    ride = ride_of(motion)
+    length = ride.path.length
+    paths = [s_bends(length), *(arcs((0, 0), 0, [(length, length / r)]) for r in (2, 1.5, 0.75))]
+    for path in (start_at(path, ride) for path in paths):
+        bent = on_path(motion, path, ride)
+        cleaned = clean_up(bent)
+        assert slide(cleaned) <= 1e-6
+        assert plants_kept(cleaned, bent) >= 0.95
+        assert acc99(cleaned, motion) <= 1.12
+        assert abs(off(cleaned, path).mean() - off(motion, ride.path).mean()) < 0.003
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_a_captured_turn_made_straight(real_data):
+    motion = captured(real_data, "16_17")
+    ride = ride_of(motion)
+    assert np.degrees(np.ptp(moving_frames(ride.path, ride.along).angle)) > 80
+    straight = on_path(motion, start_at(GroundPath([[0, 0], [0, 9]]), ride), ride)
+    cleaned = clean_up(straight)
+    assert slide(straight) > 0.05
+    assert slide(cleaned) <= 1e-6
+    assert plants_kept(cleaned, straight) >= 0.95
+    assert acc99(cleaned, motion) < 1.02
+
+
+# ------------------------------------------------------------------------------------------------ bad input
+def test_bad_input():
+    motion, ride = straight()
+    path = circle(2.0)
+    with pytest.raises(MocapError, match=r"goes 0\.\d\d m only: it stands; there is no path to edit"):
+        ride_of(motion[:9])
+    with pytest.raises(MocapError, match="stride=0"):
+        ride_of(motion, stride=0)
+    with pytest.raises(MocapError, match="stride=nan"):
+        ride_of(motion, stride=np.nan)
+    with pytest.raises(MocapError, match="chord=-1"):
+        moving_frames(path, [0.0], chord=-1)
+    with pytest.raises(MocapError, match="keep='time'"):
+        on_path(motion, path, ride, keep="time")
+    with pytest.raises(MocapError, match="turn='left'"):
+        on_path(motion, path, ride, turn="left")
+    with pytest.raises(MocapError, match="The ride has 600 frames, 'walk_straight' has 300"):
+        on_path(motion[:300], path, ride)
+    with pytest.raises(MocapError, match=r"handles \(x, z\), got an array \(2, 2\)"):
+        ride.with_handles(np.zeros((2, 2)))
+    assert on_path(motion, path, ride, turn=np.bool_(True)).fps == motion.fps
+
+
+def test_a_clip_of_few_frames_has_a_path():
+    motion = replace(straight()[0][:3], root_positions=[[0, 1, 0], [0, 1, 0.5], [0.1, 1, 1]])
+    ride = ride_of(motion)
+    assert ride.path.points == pytest.approx(motion.root_positions[:, [0, 2]], abs=1e-4)
+    assert PlanarTransform(*(float(part[0]) for part in moving_frames(ride.path, ride.along))).angle < 0.2
