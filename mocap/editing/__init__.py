@@ -7,6 +7,7 @@ stone [LS99]. All four add a displacement map to a motion: a smooth curve for th
 Reading order (notebooks 11 to 14)
 ----------------------------------
 1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
+2. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
 3. `path_editing`: the path taken off a motion, changed, and the motion put back on it
 
 References
@@ -25,5 +26,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
+        "warping.keys": ["Key", "cardinal", "keys_around", "offsets"],
+        "warping.looping": ["looped", "repeated"],
+        "warping.retiming": ["at_frames", "old_seconds", "retime"],
+        "warping.scaling": ["gains", "scaled", "scaled_height"],
     },
 )

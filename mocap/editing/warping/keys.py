@@ -1,0 +1,183 @@
+"""Keys, the curve through them, and a warp by offsets: θ(t) + b(t) [WP95]."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicHermiteSpline
+
+from mocap._shared.arrays import Array
+from mocap.body.motion import Motion
+from mocap.editing.displacements import Displacement, difference
+from mocap.errors import MocapError
+
+HALF_SECOND = 0.5  # either side of a key; the accelerations of captured walks then stay what they were
+
+
+class Key(NamedTuple):
+    """One moment that a warp keeps to.
+
+    Parameters
+    ----------
+    frame : a number of the motion's frames.
+    pose : a motion of one frame, which the warp meets there; None for the pose as it was.
+    flat : let the curve run level through this key, as at take-off and landing, between which and the ground
+        it must not swing.
+
+    Examples
+    --------
+    >>> Key(40), Key(60, flat=True).flat
+    (Key(frame=40, pose=None, flat=False), True)
+    """
+
+    frame: int
+    pose: Motion | None = None
+    flat: bool = False
+
+
+def cardinal(
+    at: ArrayLike,
+    values: ArrayLike,
+    frames: ArrayLike,
+    *,
+    tension: float = 0.0,
+    flat: Sequence[int] = (),
+) -> Array:
+    """Run a cardinal spline through keys: smooth, constant outside [WP95].
+
+    A cubic Hermite spline whose slope at key i is (1 - c)(v_{i+1} - v_{i-1}) / (t_{i+1} - t_{i-1}). Ours: it
+    is level at both ends, so that it joins the constants outside smoothly, and at the keys in `flat`.
+
+    Parameters
+    ----------
+    at : shape (K,), rising: the keys' times.
+    values : shape (K, ...): the keys' values.
+    frames : shape (N,): where to evaluate, in the unit of `at`.
+    tension : c, from 0 to 1; 1 is level at every key.
+    flat : numbers of keys, counted from 0, at which the curve is level.
+
+    Returns
+    -------
+    Shape (N, ...).
+
+    Raises
+    ------
+    MocapError : for times that do not rise, numbers that are not finite, and a tension outside [0, 1].
+
+    Examples
+    --------
+    >>> cardinal([0, 10, 30], [0, 1, -1], [5, 15, 20]).round(6)
+    array([ 0.541667,  0.59375 , -0.083333])
+    """
+    at, values = np.asarray(at, float), np.asarray(values, float)
+    if at.ndim != 1 or not len(at) or len(at) != len(values):
+        raise MocapError(f"A curve needs as many values as keys, got shapes {values.shape} and {at.shape}.")
+    if not (np.isfinite(at).all() and np.isfinite(values).all() and (np.diff(at) > 0).all()):
+        raise MocapError(f"Keys need finite values at times that rise, got times {at[:6].tolist()}.")
+    if not 0 <= tension <= 1:
+        raise MocapError(f"A tension lies between 0 and 1, got {tension}.")
+    if len(at) == 1:
+        return np.repeat(values, np.size(frames), axis=0)
+    slopes = np.zeros_like(values)
+    run = (at[2:] - at[:-2]).reshape(-1, *[1] * (values.ndim - 1))
+    slopes[1:-1] = (1 - tension) * (values[2:] - values[:-2]) / run
+    slopes[list(flat)] = 0
+    frames = np.asarray(frames, float)
+    curve = CubicHermiteSpline(at, values, slopes)(frames)
+    curve[frames <= at[0]], curve[frames >= at[-1]] = values[0], values[-1]  # to the last bit
+    return np.asarray(curve)
+
+
+def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_SECOND) -> list[Key]:
+    """Put a key between two that say "as it was", some time before and after it.
+
+    Parameters
+    ----------
+    motion : F frames.
+    frame, pose : the key.
+    seconds : how long before the key the change begins, and how long after it the change ends; where the clip
+        begins or ends sooner, the key on that side is left out, and the change holds to the clip's end.
+
+    Returns
+    -------
+    One to three keys, for `offsets`.
+
+    Raises
+    ------
+    MocapError : for a time that is shorter than a frame.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> [key.frame for key in keys_around(walk, 100, walk[100:101])]
+    [40, 100, 160]
+    """
+    if not (np.isfinite(seconds) and seconds * motion.fps >= 1):
+        raise MocapError(
+            f"A change needs a frame or more to come and go, got {seconds} s at {motion.fps:g} Hz."
+        )
+    half = round(seconds * motion.fps)
+    keys = [Key(frame - half), Key(frame, pose), Key(frame + half)]
+    return [key for key in keys if key.pose is not None or 0 <= key.frame < len(motion)]
+
+
+def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Displacement:
+    """Warp by offsets: the displacement that meets every key's pose, and is smooth between them [WP95].
+
+    At key i, b_i = pose ⊖ motion: the root's gap, and log(q⁻¹ q_i) for each joint. The curves through the b_i
+    are `cardinal`; outside the keys they are constant. `displaced(motion, offsets(motion, keys))` is the
+    warped motion. Feet that stand slide a little between the keys; `feet.clean_up` puts them back.
+
+    Parameters
+    ----------
+    motion : F frames.
+    keys : one or more, in order of time.
+    tension : see `cardinal`.
+
+    Raises
+    ------
+    MocapError : for no keys, and for keys off the clip, out of order, or with a pose of several frames.
+    SkeletonMismatch : for a pose of another skeleton.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from mocap.datasets import sample
+    >>> from mocap.editing import displaced
+    >>> walk = sample("walk_straight")[:200]
+    >>> higher = replace(walk[100:101], root_positions=walk.root_positions[100:101] + [0, 0.1, 0])
+    >>> warped = displaced(walk, offsets(walk, [Key(60), Key(100, higher), Key(140)]))
+    >>> (warped.root_positions - walk.root_positions)[[50, 80, 100], 1].round(3) + 0.0
+    array([0.  , 0.05, 0.1 ])
+    """
+    check_keys(motion, keys)
+    frames = [key.frame for key in keys]
+    now = [motion[frame : frame + 1] for frame in frames]
+    changes = [difference(key.pose or pose, pose) for key, pose in zip(keys, now, strict=True)]
+    flat = [number for number, key in enumerate(keys) if key.flat]
+    root, turns = (
+        cardinal(frames, np.concatenate(values), np.arange(len(motion)), tension=tension, flat=flat)
+        for values in zip(*changes, strict=True)
+    )
+    return Displacement(root, turns)
+
+
+def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
+    """Raise unless the keys lie on the clip, in order, with poses of one frame and of its skeleton."""
+    if not keys:
+        raise MocapError("A warp needs a key or more, got none.")
+    for key in keys:
+        if not (0 <= key.frame < len(motion) and key.frame == int(key.frame)):
+            raise MocapError(f"Key {key.frame} is no frame of '{motion.name}', which has {len(motion)}.")
+        if key.pose is not None:
+            motion.skeleton.require_same(key.pose.skeleton)
+            if len(key.pose) != 1:
+                raise MocapError(f"The pose of key {key.frame} needs one frame, got {len(key.pose)}.")
+    for before, after in pairwise(key.frame for key in keys):
+        if after <= before:
+            raise MocapError(f"Keys stand in order of time, once each: frame {after} follows {before}.")

@@ -1,0 +1,168 @@
+"""Time warped: when each moment of a motion happens, t = g(t') [WP95].
+
+The paper runs a cardinal spline through the time keys. Where keys lie unevenly such a curve overshoots, and
+the motion runs backwards for a while. Here g is PCHIP [ours], the piecewise cubic of F. N. Fritsch and R. E.
+Carlson (1980), which rises wherever its keys rise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
+
+from mocap._shared.arrays import Array, Indices
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+
+MOST = 1_000_000  # frames of a retimed clip; more is a slip in a key
+TimeKeys = Sequence[tuple[float, float]]
+
+
+def old_seconds(keys: TimeKeys, seconds: ArrayLike) -> Array:
+    """Look up which old second each new one shows: g(t'), by PCHIP through the time keys.
+
+    Parameters
+    ----------
+    keys : two or more pairs (new second, old second); both rise.
+    seconds : shape (N,): new seconds; before the first key and after the last one g stays as it is there.
+
+    Returns
+    -------
+    Shape (N,), never falling.
+
+    Raises
+    ------
+    MocapError : for fewer than two keys, and seconds that do not rise or are not finite.
+
+    Examples
+    --------
+    >>> old_seconds([(0, 0), (2, 1), (3, 2)], [0, 1, 2, 3]).round(3)
+    array([0.   , 0.369, 1.   , 2.   ])
+    """
+    new, old = _checked(keys)
+    curve = PchipInterpolator(new, old)
+    return np.asarray(np.clip(curve(np.clip(np.asarray(seconds, float), new[0], new[-1])), old[0], old[-1]))
+
+
+def retime(motion: Motion, keys: TimeKeys, *, smooth: bool = True) -> Motion:
+    """Let a motion's moments happen at other times [WP95].
+
+    Parameters
+    ----------
+    motion : F frames.
+    keys : two or more pairs (new second, old second); both rise, and the old ones lie on the clip.
+    smooth : see `at_frames`.
+
+    Returns
+    -------
+    A motion at the same rate, from the first key's moment to the last one's. Feet that stand may slide by a
+    fraction of a millimetre between old frames; `feet.clean_up` puts them back.
+
+    Raises
+    ------
+    MocapError : as `old_seconds`, and for old seconds off the clip.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:241]  # 2 s
+    >>> retime(walk, [(0, 0), (1, 0.5), (2.5, 2)]).duration
+    2.5
+    """
+    new, old = _checked(keys)
+    slack = 1e-6 / motion.fps
+    if old[0] < -slack or old[-1] > motion.duration + slack:
+        off = old[0] if old[0] < 0 else old[-1]
+        raise MocapError(f"Second {off:g} is not on '{motion.name}', which lasts {motion.duration:g} s.")
+    count = np.floor((new[-1] - new[0]) * motion.fps + 1e-6) + 1
+    if count > MOST:
+        raise MocapError(f"These time keys ask for {count:.3g} frames; at most {MOST} are made.")
+    times = new[0] + np.arange(int(count)) / motion.fps
+    return at_frames(motion, old_seconds(keys, times) * motion.fps, smooth=smooth)
+
+
+def at_frames(motion: Motion, frames: ArrayLike, *, smooth: bool = True) -> Motion:
+    """Show a motion at moments between its frames.
+
+    Between frames i and i + 1 the root, and each joint's rotation vector log(q_i⁻¹ q), run along a cubic
+    Hermite curve whose slopes are the central differences at both frames (one-sided at the clip's ends)
+    [ours]. Straight lines and slerp change speed at each old frame, which shows in slow motion.
+
+    Parameters
+    ----------
+    motion : F frames.
+    frames : shape (N,), from 0 to F - 1; those outside show the first or the last frame.
+    smooth : False for straight lines and slerp.
+
+    Returns
+    -------
+    N frames at the motion's rate; labels and contacts come from the nearest frame.
+
+    Raises
+    ------
+    MocapError : for moments that are not finite, or none.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:9]
+    >>> at_frames(walk, [0, 2.5, 8])
+    Motion('walk_straight', 3 frames at 120 Hz, 38 joints)
+    """
+    moments = np.asarray(frames, float)
+    if moments.ndim != 1 or not len(moments) or not np.isfinite(moments).all():
+        raise MocapError(f"A motion is shown at one or more finite moments, got shape {moments.shape}.")
+    last = len(motion) - 1
+    moments = np.clip(moments, 0, last)
+    start = np.minimum(moments.astype(int), max(last - 1, 0))
+    root, turn = _between(motion, start, moments - start, smooth)
+    nearest = np.round(moments).astype(int)
+    marks = (
+        {name: mark[nearest] for name, mark in kind.items()} for kind in (motion.labels, motion.contacts)
+    )
+    labels, contacts = marks
+    return replace(motion, root_positions=root, rotations=turn, labels=labels, contacts=contacts)
+
+
+def _between(motion: Motion, start: Indices, share: Array, smooth: bool) -> tuple[Array, Array]:
+    """Give roots and rotations at a share of the way from frame `start` to the next."""
+    last = len(motion) - 1
+    frames = [np.clip(start + step, 0, last) for step in (-1, 0, 1, 2)]
+    base = motion.rotations[start]
+    weigh = _hermite_weights(frames, share) if smooth else np.stack([0 * share, 1 - share, share, 0 * share])
+    log = [
+        rotations.to_rotvec(rotations.multiply(rotations.inverse(base), motion.rotations[f])) for f in frames
+    ]
+    root = sum(w[:, None] * motion.root_positions[f] for w, f in zip(weigh, frames, strict=True))
+    turn = sum(w[:, None, None] * vector for w, vector in zip(weigh, log, strict=True))
+    return np.asarray(root), rotations.multiply(base, rotations.from_rotvec(turn))
+
+
+def _hermite_weights(frames: Sequence[Indices], u: Array) -> Array:
+    """Weigh the frames i - 1, i, i + 1, i + 2 so that they give the Hermite curve, shape (4, N)."""
+    before, here, there, after = frames
+    first, second = (np.maximum(b - a, 1) for a, b in ((before, there), (here, after)))  # one or two frames
+    rise, fall = (u**3 - 2 * u**2 + u) / first, (u**3 - u**2) / second
+    end = 3 * u**2 - 2 * u**3
+    return np.stack([-rise, 1 - end - fall, end + rise, fall])
+
+
+def _checked(keys: TimeKeys) -> tuple[Array, Array]:
+    """Give the new and the old seconds of some time keys."""
+    pairs = np.asarray(keys, float)
+    if pairs.ndim != 2 or pairs.shape[1] != 2 or len(pairs) < 2 or not np.isfinite(pairs).all():
+        raise MocapError(
+            f"A retiming needs two or more finite pairs (new, old second), got shape {pairs.shape}."
+        )
+    for name, seconds in zip(("new", "old"), pairs.T, strict=True):
+        if (back := np.diff(seconds) <= 0).any():
+            at = int(back.argmax())
+            raise MocapError(
+                f"Time keys rise, but the {name} second {seconds[at + 1]:g} follows {seconds[at]:g}."
+            )
+    return pairs[:, 0], pairs[:, 1]

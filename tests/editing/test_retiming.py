@@ -1,0 +1,193 @@
+"""Warping in time: time rises, slow motion stays smooth, and a cycle closes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import CubicSpline
+
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import resample
+from mocap.datasets.samples import sample
+from mocap.editing.warping.keys import cardinal
+from mocap.editing.warping.looping import looped, repeated
+from mocap.editing.warping.retiming import at_frames, old_seconds, retime
+from mocap.errors import MocapError
+from mocap.feet.footskate import clean_up
+from tests.strategies import random_motion
+
+WALK = sample("walk_straight")[240:721]
+UNEVEN = [(0, 0), (100, 40), (130, 250), (300, 280), (400, 400)]
+
+
+def body(motion):
+    """List the joints without hands, fingers, thumbs and end sites, where captured noise lives."""
+    noise = ("hand", "finger", "thumb", "_end")
+    return [j for j, name in enumerate(motion.skeleton.names) if not any(word in name for word in noise)]
+
+
+def acc99(motion):
+    """Return the 99th percentile of the joints' accelerations, m/s²."""
+    pushes = np.diff(joint_positions(motion)[:, body(motion)], 2, axis=0) * motion.fps**2
+    return float(np.percentile(np.linalg.norm(pushes, axis=-1), 99))
+
+
+# -------------------------------------------------------------------------------------------- time
+def test_uneven_time_keys_run_backwards_by_cubic_splines_and_never_by_pchip():
+    new, old = np.array(UNEVEN, float).T
+    now = np.arange(401)
+    assert 0.25 < (np.diff(cardinal(new, old, now)) < -1e-9).mean() < 0.33
+    natural = CubicSpline(new, old, bc_type="natural")(now)
+    assert 0.40 < (np.diff(natural) < -1e-9).mean() < 0.46
+    assert (np.maximum.accumulate(natural) - natural).max() > 150
+    assert np.diff(old_seconds(UNEVEN, now)).min() > 0
+
+
+rising = st.lists(st.floats(0.01, 10), min_size=1, max_size=6).map(lambda gaps: np.cumsum([0.0, *gaps]))
+
+
+@given(st.tuples(rising, rising))
+@settings(max_examples=50)
+def test_time_always_rises_and_meets_its_keys(both):
+    count = min(map(len, both))
+    new, old = (seconds[:count] for seconds in both)
+    keys = list(zip(new, old, strict=True))
+    assert old_seconds(keys, new) == pytest.approx(old)
+    assert np.diff(old_seconds(keys, np.linspace(0, new[-1], 500))).min() > 0
+
+
+def test_one_pace_is_the_clip_itself_and_back_again_is_where_it_began():
+    same = retime(WALK, [(0, 0), (WALK.duration, WALK.duration)])
+    assert joint_positions(same) == pytest.approx(joint_positions(WALK), abs=1e-9)
+    keys = [(0, 0), (3, 2), (4.5, 4)]
+    new = np.linspace(0, 4.5, 91)
+    back = retime(retime(WALK, keys), list(zip(old_seconds(keys, new), new, strict=True)))
+    gap = joint_positions(back)[:, body(WALK)] - joint_positions(WALK)[:, body(WALK)]
+    assert len(back) == len(WALK)
+    assert np.linalg.norm(gap, axis=-1).max() < 0.003  # metres
+
+
+def test_the_marks_come_from_the_nearest_frame():
+    slow = retime(WALK, [(0, 0), (8, 4)])
+    assert slow.duration == 8
+    for joint, mark in WALK.contacts.items():
+        assert slow.contacts[joint].mean() == pytest.approx(mark.mean(), abs=0.01)
+    assert slow.labels["walk"].all()
+
+
+def test_only_a_part_may_be_shown():
+    part = retime(WALK, [(5, 1), (6, 2)])
+    assert joint_positions(part)[0] == pytest.approx(joint_positions(WALK)[120], abs=1e-12)
+    assert len(part) == 121
+
+
+@pytest.mark.parametrize("fps", [120.0, 30.0])
+def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
+    source = resample(WALK, fps)
+    quarter = np.arange(0, len(source) - 1, 0.25)
+    smooth, straight = (replace(at_frames(source, quarter, smooth=s), fps=4 * fps) for s in (True, False))
+    assert acc99(smooth) < 1.1 * acc99(WALK)
+    assert acc99(straight) > 1.5 * acc99(WALK)
+
+
+def test_slow_motion_of_a_captured_walk(real_data):
+    from mocap.files import load_save
+
+    captured = load_save.load(real_data / "cmu" / "16" / "16_15.amc")[12:]
+    quarter = np.arange(0, len(captured) - 1, 0.25)
+    smooth, straight = (replace(at_frames(captured, quarter, smooth=s), fps=480) for s in (True, False))
+    assert acc99(smooth) < 1.6 * acc99(captured)  # 16 times the frames' differences: 1.4, by slerp 2.6
+    assert acc99(straight) > 2.3 * acc99(captured)
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3])
+def test_short_clips_can_be_shown_at_any_moment(frames):
+    motion = random_motion(7, frames)
+    shown = at_frames(motion, [-1.0, 0.0, frames - 1.0, 99.0])
+    assert joint_positions(shown) == pytest.approx(joint_positions(motion)[[0, 0, -1, -1]], abs=1e-12)
+
+
+def test_a_steady_glide_stays_steady_up_to_both_ends():
+    motion = replace(WALK[:9], root_positions=np.arange(9)[:, None] * [0.0, 0.0, 1.0])
+    assert at_frames(motion, [0.25, 3.5, 7.75]).root_positions[:, 2] == pytest.approx([0.25, 3.5, 7.75])
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: retime(WALK, []), "two or more finite pairs"),
+        (lambda: retime(WALK, [(0, 0)]), r"finite pairs \(new, old second\), got shape \(1, 2\)"),
+        (lambda: retime(WALK, [(0, 0), (1, np.nan)]), "finite pairs"),
+        (lambda: retime(WALK, [(0, 0), (1, 2), (2, 2)]), "the old second 2 follows 2"),
+        (lambda: retime(WALK, [(0, 0), (2, 1), (1, 2)]), "the new second 1 follows 2"),
+        (lambda: retime(WALK, [(0, 0), (1, 4.5)]), "Second 4.5 is not on 'walk_straight', which lasts 4 s"),
+        (lambda: retime(WALK, [(0, -0.5), (1, 2)]), "Second -0.5 is not on"),
+        (lambda: retime(WALK, [(0, 0), (1e9, 4)]), r"ask for 1.2e\+11 frames; at most 1000000"),
+        (lambda: at_frames(WALK, []), "one or more finite moments"),
+        (lambda: at_frames(WALK, [np.nan]), "one or more finite moments"),
+    ],
+)
+def test_times_that_cannot_be(call, message):
+    with pytest.raises(MocapError, match=message) as told:
+        call()
+    assert len(str(told.value)) <= 200
+
+
+# ------------------------------------------------------------------------------------------- loops
+def jumps(motion):
+    """Return by how much velocities change from frame to frame, m/s, (F - 2, J)."""
+    steps = np.diff(joint_positions(motion)[:, body(motion)], 2, axis=0) * motion.fps
+    return np.linalg.norm(steps, axis=-1)
+
+
+def plain(cycle):
+    """Repeat a cycle that nothing has closed."""
+    return repeated(cycle, 3)
+
+
+def test_a_cycle_closes_without_a_jump():
+    stride = looped(WALK, 20, 157)
+    again = repeated(stride, 3)
+    at = joint_positions(again)
+    assert len(again) == 3 * 137 + 1
+    usual = np.percentile(jumps(WALK), 99)
+    seams = np.r_[135:139, 272:276]
+    assert jumps(again)[seams].max() < usual
+    assert jumps(plain(WALK[20:158]))[seams].max() > 2 * usual
+    step = at[137, 0] - at[0, 0]
+    assert at[137:, 1] == pytest.approx(at[:-137, 1] + step, abs=0.05)  # the same again, farther on
+    assert again.contacts["lfoot"][:137].tolist() == again.contacts["lfoot"][137:274].tolist()
+
+
+def test_the_gap_all_in_the_last_frame_jolts():
+    stride = looped(WALK, 20, 157)
+    late = replace(
+        stride,
+        rotations=np.concatenate([WALK.rotations[20:157], stride.rotations[-1:]]),
+        root_positions=np.concatenate([WALK.root_positions[20:157], stride.root_positions[-1:]]),
+    )
+    seam = slice(134, 139)
+    assert jumps(repeated(late, 2))[seam].max() > 3 * jumps(repeated(stride, 2))[seam].max()
+
+
+def test_the_feet_of_a_loop_can_be_cleaned():
+    again = clean_up(repeated(looped(WALK, 20, 157), 3))
+    at = joint_positions(again)
+    for joint, mark in again.contacts.items():
+        foot = at[:, again.skeleton.index(joint)]
+        edges = np.flatnonzero(np.diff(mark.astype(int), prepend=0, append=0)).reshape(-1, 2)
+        assert max(np.ptp(foot[a:b], axis=0).max() for a, b in edges) < 1e-6  # metres
+
+
+@pytest.mark.parametrize(("first", "last"), [(5, 5), (9, 3), (-1, 4), (3, 481)])
+def test_cycles_that_cannot_be(first, last):
+    with pytest.raises(MocapError, match=f"which has 481; got {first} and {last}"):
+        looped(WALK, first, last)
+
+
+@pytest.mark.parametrize("times", [0, -1])
+def test_a_cycle_is_repeated_once_or_more(times):
+    with pytest.raises(MocapError, match="cannot be repeated"):
+        repeated(WALK, times)

@@ -1,0 +1,250 @@
+"""Warping in value: keys are met, nothing changes outside them, and the plain ways fail."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import CubicSpline
+
+from mocap.body import euler, rotations
+from mocap.body.kinematics import joint_positions
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import displaced
+from mocap.editing.warping.keys import Key, cardinal, keys_around, offsets
+from mocap.editing.warping.scaling import gains, scaled, scaled_height
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.files import load_save
+from tests.strategies import random_motion, seeds
+
+WALK = sample("walk_straight")[240:481]
+HAND = WALK.skeleton.index("lhand")
+
+
+def moved(motion, frame, *, joint="lhumerus", turn=(0.0, 0.0, 1.0), up=0.0):
+    """Return one frame of a motion with a joint turned and the root lifted."""
+    pose = motion[frame : frame + 1]
+    turned = pose.rotations.copy()
+    number = motion.skeleton.index(joint)
+    turned[:, number] = rotations.multiply(turned[:, number], rotations.from_rotvec(turn))
+    return replace(pose, rotations=turned, root_positions=pose.root_positions + np.array([0, up, 0]))
+
+
+# ------------------------------------------------------------------------------------------- the curve
+def test_the_curve_through_unevenly_spaced_keys():
+    at, values = [0, 10, 30], [0, 1, -1]
+    assert cardinal(at, values, [5, 15, 20]) == pytest.approx([0.541667, 0.59375, -1 / 12], abs=1e-6)
+    assert cardinal(at, values, [5, 15, 20], tension=1.0) == pytest.approx([0.5, 0.6875, 0.0])
+    assert cardinal(at, values, [5, 15, 20], flat=[1]) == pytest.approx([0.5, 0.6875, 0.0])
+
+
+@given(st.lists(st.integers(1, 30), min_size=0, max_size=5), seeds)
+@settings(max_examples=25)
+def test_a_curve_meets_its_keys_is_level_outside_and_smooth(gaps, seed):
+    at = np.cumsum([3, *gaps])
+    values = np.random.default_rng(seed).normal(size=(len(at), 2, 3))
+    assert cardinal(at, values, at) == pytest.approx(values, abs=1e-12)
+    assert cardinal(at, values, [-50, at[0]]) == pytest.approx(np.stack([values[0]] * 2))
+    assert cardinal(at, values, [at[-1] + 9]) == pytest.approx(values[-1:])
+    step = 1e-4
+    slope = np.diff(cardinal(at, values, np.arange(at[0] - 1, at[-1] + 1, step)), axis=0) / step
+    assert np.abs(np.diff(slope, axis=0)).max() < 0.02  # C¹: slopes do not jump at the keys
+
+
+@pytest.mark.parametrize(
+    ("at", "values", "tension", "message"),
+    [
+        ([0, 1], [1.0], 0, r"as many values as keys, got shapes \(1,\) and \(2,\)"),
+        ([], [], 0, "as many values as keys"),
+        ([0, 0], [1.0, 2.0], 0, r"times that rise, got times \[0.0, 0.0\]"),
+        ([0, np.nan], [1.0, 2.0], 0, "finite values"),
+        ([0, 1], [1.0, np.inf], 0, "finite values"),
+        ([0, 1], [1.0, 2.0], 1.5, "tension lies between 0 and 1, got 1.5"),
+    ],
+)
+def test_a_curve_that_cannot_be(at, values, tension, message):
+    with pytest.raises(MocapError, match=message):
+        cardinal(at, values, [0], tension=tension)
+
+
+# ------------------------------------------------------------------------------------------ offsets
+def test_a_key_is_met_and_nothing_changes_outside():
+    pose = moved(WALK, 120, up=0.05)
+    change = offsets(WALK, keys_around(WALK, 120, pose))
+    warped = displaced(WALK, change)
+    assert joint_positions(warped)[120] == pytest.approx(joint_positions(pose)[0], abs=1e-5)  # 0.01 mm
+    outside = np.r_[0:61, 180:241]
+    assert np.abs(change.root[outside]).max() == np.abs(change.turns[outside]).max() == 0
+    assert np.array_equal(warped.rotations[outside], WALK.rotations[outside])
+    assert list(warped.contacts) == list(WALK.contacts)
+
+
+@given(seeds)
+@settings(max_examples=15)
+def test_every_key_of_any_body_is_met(seed):
+    motion = random_motion(seed, frames=30)
+    poses = [random_motion(seed + 1, 1, skeleton=motion.skeleton) for _ in range(2)]
+    keys = [Key(3, poses[0], flat=True), Key(11), Key(25, poses[1])]
+    warped = joint_positions(displaced(motion, offsets(motion, keys, tension=0.3)))
+    for key in keys:
+        asked = joint_positions(key.pose or motion[key.frame : key.frame + 1])[0]
+        assert warped[key.frame] == pytest.approx(asked, abs=1e-9)
+
+
+def test_without_a_pose_nothing_changes():
+    warped = displaced(WALK, offsets(WALK, [Key(10), Key(50), Key(100)]))
+    assert np.array_equal(warped.rotations, WALK.rotations)
+    assert np.array_equal(warped.root_positions, WALK.root_positions)
+
+
+def test_the_offset_on_the_other_side_misses():
+    pose = moved(WALK, 120, turn=(0.5, 0.5, 0.5))
+    change = offsets(WALK, keys_around(WALK, 120, pose))
+    left = replace(WALK, rotations=rotations.multiply(rotations.from_rotvec(change.turns), WALK.rotations))
+    miss = joint_positions(left)[120, HAND] - joint_positions(pose)[0, HAND]
+    assert np.linalg.norm(miss) > 0.02
+
+
+def test_a_change_near_an_end_of_the_clip_holds_to_the_end():
+    keys = keys_around(WALK, 20, moved(WALK, 20, up=0.1))
+    assert [key.frame for key in keys] == [20, 80]
+    assert offsets(WALK, keys).root[:21, 1] == pytest.approx(0.1)
+    assert [key.frame for key in keys_around(WALK, 230, moved(WALK, 230))] == [170, 230]
+    assert [key.frame for key in keys_around(WALK, 120, moved(WALK, 120), seconds=9)] == [120]
+
+
+def test_a_level_key_keeps_the_curve_from_swinging_before_it():
+    at, values = [0, 60, 90, 120, 240], [0, 0, 0.2, 0, 0]
+    free, level = (cardinal(at, values, np.arange(60), flat=flat) for flat in ([], [1, 3]))
+    assert free.min() < -0.015  # metres, into the ground
+    assert np.abs(level).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("keys", "error", "message"),
+    [
+        ([], MocapError, "needs a key or more"),
+        ([Key(241)], MocapError, "Key 241 is no frame of 'walk_straight', which has 241"),
+        ([Key(-1)], MocapError, "Key -1 is no frame"),
+        ([Key(1.5)], MocapError, "Key 1.5 is no frame"),
+        ([Key(float("nan"))], MocapError, "Key nan is no frame"),
+        ([Key(50), Key(40)], MocapError, "frame 40 follows 50"),
+        ([Key(50), Key(50)], MocapError, "once each: frame 50 follows 50"),
+        ([Key(50, WALK)], MocapError, "pose of key 50 needs one frame, got 241"),
+        ([Key(50, random_motion(1, 1))], SkeletonMismatch, "skeletons differ"),
+    ],
+)
+def test_keys_that_cannot_be(keys, error, message):
+    with pytest.raises(error, match=message) as told:
+        offsets(WALK, keys)
+    assert len(str(told.value)) <= 200
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), 0.001])
+def test_a_change_takes_a_frame_or_more(seconds):
+    with pytest.raises(MocapError, match="a frame or more to come and go"):
+        keys_around(WALK, 100, moved(WALK, 100), seconds)
+
+
+# -------------------------------------------------------------------------------------------- scale
+def swing(motion, joint, about=None):
+    """Return how far a joint is from its mean rotation, radians."""
+    _, v = away(motion, joint, about)
+    return np.linalg.norm(v, axis=-1)
+
+
+def away(motion, joint, about=None):
+    from mocap.editing.warping.scaling import _from, _reference
+
+    reference = _reference(motion, joint, about)
+    return reference, _from(reference, motion.rotations[:, motion.skeleton.index(joint)])
+
+
+def test_a_scale_stretches_the_swing_about_the_mean():
+    reference, before = away(WALK, "lhumerus")
+    wide = scaled(WALK, "lhumerus", 1.5)
+    assert away(wide, "lhumerus", reference)[1] == pytest.approx(1.5 * before)
+    changed = np.abs(wide.rotations - WALK.rotations).max(axis=(0, 2)) > 0
+    assert np.flatnonzero(changed).tolist() == [WALK.skeleton.index("lhumerus")]
+
+
+def test_a_scale_about_the_zero_of_the_file_throws_the_hand_far_off():
+    raised = displaced(WALK, offsets(WALK, [Key(0, moved(WALK, 0, turn=(-1.5, 0, 0)))]))  # an arm held ahead
+    good, bad = (scaled(raised, "lhumerus", 1.5, about=about) for about in (None, [1.0, 0, 0, 0]))
+    gap = joint_positions(bad)[:, HAND] - joint_positions(good)[:, HAND]
+    assert np.linalg.norm(gap, axis=-1).mean() > 0.3
+
+
+def test_a_gain_meets_its_key_and_is_one_elsewhere():
+    frame = int(swing(WALK, "lhumerus").argmax())
+    pose = scaled(WALK, "lhumerus", 1.6)[frame : frame + 1]
+    keys = [Key(max(frame - 60, 0)), Key(frame, pose, flat=True), Key(min(frame + 60, 240))]
+    gain = gains(WALK, "lhumerus", sorted({key.frame: key for key in keys}.values()))
+    assert gain[frame] == pytest.approx(1.6)
+    warped = scaled(WALK, "lhumerus", gain)
+    assert warped.rotations[frame] == pytest.approx(pose.rotations[0])
+
+
+def test_a_scale_key_near_the_reference_would_throw_the_rest_far_off_so_it_is_refused():
+    angle = np.degrees(swing(WALK, "lhumerus"))
+    near = int(angle.argmin())
+    assert angle[near] < 5 < angle.max()
+    wish = moved(WALK, near, turn=(0.26, 0, 0))
+    with pytest.raises(MocapError, match=r"from its reference, .* scale it by .*: give an offset instead"):
+        gains(WALK, "lhumerus", [Key(near, wish)])
+    ratio = (angle[near] + 15) / angle[near]  # what the paper's a = θ'/θ would be
+    assert ratio * angle.max() > 60  # degrees; an offset adds 15 to each
+    assert ratio * angle.max() > 2 * (angle.max() + 15)
+
+
+def test_the_height_is_scaled_about_a_height():
+    flat = scaled_height(WALK, 0.5)
+    heights = WALK.root_positions[:, 1]
+    assert np.ptp(flat.root_positions[:, 1]) == pytest.approx(np.ptp(heights) / 2)
+    assert flat.root_positions[:, 1].mean() == pytest.approx(heights.mean())
+    assert scaled_height(WALK, 2.0, about=0.0).root_positions[:, 1] == pytest.approx(2 * heights)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: scaled(WALK, "lhumerus", 40.0), r"Frame \d+: a gain of 40 turns 'lhumerus' by \d+°"),
+        (lambda: scaled(WALK, "lhumerus", np.nan), r"one finite number, or 241, got shape \(\)"),
+        (lambda: scaled(WALK, "lhumerus", [1.0, 2.0]), r"got shape \(2,\)"),
+        (lambda: scaled(WALK, "elbow", 1.0), "No joint 'elbow'"),
+        (lambda: scaled(WALK, 99, 1.0), "none has number 99"),
+        (lambda: scaled(WALK, "lhumerus", 1.0, about=[2.0, 0, 0, 0]), "quaternion of length 1"),
+        (lambda: scaled(WALK, "lhumerus", 1.0, about=[np.nan, 0, 0, 0]), "quaternion of length 1"),
+        (lambda: scaled_height(WALK, 1.0, about=np.inf), "finite number, got inf"),
+        (lambda: gains(WALK, "lhumerus", []), "needs a key or more"),
+    ],
+)
+def test_scales_that_cannot_be(call, message):
+    with pytest.raises(MocapError, match=message) as told:
+        call()
+    assert len(str(told.value)) <= 200
+
+
+# ------------------------------------------------------------------------------------- Euler angles
+def test_angles_scaled_one_by_one_jump_where_rotation_vectors_do_not(real_data):
+    path = real_data / "cmu" / "02" / "02_07.amc"
+    motion, angles = load_save.load(path), load_save.read_angles(path)["root"]
+    around = slice(2040, 2070)
+    order, axes = motion.skeleton.dofs[0], motion.skeleton.axes[0]
+
+    def step(turns):
+        return float(np.degrees(rotations.angle_between(turns[1:], turns[:-1]))[around].max())
+
+    turned = euler.from_euler(order, np.radians(1.2 * angles))
+    by_angles = rotations.multiply(rotations.multiply(axes, turned), rotations.inverse(axes))
+    assert step(motion.rotations[:, 0]) < 1.5
+    assert step(by_angles) > 15
+    assert step(scaled(motion, 0, 1.2).rotations[:, 0]) < 2
+
+
+def test_a_natural_spline_would_do_for_values_but_not_at_the_ends():
+    """Outside its keys a natural spline runs on; a warp must not."""
+    at, values = [60, 90, 120], [0.0, 0.2, 0.0]
+    assert np.abs(CubicSpline(at, values, bc_type="natural")([0, 30, 180])).min() > 0.1
+    assert np.abs(cardinal(at, values, [0, 30, 180])).max() == 0
