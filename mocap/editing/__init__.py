@@ -9,6 +9,7 @@ Reading order (notebooks 11 to 14)
 1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
 2. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
 3. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+4. `retargeting`: a motion of one body worn by another; a folder of its own
 
 References
 ----------
@@ -26,6 +27,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
+        "retargeting.body_roles": ["ROLES", "roles"],
+        "retargeting.copied_motion": ["copied"],
+        "retargeting.proportions": ["proportioned"],
+        "retargeting.stances": ["Stance", "stance_of", "stance_of_walk", "stance_of_zero", "standing_heights"],
         "warping.keys": ["Key", "cardinal", "keys_around", "offsets"],
         "warping.looping": ["looped", "repeated"],
         "warping.retiming": ["at_frames", "old_seconds", "retime"],
