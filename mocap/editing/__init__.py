@@ -7,9 +7,13 @@ stone [LS99]. All four add a displacement map to a motion: a smooth curve for th
 Reading order (notebooks 11 to 14)
 ----------------------------------
 1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
-2. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
-3. `path_editing`: the path taken off a motion, changed, and the motion put back on it
-4. `retargeting`: a motion of one body worn by another; a folder of its own
+2. `pins`: where joints shall be, and for how long
+3. `linear_bodies`: which joints may turn, at what price, and how pinned joints move with them
+4. `reaching`: each frame by itself brought to its pins
+5. `spacetime_solver`: all frames at once, by the smallest smooth change
+6. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
+7. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+8. `retargeting`: a motion of one body worn by another; a folder of its own
 
 References
 ----------
@@ -26,11 +30,21 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
+        "pins": ["Pins", "join_pins", "pin", "pin_errors", "plant_pins"],
+        "linear_bodies": ["Body", "body_of", "hinge_of"],
+        "reaching": ["Solved", "reach"],
+        "spacetime_solver": ["refined", "spacetime"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "retargeting.body_roles": ["ROLES", "roles"],
         "retargeting.copied_motion": ["copied"],
         "retargeting.proportions": ["proportioned"],
-        "retargeting.stances": ["Stance", "stance_of", "stance_of_walk", "stance_of_zero", "standing_heights"],
+        "retargeting.stances": [
+            "Stance",
+            "stance_of",
+            "stance_of_walk",
+            "stance_of_zero",
+            "standing_heights",
+        ],
         "warping.keys": ["Key", "cardinal", "keys_around", "offsets"],
         "warping.looping": ["looped", "repeated"],
         "warping.retiming": ["at_frames", "old_seconds", "retime"],

@@ -137,3 +137,42 @@ def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
     spans = max(1, round((frames - 1) / spacing))
     at = np.minimum(np.arange(frames) * (spans / max(frames - 1, 1)), spans)
     return sparse.csr_array(BSpline.design_matrix(at, np.arange(-3.0, spans + 4), 3))
+
+
+def right_jacobian(turns: Array) -> Array:
+    """Build J(v), shape (..., 3, 3), with exp(v + δ) ≈ exp(v) exp(J δ) for small δ.
+
+    J(v) = I - (1 - cos θ)/θ² [v]× + (θ - sin θ)/θ³ [v]×² with θ = ‖v‖.
+
+    Parameters
+    ----------
+    turns : rotation vectors v, shape (..., 3).
+
+    Examples
+    --------
+    >>> (right_jacobian(np.array([0, 0, np.pi / 2])) * np.pi / 2).round(6) + 0.0
+    array([[ 1.      ,  1.      ,  0.      ],
+           [-1.      ,  1.      ,  0.      ],
+           [ 0.      ,  0.      ,  1.570796]])
+    """
+    angle = np.linalg.norm(turns, axis=-1)[..., None, None]
+    size = np.maximum(angle, 1e-4)  # below, both quotients are at their limits to 1e-9
+    first = np.where(angle < size, 0.5, (1 - np.cos(size)) / size**2)
+    second = np.where(angle < size, 1 / 6, (size - np.sin(size)) / size**3)
+    cross = cross_matrix(turns)
+    return np.asarray(np.eye(3) - first * cross + second * cross @ cross)
+
+
+def cross_matrix(vectors: Array) -> Array:
+    """Build [v]×, shape (..., 3, 3), with [v]× u = v × u.
+
+    Examples
+    --------
+    >>> cross_matrix(np.array([1.0, 2.0, 3.0])) @ np.array([0.0, 0.0, 1.0])
+    array([ 2., -1.,  0.])
+    """
+    cross = np.zeros((*vectors.shape, 3))
+    x, y, z = np.moveaxis(vectors, -1, 0)
+    cross[..., 0, 1], cross[..., 0, 2], cross[..., 1, 2] = -z, y, -x
+    cross[..., 1, 0], cross[..., 2, 0], cross[..., 2, 1] = z, -y, x
+    return cross

@@ -80,7 +80,7 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Notebook: 04b-feet
     """
     legs = legs_of(motion.skeleton, legs)
-    marks = asked = _settled_marks(motion, legs)
+    marks = asked = settled_marks(motion, legs)
     poses = forward_kinematics(motion)
     tracks = [LegTrack(motion, leg, poses) for leg in legs]
     while True:
@@ -105,7 +105,7 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     return replace(motion, root_positions=roots, rotations=pose, contacts={**motion.contacts, **contacts})
 
 
-def _settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
+def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
     """Read when each leg's ankle and ball stand, (L, 2, F), short plants and gaps settled."""
     names = [[motion.skeleton.names[joint] for joint in (leg.ankle, leg.ball)] for leg in legs]
     if missing := [name for pair in names for name in pair if name not in motion.contacts]:
