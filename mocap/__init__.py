@@ -20,7 +20,7 @@ The rooms of the package, from the ground floor up, with the notebooks that teac
 on lower floors. `help(mocap.graphs)`, for example, lists the files of a room in reading order.
 
 body        what a moving body is: skeletons, motions, rotations, kinematics (01, 03)
-formats     the formats of motion files: ASF/AMC and BVH (01)
+formats     the formats of motion files: ASF/AMC, BVH, AMASS .npz, glTF (01)
 files       motion files by their suffix, whole folders of them; paths from CSV and SVG (01, 10)
 matching    which moments are alike: metrics, distance grids, transitions (02, 05)
 feet        feet that stand still: footplants, footskate clean-up (04)
@@ -29,6 +29,7 @@ quality     numbers that judge clips and seams (01, 04, 09, 10)
 editing     the motion itself changed: keys, pins, paths, other bodies (11 to 14)
 datasets    clips to start with: bundled ones, the CMU database (01, 10)
 graphs      motion graphs: build, prune, choose a threshold, save (05, 06)
+match_webs  all motions like an example, and spaces of blends between them (16)
 synthesis   walks through a graph, at random or by search, and their motions (07)
 steering    walks that follow a wish: paths, waypoints, crowds (08)
 control     characters that get a new command in any frame (08)
@@ -72,6 +73,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "formats",
         "graphs",
         "marking",
+        "match_webs",
         "matching",
         "plotting",
         "quality",
