@@ -12,8 +12,9 @@ Reading order (notebook 16)
 2. `local_alignment`: paths through a grid that begin and end anywhere
 3. `grid_pieces`: the same in a grid that is too large to hold
 4. `webs`: `MatchWeb`, all paths of a set of clips
-5. `crossings`: what the paths lay on some frames: one step of the search
-6. `match_search`: what is like the query, and what is like that
+5. `web_files`: save a web, load it again
+6. `crossings`: what the paths lay on some frames: one step of the search
+7. `match_search`: what is like the query, and what is like that
 
 References
 ----------
@@ -33,6 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "valleys": ["minima_1d"],
         "local_alignment": ["apart", "local_paths"],
         "webs": ["MatchWeb", "PathShape", "build_web"],
+        "web_files": ["load_web", "save_web"],
         "match_search": ["Match", "cut_out", "search"],
     },
 )
