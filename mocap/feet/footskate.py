@@ -24,7 +24,7 @@ from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
-from mocap.feet.ankle_targets import FootTarget, foot_target
+from mocap.feet.ankle_targets import FootTarget, HeldJoints, foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.knee_smoothing import smooth_knees
 from mocap.feet.leg_ik import pose_leg
@@ -44,13 +44,15 @@ class Excess(NamedTuple):
     amount: Array
 
 
-def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
+def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoints | None = None) -> Motion:
     """Make planted feet stand still, at the cost of small changes to the legs and to the root's height.
 
     Parameters
     ----------
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
     legs : found by name by default.
+    pins : where plants shall be, such as `editing.Pins`: a planted ankle or ball that is held there on all
+        axes stands at that place; all others, and all without pins, where they stand on average.
 
     Returns
     -------
@@ -60,7 +62,7 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Raises
     ------
-    MocapError : for legs that cannot be found, and marks that are missing.
+    MocapError : for legs that cannot be found, marks that are missing, and pins of other frames.
 
     Warns
     -----
@@ -80,12 +82,14 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     Notebook: 04b-feet
     """
     legs = legs_of(motion.skeleton, legs)
+    if pins is not None and len(pins.low) != len(motion):
+        raise MocapError(f"'{motion.name}' has {len(motion)} frames, its pins have {len(pins.low)}.")
     marks = asked = settled_marks(motion, legs)
     poses = forward_kinematics(motion)
     tracks = [LegTrack(motion, leg, poses) for leg in legs]
     while True:
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
-        targets = [foot_target(track, own) for track, own in zip(tracks, marks, strict=True)]
+        targets = [foot_target(track, own, pins) for track, own in zip(tracks, marks, strict=True)]
         # Step 3: the root rises or falls.
         rise = root_rise(tracks, targets)
         targets, rise, excesses = _within_bounds(tracks, targets, rise)

@@ -1,6 +1,7 @@
 """After a clean-up planted feet stand still, nothing pops, and a clean clip is left alone."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -207,6 +208,45 @@ def test_missing_marks_and_missing_legs_are_errors():
         clean_up(replace(WALK, contacts={}))
     with pytest.raises(MocapError, match="No legs found among joint0"):
         clean_up(random_motion(0))
+
+
+class Held(NamedTuple):
+    joints: tuple[int, ...]
+    low: np.ndarray
+    high: np.ndarray
+
+
+def test_plants_stand_where_pins_hold_them():
+    clip = WALK[:480]
+    ankle, ball = LEGS[0].ankle, LEGS[0].ball
+    start, stop = runs(clip.contacts["ltoes"])[1]
+    free = np.full((480, 2, 3), np.inf)
+    low, high = -free, free.copy()
+    # A place 8 mm to the side; the ball is held for the first half of its plant only.
+    for n, joint in enumerate((ankle, ball)):
+        at = joint_positions(clip)[:, joint] + [0.008, 0, 0]
+        frames = np.flatnonzero(clip.contacts[clip.skeleton.names[joint]])
+        frames = frames[(frames >= start) & (frames < (stop if n == 0 else (start + stop) // 2))]
+        low[frames, n] = high[frames, n] = at[frames]
+    cleaned = clean_up(clip, pins=Held((ankle, ball), low, high))
+    for joint in (ankle, ball):
+        mark = np.flatnonzero(cleaned.contacts[clip.skeleton.names[joint]])
+        mark = mark[(mark >= start) & (mark < stop)]
+        assert len(mark) > 20
+        moved = (joint_positions(cleaned) - joint_positions(clip))[mark, joint]
+        assert np.abs(moved - [0.008, 0, 0]).max() < 1e-9
+    # A plant that no pin holds, and a joint that none names, stay where they stood.
+    other = np.flatnonzero(cleaned.contacts["rtoes"])
+    moved = (joint_positions(cleaned) - joint_positions(clip))[other, LEGS[1].ball]
+    assert np.abs(moved).max() < 1e-9
+
+
+def test_pins_that_hold_nothing_change_nothing():
+    free = np.full((len(WALK), 1, 3), np.inf)
+    one, two = clean_up(WALK), clean_up(WALK, pins=Held((LEGS[0].ankle,), -free, free))
+    assert np.array_equal(one.rotations, two.rotations)
+    with pytest.raises(MocapError, match="frames, its pins have"):
+        clean_up(WALK, pins=Held((4,), -free[1:], free[1:]))
 
 
 def test_a_plant_out_of_reach_is_let_go_with_a_warning():
