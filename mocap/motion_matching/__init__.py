@@ -1,0 +1,33 @@
+"""Motion matching: no graph; in each moment the frame of all clips that fits what is asked for [Cla16].
+
+The room `matching` compares moments of clips with one another, once and beforehand, so that a graph can be
+built. Here a character compares its own pose and the future asked for with all frames, every 0.1 s, while it
+walks. It needs no transitions and no pruning, and obeys sooner; it knows nothing of what comes later.
+
+Reading order
+-------------
+1. `frame_features`: what a frame is like, in 27 numbers
+2. `springs`: how a wish, and the offset after a cut, come and go
+3. `pose_database`: all frames side by side, standardised
+4. `nearest_frames`: which frame is most like the one asked for?
+5. `matching_control`: a character that searches, cuts, and lets what differs die away
+
+References
+----------
+.. [Cla16] S. Clavet, *Motion Matching and the Road to Next-Gen Animation*, GDC 2016.
+.. [Hol20] D. Holden, O. Kanoun, M. Perepichka, T. Popa, *Learned Motion Matching*, SIGGRAPH 2020,
+   doi 10.1145/3386569.3392440.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "frame_features": ["AHEAD", "BodyTrack", "GROUPS", "body_track", "features"],
+        "springs": ["fade", "spring", "spring_way"],
+        "pose_database": ["PoseDatabase", "WEIGHTS", "standardise", "tabulate"],
+        "nearest_frames": ["FrameSearch", "Wants", "foresee", "next_frame"],
+        "matching_control": ["MotionMatcher"],
+    },
+)
