@@ -54,9 +54,9 @@ def require_writable(path: str | Path) -> None:
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
     path = Path(path)
-    if path.is_dir():
-        raise MocapError(f"Cannot write {path}: it is a folder.")
     try:
+        if path.is_dir():
+            raise MocapError(f"Cannot write {path}: it is a folder.")
         tempfile.TemporaryDirectory(prefix=".", dir=path.parent).cleanup()
     except OSError as error:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error

@@ -33,7 +33,7 @@ def add_demo(commands: "Commands") -> None:
         "clips",
         nargs="*",
         type=Path,
-        help=".amc or .bvh files, or folders of them (default: the bundled clips)",
+        help=".amc, .bvh or AMASS .npz files, or folders of them (default: the bundled clips)",
     )
     add(
         "-o", "--out", type=Path, default=Path("mocap-demo"), help="folder to write to (default: %(default)s)"

@@ -18,7 +18,7 @@ def add_info(commands: "Commands") -> None:
         help="report a clip's length, path and flaws",
         description="Report how long a clip is, how far the body goes and turns, and what is wrong with it.",
     )
-    info.add_argument("file", type=Path, help="an .amc or .bvh file")
+    info.add_argument("file", type=Path, help="an .amc, .bvh or .npz file")
     add_reading(info)
     info.set_defaults(run=_info)
 
@@ -35,16 +35,17 @@ def add_convert(commands: "Commands") -> None:
     """Add `mocap convert`."""
     convert = commands.add_parser(
         "convert",
-        help="convert clips between .amc and .bvh, or whole folders of them",
+        help="convert clips between .amc, .bvh and AMASS .npz, or to .glb; whole folders of them",
         description="Convert a clip, or all clips in a folder and the folders inside it. For one clip, the "
-        "suffix of OUT is the format. An .amc gets an .asf of its name. Lengths in a .bvh are centimetres.",
+        "suffix of OUT is the format. An .amc gets an .asf of its name. Lengths in a .bvh are centimetres. A "
+        ".glb is for engines and viewers, and shows a body of capsules.",
     )
-    convert.add_argument("source", type=Path, metavar="IN", help="an .amc or .bvh file, or a folder")
+    convert.add_argument("source", type=Path, metavar="IN", help="an .amc, .bvh or .npz file, or a folder")
     convert.add_argument("target", type=Path, metavar="OUT", help="the new file, or folder")
     add_reading(convert)
     convert.add_argument(
         "--to",
-        choices=["amc", "bvh"],
+        choices=["amc", "bvh", "glb"],
         default="bvh",
         help="format for the clips of a folder (default: %(default)s)",
     )

@@ -32,7 +32,7 @@ def add_graph(commands: "Commands") -> None:
         description="Build the motion graph of some clips, prune it and save it.",
     )
     add = build.add_argument
-    add("clips", nargs="+", type=Path, help=".amc or .bvh files, or folders of them")
+    add("clips", nargs="+", type=Path, help=".amc, .bvh or AMASS .npz files, or folders of them")
     add("-o", "--out", type=Path, default=Path("graph.npz"), help="file to write (default: %(default)s)")
     add_building(build)
     add("--by-labels", action="store_true", help="keep the largest component of each set of labels")

@@ -15,7 +15,7 @@ from mocap.cli.files import add_convert, add_data, add_info
 from mocap.cli.graph import ACTIONS, add_graph
 from mocap.cli.view import add_view
 from mocap.cli.walk import add_walk
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, MocapWarning, shortened
 
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed
 
@@ -93,7 +93,8 @@ def _say(message: Warning | str, *_place: object, **_more: object) -> None:
     >>> _as_options("choose another name, or set skeleton= to it; widen=True also writes one")
     'choose another name, or set --skeleton to it; --widen also writes one'
     """
-    print(f"mocap: {_as_options(str(message))}", file=sys.stderr)
+    text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), _as_options(str(message)))  # endless names
+    print(f"mocap: {text}", file=sys.stderr)
 
 
 def _as_options(message: str) -> str:

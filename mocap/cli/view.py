@@ -23,7 +23,7 @@ def add_view(commands: "Commands") -> None:
         description="Play a clip in the browser. The page is one file that works without a network.",
     )
     add = view.add_argument
-    add("clip", type=Path, help="an .amc or .bvh file")
+    add("clip", type=Path, help="an .amc, .bvh or AMASS .npz file")
     add("-o", "--out", type=Path, help="an .html, .gif, .mp4 or .png to write; opens no browser")
     add_reading(view)
     view.set_defaults(run=_view)

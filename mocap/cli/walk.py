@@ -25,8 +25,8 @@ def add_walk(commands: "Commands") -> None:
         "walk",
         help="walk through a saved graph, along a path or at random",
         description="Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at "
-        "random, and write the motion as .bvh (centimetres). Ctrl-C while it searches writes the "
-        "best walk so far.",
+        "random, and write the motion as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C "
+        "while it searches writes the best walk so far.",
     )
     add = walk.add_argument
     add("graph", type=Path, help="an .npz file from `mocap graph`")
@@ -52,8 +52,8 @@ def add_walk(commands: "Commands") -> None:
 
 
 def _walk(options: argparse.Namespace) -> int:
-    if options.out.suffix.lower() != ".bvh":
-        raise MocapError(f"A walk is written as .bvh, got '{options.out}'.")
+    if options.out.suffix.lower() not in (".bvh", ".glb"):
+        raise MocapError(f"A walk is written as .bvh or .glb, got '{options.out}'.")
     require_writable(options.out)
     _require_together(options)
     if options.random is not None:

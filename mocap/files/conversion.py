@@ -11,7 +11,8 @@ from typing import NamedTuple
 from mocap._shared.atomic import make_folder
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError
-from mocap.files.load_save import FORMATS, load, save
+from mocap.files.folders import is_clip
+from mocap.files.load_save import load, save
 
 QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # only the main process reports an interruption
 
@@ -55,9 +56,9 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     source, target = Path(source), Path(target)
     if not source.is_dir():
         return _checked([(source, target)])
-    found = sorted(path for path in source.rglob("*") if path.suffix.lower() in FORMATS and path.is_file())
+    found = sorted(path for path in source.rglob("*") if path.is_file() and is_clip(path))
     if not found:
-        raise MocapError(f"The folder {source} holds no .amc or .bvh file.")
+        raise MocapError(f"The folder {source} holds no .amc, .bvh or AMASS .npz file.")
     pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
     return _checked(pairs)
 

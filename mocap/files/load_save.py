@@ -1,73 +1,20 @@
 """Read and write motions; the suffix of the file's name decides the format."""
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TypedDict, Unpack
 
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing, write_text
-from mocap._shared.progress import Progress
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
-from mocap.formats import acclaim, amc, bvh
+from mocap.formats import acclaim, amass, amc, bvh, gltf
 from mocap.formats.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
 from mocap.formats.asf import read_skeleton
 from mocap.formats.text import read_text
 
-FORMATS = (".amc", ".bvh")  # suffixes of the motion files that are found in folders
-
-
-def find_files(paths: Sequence[Path]) -> list[Path]:
-    """List files, and every `.amc` and `.bvh` file of folders.
-
-    Parameters
-    ----------
-    paths : files and folders.
-
-    Raises
-    ------
-    MocapError : for a folder without such files, or one that cannot be read.
-
-    Examples
-    --------
-    >>> find_files([Path("walk.amc"), Path("run.bvh")]) == [Path("walk.amc"), Path("run.bvh")]
-    True
-    """
-    found: list[Path] = []
-    for path in paths:
-        inside = sorted(p for p in path.iterdir() if p.suffix.lower() in FORMATS) if path.is_dir() else [path]
-        if not inside:
-            raise MocapError(f"The folder {path} holds no .amc or .bvh file.")
-        found += inside
-    return found
-
-
-def load_all(
-    paths: Sequence[Path], *, skeleton: Path | None, scale: float | None, progress: Progress
-) -> list[Motion]:
-    """Load files, and every `.amc` and `.bvh` file of folders.
-
-    Parameters
-    ----------
-    paths : as for `find_files`.
-    skeleton, scale : as for `load`.
-    progress : wraps the files while they are read.
-
-    Raises
-    ------
-    MocapError, FormatError : as for `load` and `find_files`.
-
-    Examples
-    --------
-    >>> from tempfile import TemporaryDirectory
-    >>> with TemporaryDirectory() as folder:
-    ...     load_all([Path(folder)], skeleton=None, scale=None, progress=iter)
-    Traceback (most recent call last):
-    mocap.errors.MocapError: The folder ... holds no .amc or .bvh file.
-    """
-    return [load(path, skeleton=skeleton, scale=scale) for path in progress(find_files(paths))]
+READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".amc (with .asf), .bvh, .glb and AMASS .npz"
 
 
 def load(
@@ -77,7 +24,7 @@ def load(
     fps: float | None = None,
     scale: float | None = None,
 ) -> Motion:
-    """Read a motion from an `.amc` or `.bvh` file.
+    """Read a motion from an `.amc` or `.bvh` file, or an `.npz` of AMASS.
 
     Parameters
     ----------
@@ -87,6 +34,7 @@ def load(
     fps : frames per second, which replace those of the file. An `.amc` file has none unless `save` wrote it;
         by default it has 120, as most of the CMU database.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
+        An `.npz` is in metres.
 
     Returns
     -------
@@ -101,7 +49,7 @@ def load(
     --------
     >>> load("walk.fbx")
     Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf) and .bvh.
+    mocap.errors.MocapError: Cannot read walk.fbx: mocap reads .amc (with .asf), .bvh and AMASS .npz.
 
     Notebook: 01b-motion-files
     """
@@ -114,9 +62,14 @@ def load(
             return acclaim.read_amc(path, read_skeleton(asf, scale=scale), fps=fps)
         case ".bvh":
             return bvh.read(path, scale=scale or 0.01, fps=fps)
+        case ".npz":
+            _require_metres(".npz", scale)
+            return amass.read(path, fps=fps)
         case ".asf":
             raise MocapError(f"{path} is a skeleton without a motion: load_skeleton reads it.")
-    raise MocapError(f"Cannot read {path}: mocap reads .amc (with .asf) and .bvh.")
+        case ".glb":
+            raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {READ}.")
+    raise MocapError(f"Cannot read {path}: mocap reads {READ}.")
 
 
 def load_skeleton(path: str | Path) -> Skeleton:
@@ -148,7 +101,8 @@ def load_skeleton(path: str | Path) -> Skeleton:
 def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict[str, Array]:
     """Give each joint's angles as they are in the file, shape (F, its axes), degrees.
 
-    `load` turns them into rotations, which do not jump where an angle jumps from 180° to -180°.
+    `load` turns them into rotations, which do not jump where an angle jumps from 180° to -180°. An `.npz`
+    holds no angles.
 
     Parameters
     ----------
@@ -167,8 +121,11 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
     Notebook: 01b-motion-files
     """
     path = Path(path)
-    if path.suffix.lower() == ".bvh":
-        return bvh.read_angles(path)
+    match path.suffix.lower():
+        case ".bvh":
+            return bvh.read_angles(path)
+        case ".npz":
+            return {}  # it has rotation vectors
     asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
     return acclaim.read_angles(path, read_skeleton(asf))
 
@@ -188,20 +145,22 @@ def save(
     widen: bool = False,
     **form: Unpack[Form],
 ) -> None:
-    """Write a motion to an `.amc` or `.bvh` file; an old file is replaced when the new one is whole.
+    """Write a motion to a file; an old file is replaced when the new one is whole.
 
     These formats cannot hold marks (labels and contacts), so they are left out.
 
     Parameters
     ----------
     motion : F frames.
-    path : the file.
+    path : the file, `.amc`, `.bvh`, `.glb`, or AMASS `.npz`, which holds the 22 joints of SMPL only. A
+        `.glb` is for engines and viewers: it holds a body of capsules as well, and is not read.
     skeleton : for `.amc`, the `.asf` file that it must fit; by default one of the same name is written into
         the same folder.
     widen : for `.amc`, let the bones of that new skeleton turn about all three axes; blended motions need it.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`; for `.amc` that of the skeleton, or
-        0.0564 as in the CMU database.
-    precision : digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to 1e-10 m.
+        0.0564 as in the CMU database. The others are in metres.
+    precision : for `.amc` and `.bvh`, digits after the point, by default 6, which keep joints to 1e-7 m; 9
+        keep them to 1e-10 m.
 
     Raises
     ------
@@ -235,8 +194,11 @@ def save(
             write_text(path, to_amc(motion, asf, precision=precision))
         case ".bvh":
             bvh.write(motion, path, scale=scale or 0.01, precision=precision)
+        case ".glb" | ".npz" as suffix:
+            _require_metres(suffix, scale)
+            (gltf if suffix == ".glb" else amass).write(motion, path)
         case _:
-            raise MocapError(f"Cannot write {path}: mocap writes .amc (with .asf) and .bvh.")
+            raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 
 
 def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> None:
@@ -256,6 +218,11 @@ def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> 
 def _check(name: str, value: float | None) -> None:
     if value is not None and not (math.isfinite(value) and value > 0):
         raise MocapError(f"{name} must be a number above 0, got {value}.")
+
+
+def _require_metres(suffix: str, scale: float | None) -> None:
+    if scale not in (None, 1.0):
+        raise MocapError(f"All {suffix} files are in metres: leave out scale={scale:g}.")
 
 
 def _skeleton_for(path: Path) -> Path:

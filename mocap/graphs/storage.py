@@ -20,7 +20,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import FormatError, MocapError
-from mocap.files.load_save import FORMATS
+from mocap.files.folders import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 
@@ -214,7 +214,7 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
     if set(found.names) <= set(SAMPLES) and not found.origins:
         return [sample(name) for name in found.names]
     folder = Path(path).parent
-    beside = {file.stem: file for file in sorted(folder.iterdir()) if file.suffix.lower() in FORMATS}
+    beside = {file.stem: file for file in sorted(folder.iterdir()) if is_clip(file)}
     placed: list[Origin] = []
     for name, text in itertools.zip_longest(found.names, found.origins):
         origin = find_again(text, folder) if text else None

@@ -10,13 +10,14 @@ from mocap.body.motion import Motion, concatenate, turning
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError
 from mocap.feet.footskate import clean_up
-from mocap.formats import bvh
+from mocap.formats import bvh, gltf
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.synthesis.random_walks import wander
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
 
 MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
+LONGEST = 3600.0  # seconds of a walk that is made in memory
 
 
 def stream(
@@ -87,6 +88,8 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
 ) -> int:
     """Write a random walk to a `.bvh` file while it is made; an hour needs no more memory than a minute.
 
+    A `.glb` is made in memory, so it may last an hour at most.
+
     Parameters
     ----------
     motion_graph, seconds, seed, clean : as for `stream`.
@@ -113,14 +116,21 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
 
     Notebook: 07-walks-and-search
     """
-    if Path(path).suffix.lower() != ".bvh":
-        raise MocapError(f"A long walk is written as .bvh, got '{path}'.")
+    suffix = Path(path).suffix.lower()
+    if suffix not in (".bvh", ".glb"):
+        raise MocapError(f"A long walk is written as .bvh or .glb, got '{path}'.")
+    if suffix == ".glb" and seconds > LONGEST:
+        raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
     # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
     edges = motion_graph.graph.edges
     counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
     pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
+    shown = (next(pieces) for _ in progress(counts))
+    if suffix == ".glb":
+        gltf.write(concatenate(list(shown)), path)
+        return sum(counts)
     turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
-    bvh.write_pieces((next(pieces) for _ in progress(counts)), path, frames=sum(counts), turns=turns)
+    bvh.write_pieces(shown, path, frames=sum(counts), turns=turns)
     return sum(counts)
 
 

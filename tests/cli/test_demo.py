@@ -10,7 +10,7 @@ from mocap.cli.demo import Settings
 from mocap.cli.main import main
 from mocap.datasets import samples
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
-from mocap.files import load_save
+from mocap.files import folders, load_save
 from tests.strategies import random_motion, wave
 
 CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
@@ -64,11 +64,11 @@ def test_folders_stand_for_the_clips_in_them(tmp_path):
     for clip in CLIPS:
         load_save.save(clip, tmp_path / f"{clip.name}.bvh")
     (tmp_path / "notes.txt").write_text("not a clip")
-    clips = load_save.load_all([tmp_path, tmp_path / "a.bvh"], skeleton=None, scale=None, progress=iter)
+    clips = folders.load_all([tmp_path, tmp_path / "a.bvh"], skeleton=None, scale=None, progress=iter)
     assert [clip.name for clip in clips] == ["a", "b", "a"]
     (tmp_path / "empty").mkdir()
-    with pytest.raises(MocapError, match=r"empty holds no \.amc or \.bvh file"):
-        load_save.load_all([tmp_path / "empty"], skeleton=None, scale=None, progress=iter)
+    with pytest.raises(MocapError, match=r"empty holds no \.amc, \.bvh or AMASS \.npz file"):
+        folders.load_all([tmp_path / "empty"], skeleton=None, scale=None, progress=iter)
 
 
 def test_the_bundled_clips_make_a_long_walk(bundled):
@@ -88,7 +88,7 @@ def test_real_clips_make_a_walk(real_data, folder):
         p for p in sorted((real_data / folder).iterdir()) if p.stem in names and p.suffix.lower() == ".amc"
     ]
     assert len(paths) == len(names)
-    clips = load_save.load_all(paths, skeleton=None, scale=None, progress=iter)
+    clips = folders.load_all(paths, skeleton=None, scale=None, progress=iter)
     result = demo.run([clip[:1600] for clip in clips], Settings(seconds=10))
     assert result.walk.duration >= 9.9
     assert 0 < max(seam.cost for seam in result.seams) < 0.04

@@ -49,6 +49,22 @@ def test_convert_every_pair(clips, tmp_path, first, second, capsys):
     assert capsys.readouterr().out.endswith("converted  1 of 1\n")
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_convert_from_amass_and_to_gltf(tmp_path, capsys):
+    clip, frames = tmp_path / "clips" / "walk.npz", 5
+    clip.parent.mkdir()
+    poses = np.random.default_rng(0).normal(size=(frames, 66))
+    np.savez(clip, poses=poses, trans=np.zeros((frames, 3)), betas=np.ones(10), mocap_framerate=60.0)
+    assert main(["convert", str(clip.parent), str(tmp_path / "out"), "--to", "glb"]) == 0
+    assert (tmp_path / "out" / "walk.glb").read_bytes()[:4] == b"glTF"
+    assert main(["convert", str(clip), str(tmp_path / "walk.bvh")]) == 0
+    assert "betas, the shape of the body, are ignored" in capsys.readouterr().err
+    ours, theirs = load_save.load(tmp_path / "walk.bvh"), load_save.load(clip)
+    order = [ours.skeleton.index(name) for name in theirs.skeleton.names]
+    assert np.abs(joint_positions(ours)[:, order] - joint_positions(theirs)).max() < 1e-6
+    assert main(["info", str(clip)]) == 0
+
+
 def test_convert_a_folder_and_name_what_failed(clips, tmp_path, capsys):
     (clips / "broken.bvh").write_text("HIERARCHY\n")
     (clips / "notes.txt").write_text("no clip")
@@ -77,7 +93,7 @@ def test_a_single_failure_is_a_failure(clips, capsys, arguments, message):
 def test_plans_that_make_no_sense_are_refused(clips, tmp_path, capsys):
     (tmp_path / "empty").mkdir()
     assert main(["convert", str(tmp_path / "empty"), str(tmp_path / "out")]) == 2
-    assert "holds no .amc or .bvh file" in capsys.readouterr().err
+    assert "holds no .amc, .bvh or AMASS .npz file" in capsys.readouterr().err
     load_save.save(wave(20), clips / "a.amc")
     with pytest.raises(MocapError, match=r"a.amc and .*a.bvh would both become .*a.bvh"):
         conversion.plan(clips, tmp_path / "out")

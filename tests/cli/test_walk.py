@@ -8,6 +8,7 @@ from mocap.graphs import storage
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from tests.bundled import bundled
+from tests.formats.glb_reader import Glb
 from tests.strategies import wave
 
 
@@ -45,6 +46,15 @@ def test_it_wanders(folder, capsys, clean):
     assert "at random" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("way", [["--random", "5s"], ["--path", "path.csv"]])
+def test_it_writes_gltf_for_engines(folder, monkeypatch, way):
+    monkeypatch.chdir(folder)
+    assert main(["walk", "graph.npz", *way, "-o", "walk.glb", "--clean"]) == 0
+    read = Glb((folder / "walk.glb").read_bytes())
+    assert read.nodes[0]["name"] == "root"
+    assert max(times[-1] for times, _ in read.curves().values()) > 3
+
+
 def test_clips_are_found_beside_the_graph(tmp_path):
     for clip in (wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)):
         load_save.save(clip, tmp_path / f"{clip.name}.bvh")
@@ -66,7 +76,7 @@ def test_clips_are_found_beside_the_graph(tmp_path):
         (["--path", "{f}/path.csv", "--label", "walk"], "METRES:LABEL"),
         (["--path", "{f}/path.csv", "--label", "0:fly"], "there are: walk"),
         (["--path", "{f}/path.csv", "--unit", "5000"], "is it in metres?"),
-        (["--path", "{f}/path.csv", "-o", "{f}/walk.fbx"], "as .bvh"),
+        (["--path", "{f}/path.csv", "-o", "{f}/walk.fbx"], "as .bvh or .glb"),
     ],
 )
 def test_bad_input_is_one_sentence_and_status_2(folder, capsys, options, message):

@@ -11,8 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
+from mocap.formats import amass
 from tests.strategies import wave
 
 ASF = """:units
@@ -106,14 +108,30 @@ def test_a_missing_file_or_a_folder_is_refused(tmp_path, name):
 
 def test_other_formats_are_refused(folder, tmp_path):
     motion = load_save.load(folder(a=("spine", 1)))
-    with pytest.raises(MocapError, match=r"mocap reads .amc .with .asf. and .bvh"):
+    with pytest.raises(MocapError, match=r"mocap reads .amc .with .asf., .bvh and AMASS .npz"):
         load_save.load("walk.c3d")
     with pytest.raises(MocapError, match="load_skeleton reads it"):
         load_save.load("walk.asf")
-    with pytest.raises(MocapError, match=r"mocap writes .amc .with .asf. and .bvh"):
+    with pytest.raises(MocapError, match=r"mocap writes .amc .with .asf., .bvh, .glb and AMASS .npz"):
         load_save.save(motion, tmp_path / "b.fbx")
     with pytest.raises(MocapError, match=r"give an .asf file"):
         load_save.load_skeleton("walk.bvh")
+    with pytest.raises(MocapError, match=r"Cannot read walk.GLB: mocap writes .glb, and reads .amc"):
+        load_save.load("walk.GLB")
+    for suffix in (".glb", ".npz"):
+        with pytest.raises(MocapError, match=f"All {suffix} files are in metres: leave out scale=0.01"):
+            load_save.save(motion, tmp_path / f"b{suffix}", scale=0.01)
+    with pytest.raises(MocapError, match="in metres"):
+        load_save.load("walk.npz", scale=2.0)
+
+
+def test_the_suffix_decides(tmp_path):
+    load_save.save(wave(5), tmp_path / "a.glb")
+    assert (tmp_path / "a.glb").read_bytes()[:4] == b"glTF"
+    smpl = Motion(amass.SKELETON, np.zeros((2, 3)), np.tile([1.0, 0, 0, 0], (2, 22, 1)), 60.0)
+    load_save.save(smpl, tmp_path / "a.NPZ", scale=1.0)
+    assert len(load_save.load(tmp_path / "a.NPZ")) == 2
+    assert load_save.read_angles(tmp_path / "a.NPZ") == {}
 
 
 @pytest.mark.parametrize("option", ["fps", "scale"])

@@ -80,7 +80,8 @@ def test_an_interruption_leaves_nothing(tmp_path):
 @pytest.mark.parametrize(
     ("name", "seconds", "message"),
     [
-        ("walk.amc", 10, "as .bvh"),
+        ("walk.amc", 10, "as .bvh or .glb"),
+        ("walk.glb", 3601, "may last 3600 s, not 3601: write .bvh"),
         ("walk.bvh", 0, "longer than 0 s"),
         ("walk.bvh", np.nan, "longer than 0 s"),
     ],

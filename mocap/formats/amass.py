@@ -1,0 +1,193 @@
+"""AMASS archives (`.npz`): poses of the SMPL body as rotation vectors, in metres, with z up [AMASS19].
+
+An archive holds `poses` (F, 66 or more), `trans` (F, 3), a frame rate, and numbers of the body's shape,
+`betas`. The surface that the shape belongs to comes under a licence of its own and is not here: all archives
+are read onto one body of 22 joints, the mean one. Fingers, face and soft tissue, the numbers after the first
+66 of a pose, are left out.
+"""
+
+from __future__ import annotations
+
+import warnings
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap._shared.atomic import replacing
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import FormatError, MocapError, MocapWarning, shortened
+
+# Each joint's parent and place in it (left, up, ahead), in metres, for a body in T-pose: the means over left
+# and right of those in phc/data/assets/mjcf/smpl_humanoid.xml of github.com/ZhengyiLuo/PHC (BSD 3-Clause),
+# the neutral SMPL body without betas, in millimetres. SMPL orders joints by how deep in the tree they are.
+_JOINTS = {
+    "pelvis": ("", (0, 0, 0)),
+    "left_hip": ("pelvis", (0.069, -0.091, -0.006)),
+    "right_hip": ("pelvis", (-0.069, -0.091, -0.006)),
+    "spine1": ("pelvis", (0, 0.109, -0.027)),
+    "left_knee": ("left_hip", (0.036, -0.379, -0.007)),
+    "right_knee": ("right_hip", (-0.036, -0.379, -0.007)),
+    "spine2": ("spine1", (0, 0.135, 0.001)),
+    "left_ankle": ("left_knee", (-0.015, -0.398, -0.043)),
+    "right_ankle": ("right_knee", (0.015, -0.398, -0.043)),
+    "spine3": ("spine2", (0, 0.053, 0.025)),
+    "left_foot": ("left_ankle", (0.026, -0.052, 0.121)),
+    "right_foot": ("right_ankle", (-0.026, -0.052, 0.121)),
+    "neck": ("spine3", (0, 0.214, -0.043)),
+    "left_collar": ("spine3", (0.080, 0.120, -0.036)),
+    "right_collar": ("spine3", (-0.080, 0.120, -0.036)),
+    "head": ("neck", (0, 0.065, 0.051)),
+    "left_shoulder": ("left_collar", (0.094, 0.032, -0.009)),
+    "right_shoulder": ("right_collar", (-0.094, 0.032, -0.009)),
+    "left_elbow": ("left_shoulder", (0.257, -0.013, -0.024)),
+    "right_elbow": ("right_shoulder", (-0.257, -0.013, -0.024)),
+    "left_wrist": ("left_elbow", (0.252, 0.008, -0.003)),
+    "right_wrist": ("right_elbow", (-0.252, 0.008, -0.003)),
+}
+PELVIS = np.array([0.0, -0.223, 0.028])  # where `trans` 0 puts the pelvis, in the archive's own axes
+UPRIGHT = rotations.from_rotvec([-np.pi / 2, 0, 0])  # from z up to y up
+
+_NAMES = tuple(_JOINTS)
+SKELETON = Skeleton(
+    _NAMES,
+    np.array([_NAMES.index(parent) if parent else -1 for parent, _ in _JOINTS.values()]),
+    np.array([place for _, place in _JOINTS.values()], float),
+    dofs=["xyz"] * len(_NAMES),
+)
+WIDTH = 3 * len(_NAMES)  # numbers of a pose that are read
+RATES = ("mocap_framerate", "mocap_frame_rate")
+MOST = 2**31  # bytes of one array: a day at 120 Hz has fewer
+
+
+def is_amass(path: str | Path) -> bool:
+    """Check, by the names of its arrays, whether an `.npz` file is such an archive.
+
+    Examples
+    --------
+    >>> is_amass("graph.npz")
+    False
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return {"poses.npy", "trans.npy"} <= set(archive.namelist())
+    except (OSError, zipfile.BadZipFile):
+        return False
+
+
+def read(path: str | Path, *, fps: float | None = None) -> Motion:
+    """Read an archive.
+
+    Parameters
+    ----------
+    path : the file. No code in it is run: arrays of objects are refused.
+    fps : frames per second, which replace those of the file; needed where it has none.
+
+    Returns
+    -------
+    A motion of `SKELETON`, named after the file, y up.
+
+    Raises
+    ------
+    MocapError, FormatError : for a file that cannot be read, and for arrays that are missing, of another
+        shape, or not finite.
+
+    Warns
+    -----
+    MocapWarning : where the file gives the body a shape.
+    """
+    arrays = _arrays(path)
+    poses, trans = _checked(path, arrays, "poses", WIDTH), _checked(path, arrays, "trans", 3)
+    if len(poses) != len(trans) or len(poses) == 0:
+        raise FormatError(path, None, f"as many rows of trans as of poses, {len(poses)}", str(len(trans)))
+    betas = arrays.get("betas", np.zeros(1))
+    if betas.dtype.kind in "fiu" and np.any(betas):
+        warnings.warn(
+            f"{path}: betas, the shape of the body, are ignored: the bones are those of the mean body, so "
+            "feet may stand some centimetres above or below the ground.",
+            MocapWarning,
+            stacklevel=4,
+        )
+    local = rotations.from_rotvec(poses[:, :WIDTH].reshape(len(poses), -1, 3))
+    local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
+    roots = rotations.rotate(UPRIGHT, PELVIS + trans[:, :3])
+    return Motion(SKELETON, roots, local, fps or _rate(path, arrays), Path(path).stem)
+
+
+def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
+    """Open the archive and read the arrays that are needed; the others may be of any kind."""
+    ours = "an AMASS archive with poses and trans"
+    try:
+        with zipfile.ZipFile(path) as archive:
+            large = [entry.filename for entry in archive.infolist() if entry.file_size > MOST]
+        if large:
+            raise FormatError(path, None, f"arrays below {MOST / 1e9:.1f} GB", f"a larger '{large[0]}'")
+        with np.load(path, allow_pickle=False) as archive:
+            return {key: archive[key] for key in ("poses", "trans", "betas", *RATES) if key in archive}
+    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
+        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
+    except MocapError:
+        raise
+    except Exception as error:  # NumPy raises many kinds of errors for other files
+        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
+
+
+def _checked(path: str | Path, arrays: dict[str, NDArray[Any]], key: str, width: int) -> Array:
+    """Give an array of rows of at least `width` numbers, all finite."""
+    if key not in arrays:
+        raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
+    values = arrays[key]
+    if values.ndim != 2 or values.shape[1] < width or values.dtype.kind not in "fiu":
+        raise FormatError(
+            path, None, f"{width} numbers for each frame in '{key}'", f"{values.dtype}{values.shape}"
+        )
+    fine = np.isfinite(values).all(axis=1) & (np.abs(values) < 1e6).all(axis=1)
+    if not fine.all():
+        frame = int(fine.argmin())
+        raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", f"others in frame {frame}")
+    return values.astype(float)
+
+
+def _rate(path: str | Path, arrays: dict[str, NDArray[Any]]) -> float:
+    for key in RATES:
+        if key in arrays:
+            rate = arrays[key]
+            if rate.size != 1 or rate.dtype.kind not in "fiu" or not 0 < rate.item() < 1e6:
+                raise FormatError(path, None, f"one number above 0 in '{key}'", f"{rate.dtype}{rate.shape}")
+            return float(rate.item())
+    raise FormatError(path, None, "'mocap_framerate'", "none: give fps=")
+
+
+def write(motion: Motion, path: str | Path) -> None:
+    """Write an archive, with a body of mean shape and fingers at rest.
+
+    Parameters
+    ----------
+    motion : F frames of a skeleton with the joints of `SKELETON`, of any size: the archive holds no bones.
+    path : the file; one that exists is replaced when the new one is whole.
+
+    Raises
+    ------
+    MocapError : for another skeleton: retarget the motion first.
+    """
+    ours = motion.skeleton
+    if ours.names != SKELETON.names or not np.array_equal(ours.parents, SKELETON.parents):
+        name = shortened(motion.name)
+        raise MocapError(
+            f"An .npz holds the {len(SKELETON)} joints of SMPL; '{name}' has others: write .bvh."
+        )
+    back = rotations.inverse(UPRIGHT)
+    turned = motion.rotations.copy()
+    turned[:, 0] = rotations.multiply(back, turned[:, 0])
+    poses = np.zeros((len(motion), 156))
+    poses[:, :WIDTH] = rotations.to_rotvec(turned).reshape(len(motion), -1)
+    trans = rotations.rotate(back, motion.root_positions) - PELVIS
+    with replacing(path) as beside, beside.open("wb") as file:
+        np.savez_compressed(
+            file, poses=poses, trans=trans, betas=np.zeros(16), gender="neutral", mocap_framerate=motion.fps
+        )

@@ -1,0 +1,113 @@
+"""A simple body to look at: each bone is a capsule, a cylinder with round ends, fixed to its joint.
+
+The thickness is our own rule: a bone is the thicker the further the limb goes on behind it, as a thigh is
+thicker than a shank, and a shank than a toe. So a body of any size and with any number of fingers looks like
+one, without a table of names; only a head is known by its name.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.skeleton import Skeleton
+
+AROUND = 10  # corners of a ring
+RINGS = (-90, -50, -15, 15, 50, 90)  # degrees from the middle of a ball up to its poles
+LEAST = 1e-4  # of the longest limb: a shorter bone gets no capsule
+THICK = 0.06  # of the geometric mean of the longest limb and of what is left of it behind a joint
+HEAD = 0.075  # of the longest limb: the radius of a head
+
+
+class Mesh(NamedTuple):
+    """A skinned surface: `places`, `normals` (V, 3), the `joints` (V,) that carry them, `corners` (T, 3)."""
+
+    places: Array
+    normals: Array
+    joints: NDArray[np.intp]
+    corners: NDArray[np.intp]
+
+
+def rest(skeleton: Skeleton) -> Array:
+    """Give where the joints are while none is turned and the root is at the origin, (J, 3), metres."""
+    places = np.zeros((len(skeleton), 3))
+    for joint in range(1, len(skeleton)):
+        places[joint] = places[skeleton.parents[joint]] + skeleton.offsets[joint]
+    return places
+
+
+def reaches(skeleton: Skeleton) -> Array:
+    """Give how far the limbs go on behind each joint, along the bones, (J,), metres.
+
+    Examples
+    --------
+    >>> leg = Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], [[0, 0, 0], [0, -0.4, 0], [0, -0.5, 0]])
+    >>> reaches(leg)
+    array([0.9, 0.5, 0. ])
+    """
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    behind = np.zeros(len(skeleton))
+    for joint in range(len(skeleton) - 1, 0, -1):
+        parent = skeleton.parents[joint]
+        behind[parent] = max(behind[parent], lengths[joint] + behind[joint])
+    return behind
+
+
+def body(skeleton: Skeleton) -> Mesh:
+    """Put a capsule around each bone of a skeleton at rest.
+
+    Parameters
+    ----------
+    skeleton : J joints.
+
+    Returns
+    -------
+    The surface; every corner moves with the joint at which its bone starts. A skeleton without a bone gets
+    one small ball.
+
+    Examples
+    --------
+    >>> body(Skeleton(["hip", "knee"], [-1, 0], [[0, 0, 0], [0, -0.4, 0]])).places.min(axis=0).round(2)
+    array([-0.02, -0.42, -0.02])
+    """
+    behind, places = reaches(skeleton), rest(skeleton)
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    longest = behind[0] or 1.0
+    pieces = []
+    for joint in range(1, len(skeleton)):
+        parent = int(skeleton.parents[joint])
+        if lengths[joint] > LEAST * longest:
+            radius = THICK * np.sqrt(longest * (lengths[joint] + behind[joint]))
+            start, bone = places[parent], skeleton.offsets[joint]
+            if "head" in skeleton.names[parent].lower():  # a ball rather than a limb
+                start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, HEAD * longest)
+            pieces.append((parent, *_capsule(start, bone, radius)))
+    if not pieces:
+        pieces.append((0, *_capsule(places[0], np.zeros(3), THICK * longest)))
+    counts = np.cumsum([0, *(len(points) for _, points, _, _ in pieces)])
+    return Mesh(
+        np.vstack([points for _, points, _, _ in pieces]),
+        np.vstack([normals for _, _, normals, _ in pieces]),
+        np.repeat([joint for joint, *_ in pieces], np.diff(counts)),
+        np.vstack([start + corners for start, (*_, corners) in zip(counts[:-1], pieces, strict=True)]),
+    )
+
+
+def _capsule(start: Array, bone: Array, radius: float) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Build rings from pole to pole; the upper half of the ball that they make is moved along the bone."""
+    if bone[1] < 0:  # the same capsule from its other end: no turn from up to down is the shortest
+        start, bone = start + bone, -bone
+    length = float(np.linalg.norm(bone))
+    turn = rotations.between([0.0, 1.0, 0.0], bone / length) if length else rotations.IDENTITY
+    around, up = np.meshgrid(2 * np.pi * np.arange(AROUND) / AROUND, np.radians(RINGS))
+    ball = np.stack([np.cos(up) * np.sin(around), np.sin(up), np.cos(up) * np.cos(around)], axis=-1)
+    moved = radius * ball + length * (up > 0)[..., None] * [0.0, 1.0, 0.0]
+    corner = np.arange(up.size).reshape(up.shape)
+    below, above = corner[:-1], corner[1:]
+    beside, over = np.roll(below, -1, axis=1), np.roll(above, -1, axis=1)
+    lower, upper = np.stack([below, beside, over], axis=-1), np.stack([below, over, above], axis=-1)
+    corners = np.concatenate([lower[1:], upper[:-1]]).reshape(-1, 3)  # at a pole a ring is one point
+    points = start + rotations.rotate(turn, moved.reshape(-1, 3))
+    return points, rotations.rotate(turn, ball.reshape(-1, 3)), corners

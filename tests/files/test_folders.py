@@ -1,0 +1,28 @@
+"""Motion files are found by their suffix, archives by what is in them."""
+
+import numpy as np
+import pytest
+
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+from mocap.files import conversion, folders, load_save
+from mocap.formats import amass
+from tests.strategies import wave
+
+
+def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
+    load_save.save(wave(3), tmp_path / "b.bvh")
+    still = Motion(amass.SKELETON, np.zeros((2, 3)), np.tile([1.0, 0, 0, 0], (2, 22, 1)), 60.0)
+    load_save.save(still, tmp_path / "c.npz")
+    np.savez(tmp_path / "graph.npz", nodes=np.zeros(3))
+    (tmp_path / "broken.npz").write_bytes(b"PK")
+    (tmp_path / "notes.txt").write_text("")
+    assert [path.name for path in folders.find_files([tmp_path])] == ["b.bvh", "c.npz"]
+    assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == ["b.bvh", "c.npz"]
+    clips = folders.load_all([tmp_path], skeleton=None, scale=None, progress=iter)
+    assert [clip.name for clip in clips] == ["b", "c"]
+
+
+def test_an_empty_folder_is_refused(tmp_path):
+    with pytest.raises(MocapError, match=r"holds no \.amc, \.bvh or AMASS \.npz file\."):
+        folders.find_files([tmp_path])

@@ -1,0 +1,90 @@
+"""A small reader of `.glb` files: it checks their structure, and plays their skeleton without our package."""
+
+import json
+import struct
+
+import numpy as np
+from scipy.spatial.transform import Rotation, Slerp
+
+NUMBERS = {5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
+COUNTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+
+class Glb:
+    """The document of a file, and its arrays, with shares already divided by their largest number."""
+
+    def __init__(self, data):
+        magic, version, size = struct.unpack("<4sII", data[:12])
+        assert (magic, version, size) == (b"glTF", 2, len(data))
+        chunks, at = {}, 12
+        while at < len(data):
+            length, kind = struct.unpack("<I4s", data[at : at + 8])
+            assert length % 4 == 0
+            chunks[kind] = data[at + 8 : at + 8 + length]
+            at += 8 + length
+        self.document = json.loads(chunks[b"JSON"])
+        (buffer,) = self.document["buffers"]
+        assert buffer["byteLength"] == len(chunks[b"BIN\0"])
+        self.arrays = [self._array(accessor, chunks[b"BIN\0"]) for accessor in self.document["accessors"]]
+        self.nodes = self.document["nodes"]
+        self.joints = self.document["skins"][0]["joints"]
+
+    def _array(self, accessor, data):
+        view = self.document["bufferViews"][accessor["bufferView"]]
+        number = np.dtype(NUMBERS[accessor["componentType"]])
+        count = COUNTS[accessor["type"]]
+        assert view["byteOffset"] % 4 == 0
+        assert view["byteLength"] == accessor["count"] * count * number.itemsize
+        start = view["byteOffset"]
+        raw = np.frombuffer(data[start : start + view["byteLength"]], number).reshape(-1, count)
+        for bound, found in (("min", raw.min(0)), ("max", raw.max(0))):
+            if bound in accessor:
+                assert np.array_equal(accessor[bound], found)
+        if not accessor.get("normalized"):
+            return raw
+        return np.maximum(raw.astype(float) / np.iinfo(number).max, -1.0)
+
+    def parents(self):
+        above = {child: node for node, row in enumerate(self.nodes) for child in row.get("children", ())}
+        return [above.get(node, -1) for node in range(len(self.nodes))]
+
+    def curves(self):
+        """Give {(node, path): (times, values)}."""
+        (animation,) = self.document["animations"]
+        found = {}
+        for channel in animation["channels"]:
+            sampler = animation["samplers"][channel["sampler"]]
+            times = self.arrays[sampler["input"]][:, 0]
+            assert np.all(np.diff(times) > 0)
+            assert {"min", "max"} <= set(self.document["accessors"][sampler["input"]])
+            found[channel["target"]["node"], channel["target"]["path"]] = (
+                times,
+                self.arrays[sampler["output"]],
+            )
+        return found
+
+    def poses(self, seconds, rest=False):
+        """Give every joint's matrix (4, 4) in the world, at a time of the animation or at rest."""
+        curves, matrices = {} if rest else self.curves(), []
+        for node, parent in enumerate(self.parents()):
+            matrix = np.eye(4)
+            matrix[:3, 3] = self.nodes[node].get("translation", np.zeros(3))
+            if (node, "translation") in curves:
+                times, places = curves[node, "translation"]
+                matrix[:3, 3] = [np.interp(seconds, times, column) for column in places.T]
+            if (node, "rotation") in curves:
+                times, turns = curves[node, "rotation"]
+                matrix[:3, :3] = Slerp(times, Rotation.from_quat(turns))(seconds).as_matrix()
+            matrices.append(matrix if parent < 0 else matrices[parent] @ matrix)
+        return np.array(matrices)[self.joints]
+
+    def skinned(self, seconds, rest=False):
+        """Give where the body's corners are, (V, 3): the sum of weight · joint · inverse bind · corner."""
+        attributes = self.document["meshes"][0]["primitives"][0]["attributes"]
+        places, joints, weights = (
+            self.arrays[attributes[key]] for key in ("POSITION", "JOINTS_0", "WEIGHTS_0")
+        )
+        bind = self.arrays[self.document["skins"][0]["inverseBindMatrices"]].reshape(-1, 4, 4).swapaxes(1, 2)
+        moves = self.poses(seconds, rest) @ bind
+        mixed = np.einsum("vk,vkij->vij", weights, moves[joints])
+        return np.einsum("vij,vj->vi", mixed, np.c_[places, np.ones(len(places))])[:, :3]
