@@ -11,9 +11,11 @@ Reading order (notebooks 11 to 14)
 3. `linear_bodies`: which joints may turn, at what price, and how pinned joints move with them
 4. `reaching`: each frame by itself brought to its pins
 5. `spacetime_solver`: all frames at once, by the smallest smooth change
-6. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
-7. `path_editing`: the path taken off a motion, changed, and the motion put back on it
-8. `retargeting`: a motion of one body worn by another; a folder of its own
+6. `edits`: one face for edits: spacetime, then feet and limbs put to their places
+7. `levels`: from coarse to fine, by inverse kinematics and splines in turn
+8. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
+9. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+10. `retargeting`: a motion of one body worn by another; a folder of its own
 
 References
 ----------
@@ -21,6 +23,8 @@ References
 .. [Gle98] M. Gleicher, *Retargetting Motion to New Characters*, SIGGRAPH 1998, doi 10.1145/280814.280820.
 .. [LS99] J. Lee, S. Y. Shin, *A Hierarchical Approach to Interactive Motion Editing for Human-like Figures*,
    SIGGRAPH 1999, doi 10.1145/311535.311539.
+.. [LWS97] S. Lee, G. Wolberg, S. Y. Shin, *Scattered Data Interpolation with Multilevel B-Splines*, IEEE TVCG
+   3(3), 1997, doi 10.1109/2945.620490.
 .. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
 """
 
@@ -34,6 +38,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "linear_bodies": ["Body", "body_of", "hinge_of"],
         "reaching": ["Solved", "reach"],
         "spacetime_solver": ["refined", "spacetime"],
+        "edits": ["edit"],
+        "levels": ["Level", "hierarchy", "scattered_fit"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "retargeting.body_roles": ["ROLES", "roles"],
         "retargeting.copied_motion": ["copied"],

@@ -219,15 +219,17 @@ def linear(base: Motion, body: Body, change: Array, pins: Pins) -> Linear:
     """
     moved = body.displacement(change, len(base.skeleton))
     poses = forward_kinematics(displaced(base, moved))
+    joints = list(body.joints)
+    turned = poses.matrices[:, joints] @ right_jacobian(moved.turns[:, joints])  # R_j J(d_j), (F, A, 3, 3)
     slopes = np.zeros((len(base), len(pins.joints), 3, change.shape[1]))
     slopes[..., :3] = np.eye(3)
-    chains = [chain(base.skeleton, joint)[1:] for joint in pins.joints]
-    for joint, axes, columns in zip(body.joints, body.axes, body.columns, strict=True):
-        below = [number for number, above in enumerate(chains) if joint in above]
-        ends = poses.positions[:, [pins.joints[number] for number in below]]
-        arms = cross_matrix(ends - poses.positions[:, [joint]])
-        turned = poses.matrices[:, joint] @ (right_jacobian(moved.turns[:, joint]) @ axes)
-        slopes[:, below, :, columns] = -(arms @ turned[:, None])
+    for number, end in enumerate(pins.joints):
+        above = chain(base.skeleton, end)[1:]
+        movers = [n for n, joint in enumerate(joints) if joint in above]
+        arms = poses.positions[:, [end]] - poses.positions[:, [joints[n] for n in movers]]
+        swings = cross_matrix(-arms) @ turned[:, movers]
+        for n, swing in zip(movers, np.moveaxis(swings, 1, 0), strict=True):
+            slopes[:, number, :, body.columns[n]] = swing @ body.axes[n]
     gap = pins.gap(poses.positions)
     slopes *= (pins.held | (gap != 0))[..., None]
     return Linear(slopes.reshape(len(base), -1, change.shape[1]), gap.reshape(len(base), -1))

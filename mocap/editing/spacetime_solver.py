@@ -198,16 +198,18 @@ class Splines:
     def solve(self, matrix: Array, pull: Array) -> Array:
         """Find the curve x (F, n) = B c with Σ_f b bᵀ ⊗ G_f c = Σ_f b ⊗ g_f, for G (F, n, n) and g (F, n)."""
         knots, n = self.basis.shape[1], pull.shape[1]
-        rows, columns = np.triu_indices(n)
-        upper, number = matrix[:, rows, columns], np.empty((n, n), int)  # a block is symmetric
-        number[rows, columns] = number[columns, rows] = np.arange(len(rows))
-        # The upper form of solveh_banded: entry (i, j) stands in row 4 n - 1 + i - j, column j.
-        band = np.zeros((4 * n, knots, n))
+        flat = matrix.reshape(len(matrix), -1)
+        # Column j of block column k, from its block on the diagonal downwards; the part above it is 0.
+        columns = np.zeros((knots, n, 4, n))
         for d, pair in enumerate(self.pairs):
-            i, j = np.indices((n, n)).reshape(2, -1) if d else (rows, columns)
-            band[(4 * n - 1 - d * n + i - j)[:, None], np.arange(d, knots), j[:, None]] = (pair @ upper).T[
-                number[i, j]
-            ]
-        band[-1] += RIDGE * band[-1].max()
-        found = solveh_banded(band.reshape(4 * n, -1), (self.basis.T @ pull).ravel(), check_finite=False)
+            columns[: knots - d, :, d] = (pair @ flat).reshape(-1, n, n)
+        columns[:, :, 0] *= np.triu(np.ones((n, n)))
+        # The lower form of solveh_banded wants each column from its diagonal entry on: column j is shifted by
+        # j places, as a table of 4 n numbers a row is when it is read with 4 n + 1.
+        band = np.zeros((knots, n * (4 * n + 1)))
+        band[:, : 4 * n * n] = columns.reshape(knots, -1)
+        band = band.reshape(knots * n, 4 * n + 1)[:, :-1].T
+        band[0] += RIDGE * band[0].max()
+        right = (self.basis.T @ pull).ravel()
+        found = solveh_banded(band, right, lower=True, check_finite=False)
         return np.asarray(self.basis @ found.reshape(knots, n))
