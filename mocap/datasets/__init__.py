@@ -1,7 +1,7 @@
-"""Clips to begin with: seven that come with the package, and those of the CMU database.
+"""Clips to begin with: eight that come with the package, and those of the CMU database.
 
 The bundled clips are generated: footsteps planned along a path, a few harmonics for each joint, and inverse
-kinematics for the legs. The course does not need to know how: files 4 to 8 can be read last.
+kinematics for the legs. The course does not need to know how: files 4 to 9 can be read last.
 
 Reading order (notebooks 01, 10)
 --------------------------------
@@ -13,6 +13,7 @@ Reading order (notebooks 01, 10)
 6. `gait_timing`: how far, in which phase and gait, frame by frame
 7. `footsteps`: where the feet go
 8. `walking_body`: the body that walks, and its legs
+9. `jumping`: a jump, on the same legs
 """
 
 import lazy_loader
@@ -24,5 +25,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "clip_origins": ["Origin"],
         "cmu_database": ["TERMS", "Trial", "cmu", "trials"],
         "generated": ["generate", "generate_walk"],
+        "jumping": ["generate_jump"],
     },
 )

@@ -163,7 +163,7 @@ def _roll_on(steps: Steps, phase: Array, roll: Roll, foot: Foot) -> FootPath:
     turn = quintic_step((local - roll.lift) / (1 - roll.lift))
     yaw = steps.yaws[last] + turn * (steps.yaws[last + 1] - steps.yaws[last])
     on_ball, on_heel = local < roll.lift, local >= 1
-    rolling = _about_ball(steps.places[last], yaw, pitch, foot)
+    rolling = about_ball(steps.places[last], yaw, pitch, foot)
     landing = _about_heel(steps.places[last + 1], yaw, pitch, foot)
     swinging = _swing(steps, roll, foot, last, local)
     ankle = np.where(on_ball[:, None], rolling, np.where(on_heel[:, None], landing, swinging))
@@ -174,7 +174,7 @@ def _roll_on(steps: Steps, phase: Array, roll: Roll, foot: Foot) -> FootPath:
     )
     stance = np.where(since < roll.lift / 2, since, np.maximum(roll.lift / 2, roll.lift - until))
     flat = local <= roll.heel_off
-    return FootPath(ankle, pitch, yaw, _toe(ankle, pitch, foot), flat, on_ball, stance, load)
+    return FootPath(ankle, pitch, yaw, toe_angle(ankle, pitch, foot), flat, on_ball, stance, load)
 
 
 def _sole(yaw: Array, pitch: ArrayLike, ahead: float, up: float) -> Array:
@@ -184,7 +184,7 @@ def _sole(yaw: Array, pitch: ArrayLike, ahead: float, up: float) -> Array:
     return np.stack([level * np.sin(yaw), rise, level * np.cos(yaw)], axis=-1)
 
 
-def _about_ball(place: Array, yaw: Array, pitch: Array, foot: Foot) -> Array:
+def about_ball(place: Array, yaw: Array, pitch: Array, foot: Foot) -> Array:
     """Place the ankle while the ball stands still; with the sole flat it is above `place`."""
     ball = _sole(yaw, 0.0, foot.instep, foot.ball)
     ball[:, [0, 2]] += place
@@ -203,7 +203,7 @@ def _swing(steps: Steps, roll: Roll, foot: Foot, last: Indices, local: Array) ->
     width = 1 - roll.lift
     ends = []
     for moment, turn, place in (
-        (roll.lift, _about_ball, slice(None, -1)),
+        (roll.lift, about_ball, slice(None, -1)),
         (1.0, _about_heel, slice(1, None)),
     ):
         step = 1e-3  # of a cycle: differences give the speed and the acceleration at the end
@@ -232,7 +232,7 @@ def _quintic_hermite(start: Sequence[Array], end: Sequence[Array], u: Array) -> 
     return np.asarray(curve + (-15 * gap + 7 * speed - push) * u**4 + (6 * gap - 3 * speed + push / 2) * u**5)
 
 
-def _toe(ankle: Array, pitch: Array, foot: Foot) -> Array:
+def toe_angle(ankle: Array, pitch: Array, foot: Foot) -> Array:
     """Let the toes follow the foot where the floor does not stop them."""
     ball = ankle[:, 1] + foot.instep * np.sin(pitch) - (foot.ankle - foot.ball) * np.cos(pitch)
     floor = np.arcsin(np.clip((foot.ball - ball) / foot.toe, -1, 1))

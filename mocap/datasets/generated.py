@@ -22,6 +22,7 @@ from mocap.body.motion import Motion
 from mocap.datasets.footsteps import FootPath, Steps, foot_path, winding
 from mocap.datasets.gait import JOG, SNEAK, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
 from mocap.datasets.gait_timing import Timing, changing, drift, halting, steady
+from mocap.datasets.jumping import generate_jump
 from mocap.datasets.walking_body import FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
 from mocap.errors import MocapError
 
@@ -64,7 +65,7 @@ def generate(name: str) -> Motion:
 
     Parameters
     ----------
-    name : one of `NAMES`.
+    name : one of `NAMES`, or "jump" for the one that is not a walk.
 
     Returns
     -------
@@ -79,8 +80,10 @@ def generate(name: str) -> Motion:
     >>> generate("walk_straight")
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
     """
+    if name == "jump":
+        return generate_jump()
     if name not in NAMES:
-        raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(NAMES)}.")
+        raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(NAMES)}, jump.")
     seed = NAMES.index(name)
     rng = np.random.default_rng(seed)
     if name in STEADY:

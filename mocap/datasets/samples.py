@@ -6,7 +6,7 @@ from mocap.body.motion import Motion
 from mocap.datasets import generated
 
 SAMPLES: tuple[str, ...] = generated.NAMES
-"""The names of the bundled clips."""
+"""The names of the bundled walks, from which motion graphs are built; `sample("jump")` is a jump."""
 
 
 @cache
@@ -15,7 +15,7 @@ def sample(name: str = "walk_circle") -> Motion:
 
     Parameters
     ----------
-    name : one of `SAMPLES`.
+    name : one of `SAMPLES`, or "jump".
 
     Raises
     ------

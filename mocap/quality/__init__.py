@@ -1,4 +1,4 @@
-"""Measures: what is wrong with a clip, and how good a seam is.
+"""Measures: what is wrong with a clip, how good a seam is, and whether a jump falls as bodies fall.
 
 A seam is compared with the clips' own windows of the same length: a jump that the clips have themselves is
 nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`,
@@ -9,6 +9,11 @@ Reading order (notebooks 01, 04, 09, 10)
 1. `clip_flaws`: a clip's length, its path and its flaws
 2. `seam_measures`: a seam in five numbers
 3. `blend_measures`: what the blend itself adds, sliding feet, turning knees
+4. `falling`: the centre of mass, and the gravity that a flight shows
+
+References
+----------
+.. [Winter09] D. A. Winter, *Biomechanics and Motor Control of Human Movement*, 4th ed., Wiley 2009.
 """
 
 import lazy_loader
@@ -18,6 +23,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "blend_measures": ["BlendJolts", "added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
         "clip_flaws": ["Flaw", "Report", "inspect"],
+        "falling": ["SEGMENTS", "Segment", "centre_of_mass", "gravity"],
         "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
     },
 )

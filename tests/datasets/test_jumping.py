@@ -1,0 +1,182 @@
+"""The generated jump: it falls freely, its feet stand, and it moves within what five captured jumps do."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import mocap
+from mocap.body import rotations
+from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.datasets import SAMPLES, sample
+from mocap.datasets.jumping import generate_jump, plan_jump
+from mocap.datasets.walking_body import FOOT, SKELETON
+from mocap.errors import MocapError
+from mocap.quality.clip_flaws import inspect
+from mocap.quality.falling import centre_of_mass, gravity
+from tests.quality.test_falling import FLIGHTS
+
+JUMP = sample("jump")
+PLACES = joint_positions(JUMP)
+PLAN = plan_jump(0.3)
+AIR = slice(int(PLAN.take_off * 120) + 2, int(PLAN.landing * 120))
+
+
+def bend(motion, places):
+    """Return the angle of the left knee, degrees."""
+    hip, knee, ankle = (places[:, motion.skeleton.index(name)] for name in ("lfemur", "ltibia", "lfoot"))
+    thigh, shank = knee - hip, ankle - knee
+    cosine = (thigh * shank).sum(-1) / np.linalg.norm(thigh, axis=-1) / np.linalg.norm(shank, axis=-1)
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+
+
+def lean(motion, places):
+    """Return the angle of the trunk to the vertical, degrees."""
+    up = places[:, motion.skeleton.index("thorax")] - places[:, 0]
+    return np.degrees(np.arccos(up[:, 1] / np.linalg.norm(up, axis=-1)))
+
+
+def measure(motion, first, last):
+    """Measure a jump: metres, seconds, degrees, m/s²."""
+    centre, places = centre_of_mass(motion)[:, 1], joint_positions(motion)
+    push = np.gradient(np.gradient(centre)) * motion.fps**2
+    knee, low = bend(motion, places), int(centre[:first].argmin())
+    accelerations = np.linalg.norm(np.diff(places, 2, axis=0), axis=-1) * motion.fps**2
+    return {
+        "above standing": centre.max() - centre[0],
+        "crouch": centre[0] - centre[low],
+        "landing": centre[0] - centre[last : last + 60].min(),
+        "flight": (last - first) / motion.fps,
+        "push": (first - low) / motion.fps,
+        "knee standing": knee[0],
+        "knee lowest": knee[low],
+        "knee in the air": knee[first:last].max(),
+        "trunk lowest": lean(motion, places)[low],
+        "acceleration": push.max(),
+        "foot": accelerations[:, motion.skeleton.index("lfoot")].max(),
+        "head": accelerations[:, motion.skeleton.index("head")].max(),
+    }
+
+
+# The least and the most of five captured jumps. Their flights, and so their push, are read off by eye.
+REAL = {
+    "above standing": (0.26, 0.51),
+    "crouch": (0.17, 0.32),
+    "landing": (0.08, 0.24),
+    "flight": (0.28, 0.52),
+    "push": (0.25, 0.31),
+    "knee standing": (16.9, 22),
+    "knee lowest": (84, 99),
+    "knee in the air": (28, 44),
+    "trunk lowest": (29, 65),
+    "acceleration": (34, 60),
+    "foot": (99, 227),
+    "head": (53, 178),
+}
+
+
+@cache
+def captured(folder):
+    clips = {name: mocap.load(folder / "cmu" / name[:2] / f"{name}.amc") for name in FLIGHTS}
+    return [measure(clips[name], *flight) for name, flight in FLIGHTS.items()]
+
+
+def test_the_limits_are_those_of_five_captured_jumps(real_data):
+    for key, (low, high) in REAL.items():
+        values = [found[key] for found in captured(real_data)]
+        assert min(values) >= low, key
+        assert max(values) <= high, key
+        assert min(values) + max(values) == pytest.approx(low + high, rel=0.06), key
+
+
+@pytest.mark.parametrize("key", REAL)
+def test_the_jump_moves_as_people_do(key):
+    value = measure(JUMP, round(PLAN.take_off * 120), round(PLAN.landing * 120))[key]
+    low, high = REAL[key]
+    if key in ("acceleration", "foot", "head"):
+        low = 0  # a captured jump has noise as well
+    assert low <= value <= high
+
+
+@pytest.mark.parametrize("rise", [0.15, 0.3, 0.5])
+def test_in_the_air_the_centre_of_mass_falls_freely_and_rises_as_asked(rise):
+    jump, plan = generate_jump(rise), plan_jump(rise)
+    first, last = int(plan.take_off * 120) + 1, int(plan.landing * 120)
+    assert gravity(jump, first, last) == pytest.approx(9.81, abs=1e-4)
+    centre = centre_of_mass(jump)
+    assert centre[first:last, 1].max() - 1.055 == pytest.approx(rise, abs=1e-3)
+    assert np.ptp(centre[first:last, [0, 2]], axis=0).max() < 1e-6
+
+
+def test_the_ground_pushes_and_never_pulls():
+    push = np.gradient(np.gradient(centre_of_mass(JUMP)[:, 1])) * 120**2
+    assert push.min() > -9.82
+
+
+@pytest.mark.parametrize("joint", ["lfoot", "rfoot", "ltoes", "rtoes"])
+def test_feet_stand_on_one_place_before_and_after(joint):
+    track, mark = PLACES[:, SKELETON.index(joint)], JUMP.contacts[joint]
+    assert np.ptp(track[mark], axis=0).max() < 1e-9
+    assert track[mark, 1] == pytest.approx(FOOT.ankle if "foot" in joint else FOOT.ball, abs=1e-9)
+    edges = np.flatnonzero(np.diff(mark.astype(int)))
+    assert len(edges) == 2
+    assert not mark[AIR].any()
+
+
+def test_nothing_goes_through_the_floor():
+    assert PLACES[..., 1].min() > 0
+    matrices = forward_kinematics(JUMP).matrices
+    for ankle in (SKELETON.index("lfoot"), SKELETON.index("rfoot")):
+        heel = PLACES[:, ankle] + matrices[:, ankle] @ [0, -FOOT.ankle, -FOOT.heel]
+        assert heel[:, 1].min() > -1e-9
+
+
+@pytest.mark.parametrize("rise", [0.15, 0.3, 0.5])
+def test_joints_keep_their_limits(rise):
+    motion = generate_jump(rise, seed=3)
+    for side in "lr":
+        turn = {
+            bone: np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index(side + bone)]))
+            for bone in ("femur", "tibia", "foot", "toes", "radius", "humerus")
+        }
+        knee = turn["tibia"]
+        assert np.abs(knee[:, 1:]).max() < 1e-6
+        assert 4 < knee[:, 0].min() < knee[:, 0].max() < 125
+        assert -100 < turn["femur"][:, 0].min() < turn["femur"][:, 0].max() < 35
+        assert -45 < turn["foot"][:, 0].min() < turn["foot"][:, 0].max() < 60
+        assert -65 < turn["toes"][:, 0].min() < turn["toes"][:, 0].max() < 1e-6
+        elbow = np.linalg.norm(turn["radius"], axis=-1)
+        assert 10 < elbow.min() < elbow.max() < 140
+        assert np.ptp(turn["radius"] / elbow[:, None], axis=0).max() < 0.05  # a hinge
+
+
+def test_labels_and_flaws():
+    assert list(JUMP.labels) == ["stand", "jump"]
+    assert np.array_equal(JUMP.labels["stand"], ~JUMP.labels["jump"])
+    assert not inspect(JUMP).flaws
+    frames = JUMP.rotations.reshape(len(JUMP), -1)
+    assert len(np.unique(frames.round(6), axis=0)) == len(frames)
+
+
+def test_the_jump_is_a_sample_but_no_walk():
+    assert "jump" not in SAMPLES
+    assert sample("jump") is JUMP
+    assert np.array_equal(generate_jump().rotations, JUMP.rotations)
+    assert not np.array_equal(generate_jump(seed=1).rotations, JUMP.rotations)
+    assert PLACES.mean(axis=(0, 1)) == pytest.approx(GOLDEN, abs=1e-6)
+
+
+GOLDEN = (0.001780, 0.876935, 0.094286)
+
+
+@pytest.mark.parametrize("rise", [0.1, 0.6, np.nan, -1])
+def test_a_jump_has_bounds(rise):
+    with pytest.raises(MocapError, match=rf"rises by 0.15 to 0.5 m, got {rise}"):
+        generate_jump(rise)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("seed", range(40))
+def test_every_jump_reaches_the_ground(seed):
+    rise = float(np.random.default_rng(seed).uniform(0.15, 0.5))
+    assert gravity(generate_jump(rise, seed=seed), 220, 255) == pytest.approx(9.81, abs=1e-3)

@@ -1,0 +1,66 @@
+"""The centre of mass, and the gravity that a flight shows."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.datasets.samples import sample
+from mocap.errors import MocapError
+from mocap.files import load_save
+from mocap.quality.falling import SEGMENTS, Segment, centre_of_mass, gravity
+
+# The flights of five captured jumps: their first and last frames in the air.
+FLIGHTS = {
+    "16_01": (136, 170),
+    "16_02": (232, 273),
+    "16_03": (186, 246),
+    "16_04": (165, 226),
+    "02_04": (112, 173),
+}
+
+
+def ball(fps=50.0, g=9.81):
+    """Return a stick of two equal masses that is thrown up."""
+    stick = Skeleton(["low", "top"], [-1, 0], [[0, 0, 0], [0, 0.2, 0]])
+    t = np.arange(40) / fps
+    roots = np.stack([t, 1 + 3 * t - g / 2 * t**2, 0 * t], axis=-1)
+    return Motion(stick, roots, np.tile([1.0, 0, 0, 0], (40, 2, 1)), fps)
+
+
+def test_the_masses_of_a_body_add_up_to_one():
+    assert sum(segment.mass for segment in SEGMENTS) == pytest.approx(1.0)
+
+
+def test_a_thrown_stick_falls_at_g_about_its_middle():
+    parts = [Segment("low", "top", 2.0, 0.25), Segment("low", "top", 2.0, 0.75)]
+    assert centre_of_mass(ball(), parts)[0] == pytest.approx([0, 1.1, 0])
+    assert gravity(ball(), 3, 30, parts) == pytest.approx(9.81)
+    assert gravity(ball(g=16.7), 0, 39, parts) == pytest.approx(16.7)
+
+
+def test_half_the_time_is_four_times_the_gravity():
+    jump = sample("jump")
+    assert gravity(replace(jump, fps=240.0), 215, 262) == pytest.approx(4 * gravity(jump, 215, 262))
+
+
+def test_captured_jumps_fall_at_about_g(real_data):
+    found = [
+        gravity(load_save.load(real_data / "cmu" / name[:2] / f"{name}.amc"), first + 3, last - 3)
+        for name, (first, last) in FLIGHTS.items()
+    ]
+    assert min(found) > 9.7
+    assert max(found) < 10.6
+
+
+@pytest.mark.parametrize(("first", "last"), [(-1, 20), (5, 7), (20, 10), (30, 40)])
+def test_a_flight_lies_on_the_clip_and_lasts_four_frames(first, last):
+    with pytest.raises(MocapError, match=f"which has 40; got {first} to {last}"):
+        gravity(ball(), first, last)
+
+
+def test_another_skeleton_needs_its_own_segments():
+    with pytest.raises(MocapError, match="No joint 'lfemur'; there are: low, top"):
+        centre_of_mass(ball())
