@@ -1,7 +1,8 @@
 """From one motion into another: by a blend over a window, or by a cut whose offset dies away.
 
 Both ways start with two windows that look alike. The second clip is laid on the first; then the poses are
-mixed, or the second clip plays with an offset that fades.
+mixed, or the second clip plays with an offset that fades. Whole clips, two or more, are first registered:
+which of their frames belong together, and how they lie on one another there.
 
 Reading order (notebook 04)
 ---------------------------
@@ -11,10 +12,13 @@ Reading order (notebook 04)
 4. `joining`: from clip into clip, by a blend
 5. `inertialization`: a cut whose offset dies away
 6. `matched_stretches`: many pairs to try blends on
+7. `registration`: any number of whole clips on one clock, blended by any weights
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
+   doi 10.5555/846276.846307.
 .. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
 """
 
@@ -29,5 +33,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "joining": ["join"],
         "inertialization": ["inertialize"],
         "matched_stretches": ["draw_stretches"],
+        "registration.timewarps": ["Curve", "fit_curve"],
+        "registration.contact_matches": ["ContactMatch", "match_contacts"],
+        "registration.registering": ["Registration", "Warp", "register"],
+        "registration.clocks": ["clock_speed", "frame_times"],
+        "registration.mixing": ["Course", "ground_course", "mix"],
     },
 )

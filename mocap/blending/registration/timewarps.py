@@ -1,0 +1,136 @@
+"""Smooth curves over time whose slope stays within bounds: uniform quadratic B-splines, fitted to points.
+
+Within a knot step h the curve is ½ (1 - t)² c_n + (½ + t - t²) c_{n + 1} + ½ t² c_{n + 2}, and its slope goes
+in a straight line from (c_{n + 1} - c_n) / h to (c_{n + 2} - c_{n + 1}) / h. So the slope is within bounds
+everywhere if and only if the differences of neighbouring control points are.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import lsq_linear
+
+from mocap._shared.arrays import Array, frozen
+from mocap.errors import MocapError
+
+
+class Curve(NamedTuple):
+    """A curve over time, which goes on along its tangents before its start and after its end.
+
+    start, step : its first knot, and the time from knot to knot, seconds.
+    coefficients : shape (N + 2,), the control points of N knot steps.
+
+    Examples
+    --------
+    >>> line = Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
+    >>> line([0.0, 0.25, 3.0]), line.slope([0.0, 3.0]), float(line.inverse(3.0))
+    (array([0.  , 0.25, 3.  ]), array([1., 1.]), 3.0)
+    """
+
+    start: float
+    step: float
+    coefficients: Array
+
+    @property
+    def stop(self) -> float:
+        """The last knot."""
+        return self.start + (len(self.coefficients) - 2) * self.step
+
+    def __call__(self, times: ArrayLike) -> Array:
+        """Give the curve's values at some times."""
+        spans, t = self._place(np.asarray(times, float))
+        inside = np.clip(t, 0, 1)
+        near = self.coefficients[spans[..., None] + np.arange(3)]
+        return np.asarray((_basis(inside) * near).sum(-1) + (t - inside) * self._rise(spans, inside))
+
+    def slope(self, times: ArrayLike) -> Array:
+        """Give the curve's slopes at some times, per second."""
+        spans, t = self._place(np.asarray(times, float))
+        return self._rise(spans, np.clip(t, 0, 1)) / self.step
+
+    def inverse(self, values: ArrayLike) -> Array:
+        """Give the times at which an increasing curve has some values.
+
+        In the knot step that holds a value it solves a + b t + c t² = value, in a form that allows c = 0.
+        """
+        values, c = np.asarray(values, float), self.coefficients
+        knots = (c[1:] + c[:-1]) / 2
+        spans = np.clip(np.searchsorted(knots, values, side="right") - 1, 0, len(c) - 3)
+        over, first = values - knots[spans], np.diff(c)[spans]
+        within = np.clip(over, 0, knots[spans + 1] - knots[spans])
+        bend = np.diff(c, 2)[spans] / 2
+        t = 2 * within / (first + np.sqrt(np.maximum(first**2 + 4 * bend * within, 0)))
+        t = t + (over - within) / self._rise(spans, t)
+        return np.asarray(self.start + (spans + t) * self.step)
+
+    def _place(self, times: Array) -> tuple[NDArray[np.intp], Array]:
+        """Find the knot step of each time, and the share of it that has passed: 0 to 1, but at the ends."""
+        x = (times - self.start) / self.step
+        spans = np.clip(np.floor(x), 0, len(self.coefficients) - 3).astype(np.intp)
+        return spans, x - spans
+
+    def _rise(self, spans: NDArray[np.intp], t: Array) -> Array:
+        """Give the slope for each knot step, instead of each second."""
+        rises = np.diff(self.coefficients)
+        return np.asarray((1 - t) * rises[spans] + t * rises[spans + 1])
+
+
+def fit_curve(
+    times: ArrayLike, values: ArrayLike, *, spacing: float, least: float = -np.inf, most: float = np.inf
+) -> Curve:
+    """Fit a curve to points by least squares, with slopes from `least` to `most` everywhere.
+
+    Written as its first control point and their differences, the curve is linear in numbers that have simple
+    bounds: a bounded linear problem, which `scipy.optimize.lsq_linear` solves exactly. (This is ours: that
+    [KG03] fits freely and then pushes control points apart is recalled, not checked.)
+
+    Parameters
+    ----------
+    times, values : shape (N,); times never fall.
+    spacing : seconds from knot to knot, at most.
+    least, most : bounds of the slope, per second.
+
+    Raises
+    ------
+    MocapError : for a spacing that is not above 0, bounds that leave no slope, no points, and points that are
+        not finite or not as many as the times.
+
+    Examples
+    --------
+    >>> curve = fit_curve([0, 1, 2, 3, 4], [0, 0, 0, 3, 4], spacing=1.0, least=1 / 3, most=3)
+    >>> curve([0, 1, 2, 3, 4]).round(4), curve.slope([0, 1, 2, 3, 4]).round(4)
+    (array([-0.3167,  0.0167,  0.6   ,  2.5167,  4.1833]), array([0.3333, 0.3333, 0.8333, 3.    , 0.3333]))
+    """
+    u, y = np.asarray(times, float), np.asarray(values, float)
+    _check(u, y, spacing, (least, most))
+    count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
+    step = (u[-1] - u[0]) / count if u[-1] > u[0] else spacing
+    empty = Curve(float(u[0]), float(step), np.zeros(count + 2))
+    spans, t = empty._place(u)
+    matrix = np.zeros((len(u), count + 2))
+    np.put_along_axis(matrix, spans[:, None] + np.arange(3), _basis(t), axis=1)
+    # The n-th control point is the first one plus n differences; so each difference adds to all later ones.
+    matrix = np.cumsum(matrix[:, ::-1], axis=1)[:, ::-1]
+    low, high = np.full(count + 2, least * step), np.full(count + 2, most * step)
+    low[0], high[0] = -np.inf, np.inf
+    solution = lsq_linear(matrix, y, (low, high), method="bvls").x
+    return empty._replace(coefficients=frozen(np.cumsum(np.clip(solution, low, high)), np.float64))
+
+
+def _basis(t: Array) -> Array:
+    """Give the weights of the three control points of a knot step, shape (..., 3)."""
+    return np.stack([(1 - t) ** 2 / 2, 0.5 + t - t**2, t**2 / 2], axis=-1)
+
+
+def _check(times: Array, values: Array, spacing: float, slopes: tuple[float, float]) -> None:
+    if not (np.isfinite(spacing) and spacing > 0):
+        raise MocapError(f"Knots need a spacing above 0 s, got {spacing}.")
+    if not slopes[0] < slopes[1]:
+        raise MocapError(f"No slope lies between {slopes[0]:g} and {slopes[1]:g}.")
+    if times.ndim != 1 or times.shape != values.shape or not times.size:
+        raise MocapError(f"A curve needs as many times as values, got shapes {times.shape}, {values.shape}.")
+    if not (np.isfinite(times).all() and np.isfinite(values).all()) or np.any(np.diff(times) < 0):
+        raise MocapError("A curve needs finite values at finite times that never fall.")

@@ -1,0 +1,150 @@
+"""Walks to register, generated and captured; what is measured of their blends; and the ways that fail."""
+
+import itertools
+from functools import cache
+
+import numpy as np
+
+from mocap._shared.arrays import runs
+from mocap.blending.registration.clocks import frame_times
+from mocap.body import rotations
+from mocap.body.ground_path import arcs
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, heading, on_ground
+from mocap.datasets.generated import generate_walk
+from mocap.feet import mark_plants
+from mocap.files.load_save import load
+from mocap.matching.point_clouds import align, point_cloud
+
+SPEEDS, TURNS = (0.8, 1.1, 1.4), (-120, 0, 120)  # metres per second, degrees within 5 m
+HALF = np.array([0.5, 0.5])
+
+
+@cache
+def walks():
+    """Nine generated walks of 5 m, with plants that are exact by construction: {(speed, turn): motion}."""
+    made = {}
+    for seed, (speed, turn) in enumerate(itertools.product(SPEEDS, TURNS)):
+        path = arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))])
+        made[speed, turn] = generate_walk(path.points[::20], speed=speed, seed=seed)
+    return made
+
+
+@cache
+def captured(folder, trial):
+    """A trial of subject 16 of the CMU database at 120 Hz, its plants marked."""
+    subject = trial.split("_")[0]
+    skeleton = folder / "cmu" / subject / f"{subject}.asf"
+    return mark_plants(load(folder / "cmu" / subject / f"{trial}.amc", fps=120.0, skeleton=skeleton))
+
+
+def feet(motion):
+    return [joint for leg in find_legs(motion.skeleton) for joint in (leg.ankle, leg.ball)]
+
+
+def skate(motion):
+    """The least ground speed of any ankle or ball, cm/s, the mean of all frames: one foot always stands."""
+    ground = on_ground(joint_positions(motion)[:, feet(motion)])
+    return 100 * float(np.abs(np.diff(ground, axis=0)).min(axis=1).mean()) * motion.fps
+
+
+def slides(motion):
+    """The largest stray of each whole plant from its mean place, cm."""
+    positions, strays = joint_positions(motion), []
+    for name, marks in motion.contacts.items():
+        for start, stop in runs(marks):
+            if start > 0 and stop < len(motion):
+                ground = on_ground(positions[start:stop, motion.skeleton.names.index(name)])
+                strays.append(100 * np.abs(ground - ground.mean()).max())
+    return np.array(strays)
+
+
+def knees(motion):
+    """The range from the 1st to the 99th percentile of the knees' angles, degrees."""
+    ranges = []
+    for leg in find_legs(motion.skeleton):
+        angle = np.degrees(np.linalg.norm(rotations.to_rotvec(motion.rotations[:, leg.knee]), axis=-1))
+        ranges.append(np.subtract(*np.percentile(angle, [99, 1])))
+    return float(np.mean(ranges))
+
+
+def way(motion):
+    """The length of the root's way over the ground, metres."""
+    return float(np.abs(np.diff(on_ground(motion.root_positions))).sum())
+
+
+def turned(motion):
+    """How far the body has turned from first to last, degrees."""
+    facing = np.unwrap(heading(motion.rotations[:, 0]))
+    return float(np.degrees(facing[-1] - facing[0]))
+
+
+def slowest(motion):
+    """The 1st percentile of the root's speed over the ground, metres per second."""
+    return float(np.percentile(np.abs(np.diff(on_ground(motion.root_positions))) * motion.fps, 1))
+
+
+def strikes(motion):
+    """When each foot starts to stand, seconds: left, right."""
+    names, found = motion.skeleton.names, []
+    for leg in find_legs(motion.skeleton):
+        stands = motion.contacts[names[leg.ankle]] | motion.contacts[names[leg.ball]]
+        found.append(np.array([start for start, _ in runs(stands) if start > 0]) / motion.fps)
+    return found
+
+
+def strike_errors(registration):
+    """How far the second clip's strikes are from where the timewarp puts those of the first, ms."""
+    first, second = registration.clips
+    errors = []
+    for ours, theirs in zip(strikes(first), strikes(second), strict=True):
+        for strike in ours[(ours >= registration.span[0]) & (ours <= registration.span[1])]:
+            at = float(registration.times[1](strike))
+            if 0.05 < at < second.duration - 0.05:
+                errors.append(1000 * np.abs(theirs - at).min())
+    return errors
+
+
+def at_times(motion, seconds):
+    """A motion at other times: a clip as it would be, had it been played at another pace."""
+    frames = np.clip(np.asarray(seconds) * motion.fps, 0, len(motion) - 1)
+    before = np.minimum(frames.astype(int), len(motion) - 2)
+    share = (frames - before)[:, None]
+    first, second = motion.root_positions[before], motion.root_positions[before + 1]
+    turns = rotations.slerp(motion.rotations[before], motion.rotations[before + 1], share)
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    return Motion(motion.skeleton, first + share * (second - first), turns, motion.fps, motion.name)
+
+
+def frame_by_frame(a, b, *, stretch=False):
+    """Half and half without a timewarp: frame i with frame i, or both stretched to the mean duration."""
+    if stretch:
+        phase = np.linspace(0, 1, int((a.duration + b.duration) / 2 * a.fps) + 1)
+        a, b = at_times(a, phase * a.duration), at_times(b, phase * b.duration)
+    count = min(len(a), len(b))
+    clouds = (point_cloud(clip[:12]).reshape(-1, 3) for clip in (a, b))
+    b = align(*clouds).apply_motion(b)
+    roots = (a.root_positions[:count] + b.root_positions[:count]) / 2
+    turns = rotations.slerp(a.rotations[:count], b.rotations[:count], np.full((count, 1), 0.5))
+    return Motion(a.skeleton, roots, turns, a.fps, "frame by frame")
+
+
+def places_averaged(registration, weights):
+    """Registered clips laid on the reference once, at the start; then the mean of their places."""
+    times, _ = frame_times(registration, weights, fps=registration.clips[0].fps)
+    roots, turns = 0, []
+    for number, clip in enumerate(registration.clips):
+        at = at_times(clip, registration.times[number](times))
+        angle = float(registration.angles[number](times[0]))
+        turn = np.exp(1j * angle)
+        move = registration.centre(registration.reference, times[0]) - turn * registration.centre(
+            number, times[0]
+        )
+        at = PlanarTransform.from_complex(turn, move).apply_motion(at)
+        roots = roots + weights[number] * at.root_positions
+        turns.append(at.rotations)
+    mean = rotations.mean(np.stack(turns, axis=-2), weights)
+    mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
+    return Motion(clip.skeleton, roots, mean, clip.fps, "places averaged")

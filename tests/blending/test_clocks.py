@@ -1,0 +1,82 @@
+"""The blend's clock: how fast it goes, how long the blend lasts, and what it refuses."""
+
+import numpy as np
+import pytest
+
+from mocap.blending.registration.clocks import checked, clock_speed, frame_times
+from mocap.blending.registration.registering import register
+from mocap.errors import MocapError
+from tests.blending.registered import walks
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return register([walks()[0.8, 0], walks()[1.4, 0]])
+
+
+def test_the_two_means_of_the_paces_1_and_2():
+    assert clock_speed([1, 2], [0.5, 0.5]) == pytest.approx(2 / 3)
+    assert clock_speed([1, 2], [0.5, 0.5], "rates") == pytest.approx(3 / 4)
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.25, 1.0, 1.1, -0.1])
+def test_with_constant_weights_a_blend_lasts_as_long_as_the_clips_do_on_average(pair, weight):
+    weights = np.array([1 - weight, weight])
+    times, shares = frame_times(pair, weights, fps=120.0)
+    assert 0 <= weights @ pair.durations - (len(times) - 1) / 120 < 1 / 120
+    assert times[0] == pair.span[0] and times[-1] <= pair.span[1]
+    assert np.all(np.diff(times) > 0) and shares.shape == (len(times), 2)
+
+
+def test_each_frame_of_one_clip_alone_is_a_frame_later(pair):
+    times, _ = frame_times(pair, [0, 1], fps=120.0)
+    np.testing.assert_allclose(np.diff(pair.times[1](times)), 1 / 120, atol=1e-12)
+
+
+@pytest.mark.parametrize("pace", ["durations", "rates"])
+def test_weights_that_could_move_and_do_not_give_the_same_times(pair, pace):
+    constant, _ = frame_times(pair, [0.4, 0.6], fps=30.0, pace=pace)
+    moving, shares = frame_times(pair, lambda u, t: [0.4, 0.6], fps=30.0, pace=pace)
+    np.testing.assert_allclose(moving, constant, atol=1e-3)
+    np.testing.assert_allclose(shares, np.tile([0.4, 0.6], (len(moving), 1)))
+
+
+def test_averaged_rates_play_faster_than_averaged_durations(pair):
+    lengths = [len(frame_times(pair, [0.5, 0.5], fps=120.0, pace=pace)[0]) for pace in ("rates", "durations")]
+    assert 0.95 * lengths[1] < lengths[0] < lengths[1]
+
+
+def test_weights_are_asked_at_both_times(pair):
+    seen = []
+    frame_times(pair, lambda u, t: seen.append((u, t)) or [0.5, 0.5], fps=30.0)
+    clock, own = np.transpose(seen)
+    assert clock[0] == pair.span[0] and own[0] == 0
+    assert clock[-1] == pytest.approx(pair.span[1], abs=0.1)
+    assert own[-1] == pytest.approx(pair.durations.mean(), abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("weights", "settings", "message"),
+    [
+        ([1.0], {}, r"2 clips needs 2 weights that add up to 1, got \[1.0\]"),
+        ([0.5, 0.6], {}, r"add up to 1, got \[0.5, 0.6\]"),
+        ([np.nan, 1], {}, r"got \[nan, 1.0\]"),
+        (np.full(9, 1 / 9), {}, r"got an array of shape \(9,\) with the sum 1"),
+        (lambda u, t: [0.5, 0.4], {}, r"got \[0.5, 0.4\]"),
+        (lambda u, t: [t + 1, -t] if t else [1, 0, 0], {}, r"got \[1.0, 0.0, 0.0\]"),
+        ([-9.0, 10.0], {}, "time would stop"),
+        (lambda u, t: [-9.0, 10.0], {}, "time would stop"),
+        ([10.0, -9.0], {"pace": "rates"}, "time would stop"),
+        ([0.5, 0.5], {"fps": 0.0}, "rate must be above 0, got 0.0"),
+        ([0.5, 0.5], {"fps": np.inf}, "rate must be above 0, got inf"),
+        ([0.5, 0.5], {"pace": "even"}, "No pace 'even'; there are: durations, rates"),
+    ],
+)
+def test_a_clock_that_would_stop_and_weights_that_are_none_are_refused(pair, weights, settings, message):
+    with pytest.raises(MocapError, match=message) as error:
+        frame_times(pair, weights, **{"fps": 30.0} | settings)
+    assert len(str(error.value)) <= 200
+
+
+def test_checked_weights_are_an_array():
+    assert checked((1, 0), 2).tolist() == [1, 0]
