@@ -6,15 +6,16 @@ the format by the suffix; few programs need this room itself.
 
 Reading order (notebook 01)
 ---------------------------
-1. `text`: text files, their lines and numbers, checked
-2. `asf`: the skeleton of Acclaim files
-3. `amc`: the numbers of Acclaim files, bone by bone
-4. `acclaim`: what those numbers mean
-5. `acclaim_writer`: motions as Acclaim files
-6. `bvh_hierarchy`: the skeleton of BVH files
-7. `bvh`: BVH files, read and written
-8. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-9. `gltf`: a skeleton, its motion and a body around it, for engines and viewers
+ 1. `text`: text files, their lines and numbers, checked
+ 2. `asf`: the skeleton of Acclaim files
+ 3. `amc`: the numbers of Acclaim files, bone by bone
+ 4. `acclaim`: what those numbers mean
+ 5. `acclaim_writer`: motions as Acclaim files
+ 6. `bvh_hierarchy`: the skeleton of BVH files
+ 7. `rigid_bones`: rigid bones for files whose bones change length
+ 8. `bvh`: BVH files, read and written
+ 9. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
+10. `gltf`: a skeleton, its motion and a body around it, for engines and viewers
 
 References
 ----------
@@ -27,5 +28,16 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["acclaim", "acclaim_writer", "amass", "amc", "asf", "bvh", "bvh_hierarchy", "gltf", "text"],
+    submodules=[
+        "acclaim",
+        "acclaim_writer",
+        "amass",
+        "amc",
+        "asf",
+        "bvh",
+        "bvh_hierarchy",
+        "gltf",
+        "rigid_bones",
+        "text",
+    ],
 )

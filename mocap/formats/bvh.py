@@ -8,6 +8,7 @@ centimetre. `bvh_hierarchy` says how joints are named.
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Iterable
 from dataclasses import replace
 from decimal import Decimal
@@ -22,8 +23,9 @@ from mocap._shared.atomic import replacing
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, shortened
+from mocap.errors import FormatError, MocapError, MocapWarning, shortened
 from mocap.formats.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.formats.rigid_bones import STRETCH, fit
 from mocap.formats.text import LARGEST, check_room, read_text, rounded, to_numbers, wrong_number
 
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
@@ -44,7 +46,8 @@ class Channels(NamedTuple):
 def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> Motion:
     """Read a BVH file.
 
-    Position channels below the root are allowed if they do not move. If the root has only one child, and that
+    Position channels below the root are allowed. Where they move, and no bone's length changes by more than
+    2 cm, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
     child moves (some files have a reference point above the hips), both become one joint, named as the child.
 
     Parameters
@@ -60,16 +63,16 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
     Raises
     ------
     FormatError : with the line that breaks the format.
+
+    Warns
+    -----
+    MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved.
     """
     joints, values, rate = read_channels(path, fps=fps)
     places, local = _poses(joints, values)
     if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
         joints, places, local = _without_reference(joints, places, local)
-    for joint, place in zip(joints[1:], np.swapaxes(places, 0, 1)[1:], strict=True):
-        if _moves(place, scale):
-            got = f"one that moves by {scale * np.ptp(place, axis=0).max():.2g} m"
-            raise FormatError(path, joint.line, f"'{joint.name}' in one place below its parent", got)
-    offsets = np.vstack([np.zeros((1, 3)), scale * places[0, 1:]])
+    offsets, local = _rigid(path, joints, scale * places, local)
     names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
     skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
     return Motion(skeleton, scale * places[:, 0], local, rate, Path(path).stem)
@@ -171,6 +174,28 @@ def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
 def _turns(joint: Joint) -> str:
     """Name the axes of a joint's rotation channels, in their order."""
     return "".join(channel[0] for channel in joint.channels if channel in ROTATIONS)
+
+
+def _rigid(path: str | Path, joints: list[Joint], places: Array, local: Array) -> tuple[Array, Array]:
+    """Give the offsets of rigid bones (J, 3), and the rotations (F, J, 4); `places` in metres."""
+    moving = [j for j in range(1, len(joints)) if _moves(places[:, j], 1.0)]
+    if not moving:
+        return np.vstack([np.zeros((1, 3)), places[0, 1:]]), local
+    rigid = fit(np.array([joint.parent for joint in joints]), places, local)
+    worst = int(rigid.stretch.argmax())
+    if not rigid.close:
+        most = max(moving, key=lambda j: float(np.ptp(places[:, j], axis=0).max()))
+        got = f"one that moves by {np.ptp(places[:, most], axis=0).max():.2g} m"
+        expected = f"'{joints[most].name}' in one place below its parent, but for {STRETCH:g} m"
+        raise FormatError(path, joints[most].line, expected, got)
+    warnings.warn(
+        f"{path}: bones change length by up to {1000 * rigid.stretch[worst]:.2g} mm "
+        f"({shortened(joints[worst].name, 40)}); fitted to rigid bones, joints lie up to "
+        f"{1000 * rigid.apart.max():.2g} mm from their places in the file.",
+        MocapWarning,
+        stacklevel=5,
+    )
+    return rigid.offsets, rigid.rotations
 
 
 def _moves(place: Array, scale: float) -> bool:

@@ -1,0 +1,105 @@
+"""Rigid bones for a file whose joints move in their parents' frames.
+
+Some programs write six channels for every joint, and let bones grow and shrink by a few millimetres. To
+drop these moves, as some readers do, would carry each of them on to all joints behind. Here each bone gets
+its mean length, and each joint turns so that its children come as close as they can to where the file has
+them. The method is ours, from the polar decomposition of a sum of outer products.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+
+STRETCH = 0.02  # metres: a bone whose length changes by more is no bone
+APART = 0.05  # metres: how far a joint may come to lie from its place in the file
+KEPT = 1e-3  # of the bones' square lengths: how much a joint's own turn counts, so that it keeps its twist
+
+
+class Rigid(NamedTuple):
+    """Bones that were fitted: `offsets` (J, 3), metres, `rotations` (F, J, 4), and what that changes.
+
+    `stretch` (J,) says by how much each bone's length changes in the file, `apart` (J,) how far each joint
+    lies from its place there at most, metres.
+    """
+
+    offsets: Array
+    rotations: Array
+    stretch: Array
+    apart: Array
+
+    @property
+    def close(self) -> bool:
+        """Whether all bones stay within `STRETCH`, and all joints within `APART`."""
+        return bool(self.stretch.max() <= STRETCH and self.apart.max() <= APART)
+
+
+def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
+    r"""Fit rigid bones, from the root down.
+
+    A bone gets its mean direction and mean length in its parent's frame. The global turn R of a joint with
+    children at offsets o is the one that maximises Σ d · R o + λ tr(Rᵀ G), where d leads from the joint to
+    the child's place in the file, and G is its turn there: R = U diag(1, 1, ±1) Vᵀ of the SVD of
+    Σ d oᵀ + λ G.
+
+    Parameters
+    ----------
+    parents : shape (J,), -1 for the root, each before its children.
+    places : shape (F, J, 3), metres: where each joint is in its parent's frame; the root in the world.
+    local : shape (F, J, 4), quaternions against the parent's frame.
+
+    Examples
+    --------
+    A bone that points up, then sideways: the joint below it turns, and the bone is as long as before.
+
+    >>> moving = np.array([[[0, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0]]], float)
+    >>> rigid = fit(np.array([-1, 0]), moving, np.tile(rotations.IDENTITY, (2, 2, 1)))
+    >>> rigid.close, rigid.offsets[1].round(2)
+    (True, array([0.71, 0.71, 0.  ]))
+    """
+    lengths = np.linalg.norm(places, axis=-1)
+    offsets = _towards(places.mean(axis=0), lengths.mean(axis=0))
+    offsets[0] = 0.0
+    there, turned = _in_world(parents, places, local)
+    here, fitted = there.copy(), turned.copy()
+    for joint in range(len(parents)):
+        below = np.flatnonzero(parents == joint)
+        bones = offsets[below]
+        if len(below) and (bones**2).sum() > 0:
+            aims = there[:, below] - here[:, joint, None]
+            matrix = np.einsum("fci,cj->fij", aims, bones) + KEPT * (bones**2).sum() * turned[:, joint]
+            fitted[:, joint] = _nearest_rotation(matrix)
+        here[:, below] = here[:, joint, None] + np.einsum("fij,cj->fci", fitted[:, joint], bones)
+    above = np.swapaxes(fitted[:, parents[1:]], -1, -2)
+    own = np.concatenate([fitted[:, :1], above @ fitted[:, 1:]], axis=1)
+    stretch = np.ptp(lengths, axis=0)
+    stretch[0] = 0.0
+    apart = np.linalg.norm(here - there, axis=-1).max(axis=0)
+    return Rigid(offsets, rotations.from_matrix(own), stretch, apart)
+
+
+def _towards(vectors: Array, lengths: Array) -> Array:
+    """Give vectors (J, 3) these lengths (J,); those without a direction stay."""
+    now = np.linalg.norm(vectors, axis=-1)
+    scale = np.where(now > 1e-9, lengths / np.maximum(now, 1e-9), 1.0)
+    return np.asarray(vectors * scale[:, None])
+
+
+def _in_world(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[Array, Array]:
+    """Place all joints, (F, J, 3), and give how they are turned, (F, J, 3, 3), with bones of any length."""
+    at, turned = places.copy(), rotations.to_matrix(local)
+    for joint in range(1, len(parents)):
+        above = parents[joint]
+        at[:, joint] = at[:, above] + np.einsum("fij,fj->fi", turned[:, above], places[:, joint])
+        turned[:, joint] = turned[:, above] @ turned[:, joint]
+    return at, turned
+
+
+def _nearest_rotation(matrices: Array) -> Array:
+    """Find the rotations R that maximise tr(Rᵀ M), (F, 3, 3)."""
+    left, _, right = np.linalg.svd(matrices)
+    left[..., 2] *= np.linalg.det(left @ right)[..., None]
+    return np.asarray(left @ right)
