@@ -15,7 +15,9 @@ Reading order (notebooks 11 to 14)
 7. `levels`: from coarse to fine, by inverse kinematics and splines in turn
 8. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
 9. `path_editing`: the path taken off a motion, changed, and the motion put back on it
-10. `retargeting`: a motion of one body worn by another; a folder of its own
+10. `line_rounding`: a line rounded where a walk would turn too fast on it
+11. `bending`: a walk laid on any line, with feet that stand
+12. `retargeting`: a motion of one body worn by another; a folder of its own
 
 References
 ----------
@@ -40,6 +42,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "spacetime_solver": ["refined", "spacetime"],
         "edits": ["edit"],
         "levels": ["Level", "hierarchy", "scattered_fit"],
+        "bending": ["Bent", "bend"],
+        "line_rounding": ["RoundedLine", "Rounding", "round_line"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "retargeting.body_roles": ["ROLES", "roles"],
         "retargeting.copied_motion": ["copied"],

@@ -1,0 +1,174 @@
+"""Lay a walk on a line: any line, rounded where it turns faster than a walk should, with feet that stand."""
+
+import warnings
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mocap._shared.arrays import Array, Mask, frozen
+from mocap.body.ground_path import GroundPath
+from mocap.body.limbs import legs_of
+from mocap.body.motion import Motion
+from mocap.editing.line_rounding import RoundedLine, round_line
+from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept, ride_of
+from mocap.editing.pins import plant_pins
+from mocap.editing.spacetime_solver import spacetime
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
+
+LIMIT = float(np.radians(60))  # per second: the fastest that a walk is turned
+FINE = 0.01  # metres between the points of a line from which distances are measured
+# Share of the plants. With fewer, a solver over all frames helps to hold them; it takes five times the time.
+ENOUGH = 0.95
+MOST = 3  # stretches that a report lists
+
+
+@dataclass(frozen=True, eq=False)
+class Bent:
+    """A walk laid on a line, and how well it keeps to it; `bend` shows an example.
+
+    Parameters
+    ----------
+    motion : F frames, with clean feet.
+    laid : the same before the clean-up.
+    path : the line asked for.
+    line : the line that is walked: rounded where needed.
+    ride : of the walk before it was laid there.
+    """
+
+    motion: Motion
+    laid: Motion
+    path: GroundPath
+    line: RoundedLine
+    ride: Ride
+
+    @cached_property
+    def off(self) -> Array:
+        """Metres of the root from the line asked for, shape (F,); the sway alone is 1 to 2 cm on average."""
+        line = cKDTree(self.path.resampled(FINE).points)
+        return frozen(line.query(self.motion.root_positions[:, [0, 2]])[0], np.float64)
+
+    @cached_property
+    def along(self) -> Array:
+        """Metres along the line asked for in each frame, shape (F,)."""
+        return frozen(np.interp(self.ride.along, self.line.along, self.line.asked), np.float64)
+
+    @cached_property
+    def rounded(self) -> Mask:
+        """Whether the line is rounded where the walk is in each frame, shape (F,)."""
+        parts = [(r.start <= self.along) & (self.along <= r.end) for r in self.line.roundings]
+        return frozen(np.any([np.zeros(len(self.along), bool), *parts], axis=0), np.bool_)
+
+    @cached_property
+    def turned(self) -> Array:
+        """How fast the walk is turned beyond what it turns by itself, shape (F - 1,), radians per second."""
+        old, new = (moving_frames(path, self.ride.along) for path in (self.ride.path, self.line.path))
+        return frozen(np.diff(np.asarray(new.angle) - old.angle) * self.motion.fps, np.float64)
+
+    @property
+    def progress(self) -> float:
+        """The part of the line that is walked, 1 for all of it."""
+        return float(self.along[-1] / self.path.length)
+
+    @property
+    def kept(self) -> float:
+        """The share of the planted frames that the clean-up kept."""
+        return plants_kept(self.motion, self.laid)
+
+    def report(self) -> str:
+        """Say how well the walk keeps to the line, and where the line was rounded and by how much."""
+        as_asked = ~self.rounded if not self.rounded.all() else self.rounded
+        off, fastest = 100 * self.off[as_asked], np.degrees(np.abs(self.turned).max(initial=0.0))
+        return (
+            f"{self.motion.duration:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
+            f"{off.mean():.1f} cm off on average, {off.max():.1f} cm at worst{self._where()}; "
+            f"turned by up to {fastest:.0f}° per second, {self.kept:.0%} of the plants kept"
+        )
+
+    def _where(self) -> str:
+        """Say where the line was rounded, and by how much."""
+        found = self.line.roundings
+        if not found:
+            return ""
+        parts = [f"{r.start:.1f} to {r.end:.1f} m by up to {100 * r.worst:.0f} cm" for r in found[:MOST]]
+        more = f" and {len(found) - MOST} more" if len(found) > MOST else ""
+        outside = "" if self.rounded.all() else " elsewhere"
+        return f"{outside}, rounded at {', '.join(parts)}{more}"
+
+
+def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT) -> Bent:
+    """Lay a walk on a line, and clean up its feet.
+
+    Its own path is taken off and the line put in its place [Gle01]. That the line is rounded where it turns
+    too fast is ours. The walk starts where the line starts, keeps its speed, and ends where the line does.
+    Where the clean-up would let go more than 5 % of the plants, `spacetime` brings them within reach first.
+
+    Parameters
+    ----------
+    motion : its plants are marked where it has none.
+    path : the line, where on the ground it shall be walked.
+    limit : the fastest that the walk is turned, radians per second; faster only where it turns by itself.
+
+    Returns
+    -------
+    The new motion, as far along the line as the walk is long, and what was measured.
+
+    Raises
+    ------
+    MocapError : for a motion that goes nowhere, legs that cannot be found, and a limit that is not above 0.
+
+    Warns
+    -----
+    MocapWarning : for plants that are let go, as by `feet.clean_up`.
+
+    Examples
+    --------
+    >>> from mocap.body import GroundPath
+    >>> from mocap.datasets import sample
+    >>> bent = bend(sample("walk_straight")[:600], GroundPath([[0, 0], [0, 2], [2, 4]]))
+    >>> print(bent.report())  # doctest: +ELLIPSIS
+    4.3 s along 100% of 4.8 m, 1.4 cm off on average, 2.7 cm at worst elsewhere, rounded at 1.2 to ...
+
+    Notebook: 12-path-editing
+    """
+    if not limit > 0:
+        raise MocapError(f"A walk is turned by more than 0 radians per second, got limit={limit}.")
+    motion = _with_plants(motion)
+    ride = ride_of(motion)
+    line = round_line(path, ride, motion.fps, limit)
+    frames = max(2, int(np.searchsorted(ride.along, line.along[-1], side="right")))
+    motion, ride = motion[:frames], replace(ride, along=ride.along[:frames])
+    laid = on_path(motion, line.path, ride)
+    return Bent(_cleaned(laid), laid, path, line, ride)
+
+
+def _cleaned(laid: Motion) -> Motion:
+    """Clean up the feet; where plants are let go, all frames are first changed a little to reach them."""
+    found, warned = _clean(laid)
+    if plants_kept(found, laid) < ENOUGH:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MocapWarning)  # the clean-up goes on from there
+            near = spacetime(laid, plant_pins(laid)).motion
+        nearer = _clean(near)
+        found, warned = max((found, warned), nearer, key=lambda pair: plants_kept(pair[0], laid))
+    for warning in warned:
+        warnings.warn(warning, MocapWarning, stacklevel=3)
+    return found
+
+
+def _clean(motion: Motion) -> tuple[Motion, list[str]]:
+    """Clean up the feet; give the motion, and the warnings of plants let go."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", MocapWarning)
+        found = clean_up(motion)
+    return found, [str(warning.message) for warning in caught]
+
+
+def _with_plants(motion: Motion) -> Motion:
+    """Mark the plants of a motion's legs, unless it says when they stand."""
+    joints = [joint for leg in legs_of(motion.skeleton, None) for joint in (leg.ankle, leg.ball)]
+    known = all(motion.skeleton.names[joint] in motion.contacts for joint in joints)
+    return motion if known else mark_plants(motion)

@@ -1,0 +1,174 @@
+"""Round a line where a walk would have to turn too fast on it: at a corner, or at the cusp of a heart."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import solveh_banded
+from scipy.ndimage import maximum_filter1d
+from scipy.spatial import cKDTree
+
+from mocap._shared.arrays import Array, Indices, Points, runs
+from mocap.body.ground_path import GroundPath
+from mocap.body.planar import from_ground, on_ground
+from mocap.editing.path_editing import CHORD, Ride, moving_frames
+
+SPACING = 0.05  # metres between the points of a rounded line
+SMOOTH = 0.1  # metres that smoothing reaches everywhere; it moves a circle of 1 m by 0.1 mm
+
+# How a reach grows at a time. With 1.4, a corner is cut by up to a third more than it need be.
+GROW = 1.15
+
+# How fast a reach falls with the distance from where it is needed. With 0 it falls at once, and a line swings
+# out in a hook before a corner; with 0.1 it falls so slowly that 7 m of line move for a corner, not 4.
+FALL = 0.6
+
+WIDEST = 2.5  # times the radius that the limit asks for: no reach is wider
+BACK = np.radians(130)  # a line that turns by more within that radius comes back on itself
+LOOP = 1.75  # times the radius: the reach of the loop there; with 1.2, smoothing closes it again
+SEEN = 0.01  # metres: a line that is moved by less is not called rounded
+JOINED = 0.5  # metres: rounded stretches nearer to each other count as one
+
+
+class Rounding(NamedTuple):
+    """A stretch where a line is rounded: its start and end, metres along it, and how far it is moved at most.
+
+    Examples
+    --------
+    >>> Rounding(start=1.8, end=3.1, worst=0.3).worst
+    0.3
+    """
+
+    start: float
+    end: float
+    worst: float
+
+
+class RoundedLine(NamedTuple):
+    """A line that is rounded where needed, at n points that lie evenly on the line asked for.
+
+    `path` is the new line, `along` (n,) the metres along it, `asked` (n,) those along the line asked for, and
+    `moved` (n,) how far the one is from the other, metres: the larger of both ways.
+
+    Examples
+    --------
+    >>> moved = np.array([0, 0, 0.3, 0.4, 0])
+    >>> line = RoundedLine(GroundPath([[0, 0], [0, 4]]), np.arange(5.0), np.arange(5.0), moved)
+    >>> line.roundings
+    [Rounding(start=2.0, end=3.0, worst=0.4)]
+    """
+
+    path: GroundPath
+    along: Array
+    asked: Array
+    moved: Array
+
+    @property
+    def roundings(self) -> list[Rounding]:
+        """The stretches that are moved by more than 1 cm."""
+        found: list[Rounding] = []
+        for start, stop in runs(self.moved > SEEN):
+            first, last = float(self.asked[start]), float(self.asked[stop - 1])
+            worst = float(self.moved[start:stop].max())
+            if found and first - found[-1].end < JOINED:
+                before = found.pop()
+                first, worst = before.start, max(worst, before.worst)
+            found.append(Rounding(first, last, worst))
+        return found
+
+
+def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> RoundedLine:
+    """Round a line where a walk on it would turn faster than it may.
+
+    The line is the one nearest to the points p_k asked for, among those that bend little:
+    min Σ |x_k - p_k|² + Σ λ_k |x_{k-1} - 2 x_k + x_{k+1}|², a linear system with five diagonals. λ_k = r_k⁴
+    is small at first. Where a frame of the walk turns too fast, the reach r grows around it, and the line is
+    laid anew. The walk may turn by the limit, and by as much more as it turns there by itself to the same
+    side. Where the line comes back on itself, it is first opened to a loop.
+
+    Parameters
+    ----------
+    path : the line asked for.
+    ride : of the walk: which way it goes in each frame, and how far.
+    fps : its frames per second.
+    limit : how fast it may be turned, radians per second, above 0.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> from mocap.editing.path_editing import ride_of
+    >>> walk = sample("walk_straight")
+    >>> corner = GroundPath([[0, 0], [0, 5], [5, 5]])
+    >>> line = round_line(corner, ride_of(walk), walk.fps, np.radians(60))
+    >>> [(round(r.start), round(r.end), round(r.worst, 1)) for r in line.roundings]
+    [(3, 7, 0.4)]
+    """
+    even = path.resampled(SPACING)
+    asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)
+    own = np.diff(moving_frames(ride.path, ride.along).angle) * fps
+    widest = (
+        np.diff(ride.along).max(initial=0.0) * fps / limit / spacing
+    )  # the radius at full speed, in cells
+    asked = _opened(asked, spacing, widest)
+    reach = np.full(len(asked), SMOOTH / spacing)
+    while True:
+        line = _smoothed(asked, reach**4)
+        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
+        rounded = GroundPath(from_ground(line))
+        rate = np.diff(moving_frames(rounded, ride.along).angle) * fps
+        fast = np.abs(rate) > limit + np.maximum(np.sign(rate) * own, 0)
+        places = ride.along[1:][fast & (ride.along[1:] < along[-1])]
+        near = np.unique(np.searchsorted(along, places))
+        near = near[reach[near] < WIDEST * widest]
+        if not len(near):
+            break
+        reach = _wider(reach, near, round(CHORD / spacing))
+    moved = np.maximum(_distance(line, path), _distance(asked, rounded))
+    return RoundedLine(rounded, along, even.along, moved)
+
+
+def _distance(points: Points, path: GroundPath) -> Array:
+    """Measure how far some points are from a path, metres."""
+    return np.asarray(cKDTree(path.resampled(SPACING / 10).points).query(from_ground(points))[0])
+
+
+def _wider(reach: Array, near: Indices, cells: int) -> Array:
+    """Let a reach (n,) grow within some cells of the points `near`; further away it falls with a slope."""
+    grown = np.zeros(len(reach))
+    grown[near] = GROW * reach[near]
+    fall = FALL * np.arange(len(reach))
+    grown = maximum_filter1d(grown, 2 * cells + 1)
+    after = np.maximum.accumulate(grown + fall) - fall
+    before = np.maximum.accumulate((grown - fall)[::-1])[::-1] + fall
+    return np.asarray(np.maximum(reach, np.maximum(after, before)))
+
+
+def _smoothed(points: Points, weight: Array) -> Points:
+    """Solve (I + Dᵀ Λ D) x = p, where D takes second differences; `weight` (n,) is Λ, unused at the ends."""
+    if len(points) < 3:
+        return points
+    own = np.pad(weight[1:-1], 2)  # weights of the differences about the points -1 to n
+    diagonals = [
+        np.concatenate([[0, 0], own[2:-2]]),
+        np.concatenate([[0], -2 * (own[1:-2] + own[2:-1])]),
+        1 + own[:-2] + 4 * own[1:-1] + own[2:],
+    ]
+    solved = solveh_banded(np.stack(diagonals), np.stack([points.real, points.imag], axis=1))
+    return np.asarray(solved[:, 0] + 1j * solved[:, 1])
+
+
+def _opened(points: Points, spacing: float, radius: float) -> Points:
+    """Open a line where it comes back on itself: out on its one side, and back on the other.
+
+    A smoother line would come back on itself as well, and a walk would turn by 180° between two frames.
+    `radius` is counted in cells of `spacing` metres.
+    """
+    cells = max(1, min(round(radius), (len(points) - 1) // 2))
+    before, after = points[cells:-cells] - points[: -2 * cells], points[2 * cells :] - points[cells:-cells]
+    turn = np.abs(np.angle(after * before.conj()))
+    opened, number, wide = points.copy(), np.arange(len(points)), max(LOOP * radius, 1.0)
+    for start, stop in runs(turn > BACK):
+        tip = (start + stop - 1) // 2
+        from_tip = (number - tip - cells) / wide
+        aside = 1.5j * spacing * wide * before[tip] / np.abs(before[tip])
+        opened += aside * from_tip * np.exp(-(from_tip**2) / 2)
+    return opened

@@ -1,0 +1,143 @@
+"""A line is rounded where a walk would turn too fast on it, and nowhere else."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from mocap.body.ground_path import GroundPath, arcs, circle
+from mocap.body.planar import from_ground, on_ground
+from mocap.editing.line_rounding import _smoothed, round_line
+from mocap.editing.path_editing import Ride, moving_frames
+from tests.strategies import planar
+
+LIMIT, FPS, SPEED = np.radians(60), 30.0, 1.2
+RADIUS = SPEED / LIMIT
+
+
+def straight(metres=60.0, fps=FPS):
+    """A ride straight ahead at a steady speed."""
+    along = np.arange(0, metres, SPEED / fps)
+    return Ride(GroundPath([[0, 0], [0, along[-1]]]), along, np.zeros((4, 2)))
+
+
+def corner(degrees, leg=6.0):
+    turn = np.radians(degrees)
+    return GroundPath([[0, 0], [0, leg], [leg * np.sin(turn), leg + leg * np.cos(turn)]])
+
+
+def heart(size=0.28):
+    t = np.linspace(0.15, 2 * np.pi - 0.15, 240)
+    z = 13 * np.cos(t) - 5 * np.cos(2 * t) - 2 * np.cos(3 * t) - np.cos(4 * t)
+    return GroundPath(size * np.stack([16 * np.sin(t) ** 3, z], axis=1))
+
+
+def fastest(path, ride=None, fps=FPS):
+    """How fast a walk turns on a path, radians per second."""
+    ride = ride or straight()
+    return np.abs(np.diff(moving_frames(path, ride.along[ride.along < path.length]).angle)).max() * fps
+
+
+def test_the_line_is_the_least_squares_one():
+    random = np.random.default_rng(5)
+    points, weight = on_ground(random.normal(size=(30, 2))), random.uniform(0.1, 9, 30)
+    second = np.diff(np.eye(30), 2, axis=0)
+    matrix = np.eye(30) + second.T @ (weight[1:-1, None] * second)
+    assert _smoothed(points, weight) == pytest.approx(np.linalg.solve(matrix, points), abs=1e-12)
+    assert (_smoothed(points[:2], weight[:2]) == points[:2]).all()
+
+
+@pytest.mark.parametrize("degrees", [40, 90, 120])
+def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
+    asked = corner(degrees)
+    line = round_line(asked, straight(), FPS, LIMIT)
+    assert fastest(asked) > 1.5 * LIMIT
+    assert 0.85 * LIMIT < fastest(line.path) <= LIMIT
+    # The arc that touches both legs passes the corner at this distance.
+    arc = RADIUS * (1 / np.cos(np.radians(degrees) / 2) - 1)
+    assert line.moved.max() < max(1.1 * arc, 0.1)
+    (where,) = line.roundings
+    assert where.start < 6 < where.end
+    assert where.worst == line.moved.max()
+    assert where.end - where.start < 7 * RADIUS
+    far = np.abs(line.asked - 6) > 4.5
+    assert line.moved[far].max() < 0.01
+
+
+def test_a_cusp_is_rounded_and_the_rest_stays():
+    line = round_line(heart(), straight(), FPS, LIMIT)
+    assert fastest(heart()) > 10 * LIMIT
+    assert fastest(line.path) <= LIMIT
+    (where,) = line.roundings
+    assert where.end - where.start < 7
+    assert line.moved[(line.asked < where.start - 0.5) | (line.asked > where.end + 0.5)].max() < 0.01
+
+
+@pytest.mark.parametrize("path", [circle(1.2), circle(3.0), arcs((0, 0), 0, [(3, 2.4), (4, -3), (2, 0)])])
+def test_what_is_slow_enough_stays_as_it_is(path):
+    line = round_line(path, straight(), FPS, LIMIT)
+    assert not line.roundings
+    assert line.moved.max() < 0.007
+    assert np.median(line.moved) < 0.002
+    assert line.path.length == pytest.approx(path.length, rel=0.001)
+
+
+@pytest.mark.parametrize("degrees", [140, 160, 180])
+def test_a_line_that_comes_back_on_itself_gets_a_loop(degrees):
+    """A smoother line alone would come back on itself as well, or be much shorter."""
+    back = corner(degrees)
+    line = round_line(back, straight(), FPS, LIMIT)
+    assert fastest(back) > 5 * LIMIT
+    assert fastest(line.path) <= LIMIT
+    assert line.path.length > back.length
+    assert line.moved.max() < 2 * RADIUS
+
+
+def test_the_walk_may_turn_faster_where_it_turns_by_itself():
+    """A walk that turns where the corner is needs less rounding than one that goes straight on."""
+    asked = corner(90)
+    own = round_line(asked, straight(), FPS, LIMIT).path  # a walk along the rounded line itself
+    along = np.arange(0, own.length, SPEED / FPS)
+    line = round_line(asked, Ride(own, along, np.zeros((4, 2))), FPS, LIMIT)
+    assert line.moved.max() < 0.7 * round_line(asked, straight(), FPS, LIMIT).moved.max()
+
+
+def test_the_faster_walk_gets_the_wider_bend():
+    slow, fast = (round_line(corner(90), straight(fps=fps), FPS, LIMIT) for fps in (30.0, 15.0))
+    assert fast.moved.max() > 1.6 * slow.moved.max()
+
+
+def test_the_rate_of_frames_does_not_matter():
+    few, many = (round_line(corner(90), straight(fps=fps), fps, LIMIT) for fps in (30.0, 120.0))
+    assert few.moved.max() == pytest.approx(many.moved.max(), rel=0.15)
+
+
+@settings(max_examples=8)
+@given(planar, st.floats(30, 140))
+def test_it_goes_where_the_line_goes(place, degrees):
+    asked = corner(degrees)
+    moved = GroundPath(from_ground(place.turn * on_ground(asked.points) + place.move))
+    here, there = (round_line(path, straight(), FPS, LIMIT) for path in (asked, moved))
+    expected = place.turn * on_ground(here.path.at(np.linspace(0, here.path.length, 50))) + place.move
+    assert cKDTree(there.path.resampled(0.005).points).query(from_ground(expected))[0].max() < 0.01
+
+
+@settings(max_examples=15)
+@given(st.integers(0, 10**6))
+def test_any_line_can_be_walked_after_rounding(seed):
+    random = np.random.default_rng(seed)
+    steps = random.uniform(2, 5, size=random.integers(2, 9))
+    ways = np.cumsum(random.uniform(-2, 2, size=len(steps)))
+    points = np.cumsum(steps[:, None] * np.stack([np.sin(ways), np.cos(ways)], axis=1), axis=0)
+    line = round_line(GroundPath(np.vstack([[0, 0], points])), straight(), FPS, LIMIT)
+    assert np.isfinite(line.path.points).all()
+    assert (np.diff(line.along) >= 0).all()
+    assert fastest(line.path) <= LIMIT
+
+
+def test_a_short_line_is_no_harm():
+    for path in (GroundPath([[0, 0], [0, 0.02]]), GroundPath([[0, 0], [0.1, 0.1], [0, 0]])):
+        line = round_line(path, straight(), FPS, LIMIT)
+        assert np.isfinite(line.path.points).all()
+    assert not round_line(corner(90), straight(), FPS, np.inf).moved.max() > 0.06
