@@ -47,7 +47,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "retargeting.body_roles": ["ROLES", "roles"],
         "retargeting.copied_motion": ["copied"],
+        "retargeting.floors": ["floor_pins"],
         "retargeting.proportions": ["proportioned"],
+        "retargeting.retargeted": ["retarget"],
         "retargeting.stances": [
             "Stance",
             "stance_of",
@@ -57,6 +59,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "warping.keys": ["Key", "cardinal", "keys_around", "offsets"],
         "warping.looping": ["looped", "repeated"],
+        "warping.posing": ["posed"],
         "warping.retiming": ["at_frames", "old_seconds", "retime"],
         "warping.scaling": ["gains", "scaled", "scaled_height"],
     },

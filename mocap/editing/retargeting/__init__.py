@@ -9,4 +9,6 @@ Reading order
 2. `stances`: how a body stands, whatever its rest pose is
 3. `proportions`: a body with shorter legs or a larger head
 4. `copied_motion`: every joint looks where the same joint of the other body looks
+5. `floors`: where the new feet may be
+6. `retargeted`: all of it in one function
 """

@@ -156,12 +156,15 @@ def _degrees(vector: Array, other: list[int]) -> float:
 
 
 def _flat_feet(stance: Stance) -> Array:
-    """Turn each foot, with the joints below it, so that ankle and ball are at the stance's heights."""
+    """Turn each foot, with the joints below it, so that ankle and ball are at the stance's heights.
+
+    A foot that hangs at rest, by more than 45°, is laid straight ahead.
+    """
     turns, points = np.array(stance.turns), stance.points
     for side, leg in zip(("left", "right"), stance.legs, strict=True):
         bone = points[leg.ball] - points[leg.ankle]
         drop = stance.heights[f"{side} ankle"] - stance.heights[f"{side} ball"]
-        ahead = bone[[0, 2]] if np.hypot(*bone[[0, 2]]) > 1e-6 else np.array([0.0, 1.0])
+        ahead = bone[[0, 2]] if np.hypot(*bone[[0, 2]]) > abs(bone[1]) else np.array([0.0, 1.0])
         ahead = ahead / np.hypot(*ahead) * np.sqrt(bone @ bone - drop**2)
         lay = rotations.between(bone, [ahead[0], -drop, ahead[1]])
         foot = [joint for joint in range(len(turns)) if leg.ankle in ancestors(stance.skeleton, joint)]
