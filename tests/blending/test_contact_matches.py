@@ -1,0 +1,79 @@
+"""Which plants belong together: whole, lacking, and split ones."""
+
+import numpy as np
+import pytest
+
+from mocap.blending.registration.contact_matches import match_contacts
+from mocap.blending.registration.mixing import mix
+from mocap.blending.registration.registering import register
+from mocap.blending.registration.timewarps import Curve
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from tests.blending.registered import HALF, slides, walks
+
+FPS, SPAN = 100.0, (0.0, 3.0)
+BODY = Skeleton(["foot", "other"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+SAME = Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
+TWICE = Curve(0.0, 1.0, np.array([-1.0, 1.0, 3.0]))
+
+
+def standing(*plants, joint="foot"):
+    """A body that stands from some times to others, seconds."""
+    times = np.arange(601) / FPS
+    marks = np.any([(times >= start - 1e-9) & (times < stop - 1e-9) for start, stop in plants], axis=0)
+    still = np.tile([1.0, 0, 0, 0], (601, 2, 1))
+    return Motion(BODY, np.zeros((601, 3)), still, FPS, contacts={joint: marks})
+
+
+def matched(*clips, curves=None):
+    found = match_contacts(clips, curves or [SAME] * len(clips), SPAN)
+    return [(match.starts.round(3).tolist(), match.stops.round(3).tolist()) for match in found]
+
+
+def test_one_plant_of_each_clip_is_a_match_and_its_blend_is_their_mean():
+    clips = standing((0.2, 0.8)), standing((0.3, 0.9))
+    (match,) = match_contacts(clips, [SAME, SAME], SPAN)
+    assert match.joint == "foot"
+    weights = np.array([0.25, 0.75])
+    assert float(weights @ match.starts) == pytest.approx(0.275)
+    assert float(weights @ match.stops) == pytest.approx(0.875)
+
+
+def test_times_are_those_of_the_common_clock():
+    assert matched(standing((1.0, 2.0)), standing((2.2, 4.2)), curves=[SAME, TWICE]) == [
+        ([1.0, 1.1], [2.0, 2.1])
+    ]
+
+
+def test_a_plant_that_a_clip_lacks_is_dropped():
+    assert matched(standing((0.2, 0.8), (2, 2.5)), standing((0.3, 0.9))) == [([0.2, 0.3], [0.8, 0.9])]
+    assert matched(standing((0.2, 0.8)), standing((1.0, 1.5))) == []
+    assert matched(standing((0.2, 0.8)), standing((0.3, 0.9), joint="other")) == []
+
+
+def test_a_plant_beside_two_is_split_where_the_two_pause():
+    one, two = standing((0.2, 1.9)), standing((0.1, 0.9), (1.1, 2.0))
+    assert matched(one, two) == [([0.2, 0.1], [1.0, 0.9]), ([1.0, 1.1], [1.9, 2.0])]
+    assert matched(one, two, one) == [([0.2, 0.1, 0.2], [1.0, 0.9, 1.0]), ([1.0, 1.1, 1.0], [1.9, 2.0, 1.9])]
+
+
+def test_a_part_of_a_split_group_that_a_clip_lacks_is_dropped():
+    assert matched(standing((0.2, 0.92)), standing((0.1, 0.9), (0.91, 2.0))) == [([0.2, 0.1], [0.905, 0.9])]
+
+
+def test_plants_end_with_the_span_and_slivers_do_not_count():
+    assert matched(standing((2.5, 4.0)), standing((2.6, 3.5))) == [([2.5, 2.6], [3.0, 3.0])]
+    assert matched(standing((0.2, 0.21)), standing((0.2, 0.21))) == []
+
+
+def test_clips_without_marks_have_no_matches():
+    bare = Motion(BODY, np.zeros((9, 3)), np.tile([1.0, 0, 0, 0], (9, 2, 1)), FPS)
+    assert match_contacts([bare, bare], [SAME, SAME], SPAN) == ()
+
+
+@pytest.mark.parametrize("pair", [((0.8, 0), (1.4, 0)), ((1.1, -120), (1.1, 120))])
+def test_feet_hardly_slide_in_matched_plants(pair):
+    registration = register([walks()[which] for which in pair])
+    blend = mix(registration, HALF)
+    assert 10 <= len(registration.contacts) <= 14
+    assert slides(blend).mean() <= 0.7

@@ -1,0 +1,302 @@
+"""Blends of registered clips: what must come out exactly, the bars for walks, and the ways that fail."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.blending.registration.clocks import frame_times
+from mocap.blending.registration.mixing import ground_course, mix
+from mocap.blending.registration.registering import register
+from mocap.blending.registration.timewarps import fit_curve
+from mocap.body.motion import resample
+from mocap.body.planar import PlanarTransform, on_ground
+from mocap.datasets.generated import generate_walk
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet import clean_up, mark_plants
+from mocap.files.load_save import load
+from mocap.matching.point_clouds import align, point_cloud
+from tests.blending.registered import (
+    HALF,
+    at_times,
+    captured,
+    frame_by_frame,
+    knees,
+    places_averaged,
+    skate,
+    slides,
+    slowest,
+    turned,
+    walks,
+    way,
+)
+from tests.strategies import seeds
+
+LEFT_AND_RIGHT = (1.1, -120), (1.1, 120)
+
+
+def generated(*which):
+    return register([walks()[one] for one in which])
+
+
+def of_parts(registration, measure):
+    return np.array([measure(part) for part in registration.parts])
+
+
+def largest_gap(first, second):
+    """How far apart the points of two motions are, once the first frames lie on one another, metres."""
+    a, b = point_cloud(first), point_cloud(second)
+    return float(np.abs(a - align(a[0], b[0]).apply_points(b)).max())
+
+
+def quarter_circles(frames=181, radius=2.0):
+    """The ways of a walk to the left and one to the right, by a quarter of a circle: θ and z + ix, (2, F)."""
+    angle = np.linspace(0, np.pi / 2, frames)
+    turns = np.stack([angle, -angle])
+    return turns, radius * np.stack([1j * (np.exp(-1j * angle) - 1), 1j * (1 - np.exp(1j * angle))])
+
+
+def test_a_left_and_a_right_quarter_make_a_straight_line_as_long_as_they_are():
+    turns, centres = quarter_circles()
+    course = ground_course(turns, centres, np.full((181, 2), 0.5))
+    assert abs(course.centres[-1]) == pytest.approx(np.pi, abs=2e-5)
+    assert np.abs(course.centres.imag).max() < 1e-12
+    assert abs(centres.mean(axis=0)[-1]) == pytest.approx(2.0)  # the mean of the places: 0.64 of the way
+
+
+def test_a_quarter_of_the_left_one_turns_by_a_quarter_of_its_angle_more():
+    turns, centres = quarter_circles()
+    course = ground_course(turns, centres, np.tile([0.25, 0.75], (181, 1)))
+    heading = np.degrees(np.angle(np.diff(course.centres)))
+    assert abs(heading[-1] - heading[0]) == pytest.approx(45, abs=0.5)
+
+
+@given(seeds, st.floats(-3, 3), st.complex_numbers(max_magnitude=100))
+def test_a_course_does_not_depend_on_where_and_how_a_clip_lies(seed, turn, move):
+    rng = np.random.default_rng(seed)
+    turns, centres = np.cumsum(rng.normal(size=(2, 9)) / 9, axis=1), rng.normal(size=(2, 9, 2)) @ [1, 1j]
+    shares = rng.dirichlet([1, 1], 9)
+    course = ground_course(turns, centres, shares, (0.0, 0j))
+    moved = centres * [[1], [np.exp(1j * turn)]] + np.array([[0], [move]])
+    other = ground_course(turns - [[0], [turn]], moved, shares, (0.0, 0j))
+    np.testing.assert_allclose(other.centres, course.centres, atol=1e-9)
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_a_clip_with_all_the_weight_comes_back(which):
+    registration = generated(*LEFT_AND_RIGHT)
+    blend = mix(registration, np.eye(2)[which])
+    seconds = float(registration.times[which](registration.span[0])) + np.arange(len(blend)) / 120
+    assert largest_gap(blend, at_times(registration.clips[which], seconds)) <= 1e-9
+
+
+def test_a_blend_does_not_depend_on_where_its_clips_were_captured():
+    a, b = (walks()[which] for which in LEFT_AND_RIGHT)
+    blend = mix(register([a, b]), HALF)
+    moved = mix(register([a, PlanarTransform(2.0, 100.0, -50.0).apply_motion(b)]), HALF)
+    np.testing.assert_allclose(point_cloud(moved), point_cloud(blend), atol=1e-9)
+
+
+def course_about_the_origin(registration, away):
+    """The blend's way if increments are averaged about the world's origin, the reference moved `away`."""
+    times, shares = frame_times(registration, HALF, fps=120.0)
+    turns = np.stack([curve(times) for curve in registration.angles])
+    centres = np.stack([registration.centre(clip, times) for clip in (0, 1)])
+    turn = np.exp(1j * turns)
+    move = centres[0] + away - turn * centres  # A(u): p ↦ turn p + move
+    spin, place, ways = 1.0 + 0j, 0j, [centres[0, 0] + away]
+    for n in range(len(times) - 1):
+        change = turn[:, n] / turn[:, n + 1]
+        angle = np.exp(1j * (shares[n] @ np.angle(change)))
+        shift = shares[n] @ (move[:, n] - change * move[:, n + 1])
+        spin, place = spin * angle, place + spin * shift
+        ways.append(spin * (centres[0, n + 1] + away) + place)
+    return np.abs(np.diff(ways)).sum()
+
+
+def test_increments_averaged_about_the_origin_depend_on_where_the_clips_were_captured():
+    registration = generated(*LEFT_AND_RIGHT)
+    here, there = (course_about_the_origin(registration, away) for away in (0, 100j))
+    blend = mix(registration, HALF)
+    assert way(blend) == pytest.approx(of_parts(registration, way).mean(), rel=0.02)
+    assert abs(there - here) > 0.15
+
+
+def test_generated_walks_of_two_speeds_stay_in_step():
+    """Their feet skate by 0.6 to 0.9 cm/s; half and half by 2 to 3, and frame by frame by 20 or more."""
+    a, b = walks()[0.8, 0], walks()[1.4, 0]
+    registration = register([a, b])
+    own, registered = of_parts(registration, skate).mean(), skate(mix(registration, HALF))
+    assert registered <= 4 * own
+    assert skate(frame_by_frame(a, b)) >= 6 * registered
+    assert knees(mix(registration, HALF)) >= 0.85 * of_parts(registration, knees).mean()
+
+
+def test_generated_walks_to_the_left_and_the_right_make_one_straight_on():
+    registration = generated(*LEFT_AND_RIGHT)
+    blend, collapsed = mix(registration, HALF), places_averaged(registration, HALF)
+    length = of_parts(registration, way).mean()
+    assert 0.98 <= way(blend) / length <= 1.02
+    assert turned(blend) == pytest.approx(of_parts(registration, turned).mean(), abs=1)
+    assert way(collapsed) / length <= 0.75
+    assert skate(blend) <= 4 * of_parts(registration, skate).mean() <= skate(collapsed) / 6
+    assert slides(blend).mean() <= 0.7
+
+
+PAIRS = [("16_15", "16_21"), ("16_31", "16_22"), ("16_47", "16_21")]
+PAIRS += [("16_15", "16_22"), ("16_31", "16_21"), ("16_58", "16_22")]
+
+
+def test_captured_walks_of_two_speeds_stay_in_step(real_data):
+    ratios = []
+    for names in PAIRS:
+        a, b = (captured(real_data, name) for name in names)
+        registration = register([a, b])
+        own, knee = of_parts(registration, skate).mean(), of_parts(registration, knees).mean()
+        ways = mix(registration, HALF), frame_by_frame(a, b), frame_by_frame(a, b, stretch=True)
+        ratios.append([*(skate(m) / own for m in ways), *(knees(m) / knee for m in ways)])
+    ours, frames, stretched, knee, knee_of_frames, knee_stretched = np.array(ratios).T
+    assert ours.max() <= 1.0 and np.all(ours <= frames / 2)
+    assert np.median(ours) <= np.median(frames) / 3 and np.median(ours) <= np.median(stretched) / 3
+    assert knee.min() >= 0.9 > max(np.median(knee_of_frames), np.median(knee_stretched))
+
+
+def test_captured_turns_do_not_collapse(real_data):
+    for names in (("16_17", "16_19"), ("16_18", "16_20")):
+        registration = register([captured(real_data, name) for name in names])
+        blend, collapsed = mix(registration, HALF), places_averaged(registration, HALF)
+        length = of_parts(registration, way).mean()
+        assert way(blend) >= 0.97 * length and slowest(blend) >= 0.6
+        assert way(collapsed) <= 0.75 * length and slowest(collapsed) <= 0.1 and skate(collapsed) >= 40
+        assert abs(turned(blend)) < 3 < 170 < abs(turned(collapsed))  # as quaternions, ±90° have no mean
+
+
+def test_a_captured_walk_straight_on_and_one_to_the_left(real_data):
+    registration = register([captured(real_data, name) for name in ("16_15", "16_17")])
+    blend = mix(registration, HALF)
+    assert turned(blend) == pytest.approx(of_parts(registration, turned).mean(), abs=1)
+    assert way(blend) >= 0.97 * of_parts(registration, way).mean()
+
+
+@pytest.fixture(scope="module")
+def circles(real_data):
+    """Twelve seconds of the homework's circle to the right, and twelve to the left."""
+    folder = real_data / "hw3"
+    clip = load(folder / "walk_fwd_circle.AMC", fps=120.0, skeleton=folder / "walker.ASF")
+    return register([mark_plants(clip[480:1920]), mark_plants(clip[1920:3360])])
+
+
+def test_circles_to_the_right_and_the_left_make_a_straight_walk(circles):
+    blend = mix(circles, HALF)
+    assert 0.97 <= way(blend) / of_parts(circles, way).mean() <= 1.03
+    assert turned(blend) == pytest.approx(of_parts(circles, turned).mean(), abs=2)
+    assert np.abs(of_parts(circles, turned)).min() > 500
+
+
+def test_angles_left_wrapped_spoil_the_blend(circles):
+    """At each jump of a whole turn the fitted curve runs through all the angles between."""
+    u = np.linspace(*circles.span, 30 * 12)
+    wrapped = np.angle(np.exp(1j * circles.angles[1](u)))
+    assert np.abs(np.diff(wrapped)).max() > 6
+    bad = replace(circles, angles=(circles.angles[0], fit_curve(u, wrapped, spacing=0.3)))
+    good, spoilt = mix(circles, HALF), mix(bad, HALF)
+    assert abs(turned(spoilt) - of_parts(circles, turned).mean()) > 100
+    assert skate(spoilt) > 2 * skate(good)
+
+
+WEIGHTS = [[1 / 3] * 3, [0.6, 0.2, 0.2], [0.2, 0.2, 0.6], [0.5, -0.1, 0.6], [1.1, 0, -0.1]]
+
+
+def three_are_as_asked(registration, skating):
+    turns, lengths, skates = (of_parts(registration, measure) for measure in (turned, way, skate))
+    for weights in map(np.array, WEIGHTS):
+        blend, share = mix(registration, weights), np.abs(weights) / np.abs(weights).sum()
+        assert turned(blend) == pytest.approx(weights @ turns, abs=1)
+        assert way(blend) == pytest.approx(weights @ lengths, rel=0.02)
+        assert blend.duration == pytest.approx(weights @ registration.durations, abs=1 / 120)
+        assert skate(blend) <= skating * (share @ skates)
+
+
+def test_three_generated_clips():
+    three_are_as_asked(generated((0.8, 0), (1.4, 0), (1.1, 120)), 5)
+
+
+def test_three_captured_clips(real_data):
+    three_are_as_asked(register([captured(real_data, n) for n in ("16_15", "16_21", "16_17")]), 1.1)
+
+
+def swinging(u, t):
+    left = 0.5 + 0.5 * np.sin(np.pi * t)
+    return [0.2, 0.8 * left, 0.8 * (1 - left)]
+
+
+def test_weights_may_swing_from_left_to_right_and_back(real_data):
+    registration = register([captured(real_data, name) for name in ("16_15", "16_17", "16_19")])
+    blend = mix(registration, swinging)
+    assert skate(blend) <= 1.2 * of_parts(registration, skate).mean()
+    assert jolts(blend, 95) <= np.mean([jolts(part, 95) for part in registration.parts])
+
+
+def jolts(motion, percentile):
+    """A percentile of the changes of velocity from frame to frame, RMS over the points, m/s."""
+    changes = np.diff(point_cloud(motion), 2, axis=0) * motion.fps
+    return float(np.percentile(np.sqrt((changes**2).sum(-1).mean(-1)), percentile))
+
+
+def test_swinging_weights_on_generated_walks():
+    registration = generated((1.1, 0), (1.1, 120), (1.1, -120))
+    blend = mix(registration, swinging)
+    assert jolts(blend, 95) <= np.mean([jolts(part, 95) for part in registration.parts])
+    assert way(blend) == pytest.approx(of_parts(registration, way).mean(), rel=0.02)
+
+
+def test_plants_of_captured_blends_stand_still_after_the_clean_up(real_data):
+    for names in (("16_15", "16_21"), ("16_17", "16_19"), ("16_15", "16_17")):
+        registration = register([captured(real_data, name) for name in names])
+        blend = mix(registration, HALF)
+        assert 11 <= len(registration.contacts) <= 16 and slides(blend).mean() <= 2.5
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MocapWarning)
+            clean = clean_up(blend)
+        assert slides(clean).max() <= 1e-9
+        assert np.abs(point_cloud(clean) - point_cloud(blend)).max() <= 0.08
+
+
+@pytest.mark.filterwarnings("ignore:'walk' and 'sneak' may not")
+def test_marks_are_the_matched_plants_and_the_labels_of_the_heaviest():
+    walk = generate_walk([[0, 0], [0, 5]], speed=1.0)
+    sneak = generate_walk([[0, 0], [0, 5]], speed=0.8, style="sneak")
+    registration = register([walk, sneak])
+    for weights, label in (([0.6, 0.4], "walk"), ([0.4, 0.6], "sneak")):
+        blend = mix(registration, weights)
+        assert blend.labels[label].all() and set(blend.contacts) <= set(walk.contacts)
+    bare = register([replace(clip, labels={}, contacts={}) for clip in (walk, sneak)])
+    assert not mix(bare, HALF).labels and not mix(bare, HALF).contacts
+    assert mix(bare, HALF).name == "walk + sneak"
+
+
+def test_a_blend_may_have_another_rate_and_less_exact_rotations():
+    registration = generated((0.8, 0), (1.4, 0))
+    fine, coarse = mix(registration, HALF), mix(registration, HALF, fps=30.0)
+    assert coarse.fps == 30 and largest_gap(resample(fine, 30.0), coarse) < 0.01
+    assert largest_gap(fine, mix(registration, HALF, rounds=0)) < 0.001
+
+
+def test_many_clips_have_a_short_name_and_the_course_starts_with_the_reference():
+    registration = register([walks()[speed, turn] for speed in (0.8, 1.4) for turn in (0, 120)], reference=2)
+    blend = mix(registration, np.full(4, 0.25), fps=30.0)
+    assert blend.name == "4 clips"
+    start = registration.centre(2, registration.span[0])
+    assert abs(on_ground(point_cloud(blend)[0]).mean() - start) < 0.1
+
+
+@pytest.mark.parametrize(
+    ("weights", "settings", "message"),
+    [([1.0], {}, "2 weights"), (HALF, {"fps": -1}, "above 0, got -1"), (HALF, {"pace": "x"}, "No pace 'x'")],
+)
+def test_what_cannot_be_mixed_is_refused(weights, settings, message):
+    with pytest.raises(MocapError, match=message):
+        mix(generated((0.8, 0), (1.4, 0)), weights, **settings)

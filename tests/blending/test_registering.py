@@ -1,0 +1,262 @@
+"""Which frames belong together: known warps come back, strikes fall on strikes, and naive ways fail."""
+
+import itertools
+import warnings
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mocap.blending.registration.mixing import mix
+from mocap.blending.registration.registering import Registration, Warp, register
+from mocap.blending.registration.timewarps import Curve, fit_curve
+from mocap.body.motion import Motion, resample
+from mocap.body.planar import PlanarTransform, on_ground
+from mocap.body.skeleton import Skeleton
+from mocap.datasets import sample
+from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.point_clouds import align, point_cloud
+from mocap.matching.time_paths import path_mean, time_path
+from tests.blending.registered import at_times, captured, strike_errors, walks
+
+WALKS = ["16_15", "16_31", "16_47", "16_58", "16_21", "16_22", "16_11", "16_13", "16_17", "16_19"]
+
+
+@cache
+def real_walks(folder):
+    return {name: captured(folder, name) for name in WALKS}
+
+
+def played_unevenly(clip, amount, angle=2.5):
+    """The clip at 1 ± amount times its pace, turned and moved; and the clip's own time in each frame."""
+    t = np.arange(len(clip)) / clip.fps
+    own = t + amount * np.sin(4 * np.pi * t / clip.duration) * clip.duration / (4 * np.pi)
+    return PlanarTransform(angle, 3.0, -2.0).apply_motion(at_times(clip, own)), own
+
+
+def recovery(clip, amount):
+    """How well a known warp comes back: RMS in ms, and the largest error of the angle in degrees."""
+    warped, own = played_unevenly(clip, amount)
+    registration = register([clip, warped], slack=0)
+    u = np.linspace(*registration.span, 400)
+    errors = np.interp(registration.times[1](u), np.arange(len(own)) / clip.fps, own) - u
+    off = np.abs((registration.angles[1](u) + 2.5 + np.pi) % (2 * np.pi) - np.pi)
+    return 1000 * np.sqrt((errors**2).mean()), np.degrees(off.max())
+
+
+@pytest.mark.parametrize(("amount", "ms", "degrees"), [(0.3, 15, 1.2), (0.6, 25, 3)])
+def test_a_known_warp_comes_back(amount, ms, degrees):
+    late, off = recovery(walks()[1.1, 0], amount)
+    assert late <= ms and off <= degrees
+
+
+@pytest.mark.parametrize(("amount", "ms", "degrees"), [(0.3, 15, 1.2), (0.6, 25, 3)])
+def test_a_known_warp_of_a_captured_walk_comes_back(real_data, amount, ms, degrees):
+    late, off = recovery(captured(real_data, "16_15"), amount)
+    assert late <= ms and off <= degrees
+
+
+def test_a_clip_and_itself_turned_and_moved_are_registered_exactly():
+    clip = walks()[1.1, 120]
+    registration = register([clip, PlanarTransform(2.5, 80.0, -40.0).apply_motion(clip)], slack=0)
+    u = np.linspace(*registration.span, 100)
+    np.testing.assert_allclose(registration.times[1](u), u, atol=1e-9)
+    np.testing.assert_allclose(registration.angles[1](u), -2.5, atol=1e-9)
+    assert registration.span == pytest.approx((0, clip.duration), abs=1e-9)
+
+
+def evenly(a, b):
+    """Both clips on one clock as if time went evenly."""
+    straight = [Curve(0.0, c.duration, c.duration * np.array([-0.5, 0.5, 1.5])) for c in (a, b)]
+    straight[1] = Curve(0.0, a.duration, b.duration * np.array([-0.5, 0.5, 1.5]))
+    still = Curve(0.0, 1.0, np.zeros(3))
+    zero = (np.zeros((len(a), 2)), np.zeros((len(b), 2)))
+    return Registration((a, b), 0, tuple(straight), (still, still), zero, (0.0, a.duration), np.zeros(2))
+
+
+def all_errors(clips, make):
+    return np.array([e for a, b in itertools.permutations(clips, 2) for e in strike_errors(make(a, b))])
+
+
+def quietly(*clips, **settings):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        return register(clips, **settings)
+
+
+def test_strikes_of_generated_walks_fall_on_strikes():
+    """72 ordered pairs of nine walks; the strikes are exact by construction."""
+    clips = list(walks().values())
+    errors = all_errors(clips, quietly)
+    assert len(errors) > 400
+    assert np.median(errors) <= 20 and np.percentile(errors, 90) <= 60 and errors.max() <= 100
+    even = all_errors(clips[::4], evenly)
+    corners = all_errors(clips[::4], lambda a, b: quietly(a, b, slack=0))
+    free = all_errors(clips[::4], quietly)
+    assert np.mean(even > 100) >= 0.5
+    assert np.mean(corners > 100) > np.mean(free > 100)
+
+
+@pytest.mark.exhaustive
+def test_strikes_of_captured_walks_fall_on_strikes(real_data):
+    """All 90 ordered pairs of ten walks of one person."""
+    clips = list(real_walks(real_data).values())
+    errors = all_errors(clips, quietly)
+    assert np.median(errors) <= 20 and np.mean(errors > 100) <= 0.06
+    even = all_errors(clips, evenly)
+    corners = all_errors(clips, lambda a, b: quietly(a, b, slack=0))
+    assert np.mean(even > 100) >= 0.7
+    assert np.mean(corners > 100) >= 0.15
+
+
+def test_there_and_back_is_where_one_was():
+    gaps = []
+    for a, b in itertools.islice(itertools.combinations(walks().values(), 2), 0, None, 3):
+        there, back = register([a, b]), register([b, a])
+        u = np.linspace(there.span[0] + 0.1, there.span[1] - 0.1, 100)
+        gaps.append(np.abs(back.times[1](there.times[1](u)) - u).max())
+    assert np.median(gaps) <= 0.04 and max(gaps) <= 0.08
+
+
+def test_the_reference_may_be_any_clip():
+    clips = [walks()[speed, 0] for speed in (0.8, 1.1, 1.4)]
+    for reference in range(3):
+        registration = register(clips, reference=reference)
+        assert registration.reference == reference and registration.costs[reference] == 0
+        u = np.linspace(*registration.span, 5)
+        np.testing.assert_allclose(registration.times[reference](u), u, atol=1e-12)
+        for clip, curve in zip(clips, registration.times, strict=True):
+            assert curve(registration.span).min() >= -1e-9
+            assert curve(registration.span).max() <= clip.duration + 1e-9
+
+
+@pytest.mark.parametrize("fps", [24.0, 60.0, 100.0])
+def test_clips_of_any_rate_are_compared_at_about_30_hz(fps):
+    clips = [resample(walks()[speed, 0], fps) for speed in (0.8, 1.4)]
+    ours, base = register(clips), register([walks()[0.8, 0], walks()[1.4, 0]])
+    u = np.linspace(max(ours.span[0], base.span[0]), min(ours.span[1], base.span[1]), 50)
+    assert np.abs(ours.times[1](u) - base.times[1](u)).max() <= 0.06
+
+
+def test_the_parts_are_what_the_span_covers():
+    registration = register([walks()[0.8, 0], walks()[1.4, 0]])
+    for part, seconds in zip(registration.parts, registration.durations, strict=True):
+        assert part.duration == pytest.approx(seconds, abs=1 / 120)
+
+
+def test_values_are_frozen():
+    registration = register([walks()[0.8, 0], walks()[1.4, 0]])
+    for array in (registration.costs, registration.durations, *registration.centres):
+        assert not array.flags.writeable
+    assert not registration.times[1].coefficients.flags.writeable
+
+
+def test_angles_run_on_over_whole_turns():
+    """A walk of one and a half circles each way: the angle between them goes through three whole turns."""
+    clip = sample("walk_circle")
+    left, right = clip[:1200], clip[2160:3360]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        registration = register([left, right])
+    u = np.linspace(*registration.span, 500)
+    angles = registration.angles[1](u)
+    assert np.abs(np.diff(angles)).max() < 0.2
+    assert np.ptp(angles) > 2 * np.pi
+
+
+def test_alignment_by_three_splines_about_the_origin_depends_on_where_a_clip_was_captured():
+    """(θ, x₀, z₀), each fitted by itself: far from the origin a small error of θ throws the root off."""
+    a, b = walks()[1.1, -120], walks()[1.1, 120]
+    errors = []
+    for there in (b, PlanarTransform(2.0, 100.0, -50.0).apply_motion(b)):
+        ours, theirs = point_cloud(a[::4]), point_cloud(there[::4])
+        path = time_path(np.sqrt(distance_grid(ours, theirs, window=5)), slack=36)
+        frames = np.arange(5)
+        best = align(
+            ours[path[:, :1] + frames].reshape(len(path), -1, 3),
+            theirs[path[:, 1:] + frames].reshape(len(path), -1, 3),
+        )
+        u = (path[:, 0] + 2) / 30
+        angle, x, z = (fit_curve(u, v, spacing=0.3)(u) for v in (np.unwrap(best.angle), best.x, best.z))
+        root = on_ground(there[::4].root_positions[path[:, 1] + 2])
+        registration = register([a, there])
+        centred = np.exp(1j * registration.angles[1](u)) * (root - registration.centre(1, u))
+        centred += registration.centre(0, u)
+        errors.append(np.abs(np.exp(1j * angle) * root + z + 1j * x - centred).max())
+    assert errors[0] < 0.02 and errors[1] > 0.2
+
+
+def test_the_mean_distance_says_what_may_be_blended():
+    walk, brisk, jog = walks()[0.8, 0], walks()[1.4, 0], sample("jog")[1200:1800]
+    assert register([walk, brisk]).costs[1] < 0.08
+    with pytest.warns(
+        MocapWarning, match=r"'walk' and 'jog' may not be the same kind of motion: \d\d cm along"
+    ):
+        costs = register([walk, jog]).costs
+    assert costs[1] > 0.12
+
+
+def test_what_captured_motions_may_be_blended(real_data):
+    load = lambda name: captured(real_data, name)  # noqa: E731
+    cost = lambda a, b: 100 * quietly(load(a), load(b), slack=0.8).costs[1]  # noqa: E731
+    assert cost("16_15", "16_31") <= 5 and cost("16_15", "16_21") <= 7 and cost("16_17", "16_19") <= 7
+    assert cost("16_15", "16_35") >= 18 and cost("16_15", "16_01") >= 12
+
+
+def shifted(frames):
+    """Three stretches of one walk, each of which starts so many frames after the one before."""
+    clip = sample("walk_circle")
+    return clip[frames : frames + 300], clip[:300], clip[2 * frames : 2 * frames + 300]
+
+
+def test_clips_with_little_in_common_are_named():
+    with pytest.warns(MocapWarning, match=r"only 0.\d\d s in common; the shortest one lasts 2.49 s"):
+        register(shifted(120))
+
+
+def dot(frames, fps=30.0, name="dot"):
+    bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
+    turns = np.tile([1.0, 0, 0, 0], (frames, 2, 1))
+    return Motion(bone, np.zeros((frames, 3)), turns, fps, name)
+
+
+@pytest.mark.parametrize(
+    ("clips", "settings", "error", "message"),
+    [
+        ([], {}, MocapError, "two clips or more, got 0"),
+        ([dot(60)], {}, MocapError, "two clips or more, got 1"),
+        ([dot(60), dot(60, 60.0)], {}, MocapError, "runs at 30 Hz"),
+        ([dot(60), sample("jog")], {}, SkeletonMismatch, "dot"),
+        ([dot(60), dot(60)], {"reference": 2}, MocapError, "clips 0 to 1, got 2"),
+        ([dot(60), dot(60)], {"slack": -0.1}, MocapError, "got -0.1 s"),
+        ([dot(60), dot(60)], {"slack": np.nan}, MocapError, "got nan s"),
+        ([dot(60), dot(31)], {"slack": 1.2}, MocapError, r"each clip lasts \('dot': 1.00 s\), got 1.2 s"),
+        ([dot(60), dot(60)], {"warp": Warp(rate=0)}, MocapError, "rate must be above 0, got 0"),
+        ([dot(60), dot(60)], {"warp": Warp(window=0)}, MocapError, "at least one frame, got 0"),
+        (
+            [dot(60), dot(60)],
+            {"warp": Warp(window=61)},
+            MocapError,
+            "'dot', at 30 Hz, has 60 frames, too few",
+        ),
+        ([dot(60), dot(60)], {"warp": Warp(slope=0)}, MocapError, "from 1 to 63, got 0"),
+        ([dot(60), dot(60)], {"warp": Warp(spacing=0)}, MocapError, "spacing above 0 s, got 0"),
+        ([dot(475), dot(94)], {"slack": 0}, MocapError, "471 frames cannot be laid on 90 with slope 2"),
+    ],
+)
+def test_what_cannot_be_registered_is_refused(clips, settings, error, message):
+    with pytest.raises(error, match=message) as raised:
+        register(clips, **settings)
+    assert len(str(raised.value)) <= 200 or error is SkeletonMismatch
+
+
+def test_clips_that_hardly_meet_are_refused():
+    with pytest.raises(MocapError, match="less than one window in common"):
+        register(shifted(140))
+
+
+def test_still_bodies_make_a_blend():
+    registration = register([dot(60), dot(50)])
+    assert mix(registration, [0.5, 0.5]).root_positions.tolist()[0] == [0, 0, 0]
+    assert path_mean(np.zeros((3, 3)), time_path(np.zeros((3, 3)))) == 0
