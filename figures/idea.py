@@ -20,7 +20,7 @@ from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.plotting import ASKED, FLOOR, MARK, bones, source_colours
-from mocap.steering.path_following import Followed
+from mocap.steering.followed import Followed
 
 SHOWN = ("walk_curve_1", "walk_circle", "jog")  # the clips that are seen to move
 LINE = [(-1.2, 0.2), (-0.8, 2.2), (1.2, 3.4), (3.0, 4.6), (3.4, 6.4)]  # (x, z), metres

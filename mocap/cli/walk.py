@@ -13,7 +13,7 @@ from mocap.errors import MocapError
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
-    from mocap.steering.path_following import Followed
+    from mocap.steering.followed import Followed
 
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 LONGEST = 24 * 3600.0  # seconds of a random walk

@@ -11,10 +11,11 @@ Reading order (notebook 08)
 1. `path_objective`: a path, the wishes along it, and their prices
 2. `search_states`: the walks of a search as arrays: expand, score, prune
 3. `beam_search`: all walks advance along the path together
-4. `path_following`: find a walk along a path, and measure how well it follows
-5. `paper_search`: the same by the paper's branch and bound
-6. `waypoints`: places, labels and times to pass
-7. `crowd`: many characters that keep apart
+4. `followed`: what was found along a path, and how well it follows the path
+5. `path_following`: find a walk along a path
+6. `paper_search`: the same by the paper's branch and bound
+7. `waypoints`: places, labels and times to pass
+8. `crowd`: many characters that keep apart
 
 References
 ----------
@@ -29,7 +30,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "path_objective": ["Prices", "Route", "Wishes", "make_route"],
         "search_states": ["States", "expand", "prune", "score", "start_states"],
         "beam_search": ["Beam", "Found", "find_walk"],
-        "path_following": ["Departure", "Followed", "follow_path"],
+        "followed": ["Departure", "Followed"],
+        "path_following": ["follow_path"],
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
         "waypoints": ["Arrival", "Waypoint", "WaypointWalk", "through_waypoints"],
         "crowd": ["Crowd", "walk_crowd"],

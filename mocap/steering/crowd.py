@@ -15,7 +15,8 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.beam_search import Beam
-from mocap.steering.path_following import Followed, follow_path
+from mocap.steering.followed import Followed
+from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Prices, Wishes
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order

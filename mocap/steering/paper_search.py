@@ -10,7 +10,8 @@ from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.beam_search import Found
-from mocap.steering.path_following import Followed, account, start_of
+from mocap.steering.followed import Followed, account
+from mocap.steering.path_following import start_of
 from mocap.steering.path_objective import Route, Wishes, least_progress, make_route
 from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_ahead
 

@@ -11,7 +11,8 @@ from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.beam_search import Beam
-from mocap.steering.path_following import Followed, follow_path
+from mocap.steering.followed import Followed
+from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Prices, Wishes
 
 

@@ -17,9 +17,11 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
+from mocap.steering import followed as following
 from mocap.steering import path_following
 from mocap.steering.beam_search import Beam, find_walk
-from mocap.steering.path_following import account, follow_path
+from mocap.steering.followed import account
+from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Prices, Wishes
 from tests.bundled import sneaking, walking
 
@@ -116,11 +118,11 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     assert stopped.found.stopped == "out of time"
     assert widths() == [100]
     for bound in ("NEAR", "ASTRAY", "SEAMS"):
-        monkeypatch.setattr(path_following, bound, getattr(path_following, bound) / 9)
+        monkeypatch.setattr(following, bound, getattr(following, bound) / 9)
     assert follow_path(GRAPH, s_curve()).excess > 1
     assert widths() == [50, 75, 100]
     for bound in ("NEAR", "ASTRAY", "SEAMS"):
-        monkeypatch.setattr(path_following, bound, 9.0)
+        monkeypatch.setattr(following, bound, 9.0)
     assert follow_path(GRAPH, s_curve()).walk == once.walk
     assert widths() == [50]
 

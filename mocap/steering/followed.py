@@ -1,0 +1,141 @@
+"""What was found along a path, and how well it follows the path."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array, Points
+from mocap.body.ground_path import GroundPath
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, from_ground
+from mocap.graphs.compiled_graph import CompiledGraph, walk_track
+from mocap.graphs.edge_tables import Edge
+from mocap.graphs.motion_graph import MotionGraph
+from mocap.steering.beam_search import Found
+from mocap.steering.path_objective import Route, least_progress
+from mocap.synthesis.walk_to_motion import to_motion
+
+ASTRAY = 0.15  # metres from the path at which a walk has left it
+NEAR = 0.04  # metres from the path on average, at most, for a path that is followed well
+SEAMS = 1.0  # transitions per second, at most, for a path that is followed well
+
+
+class Departure(NamedTuple):
+    """A stretch where a walk is off its path: its start and end along the path, and the worst distance.
+
+    Examples
+    --------
+    >>> Departure(start=2.0, end=2.5, worst=0.2).end
+    2.5
+    """
+
+    start: float
+    end: float
+    worst: float
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A walk along a path, and how well it follows the path; `follow_path` shows an example.
+
+    Parameters
+    ----------
+    graph, path : the graph and the path.
+    walk : its edges.
+    place : lays the walk's first clip at the start of the path.
+    track : shape (F, 2), where the root is on the ground, (x, z) in metres.
+    along : shape (F,), metres along the path in each frame.
+    off : shape (F,), metres from the path in each frame: from its nearest point within 0.5 m of `along`.
+    off_at_length : shape (F,), metres from the point of the path at equal arc length, as in [KGP02, Eq. 9].
+    unlabelled : shape (F,), the frames without the label asked for.
+    found : the result of the search.
+    """
+
+    graph: MotionGraph
+    path: GroundPath
+    walk: list[Edge]
+    place: PlanarTransform
+    track: Array
+    along: Array
+    off: Array
+    off_at_length: Array
+    unlabelled: NDArray[np.bool_]
+    found: Found
+
+    def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
+        """Turn the walk into a motion along the path; `clean` as for `synthesis.to_motion`."""
+        return to_motion(self.graph, self.walk, name=name, place=self.place, clean=clean)
+
+    @property
+    def seconds(self) -> float:
+        """The duration of the motion."""
+        return len(self.off) / self.graph.clips[0].fps
+
+    @property
+    def seams_per_second(self) -> float:
+        """Transitions per second of motion."""
+        kinds = [self.graph.graph.edges[edge]["kind"] for edge in self.walk]
+        return kinds.count("transition") / self.seconds
+
+    @property
+    def excess(self) -> float:
+        """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
+        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_per_second / SEAMS))
+
+    @property
+    def progress(self) -> float:
+        """The part of the path that was walked, 1 for all of it."""
+        return float(min(1.0, self.along[-1] / self.path.length))
+
+    @property
+    def departures(self) -> list[Departure]:
+        """The stretches more than 15 cm off the path."""
+        astray = np.concatenate([[False], self.off > ASTRAY, [False]])
+        starts, ends = np.flatnonzero(np.diff(astray)).reshape(-1, 2).T
+        return [
+            Departure(float(self.along[a]), float(self.along[b - 1]), float(self.off[a:b].max()))
+            for a, b in zip(starts, ends, strict=True)
+        ]
+
+    def report(self) -> str:
+        """Say in one line how well the walk follows the path."""
+        line = (
+            f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
+            f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst "
+            f"({100 * self.off_at_length.mean():.1f} cm at equal arc length), "
+            f"{self.seams_per_second:.2f} seams per second"
+        )
+        if self.unlabelled.any():
+            line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
+        return line + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
+
+
+def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) -> Followed:
+    """Measure how far a walk is from its path, and find the frames without the label asked for."""
+    body, rows = walk_track(graph, found.edges, found.turn, found.move)
+    label = route.label[np.minimum(found.along / route.spacing, len(route.points) - 1).astype(np.intp)]
+    bears = graph.labels.bears[label, rows] if graph.labels.names else np.zeros(len(rows), bool)
+    return Followed(
+        graph.source,
+        path,
+        [graph.edges[edge] for edge in found.edges],
+        PlanarTransform.from_complex(found.turn, found.move),
+        from_ground(body),
+        found.along,
+        _distance(route, body, found.along),
+        np.abs(body - route.at(np.cumsum(least_progress(graph, route)[rows]))),
+        (label >= 0) & ~bears,
+        found,
+    )
+
+
+def _distance(route: Route, body: Points, along: Array) -> Array:
+    """Measure the distance of the body from the path within 0.5 m of where it should be."""
+    reach = int(0.5 / route.spacing) + 1
+    near = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
+    start = route.points[np.clip(near, 0, len(route.points) - 2)]  # (F, pieces)
+    piece = route.points[np.clip(near, 0, len(route.points) - 2) + 1] - start
+    share = ((body[:, None] - start) * piece.conj()).real / np.abs(piece) ** 2
+    return np.asarray(np.abs(body[:, None] - start - np.clip(share, 0, 1) * piece).min(axis=1))
