@@ -15,6 +15,7 @@ Reading order (notebook 16)
 5. `web_files`: save a web, load it again
 6. `crossings`: what the paths lay on some frames: one step of the search
 7. `match_search`: what is like the query, and what is like that
+8. `spaces`: blends of what was found, to be asked for what they do
 
 References
 ----------
@@ -22,6 +23,9 @@ References
    SIGGRAPH 2004, doi 10.1145/1015706.1015760.
 .. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
    doi 10.5555/846276.846307.
+.. [HG07] R. Heck, M. Gleicher, *Parametric Motion Graphs*, I3D 2007, doi 10.1145/1230100.1230123.
+.. [ACP02] B. Allen, B. Curless, Z. Popović, *Articulated Body Deformation from Range Scan Data*,
+   SIGGRAPH 2002.
 .. [SW81] T. F. Smith, M. S. Waterman, *Identification of Common Molecular Subsequences*, Journal of Molecular
    Biology 147, 1981, doi 10.1016/0022-2836(81)90087-5.
 """
@@ -36,5 +40,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "webs": ["MatchWeb", "PathShape", "build_web"],
         "web_files": ["load_web", "save_web"],
         "match_search": ["Match", "cut_out", "search"],
+        "spaces.motion_measures": ["hand_target", "leap", "mean_speed", "turn"],
+        "spaces.random_blends": ["random_weights"],
+        "spaces.motion_spaces": ["MotionSpace", "blend_of", "sample_space"],
+        "spaces.wishes": ["neighbour_weights", "weights_for"],
     },
 )

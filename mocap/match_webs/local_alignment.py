@@ -60,12 +60,12 @@ def _ends(sums: PathSums, least: int) -> Indices:
     """List the best end of each beginning, best first, where the path advances far enough."""
     totals, begun = sums.totals.ravel(), origins(sums).ravel()
     cells = np.flatnonzero(totals < 0)
-    columns = sums.totals.shape[1]
-    advance = np.array(np.divmod(cells, columns)) - np.divmod(begun[cells], columns)
-    cells = cells[advance.min(axis=0) >= least]
     best = np.zeros(len(totals), totals.dtype)
     np.minimum.at(best, begun[cells], totals[cells])
     cells = cells[totals[cells] == best[begun[cells]]]
+    columns = sums.totals.shape[1]
+    advance = np.array(np.divmod(cells, columns)) - np.divmod(begun[cells], columns)
+    cells = cells[advance.min(axis=0) >= least]
     return np.asarray(cells[np.argsort(totals[cells], kind="stable")])
 
 

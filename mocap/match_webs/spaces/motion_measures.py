@@ -1,0 +1,90 @@
+"""Numbers to ask a motion for: how far it turns, how fast it goes, where the hand reaches, how high it jumps.
+
+Any function of a `Motion` that gives one number or a few can be the measure of a space; these are four.
+"""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, heading, on_ground
+
+
+def turn(motion: Motion) -> float:
+    """Measure how far the body turns from the first frame to the last, radians, to the left.
+
+    Examples
+    --------
+    >>> from mocap.body.ground_path import arcs
+    >>> from mocap.datasets.generated import generate_walk
+    >>> walk = generate_walk(arcs((0, 0), 0, [(5, np.pi / 2)]).points)
+    >>> round(np.degrees(turn(walk)) / 10)
+    9
+
+    Notebook: 16-match-webs
+    """
+    headings = np.unwrap(heading(motion.rotations[:, 0]))
+    return float(headings[-1] - headings[0])
+
+
+def mean_speed(motion: Motion) -> float:
+    """Measure how fast the root goes over the ground on average, metres per second.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import generate_walk
+    >>> round(mean_speed(generate_walk([[0, 0], [0, 5]], speed=1.3)), 1)
+    1.3
+
+    Notebook: 16-match-webs
+    """
+    way = np.abs(np.diff(on_ground(motion.root_positions))).sum()
+    return float(way / max(motion.duration, 1 / motion.fps))
+
+
+def leap(motion: Motion) -> Array:
+    """Measure a jump: the root's greatest height, and how far it comes over the ground; shape (2,), metres.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import generate_walk
+    >>> leap(generate_walk([[0, 0], [0, 5]])).round(1)
+    array([1. , 5.1])
+
+    Notebook: 16-match-webs
+    """
+    places = on_ground(motion.root_positions)
+    return np.array([motion.root_positions[:, 1].max(), np.abs(places[-1] - places[0])])
+
+
+def hand_target(motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus") -> Array:
+    """Measure where a hand is when the arm is longest, from where the body stands and faces at the start.
+
+    Parameters
+    ----------
+    motion : such as a punch.
+    hand, shoulder : names of joints; by default those of the right arm in Acclaim files.
+
+    Returns
+    -------
+    Metres to the left, above the ground, and ahead, shape (3,).
+
+    Raises
+    ------
+    MocapError : for a joint that is not there.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> hand_target(sample("walk_straight")[:120]).shape
+    (3,)
+
+    Notebook: 16-match-webs
+    """
+    tip, root = (motion.skeleton.index(name) for name in (hand, shoulder))
+    points = joint_positions(motion)
+    longest = np.linalg.norm(points[:, tip] - points[:, root], axis=-1).argmax()
+    x, _, z = motion.root_positions[0]
+    away = points[longest, tip] - [x, 0, z]
+    return PlanarTransform(-float(heading(motion.rotations[0, 0])), 0.0, 0.0).apply_points(away)
