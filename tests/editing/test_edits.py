@@ -1,0 +1,187 @@
+"""One call: stones, bars, hands and rails; feet stand to the last digit, and what cannot be is said."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import difference
+from mocap.editing.edits import edit
+from mocap.editing.linear_bodies import Body, body_of
+from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footskate import clean_up
+from tests.editing.wishes import bar, bones, captured, hand, hand_at, plants_kept, smoothness, stone, walk
+
+DENSER = (0.5, 0.25, 0.125)
+
+
+@pytest.fixture(autouse=True)
+def warnings_are_errors():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", MocapWarning)
+        yield
+
+
+def check(motion, base, pins, most):
+    assert pin_errors(motion, pins).max() < 1e-9
+    assert plants_kept(motion, base) == 1
+    assert smoothness(motion, base) <= most
+    assert bones(motion) < 1e-12
+
+
+@pytest.mark.parametrize("fps", [120.0, 30.0])
+def test_a_stone_under_a_step(fps):
+    clip = walk(fps)
+    pins = stone(clip, 0.15)
+    check(edit(clip, pins), clip, pins, 1.15)
+
+
+def test_a_stone_under_a_step_of_a_run():
+    clip = sample("jog")[700:1000]
+    pins = stone(clip, 0.15)
+    check(edit(clip, pins), clip, pins, 1.15)
+
+
+@pytest.mark.parametrize("height", [0.1, 0.2, 0.3, 0.4, 0.5])
+def test_stones_under_a_captured_step(real_data, height):
+    clip = captured(real_data)
+    pins = stone(clip, height)
+    check(edit(clip, pins, knots=DENSER), clip, pins, 1.15)
+
+
+def test_a_stone_under_any_captured_step(real_data):
+    clip = captured(real_data)
+    for step in range(4):
+        pins = stone(clip, 0.2, step)
+        check(edit(clip, pins), clip, pins, 1.13)
+
+
+def test_a_clean_up_alone_lets_plants_go_where_much_is_asked(real_data):
+    clip = captured(real_data)
+    pins = stone(clip, 0.2)
+    with pytest.warns(MocapWarning, match="they are let go"):
+        alone = clean_up(clip, pins=pins)
+    assert plants_kept(alone, clip) < 0.9
+    check(edit(clip, pins), clip, pins, 1.06)
+
+
+def test_a_bar_to_duck_under(real_data):
+    for clip, middle, height in ((captured(real_data), 230, 1.35), (walk(), 250, 1.4)):
+        pins = bar(clip, height, middle)
+        edited = edit(clip, pins)
+        errors = pin_errors(edited, pins)
+        assert errors[:, :4].max() < 1e-9 and errors.max() < 0.0025
+        assert plants_kept(edited, clip) == 1
+        assert smoothness(edited, clip) < (1.05 if clip.name == "16_15" else 1.2)
+        head = joint_positions(edited)[:, clip.skeleton.index("head")]
+        low = pins.high[:, pins.joints.index(clip.skeleton.index("head")), 1]
+        assert (head[:, 1] - low).max() < 0.0025
+
+
+def test_the_price_of_the_trunk_chooses_between_a_bow_and_a_crouch(real_data):
+    clip = captured(real_data)
+    pins = bar(clip, 1.35, 230)
+    trunk = ("lowerback", "upperback", "thorax", "lowerneck", "upperneck", "head")
+    bends, sinks = [], []
+    for times in (1.0, 64.0):
+        edited = edit(clip, pins, body=body_of(clip, pins.joints, prices=dict.fromkeys(trunk, times)))
+        change = difference(edited, clip)
+        turned = change.turns[:, [clip.skeleton.index(name) for name in trunk]]
+        bends.append(np.degrees(np.linalg.norm(turned, axis=-1).max(axis=0).sum()))
+        sinks.append(-change.root[:, 1].min())
+    assert bends[0] > 4 * bends[1]
+    assert sinks[1] > sinks[0] + 0.1
+
+
+def test_a_hand_held_while_the_body_walks_on(real_data):
+    for clip, around in ((captured(real_data), 240), (walk(), 250)):
+        still = hand(clip, slice(around - 24, around + 24), around)
+        pins = join_pins(plant_pins(clip), still)
+        check(edit(clip, still), clip, pins, 1.25)
+
+
+def test_a_hand_at_three_frames(real_data):
+    clip = captured(real_data)
+    pins = hand_at(clip, (180, 240, 300))
+    check(edit(clip, pins, knots=DENSER), clip, pins, 1.1)
+
+
+def test_a_hand_on_a_rail_slides_along_it(real_data):
+    clip = captured(real_data)
+    wrist, frames = clip.skeleton.index("rwrist"), slice(180, 300)
+    place = joint_positions(clip)[frames, wrist].mean(axis=0) + np.array([0.05, 0.15, 0])
+    low, high = (np.where([False, False, True], end, place) for end in (-np.inf, np.inf))
+    rail = pin(clip, wrist, frames, low, high)
+    assert 0.1 < pin_errors(clip, rail).max() < 0.3
+    edited = edit(clip, rail)
+    check(edited, clip, join_pins(plant_pins(clip), rail), 1.1)
+    assert np.ptp(joint_positions(edited)[frames, wrist, 2]) > 0.5
+
+
+def test_a_foot_in_the_air_meets_its_pin_as_well():
+    clip = walk()
+    ankle = find_legs(clip.skeleton)[0].ankle
+    air = np.flatnonzero(~clip.contacts["lfoot"] & ~clip.contacts["ltoes"])
+    frame = int(air[np.abs(air - 250).argmin()])
+    kick = pin(clip, ankle, [frame], joint_positions(clip)[frame, ankle] + [0, 0.15, 0.05])
+    edited = edit(clip, kick)
+    check(edited, clip, join_pins(plant_pins(clip), kick), 1.7)
+
+
+def test_nothing_asked_changes_nothing():
+    clip = walk()
+    assert edit(clip, pin(clip, "lwrist", [], [0, 0, 0])) is clip
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3])
+def test_a_few_frames_are_enough(frames):
+    clip = walk()[240 : 240 + frames]
+    wrist = joint_positions(clip)[0, clip.skeleton.index("lwrist")]
+    pins = pin(clip, "lwrist", [0], wrist + np.array([0, 0.1, 0]))
+    assert pin_errors(edit(clip, pins), pins).max() < 1e-4  # no frame shows the elbow's hinge
+
+
+def test_a_body_without_legs_needs_none():
+    clip = walk()
+    wrist = joint_positions(clip)[240, clip.skeleton.index("lwrist")]
+    pins = pin(clip, "lwrist", [240], wrist + np.array([0, 0.1, 0]))
+    edited = edit(clip, pins, legs=())
+    assert pin_errors(edited, pins).max() < 1e-9
+
+
+def test_what_cannot_be_is_said():
+    clip = walk()
+    wrist, elbow = (clip.skeleton.index(name) for name in ("rwrist", "rradius"))
+    at = joint_positions(clip)
+    with pytest.raises(
+        MocapError, match=r"Frame \d+: 'rwrist' would be 5.\d+ m from '\w+', the bones"
+    ) as error:
+        edit(clip, pin(clip, wrist, slice(240, 250), at[240, wrist] + np.array([0, 5, 0])))
+    assert len(str(error.value)) <= 200
+    with pytest.raises(MocapError, match="mark_plants finds out"):
+        edit(sample("walk_straight")[:9].__class__(**{**vars(clip), "contacts": {}}), hand(clip, [240], 240))
+    apart = [pin(clip, j, [240], at[240, j] + np.array([0, y, 0])) for j, y in ((wrist, 0.1), (elbow, -0.1))]
+    with pytest.warns(MocapWarning, match=r"frame 240: 'r\w+' is \d+\S* mm off its pin") as told:
+        both = edit(clip, join_pins(*apart))
+    assert all(len(str(warning.message)) <= 200 for warning in told)
+    errors = [pin_errors(both, one)[240, 0] for one in apart]
+    assert min(errors) > 0.03 and max(errors) < 1.3 * min(errors)  # each gives way by as much
+
+
+def test_a_limb_that_is_too_short_stays_within_its_reach():
+    """A body that may not move at all leaves all to the arm."""
+    clip = walk()
+    wrist = clip.skeleton.index("rwrist")
+    far = pin(clip, wrist, [240], joint_positions(clip)[240, wrist] + np.array([0, 0.2, 1.0]))
+    elbow = clip.skeleton.index("rradius")
+    hinge = body_of(clip, [wrist])
+    axes = hinge.axes[hinge.joints.index(elbow)]
+    stiff = Body((elbow,), (axes,), np.array([1e9, 1e9, 1e9, 1e9]))
+    with pytest.warns(MocapWarning, match="'rwrist' is .* mm off its pin"):
+        edited = edit(clip, far, body=stiff)
+    assert 0.2 < pin_errors(edited, far).max() < 1
+    assert bones(edited) < 1e-12

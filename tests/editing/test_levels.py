@@ -1,0 +1,142 @@
+"""The fit has the paper's values; each level more than halves what is left; only those concerned listen."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.editing import levels
+from mocap.editing.displacements import spline_basis
+from mocap.editing.levels import Level, hierarchy, scattered_fit
+from mocap.editing.linear_bodies import body_of
+from mocap.editing.pins import pin, pin_errors, plant_pins
+from mocap.editing.reaching import reach
+from mocap.errors import MocapError
+from tests.editing.wishes import bar, captured, hand_at, rms, smoothness, stone, walk
+from tests.strategies import seeds
+
+
+def test_the_fit_of_one_datum_and_of_two_has_the_papers_values():
+    basis = spline_basis(11, 5)
+    one = scattered_fit(basis, np.array([[1.0]]), np.array([5]))
+    np.testing.assert_allclose(one[1:4, 0], [1 / 3, 4 / 3, 1 / 3], atol=1e-12)
+    np.testing.assert_allclose((basis @ one)[[5, 6], 0], [1, 0.9636], atol=1e-4)
+    two = scattered_fit(basis, np.array([[1.0], [0.0]]), np.array([5, 6]))
+    np.testing.assert_allclose((basis @ two)[[5, 6], 0], [0.527, 0.491], atol=1e-3)
+
+
+def slow_fit(basis, data, at):
+    """c_i = Σ_j w_ij² β_ij / Σ_j w_ij², one control point after the other."""
+    weights = basis.toarray()[at]
+    control = np.zeros((basis.shape[1], data.shape[1]))
+    for i in range(basis.shape[1]):
+        above, below = np.zeros(data.shape[1]), 0.0
+        for j in range(len(at)):
+            w = weights[j, i]
+            above += w**2 * (w * data[j] / (weights[j] ** 2).sum())
+            below += w**2
+        if below > 0:
+            control[i] = above / below
+    return control
+
+
+@given(seeds, st.integers(1, 12), st.floats(2, 30))
+@settings(max_examples=15)
+def test_the_fit_is_the_sum_over_the_data_and_bounded_by_them(seed, count, spacing):
+    random = np.random.default_rng(seed)
+    basis = spline_basis(40, spacing)
+    at = random.integers(0, 40, count)
+    data = random.normal(size=(count, 2))
+    control = scattered_fit(basis, data, at)
+    np.testing.assert_allclose(control, slow_fit(basis, data, at), atol=1e-9)
+    assert np.abs(basis @ control).max() <= 2 * np.abs(data).max()
+
+
+def test_least_squares_runs_wild_where_the_local_fit_does_not():
+    basis, at = spline_basis(200, 4), np.array([20, 21, 22, 60, 61, 100])
+    data = np.array([0.0, 1, -1, 1, -1, 1])[:, None]
+    wild = basis @ np.linalg.lstsq(basis.toarray()[at], data, rcond=None)[0]
+    assert np.abs(wild).max() > 3 * np.abs(basis @ scattered_fit(basis, data, at)).max()
+
+
+@pytest.mark.parametrize("fps", [120.0, 30.0])
+def test_each_level_more_than_halves_what_a_stone_leaves(fps):
+    clip = walk(fps)
+    pins = stone(clip, 0.15)
+    motion, told = hierarchy(clip, pins)
+    left = np.array([level.rms for level in told])
+    assert (left[1:-1] * 2 <= left[:-2]).all()
+    assert left[-1] < 0.001 and rms(pin_errors(motion, pins), pins) == pytest.approx(left[-1], rel=0.3)
+    assert smoothness(motion, clip) < 1.2
+    assert told[-1].worst == pytest.approx(pin_errors(motion, pins).max())
+    assert [level.knots for level in told] == [0.5, 0.25, 0.125, 0.06, 0.03][: len(told)]
+
+
+def test_each_level_more_than_halves_what_a_captured_walk_leaves(real_data):
+    clip = captured(real_data)
+    for pins in (stone(clip, 0.2), bar(clip, 1.35, 230)):
+        motion, told = hierarchy(clip, pins)
+        left = np.array([level.rms for level in told])
+        assert (left[1:] * 2 <= left[:-1]).all() and left[-1] < 0.001
+        assert smoothness(motion, clip) < 1.2
+    jumping = reach(clip, stone(clip, 0.2)).motion
+    assert smoothness(jumping, clip) > 5
+
+
+def test_one_fine_level_neither_meets_the_pins_nor_is_smooth():
+    clip = walk()
+    pins = stone(clip, 0.2)
+    motion, told = hierarchy(clip, pins, knots=[2 / 120])
+    assert told[0].worst > 0.02
+    assert smoothness(motion, clip) > 2
+
+
+def test_a_hand_listens_to_its_own_frames_only(monkeypatch):
+    clip = walk()
+    pins = hand_at(clip, (180, 240, 300))
+    left = {}
+    left["own"] = hierarchy(clip, pins)[1][-1].worst
+
+    def all_listen(base, pins, body, asked):
+        return np.repeat(asked.any(axis=1)[:, None], len(body.price), axis=1)
+
+    monkeypatch.setattr(levels, "listeners", all_listen)
+    left["all"] = hierarchy(clip, pins)[1][-1].worst
+    assert left["own"] < 0.002
+    assert left["all"] > 0.1
+
+
+def test_the_levels_end_where_the_pins_are_met():
+    clip = walk()
+    motion, told = hierarchy(clip, plant_pins(clip))
+    assert motion is clip and not told
+    motion, told = hierarchy(clip, pin(clip, "lwrist", [], [0, 0, 0]))
+    assert motion is clip and not told
+    pins = stone(clip, 0.1)
+    assert len(hierarchy(clip, pins, tolerance=0.06)[1]) < 5
+
+
+def test_a_body_may_keep_joints_still():
+    clip = walk()
+    pins = stone(clip, 0.1)
+    body = body_of(clip, pins.joints, still=["lfoot"])
+    motion = hierarchy(clip, pins, body, knots=(0.5, 0.25))[0]
+    ankle = clip.skeleton.index("lfoot")
+    assert np.array_equal(motion.rotations[:, ankle], clip.rotations[:, ankle])
+
+
+def test_bad_input():
+    clip = walk()
+    pins, basis = plant_pins(clip), spline_basis(11, 5)
+    for call, words in (
+        (lambda: hierarchy(clip, pins, knots=()), "knots come nearer"),
+        (lambda: hierarchy(clip, pins, knots=(0.25, 0.5)), r"got \(0.25, 0.5\)"),
+        (lambda: hierarchy(clip, pins, knots=(0.25, 0.0)), "above 0 s"),
+        (lambda: hierarchy(clip, pins, tolerance=0.0), "tolerance is above 0 metres, got 0"),
+        (lambda: scattered_fit(basis, np.ones((2, 1)), np.array([1])), "needs one frame"),
+        (lambda: scattered_fit(basis, np.ones(2), np.array([1, 2])), "needs one frame"),
+        (lambda: scattered_fit(basis, np.ones((1, 1)), np.array([11])), "frames 0 to 10, got 11 to 11"),
+    ):
+        with pytest.raises(MocapError, match=words):
+            call()
+    assert Level(0.5, 1, 0.1, 0.01).asked == 1

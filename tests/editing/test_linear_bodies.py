@@ -1,0 +1,176 @@
+"""Slopes agree with finite differences; knees are hinges; pins that no body joins are refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import Displacement, difference, displaced
+from mocap.editing.linear_bodies import (
+    Body,
+    body_of,
+    chain,
+    hinge_of,
+    length_between,
+    linear,
+    require_reachable,
+)
+from mocap.editing.pins import join_pins, pin, plant_pins
+from mocap.editing.reaching import reach
+from mocap.errors import MocapError
+from mocap.files.load_save import load
+from tests.editing.wishes import bar, captured, stone, walk
+from tests.strategies import random_motion, seeds
+
+LEGS = find_legs(walk().skeleton)
+
+
+@given(seeds)
+@settings(max_examples=5)
+def test_slopes_are_those_of_finite_differences(seed):
+    random = np.random.default_rng(seed)
+    clip = walk()[::50]
+    pins = bar(clip, 1.3, 3)
+    body = body_of(walk(), pins.joints)
+    x = random.normal(size=(len(clip), len(body.price))) * 0.3
+    here = linear(clip, body, x, pins)
+    active = pins.held.reshape(len(clip), -1) | (here.gap != 0)
+    for column in range(x.shape[1]):
+        step = np.zeros(x.shape)
+        step[:, column] = 1e-6
+        there = linear(clip, body, x + step, pins)
+        slopes = np.where(active, (here.gap - there.gap) / 1e-6, 0.0)
+        np.testing.assert_allclose(here.slopes[..., column], slopes, atol=1e-5)
+
+
+def test_a_rail_and_a_free_joint_give_rows_of_zeros():
+    clip = walk()[:3]
+    rail = pin(clip, "lwrist", [0, 1], [0.3, 1, -np.inf], [0.3, 1, np.inf])
+    body = body_of(walk(), rail.joints)
+    here = linear(clip, body, np.zeros((3, len(body.price))), rail)
+    assert not here.slopes[:, 2].any() and not here.slopes[2].any()
+    assert here.slopes[:2, :2].any(axis=-1).all()
+    assert here.distances.shape == (3, 1)
+
+
+def test_only_joints_above_a_pinned_one_take_part_and_the_price_is_what_they_move():
+    clip = walk()
+    body = body_of(clip, [joint for leg in LEGS for joint in (leg.ankle, leg.ball)])
+    names = [clip.skeleton.names[j] for j in body.joints]
+    assert names == ["root", "lfemur", "ltibia", "lfoot", "rfemur", "rtibia", "rfoot"]
+    assert len(body.price) == 20 and body.price[:3].tolist() == [38.0] * 3
+    root, hip, knee, ankle = (body.price[c][0] for c in body.columns[:4])
+    assert root > hip > knee > ankle > 1
+    dear = body_of(clip, [LEGS[0].ankle], prices={"lfemur": 4.0}, still=["root"])
+    assert 0 not in dear.joints
+    assert dear.price[dear.columns[0]][0] == pytest.approx(4 * hip)
+
+
+def test_knees_are_hinges_and_hips_are_not():
+    for clip in (walk(), walk(30.0), sample("jog")):
+        for leg in LEGS:
+            assert np.abs(hinge_of(clip, leg.knee)) @ [1, 0, 0] > 0.999
+            assert hinge_of(clip, leg.hip) is None
+    # One frame shows no axis; then the file's axes count, where it says them.
+    bent = walk()[:1]
+    assert hinge_of(bent, LEGS[0].knee) is None or np.abs(hinge_of(bent, LEGS[0].knee)) @ [1, 0, 0] > 0.999
+    dofs = list(bent.skeleton.dofs)
+    dofs[LEGS[0].knee], dofs[LEGS[0].hip] = "x", "xyz"
+    named = replace(bent, skeleton=replace(bent.skeleton, dofs=dofs))
+    assert np.allclose(hinge_of(named, LEGS[0].knee), [1, 0, 0])
+    assert hinge_of(named, LEGS[0].hip) is None
+
+
+def test_captured_knees_are_hinges(real_data):
+    for clip in (captured(real_data), load(real_data / "cmu" / "49" / "49_02.amc")):
+        for leg in find_legs(clip.skeleton):
+            assert hinge_of(clip, leg.knee) is not None
+
+
+def test_a_knee_that_may_turn_about_three_axes_meets_the_stone_and_twists():
+    clip, twists = walk(), {}
+    pins = stone(clip, 0.2)
+    hinged = body_of(clip, pins.joints)
+    axes = tuple(np.eye(3) for _ in hinged.joints)
+    price = [*hinged.price[:3], *np.repeat([hinged.price[c][0] for c in hinged.columns], 3)]
+    for kind, body in (("hinges", hinged), ("balls", Body(hinged.joints, axes, np.array(price)))):
+        solved = reach(clip, pins, body)
+        assert solved.worst[-1] < 0.002
+        turns = [difference(solved.motion, clip).turns[:, leg.knee] for leg in LEGS]
+        twists[kind] = np.degrees(np.linalg.norm(np.array(turns)[..., 1:], axis=-1).max())
+    assert twists["hinges"] < 0.1
+    assert twists["balls"] > 4
+
+
+def test_an_ankle_that_is_too_cheap_turns_too_far():
+    clip = walk()
+    pins = stone(clip, 0.2)
+    turned = []
+    for effort in (0.02, 1.0):
+        solved = reach(clip, pins, body_of(clip, pins.joints, effort=effort))
+        turned.append(np.linalg.norm(difference(solved.motion, clip).turns[:, LEGS[0].ankle], axis=-1).max())
+    assert turned[0] > 1.4 * turned[1]
+
+
+def test_pins_farther_apart_than_the_bones_between_are_refused():
+    clip = walk()
+    wrist = clip.skeleton.index("rwrist")
+    places = joint_positions(clip)[240, wrist]
+    for up, ok in ((0.3, True), (5.0, False)):
+        pins = join_pins(plant_pins(clip), pin(clip, wrist, slice(240, 250), places + np.array([0, up, 0])))
+        if ok:
+            require_reachable(clip, pins)
+        else:
+            with pytest.raises(
+                MocapError, match=r"^Frame 24\d: 'rwrist' would be 5.* m from '\w+', the bones"
+            ):
+                require_reachable(clip, pins)
+    # A hand under a bar, feet on a floor: boxes count by their nearest corners.
+    high = join_pins(
+        pin(clip, wrist, [0], [-np.inf, 9, -np.inf], [np.inf] * 3),
+        pin(clip, "lfoot", [0], [-np.inf] * 3, [np.inf, 0.1, np.inf]),
+    )
+    with pytest.raises(MocapError, match=r"'lfoot' would be 8\.90 m from 'rwrist'"):
+        require_reachable(clip, high)
+
+
+@given(seeds)
+@settings(max_examples=20)
+def test_joints_are_never_farther_apart_than_the_bones_between(seed):
+    clip = random_motion(seed, frames=3, joints=8)
+    positions = joint_positions(clip)
+    for a in range(8):
+        for b in range(8):
+            apart = np.linalg.norm(positions[:, a] - positions[:, b], axis=-1)
+            assert (apart <= length_between(clip.skeleton, a, b) + 1e-9).all()
+        assert chain(clip.skeleton, a)[-1] == 0
+
+
+def test_a_change_on_the_left_would_miss():
+    """exp(d) q₀ turns about the parent's axes: the hand that was to meet its target misses it."""
+    clip = walk()[:1]
+    wrist = clip.skeleton.index("lwrist")
+    pins = pin(clip, wrist, [0], joint_positions(clip)[0, wrist] + [0.05, 0.25, 0.15])
+    solved = reach(clip, pins, body_of(walk(), pins.joints), weight=1000)
+    change: Displacement = difference(solved.motion, clip)
+    left = rotations.multiply(rotations.from_rotvec(change.turns), clip.rotations)
+    wrong = replace(displaced(clip, change), rotations=left)
+    assert np.linalg.norm(pins.gap(joint_positions(solved.motion))) < 1e-4
+    assert np.linalg.norm(pins.gap(joint_positions(wrong))) > 0.01
+
+
+def test_bad_bodies():
+    clip = walk()
+    with pytest.raises(MocapError, match="No joint 'knee'"):
+        body_of(clip, [4], still=["knee"])
+    with pytest.raises(MocapError, match="above 0"):
+        body_of(clip, [4], prices={"lfemur": 0.0})
+    with pytest.raises(MocapError, match="above 0"):
+        body_of(clip, [4], effort=np.nan)
+    with pytest.raises(MocapError, match="A body of 6 numbers needs a price above 0"):
+        Body((0,), (np.eye(3),), np.ones(5))

@@ -1,0 +1,96 @@
+"""Wishes that several tests ask of a walk: a stone, a bar, a hand, a rail; and how well they are met."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from mocap._shared.arrays import runs
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.datasets.samples import sample
+from mocap.editing.pins import Pins, join_pins, pin, plant_pins
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
+from mocap.files.load_save import load
+
+FEET = ("lfoot", "ltoes", "rfoot", "rtoes")
+HEAD = ("head_end", "head", "upperneck", "lowerneck")
+
+
+@cache
+def walk(fps: float = 120.0) -> Motion:
+    """Four seconds of a bundled walk."""
+    return resample(sample("walk_straight")[100:600], fps)
+
+
+@cache
+def captured(folder: Path) -> Motion:
+    """CMU's 16_15 with feet that stand; its left arm snaps in frame 1."""
+    return clean_up(mark_plants(load(folder / "cmu" / "16" / "16_15.amc")[12:]))
+
+
+def stone(clip: Motion, height: float, step: int = 1) -> Pins:
+    """Put one step of the left foot higher, by default the second; all other plants stay."""
+    pins, down = plant_pins(clip), runs(clip.contacts["ltoes"])
+    start, stop = down[step]
+    up = np.zeros(pins.low.shape)
+    for column, joint in enumerate(pins.joints):
+        if clip.skeleton.names[joint] in FEET[:2]:
+            up[start:stop, column, 1] = height
+    return Pins(pins.joints, pins.low + up, pins.high + up)
+
+
+def bar(clip: Motion, height: float, middle: int, *, around: float = 0.25) -> Pins:
+    """Hang a bar across the way: head and neck shall pass under it; feet stay planted."""
+    along = (clip.root_positions[-1] - clip.root_positions[0]) * [1, 0, 1]
+    along /= np.linalg.norm(along)
+    away = (joint_positions(clip) - clip.root_positions[middle]) @ along
+    free, below = [-np.inf] * 3, [np.inf, height, np.inf]
+    names = [name for name in HEAD if name in clip.skeleton.names]
+    near = {name: np.abs(away[:, clip.skeleton.index(name)]) < around for name in names}
+    return join_pins(plant_pins(clip), *(pin(clip, name, near[name], free, below) for name in names))
+
+
+def hand(clip: Motion, frames, around: int, ahead=(-0.15, 0.30, 0.15)) -> Pins:
+    """Ask the right wrist to a place that is off its own in frame `around`, seen from the body."""
+    wrist = clip.skeleton.index("rwrist")
+    place = joint_positions(clip)[around, wrist] + rotations.rotate(clip.rotations[around, 0], ahead)
+    return pin(clip, wrist, frames, place)
+
+
+def hand_at(clip: Motion, frames) -> Pins:
+    """Ask the hand to such a place in some frames, each by itself; feet stay planted."""
+    return join_pins(plant_pins(clip), *(hand(clip, [frame], frame) for frame in frames))
+
+
+def rms(errors: np.ndarray, pins: Pins) -> float:
+    """Return the rms error in frames in which something is asked, metres."""
+    return float(np.sqrt((errors[pins.asked.any(axis=1)] ** 2).mean()))
+
+
+def accelerations(motion: Motion) -> float:
+    """Return the 99th percentile of the accelerations, without hands and end sites, where noise lives."""
+    noise = ("hand", "finger", "thumb", "_end")
+    columns = [j for j, n in enumerate(motion.skeleton.names) if not any(w in n for w in noise)]
+    sizes = np.linalg.norm(np.diff(joint_positions(motion)[:, columns], 2, axis=0), axis=-1)
+    return float(np.percentile(sizes, 99))
+
+
+def smoothness(motion: Motion, base: Motion) -> float:
+    """Return the accelerations' 99th percentile over the source's."""
+    return accelerations(motion) / accelerations(base)
+
+
+def plants_kept(motion: Motion, base: Motion) -> float:
+    """Return the share of planted frames that are still planted."""
+    kept = sum((motion.contacts[n] & base.contacts[n]).sum() for n in FEET)
+    return float(kept / sum(base.contacts[n].sum() for n in FEET))
+
+
+def bones(motion: Motion) -> float:
+    """Return by how much a bone in space is longer or shorter than the skeleton's, at most, metres."""
+    positions, skeleton = joint_positions(motion), motion.skeleton
+    lengths = np.linalg.norm(positions[:, 1:] - positions[:, skeleton.parents[1:]], axis=-1)
+    return float(np.abs(lengths - np.linalg.norm(skeleton.offsets[1:], axis=-1)).max())
