@@ -66,7 +66,7 @@ REAL = {
     "flight": (0.28, 0.52),
     "push": (0.25, 0.31),
     "knee standing": (16.9, 22),
-    "knee lowest": (84, 99),
+    "knee lowest": (83.8, 99),
     "knee in the air": (28, 44),
     "trunk lowest": (29, 65),
     "acceleration": (34, 60),

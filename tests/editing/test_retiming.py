@@ -15,7 +15,9 @@ from mocap.editing.warping.keys import cardinal
 from mocap.editing.warping.looping import looped, repeated
 from mocap.editing.warping.retiming import at_frames, old_seconds, retime
 from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
+from mocap.matching.distance_grids import distance_grid
 from tests.strategies import random_motion
 
 WALK = sample("walk_straight")[240:721]
@@ -142,11 +144,6 @@ def jumps(motion):
     return np.linalg.norm(steps, axis=-1)
 
 
-def plain(cycle):
-    """Repeat a cycle that nothing has closed."""
-    return repeated(cycle, 3)
-
-
 def test_a_cycle_closes_without_a_jump():
     stride = looped(WALK, 20, 157)
     again = repeated(stride, 3)
@@ -155,7 +152,7 @@ def test_a_cycle_closes_without_a_jump():
     usual = np.percentile(jumps(WALK), 99)
     seams = np.r_[135:139, 272:276]
     assert jumps(again)[seams].max() < usual
-    assert jumps(plain(WALK[20:158]))[seams].max() > 2 * usual
+    assert jumps(repeated(WALK[20:158], 3))[seams].max() > 2 * usual
     step = at[137, 0] - at[0, 0]
     assert at[137:, 1] == pytest.approx(at[:-137, 1] + step, abs=0.05)  # the same again, farther on
     assert again.contacts["lfoot"][:137].tolist() == again.contacts["lfoot"][137:274].tolist()
@@ -179,6 +176,30 @@ def test_the_feet_of_a_loop_can_be_cleaned():
         foot = at[:, again.skeleton.index(joint)]
         edges = np.flatnonzero(np.diff(mark.astype(int), prepend=0, append=0)).reshape(-1, 2)
         assert max(np.ptp(foot[a:b], axis=0).max() for a, b in edges) < 1e-6  # metres
+
+
+def test_a_captured_stride_closes(real_data):
+    from mocap.files import load_save
+
+    walk = clean_up(mark_plants(load_save.load(real_data / "cmu" / "16" / "16_15.amc")[12:]))
+    grid = distance_grid(walk[:350], walk[100:], window=12)  # windows a stride apart, or more
+    ways = [(grid[i, i + gap], i, i + 100 + gap) for i in range(20, 200, 2) for gap in range(0, 70)]
+    _, first, last = min(way for way in ways if way[2] < len(walk) - 12)
+    stride = looped(walk, first, last)
+    again, usual = repeated(stride, 2), np.percentile(jumps(walk), 99)
+    seam = slice(len(stride) - 4, len(stride) + 1)
+    assert jumps(again)[seam].max() < usual
+    assert joint_positions(again)[len(stride) - 1] == pytest.approx(joint_positions(stride)[-1], abs=1e-6)
+    late = [
+        np.concatenate([old[first:last], new[-1:]])
+        for old, new in zip(parts(walk), parts(stride), strict=True)
+    ]
+    jolting = replace(stride, root_positions=late[0], rotations=late[1])
+    assert jumps(repeated(jolting, 2))[seam].max() > 4 * jumps(again)[seam].max()
+
+
+def parts(motion):
+    return motion.root_positions, motion.rotations
 
 
 @pytest.mark.parametrize(("first", "last"), [(5, 5), (9, 3), (-1, 4), (3, 481)])

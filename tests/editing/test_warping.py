@@ -248,3 +248,25 @@ def test_a_natural_spline_would_do_for_values_but_not_at_the_ends():
     at, values = [60, 90, 120], [0.0, 0.2, 0.0]
     assert np.abs(CubicSpline(at, values, bc_type="natural")([0, 30, 180])).min() > 0.1
     assert np.abs(cardinal(at, values, [0, 30, 180])).max() == 0
+
+
+def test_a_captured_shoulder_by_scale_and_by_offset(real_data):
+    walk = load_save.load(real_data / "cmu" / "16" / "16_15.amc")[12:]
+    hand = walk.skeleton.index("lhand")
+
+    def span(motion):
+        at = joint_positions(motion)
+        return np.ptp((at[:, hand] - at[:, 0])[:, 2])
+
+    reference, before = away(walk, "lhumerus")
+    wide, about_zero = scaled(walk, "lhumerus", 1.5), scaled(walk, "lhumerus", 1.5, about=[1.0, 0, 0, 0])
+    after = away(wide, "lhumerus", reference)[1]
+    rms = [np.degrees(np.sqrt((v**2).sum(-1).mean())) for v in (before, after)]
+    assert rms == pytest.approx([8.4, 12.6], abs=0.1)
+    assert span(wide) > 1.25 * span(walk)
+    astray = joint_positions(about_zero)[:, hand] - joint_positions(wide)[:, hand]
+    assert np.linalg.norm(astray, axis=-1).mean() == pytest.approx(0.46, abs=0.02)
+    angle = np.degrees(np.linalg.norm(before, axis=-1))
+    near = int(angle.argmin())
+    with pytest.raises(MocapError, match="give an offset instead"):
+        gains(walk, "lhumerus", [Key(near, moved(walk, near, turn=(0.26, 0, 0)))])

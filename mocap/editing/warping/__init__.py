@@ -10,7 +10,8 @@ displacement map, q exp(b), and a scale stretches the rotation vector from a ref
 Reading order
 -------------
 1. `keys`: keys, the curve through them, and a warp by offsets
-2. `scaling`: a warp by scale
-3. `retiming`: time keys, and motions at moments between their frames
-4. `looping`: a cycle closed by a warp
+2. `posing`: a key's pose, made by dragging joints
+3. `scaling`: a warp by scale
+4. `retiming`: time keys, and motions at moments between their frames
+5. `looping`: a cycle closed by a warp
 """

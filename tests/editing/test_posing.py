@@ -1,0 +1,223 @@
+"""Whole warps: a hand to a post, a higher jump, a deeper crouch, on generated and on captured clips."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.datasets.samples import sample
+from mocap.editing.displacements import displaced
+from mocap.editing.warping.keys import Key, cardinal, keys_around, offsets
+from mocap.editing.warping.posing import posed
+from mocap.editing.warping.retiming import old_seconds, retime
+from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
+from mocap.files import load_save
+from mocap.quality.falling import centre_of_mass, gravity
+from tests.editing.test_retiming import body
+
+UP = np.array([0.0, 1.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def captured(real_data):
+    """Load clips of subject 16, their feet cleaned; 16_15's left arm snaps in frame 1."""
+
+    def load(name: str, first: int = 0) -> Motion:
+        path = real_data / "cmu" / name[:2] / f"{name}.amc"
+        return clean_up(mark_plants(load_save.load(path)[first:]))
+
+    return {"walk": load("16_15", 12), "jump": load("16_03")}
+
+
+def accelerations(motion):
+    return np.linalg.norm(np.diff(joint_positions(motion), 2, axis=0), axis=-1) * motion.fps**2
+
+
+def slide(motion):
+    """Return the farthest that a planted joint strays from its mean place, millimetres."""
+    at, most = joint_positions(motion), 0.0
+    for joint, mark in motion.contacts.items():
+        edges = np.flatnonzero(np.diff(mark.astype(int), prepend=0, append=0)).reshape(-1, 2)
+        for start, stop in edges[np.diff(edges, axis=1)[:, 0] > 5]:
+            track = at[start:stop, motion.skeleton.index(joint)]
+            most = max(most, 1000 * np.linalg.norm(track - track.mean(axis=0), axis=-1).max())
+    return most
+
+
+def planted(motion):
+    return sum(int(mark.sum()) for mark in motion.contacts.values())
+
+
+# ------------------------------------------------------------------------------------ hand to a post
+def post(motion, frame):
+    """Return a place for the right hand, 32 cm from where it is: to the right, up, and ahead."""
+    side, ahead = (rotations.rotate(motion.rotations[frame, 0], v) for v in ([-1.0, 0, 0], [0, 0, 1.0]))
+    hand = joint_positions(motion[frame : frame + 1])[0, motion.skeleton.index("rhand")]
+    return hand + 0.15 * side + 0.25 * UP + 0.10 * ahead
+
+
+def check_hand(motion, frame, columns):
+    """Warp a hand to a post; `columns` are the joints whose accelerations within the window are compared."""
+    hand, target = motion.skeleton.index("rhand"), post(motion, frame)
+    pose = posed(motion, frame, {"rhand": target})
+    ratios = []
+    for seconds in (0.15, 0.5):
+        keys = keys_around(motion, frame, pose, seconds)
+        change = offsets(motion, keys)
+        warped = displaced(motion, change)
+        assert np.linalg.norm(joint_positions(warped)[frame, hand] - target) < 1e-5  # 0.01 mm
+        outside = np.r_[0 : keys[0].frame + 1, keys[2].frame : len(motion)]
+        assert np.abs(change.root[outside]).max() == np.abs(change.turns[outside]).max() == 0
+        inside = slice(keys[0].frame, keys[2].frame)
+        before, after = (np.percentile(accelerations(m)[inside, columns], 99) for m in (motion, warped))
+        ratios.append(after / before)
+    assert ratios[0] > 1.5  # too short a window jolts
+    assert ratios[1] < 1.1
+    left = rotations.multiply(rotations.from_rotvec(change.turns), motion.rotations)
+    miss = joint_positions(replace(motion, rotations=left))[frame, hand] - target
+    assert np.linalg.norm(miss) > 0.01  # on the other side
+    return warped
+
+
+@pytest.mark.parametrize("frame", [150, 238])
+def test_a_hand_to_a_post(frame):
+    walk = sample("walk_straight")[:480]
+    warped = check_hand(walk, frame, body(walk))
+    cleaned = clean_up(warped)
+    assert slide(cleaned) < 1e-3
+    assert planted(cleaned) >= 0.99 * planted(walk)
+
+
+def test_a_captured_hand_to_a_post(captured):
+    arm = [captured["walk"].skeleton.index(name) for name in ("rhand", "rradius", "thorax")]
+    warped = check_hand(captured["walk"], 238, arm)
+    assert 5 < slide(warped) < 15  # millimetres, between the keys, for the feet are pinned at the key alone
+    cleaned = clean_up(warped)
+    assert slide(cleaned) < 1e-3
+    assert planted(cleaned) >= 0.99 * planted(captured["walk"])
+
+
+def test_from_the_lower_back_up_no_foot_moves():
+    walk = sample("walk_straight")[:480]
+    pose = posed(walk, 238, {"rhand": post(walk, 238)}, feet=False, still=("root",))
+    warped = displaced(walk, offsets(walk, keys_around(walk, 238, pose)))
+    hand = joint_positions(warped)[238, walk.skeleton.index("rhand")]
+    assert hand == pytest.approx(post(walk, 238), abs=1e-5)
+    assert slide(warped) < 1e-6
+
+
+# ------------------------------------------------------------------------------------- a higher jump
+def lifted(jump, apex, take_off, landing, *, flat):
+    """Lift a jump's apex by 20 cm through five keys."""
+    pose = replace(jump[apex : apex + 1], root_positions=jump.root_positions[apex : apex + 1] + 0.2 * UP)
+    keys = [Key(0), Key(take_off, flat=flat), Key(apex, pose), Key(landing, flat=flat), Key(len(jump) - 1)]
+    return displaced(jump, offsets(jump, keys))
+
+
+def check_jump(jump, take_off, landing, air, in_the_air):
+    """Lift a jump and give it more time: √((h + Δ)/h) times as much, where h is its own rise in the air."""
+    apex = int(jump.root_positions[:, 1].argmax())
+    own = gravity(jump, *air)
+    free, level = (lifted(jump, apex, take_off, landing, flat=flat) for flat in (False, True))
+    sunk, kept = ((m.root_positions - jump.root_positions)[:take_off, 1].min() for m in (free, level))
+    assert sunk < -0.015  # metres: the curve swings before take-off
+    assert kept == 0
+    assert gravity(level, *air) > 1.4 * own
+    rise = centre_of_mass(jump)[:, 1]
+    height = rise.max() - rise[in_the_air]
+    longer = (np.sqrt((height + 0.2) / height) - 1) * (landing - take_off) / jump.fps
+    up, down, end = take_off / jump.fps, landing / jump.fps, jump.duration
+    keys = [(0, 0), (up, up), (down + longer, down), (end + longer, end)]
+    slow = retime(level, keys)
+    moments = old_seconds(keys, np.arange(len(slow)) / jump.fps) * jump.fps
+    assert np.diff(moments).min() > 0
+    again = gravity(slow, *np.searchsorted(moments, air))
+    assert again == pytest.approx(own, rel=0.1)
+    return slow
+
+
+def test_a_higher_jump_takes_more_time():
+    check_jump(sample("jump"), 208, 267, (209, 266), 209)
+
+
+def test_a_higher_captured_jump_takes_more_time(captured):
+    check_jump(captured["jump"], 176, 256, (189, 243), 186)
+
+
+def test_a_parabola_of_offset_keeps_nothing_right(captured):
+    jump, a, b = captured["jump"], 176, 256
+    t = np.arange(a, b + 1)
+    up = np.zeros(len(jump))
+    up[a : b + 1] = 0.2 * (1 - ((t - (a + b) / 2) / ((b - a) / 2)) ** 2)
+    lifted_jump = replace(jump, root_positions=jump.root_positions + up[:, None] * UP)
+    assert gravity(lifted_jump, 189, 243) > 13
+    assert 120 * (np.diff(up)[a] - np.diff(up)[a - 1]) > 1.1  # m/s: a blow at take-off
+
+
+# ----------------------------------------------------------------------------------- a deeper crouch
+@pytest.mark.parametrize("half", [30, 60])
+def test_a_deeper_crouch(half):
+    check_crouch(sample("jump"), half, least=1.0)
+
+
+@pytest.mark.parametrize("half", [30, 60])
+def test_a_deeper_captured_crouch(captured, half):
+    check_crouch(captured["jump"], half, least=0.99)
+
+
+def check_crouch(jump, half, least):
+    low = int(jump.root_positions[:200, 1].argmin())
+    pose = posed(jump, low, {"root": jump.root_positions[low] - 0.15 * UP})
+    assert pose.root_positions[0, 1] == pytest.approx(jump.root_positions[low, 1] - 0.15, abs=1e-4)
+    ends = [Key(low - half, flat=True), Key(low, pose), Key(low + half, flat=True)]
+    warped = displaced(jump, offsets(jump, ends))
+    cleaned = clean_up(warped)
+    assert 5 < slide(warped) < 50  # millimetres, between the keys
+    assert slide(cleaned) < 1e-3
+    assert planted(cleaned) >= least * planted(jump)
+    ratio = [np.percentile(accelerations(m)[:, body(jump)], 99) for m in (cleaned, jump)]
+    assert ratio[0] / ratio[1] < 1.1
+    down = cardinal([low - half, low, low + half], [0, -0.15, 0], np.arange(len(jump)), flat=[0, 2])
+    sunk = replace(jump, root_positions=jump.root_positions + down[:, None] * UP)
+    assert slide(sunk) > 2 * slide(warped)  # the root alone: the feet go through the floor
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert planted(clean_up(sunk)) < 0.97 * planted(jump)
+
+
+# ---------------------------------------------------------------------------------------- bad input
+@pytest.mark.parametrize(
+    ("frame", "places", "message"),
+    [
+        (999, {"lhand": [0, 1, 0]}, "Frame 999 is none of 'walk_straight', which has 120"),
+        (-1, {"lhand": [0, 1, 0]}, "Frame -1 is none of"),
+        (5, {}, "one joint or more to drag"),
+        (5, {"left hand": [0, 1, 0]}, "No joint 'left hand'"),
+        (5, {"lhand": [0, 1]}, r"'lhand': a place is \(3,\)"),
+        (5, {"lhand": [0, 6, 0]}, r"Frame 5: '\w+' would be [\d.]+ m from '\w+', the bones between reach"),
+        (5, {"lhand": [0, np.inf, 0]}, "needs low ≤ high"),
+    ],
+)
+def test_poses_that_cannot_be(frame, places, message):
+    with pytest.raises(MocapError, match=message) as told:
+        posed(sample("walk_straight")[:120], frame, places)
+    assert len(str(told.value)) <= 200
+
+
+def test_an_axis_may_be_left_free():
+    walk = sample("walk_straight")[:120]
+    pose = posed(walk, 60, {"lhand": [np.nan, 1.2, np.nan]})
+    assert joint_positions(pose)[0, walk.skeleton.index("lhand"), 1] == pytest.approx(1.2, abs=1e-5)
+
+
+def test_feet_that_nobody_marked_are_asked_for():
+    bare = replace(sample("walk_straight")[:120], contacts={})
+    with pytest.raises(MocapError, match="mark_plants finds out"):
+        posed(bare, 60, {"lhand": [0, 1.2, 0]})
+    assert len(posed(bare, 60, {"lhand": [np.nan, 1.2, np.nan]}, feet=False)) == 1
