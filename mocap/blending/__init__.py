@@ -38,5 +38,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "registration.registering": ["Registration", "Warp", "register"],
         "registration.clocks": ["clock_speed", "frame_times"],
         "registration.mixing": ["Course", "ground_course", "mix"],
+        "registration.crossfades": ["crossfade"],
     },
 )

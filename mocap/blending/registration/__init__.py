@@ -7,4 +7,5 @@ Reading order
 3. `registering`: which frames of clips belong together, and how they lie on one another
 4. `clocks`: where on the common clock each frame of a blend is
 5. `mixing`: registered clips blended by weights, constant or moving
+6. `crossfades`: from one clip into another, for as long as one likes
 """

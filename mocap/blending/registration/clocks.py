@@ -132,9 +132,10 @@ def _stepped(
     """Follow du/dt by one step of Runge and Kutta's fourth order for each frame."""
 
     def speed(u: float, t: float) -> float:
-        slopes = [float(curve.slope(u)) for curve in registration.times]
+        slopes = [float(np.interp(u, *line)) for line in lines]
         return clock_speed(slopes, checked(weights(u, t), len(slopes)), pace)
 
+    lines = [(curve.knots, curve.slope(curve.knots)) for curve in registration.times]
     (u, last), h = registration.span, 1 / fps
     times = [u]
     while True:

@@ -35,9 +35,9 @@ class Curve(NamedTuple):
     coefficients: Array
 
     @property
-    def stop(self) -> float:
-        """The last knot."""
-        return self.start + (len(self.coefficients) - 2) * self.step
+    def knots(self) -> Array:
+        """The times of the knots, shape (N + 1,)."""
+        return np.asarray(self.start + self.step * np.arange(len(self.coefficients) - 1), float)
 
     def __call__(self, times: ArrayLike) -> Array:
         """Give the curve's values at some times."""
@@ -47,9 +47,9 @@ class Curve(NamedTuple):
         return np.asarray((_basis(inside) * near).sum(-1) + (t - inside) * self._rise(spans, inside))
 
     def slope(self, times: ArrayLike) -> Array:
-        """Give the curve's slopes at some times, per second."""
-        spans, t = self._place(np.asarray(times, float))
-        return self._rise(spans, np.clip(t, 0, 1)) / self.step
+        """Give the curve's slopes at some times, per second: straight lines from knot to knot."""
+        slopes = np.diff(self.coefficients) / self.step
+        return np.asarray(np.interp(np.asarray(times, float), self.knots, slopes))
 
     def inverse(self, values: ArrayLike) -> Array:
         """Give the times at which an increasing curve has some values.

@@ -1,0 +1,114 @@
+"""From clip into clip: its ends are the clips, its middle skates less than a long join."""
+
+import numpy as np
+import pytest
+
+from mocap._shared.arrays import runs
+from mocap.blending.joining import join
+from mocap.blending.registration.crossfades import crossfade
+from mocap.blending.registration.registering import register
+from mocap.errors import MocapError
+from tests.blending.registered import at_times, captured, skate, slides, turned, walks, way
+from tests.blending.test_mixing import jolts, largest_gap, of_parts
+
+PAIRS = [((0.8, 0), (1.4, 0)), ((1.1, -120), (1.1, 120))]
+
+
+@pytest.fixture(scope="module", params=PAIRS, ids=["faster", "the other way"])
+def registration(request):
+    return register([walks()[which] for which in request.param])
+
+
+def test_it_starts_as_the_one_and_ends_as_the_other(registration):
+    made = crossfade(registration)
+    first, second = registration.clips
+    assert largest_gap(made[:60], first[:60]) < 1e-9
+    late = float(registration.times[1].inverse(second.duration))
+    assert late > registration.span[1]
+    ends = [
+        largest_gap(made[-60:], at_times(second, second.duration - shift - np.arange(60)[::-1] / 120))
+        for shift in np.linspace(0, 1 / 120, 40)
+    ]
+    assert min(ends) < 1e-3
+    assert made.duration < first.duration + second.duration and made.name == "walk to walk"
+
+
+def place_of(registration):
+    """The frames of both clips in the middle of the span."""
+    middle = sum(registration.span) / 2
+    return int(middle * 120), int(float(registration.times[1](middle)) * 120)
+
+
+@pytest.mark.parametrize("seconds", [1.0, 2.0])
+def test_a_long_fade_skates_less_than_a_join_as_long(registration, seconds):
+    (first, second), (i, j), window = registration.clips, place_of(registration), int(120 * seconds)
+    joined = join(first, i - window // 2, second, j - window // 2, window)
+    faded = crossfade(registration, seconds=seconds)
+    assert skate(faded) <= 0.85 * skate(joined)
+
+
+def test_the_longer_the_fade_the_less_its_plants_slide(registration):
+    strays = [slides(crossfade(registration, seconds=seconds)).max() for seconds in (0.33, 1.0, 2.0)]
+    assert strays == sorted(strays, reverse=True)
+    assert strays[2] <= 2.5
+
+
+@pytest.mark.parametrize("names", [("16_15", "16_21"), ("16_17", "16_19")])
+def test_fades_of_captured_walks_are_as_smooth_as_the_walks(real_data, names):
+    clips = [captured(real_data, name) for name in names]
+    registration = register(clips)
+    own, usual = of_parts(registration, skate).mean(), np.mean([jolts(p, 99) for p in registration.parts])
+    (i, j) = place_of(registration)
+    for seconds in (1.0, 2.0):
+        made = crossfade(registration, seconds=seconds)
+        window = int(120 * seconds)
+        start = sum(registration.span) / 2 - seconds / 2
+        fade = made[int(start * 120) : int(start * 120) + window]
+        joined = join(clips[0], i - window // 2, clips[1], j - window // 2, window)
+        assert skate(made) <= 1.05 * own and skate(made) <= 0.95 * skate(joined)
+        assert jolts(fade, 99) <= 1.05 * usual
+
+
+def test_a_fade_may_lie_anywhere_in_the_span():
+    registration = register([walks()[1.1, 0], walks()[1.1, 120]])
+    first, last = registration.span
+    early, late = (crossfade(registration, seconds=0.5, at=at) for at in (first + 0.25, last - 0.25))
+    assert turned(late) < turned(early) <= turned(registration.clips[1]) + 3
+
+
+def test_the_reference_is_left_and_the_other_entered():
+    slow, brisk = walks()[0.8, 0], walks()[1.4, 0]
+    slowing = crossfade(register([slow, brisk], reference=1))
+    speeds = [way(part) / part.duration for part in (slowing[:60], slowing[-60:])]
+    assert speeds[0] > 1.2 and speeds[1] < 0.95
+
+
+def test_plants_are_those_of_the_clips_and_of_both(registration):
+    made = crossfade(registration)
+    first, second = registration.clips
+    assert set(made.contacts) == set(first.contacts)
+    for joint in made.contacts:
+        before = int(120 * (sum(registration.span) / 2 - 0.5))
+        assert np.array_equal(made.contacts[joint][:before], first.contacts[joint][:before])
+        count = len(runs(made.contacts[joint]))
+        assert count <= len(runs(first.contacts[joint])) + len(runs(second.contacts[joint]))
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"seconds": 0}, "longer than 0 s, got 0"),
+        ({"seconds": np.nan}, "longer than 0 s, got nan"),
+        ({"seconds": 99.0}, "does not lie within"),
+        ({"at": 0.1}, r"A fade from -0.40 to 0.60 s does not lie within the \d.\d\d to \d.\d\d s"),
+        ({"at": np.nan}, "does not lie within"),
+    ],
+)
+def test_what_is_no_fade_is_refused(registration, settings, message):
+    with pytest.raises(MocapError, match=message):
+        crossfade(registration, **settings)
+
+
+def test_three_clips_have_no_crossfade():
+    with pytest.raises(MocapError, match="two registered clips, got 3"):
+        crossfade(register([walks()[speed, 0] for speed in (0.8, 1.1, 1.4)]))
