@@ -8,8 +8,13 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import numpy as np
 import pytest
 
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
+from mocap.body.motion import resample
 from mocap.datasets import cmu_database
-from mocap.errors import MocapError
+from mocap.editing.retargeting.stances import stance_of
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.graphs.motion_graph import build
 
 ASF = """:root
   order TX TY TZ RX RY RZ
@@ -185,3 +190,26 @@ def test_every_listed_file_is_found_without_a_network(real_data, monkeypatch):
     assert len(walks) == 26
     lengths = {trial.name: trial.frames for trial in cmu_database.trials(16)}
     assert all(len(walk) == lengths[walk.name] for walk in walks)
+
+
+@pytest.mark.filterwarnings("ignore:.*let go|.*off its pin")
+def test_one_body_wears_the_clips_of_another_person(real_data, monkeypatch):
+    monkeypatch.setenv("MOCAP_DATA", str(real_data / "cmu"))
+    own = stance_of(cmu_database.cmu("16_15"))
+    worn = cmu_database.cmu("02_01", skeleton=own)
+    assert worn.skeleton is own.skeleton
+    assert (worn.name, len(worn), worn.fps) == ("02_01", 343, 120.0)
+    feet = find_legs(worn.skeleton)
+    stands = [
+        joint_positions(worn)[worn.contacts[worn.skeleton.names[leg.ball]], leg.ball, 1] for leg in feet
+    ]
+    assert [float(np.median(height)) for height in stands] == pytest.approx(
+        [own.heights["left ball"], own.heights["right ball"]], abs=1e-6
+    )
+    everyone = [cmu_database.cmu("16_15"), worn, cmu_database.cmu("49_01", skeleton=own)]
+    graph = build([resample(clip, 30) for clip in everyone], window=10, threshold=0.08)
+    assert graph.count("transition") > 0
+    with pytest.raises(SkeletonMismatch):
+        build([everyone[0], cmu_database.cmu("02_01")], window=10, threshold=0.08)
+    runs = cmu_database.cmu(subject=2, kind="walk", skeleton=own.skeleton)
+    assert {clip.skeleton for clip in runs} == {own.skeleton}

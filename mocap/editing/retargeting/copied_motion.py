@@ -13,10 +13,11 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.motion import Motion
+from mocap.editing.retargeting.body_roles import ancestors
 from mocap.editing.retargeting.stances import Stance, heading_by_hips
 from mocap.errors import MocapError
 
-# The roles that a joint's bones lead to. Head, wrists, ankles and balls lead to none.
+# The roles that a joint's bones lead to. Head, ankles and balls lead to none; a hand goes with its forearm.
 BELOW = {
     "pelvis": ("waist", "chest", "left hip", "right hip"),
     "waist": ("chest",),
@@ -42,10 +43,10 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     """Copy a motion onto another body: its turns, and the way of its hips, scaled.
 
     R_t(f) = R_s(f) C with C = R_s(stance)⁻¹ A R_t(stance). A is the smallest turn that lays the target's
-    bones at that joint on the source's, both as they stand; there is none for head, wrists and feet. Joints
-    without a role, but with the same name in both, take A = 1; others stay as they are to their parents. The
-    middle of the hips goes `scale` times as far over the ground from where it starts, and its height over
-    the standing ankles is the legs' ratio times the source's.
+    bones at that joint on the source's, both as they stand; hands go with their forearms, and there is none
+    for head and feet. Joints without a role, but with the same name in both, take A = 1; others stay as they
+    are to their parents. The middle of the hips goes `scale` times as far over the ground from where it
+    starts, and its height over the standing ankles is the legs' ratio times the source's.
 
     Scaling the way about a centre is [Gle98]'s. Roles, stances and C are ours: the paper's bodies have the
     same tree and the same rest pose.
@@ -125,9 +126,16 @@ def bone_turns(source: Stance, target: Stance) -> dict[int, tuple[int, Array]]:
             pairs[joint] = source.skeleton.index(name)
     looks = {}
     for joint, own in pairs.items():
-        stands = rotations.multiply(_laid(role_of.get(joint), source, target), target.turns[joint])
+        role = next((f"{side} elbow" for side in _hands(joint, target)), role_of.get(joint))
+        stands = rotations.multiply(_laid(role, source, target), target.turns[joint])
         looks[joint] = (own, rotations.multiply(rotations.inverse(source.turns[own]), stands))
     return looks
+
+
+def _hands(joint: int, stance: Stance) -> list[str]:
+    """Name the side of a joint at or below a wrist."""
+    above = ancestors(stance.skeleton, joint)
+    return [side for side in ("left", "right") if stance.roles.get(f"{side} wrist") in above]
 
 
 def _laid(role: str | None, source: Stance, target: Stance) -> Array:

@@ -5,9 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.retargeting.body_roles import ancestors
 from mocap.editing.retargeting.copied_motion import copied
 from mocap.editing.retargeting.proportions import proportioned
 from mocap.editing.retargeting.stances import stance_of, stance_of_walk
@@ -49,6 +51,18 @@ def test_the_rest_pose_does_not_matter():
     naive = Motion(other.skeleton, walk().root_positions, walk().rotations, walk().fps)
     wrong = bends(naive, who) - bends(walk(), who)
     assert min(rms(wrong[:, [2, 6]]), rms(wrong[:, [3, 7]])) > 90  # hips, shoulders
+
+
+def test_arms_that_rest_another_way_keep_their_hands():
+    """Arms out at rest, as in the CMU files, on arms that rest hanging: hands go with their forearms."""
+    turns = np.tile([1.0, 0, 0, 0], (len(walk().skeleton), 1))
+    for side, sign in (("l", -1), ("r", 1)):
+        arm = walk().skeleton.index(f"{side}humerus")
+        below = [j for j in range(len(turns)) if arm in ancestors(walk().skeleton, j)]
+        turns[below] = rotations.from_rotvec([0, 0, sign * np.pi / 2])
+    out = rested(walk(), turns)
+    assert farthest(copied(walk(), adult(), stance_of(out)), walk()) < 1e-12
+    assert farthest(copied(out, stance_of(out), adult()), walk()) < 1e-12
 
 
 def test_there_and_back():
