@@ -9,7 +9,7 @@ from mocap.errors import MocapError, shortened
 from mocap.match_webs.spaces.motion_spaces import MotionSpace
 
 CONVEX = 12  # nearest samples that are mixed
-SUM, RIDGE = 100.0, 1e-3  # weight of the row that asks for a sum of one; preference for near samples
+SUM, RIDGE = 100.0, 5e-4  # weight of the row that asks for a sum of one; preference for near samples
 
 
 def weights_for(
