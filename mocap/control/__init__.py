@@ -9,11 +9,13 @@ Reading order (notebook 08)
 1. `characters`: the protocol, and the pose that a step gives
 2. `look_ahead`: the walks ahead of a controlled character, and their cost
 3. `graph_control`: a character on a motion graph
-4. `steered_motion`: steer a character by a list of headings
-5. `obedience`: how soon a character obeys
+4. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+5. `steered_motion`: steer a character by a list of headings
+6. `obedience`: how soon a character obeys
 
 References
 ----------
+.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
 """
 
@@ -25,6 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "characters": ["Character", "Pose"],
         "look_ahead": ["Command"],
         "graph_control": ["Controller"],
+        "foot_turning": ["FootTurner", "Turnable"],
         "steered_motion": ["Steered", "steer"],
         "obedience": ["Delay", "measure_delay"],
     },

@@ -1,15 +1,20 @@
 """Control on a motion graph: a character that gets a new command in any frame while it walks [KGP02, 5.3]."""
 
+import cmath
+from functools import cached_property
+
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Points
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
+from mocap.body.planar import PlanarTransform, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.control.characters import Pose
-from mocap.control.look_ahead import Command, lengthen, look_ahead_by, start_walk
+from mocap.control.look_ahead import Command, WalksAhead, lengthen, look_ahead_by, start_walk
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
@@ -44,6 +49,8 @@ class Controller:
     >>> controller.step(heading=0.0, speed=1.0).rotations.shape
     (38, 4)
     """
+
+    walks: WalksAhead  # from the end of the hop under way
 
     def __init__(
         self,
@@ -108,6 +115,47 @@ class Controller:
     def frames_left(self) -> int:
         """The frames until the next choice: the rest of the hop under way."""
         return sum(int(self.graph.frames[edge]) for edge in self.edges) - self.frame * bool(self.edges)
+
+    def feet(self) -> Points:
+        """Give where ankles and balls are on the ground in the last pose, left before right, shape (4,).
+
+        In a transition the feet of both clips are blended as the root is; those of the blended pose are some
+        millimetres from there.
+
+        Raises
+        ------
+        MocapError : before the first step, and for legs that cannot be found.
+        """
+        if not self.frame:
+            raise MocapError("Feet are those of the last pose: take a step first.")
+        edge, frame, graph = self.edges[0], self.frame - 1, self.graph
+        (clip, first), (other, end), _ = graph.edges[edge]
+        feet = self._feet[clip][first + frame]
+        if graph.blended[edge]:
+            there = graph.turn[edge] * self._feet[other][end - graph.source.window + frame]
+            alpha = self._weights[frame]
+            feet = alpha * feet + (1 - alpha) * (there + graph.move[edge])
+        return np.asarray(self.turn * feet + self.move)
+
+    def turn_about(self, point: complex, angle: float) -> None:
+        """Turn what comes from now on about a point on the ground, z + ix, by an angle in radians.
+
+        The walks ahead turn along; what their first hops cost stays, as good as the angle is small.
+        """
+        more = cmath.exp(1j * angle)
+        self.turn, self.move = more * self.turn, more * (self.move - point) + point
+        self.end_turn *= more
+        self.walks = self.walks._replace(turn=more * self.walks.turn)
+
+    @cached_property
+    def _feet(self) -> list[Points]:
+        """The ankles and balls on the ground in each frame (F, 4) of each clip, in its coordinates."""
+        joints = [joint for leg in find_legs(self.skeleton) for joint in (leg.ankle, leg.ball)]
+        return [on_ground(joint_positions(clip)[:, joints]) for clip in self.graph.source.clips]
+
+    @cached_property
+    def _weights(self) -> Array:
+        return cubic_weights(self.graph.source.window)
 
     def _restart(self) -> None:
         """Look ahead anew, from the end of the hop under way."""

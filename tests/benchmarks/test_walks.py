@@ -9,7 +9,7 @@ import pytest
 
 from mocap.body import ground_path
 from mocap.body.ground_path import s_curve
-from mocap.control import Controller, measure_delay
+from mocap.control import Controller, FootTurner, measure_delay
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
@@ -58,3 +58,11 @@ def test_a_step_takes_a_millisecond():
     delay = measure_delay(Controller(walking()), turns=20)
     assert delay.step < 1.0
     assert delay.worst < 5.0
+
+
+def test_to_turn_about_the_standing_foot_takes_a_third_of_a_step_more():
+    alone, turned = (
+        min(measure_delay(make(), turns=20, seed=seed).step for seed in range(3))
+        for make in (lambda: Controller(walking()), lambda: FootTurner(Controller(walking())))
+    )
+    assert turned < 1.3 * alone
