@@ -21,6 +21,8 @@ from mocap.errors import MocapError, MocapWarning
 # Metres: what a solver may leave without a warning. The last millimetres are closed by triangles: `edit`.
 TOLERANCE = 0.005
 
+MET = 1e-9  # metres: a frame that is so near to its pins stays as it is
+
 # Share of the cost: what a pass must gain, or it is the last.
 GAIN = 1e-4
 
@@ -97,9 +99,9 @@ def reach(
 
 
 def each_frame(base: Motion, pins: Pins, body: Body, weight: float, passes: int) -> tuple[Array, list[float]]:
-    """Solve each pinned frame: the change (F, n), and the worst gap after each pass, metres."""
-    live = np.flatnonzero(pins.asked.any(axis=1))
-    change, gaps = np.zeros((len(base), len(body.price))), np.zeros(len(base))
+    """Solve each frame that misses its pins: the change (F, n), and the worst gap after each pass, metres."""
+    change, gaps = np.zeros((len(base), len(body.price))), pin_errors(base, pins).max(axis=1, initial=0.0)
+    live = np.flatnonzero(gaps > MET)
     damping = np.full(len(base), DAMPING)
     worst: list[float] = []
     here: Linear | None = None
@@ -120,7 +122,7 @@ def each_frame(base: Motion, pins: Pins, body: Body, weight: float, passes: int)
         worst.append(float(gaps.max()))
         more = np.abs(gain) > GAIN * before  # the others have arrived
         live, here = live[more], Linear(here.slopes[more], here.gap[more])
-    return change, worst or [0.0]
+    return change, worst or [float(gaps.max())]
 
 
 def pared(base: Motion, body: Body, pins: Pins, rows: Rows) -> tuple[Motion, Body, Pins]:

@@ -1,0 +1,95 @@
+"""How long edits take, as ratios to forward kinematics on the same motion in the same run.
+
+Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_editing.py
+"""
+
+import time
+
+import numpy as np
+import pytest
+
+from mocap.body.ground_path import s_curve
+from mocap.body.kinematics import forward_kinematics
+from mocap.datasets.samples import sample
+from mocap.editing.bending import bend
+from mocap.editing.edits import edit
+from mocap.editing.levels import hierarchy
+from mocap.editing.path_editing import on_path, ride_of
+from mocap.editing.pins import Pins, plant_pins
+from mocap.editing.retargeting.proportions import proportioned
+from mocap.editing.retargeting.retargeted import retarget
+from mocap.editing.retargeting.stances import stance_of_walk
+from mocap.editing.spacetime_solver import spacetime
+from mocap.feet.footskate import clean_up
+from tests.editing.wishes import hand_at, stone, walk
+
+pytestmark = pytest.mark.benchmark
+
+# 60 ms for 4 s of motion, whose forward kinematics takes 2.7 ms.
+ANSWER = 22
+
+
+def least(work, times=5):
+    seconds = []
+    for _ in range(times):
+        start = time.process_time()
+        work()
+        seconds.append(time.process_time() - start)
+    return min(seconds)
+
+
+def ratio(work, motion, times=5):
+    """Return how many forward kinematics a piece of work lasts: the least of both, taking turns."""
+    return least(work, times) / least(lambda: forward_kinematics(motion), 20)
+
+
+def hold(name, work, motion, most):
+    found = ratio(work, motion)
+    print(f"\n{name}: {found:.1f} times forward kinematics, at most {most}")
+    assert found <= most
+
+
+def bent_path(clip):
+    return s_curve(3 * ride_of(clip).path.length)  # as sharp as a person turns
+
+
+def test_an_edit():
+    clip = walk()
+    pins = stone(clip, 0.15)
+    hold("edit", lambda: edit(clip, pins), clip, 80)
+
+
+def test_a_bend():
+    clip = walk()
+    hold("bend", lambda: bend(clip, bent_path(clip)), clip, 12)
+
+
+def test_a_retarget():
+    clip = walk()
+    adult = stance_of_walk(clip)
+    child = proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    hold("retarget", lambda: retarget(clip, child, adult), clip, 90)
+
+
+def test_a_dragged_handle_of_a_path():
+    clip = walk()
+    ride, path = ride_of(clip), bent_path(clip)
+    hold("a handle", lambda: clean_up(on_path(clip, path, ride)), clip, ANSWER)
+
+
+def test_the_first_level_of_a_dragged_hand():
+    clip = walk()
+    pins = hand_at(clip, (180, 240, 300))
+    hold("a hand", lambda: hierarchy(clip, pins, knots=(0.5,)), clip, ANSWER)
+
+
+def test_spacetime_grows_as_the_frames_do():
+    ratios = []
+    for name in ("walk_straight", "walk_circle"):
+        clip = sample(name)
+        pins = plant_pins(clip)
+        up = np.array([0, 0.03, 0])
+        up = Pins(pins.joints, pins.low + up, pins.high + up)
+        ratios.append(ratio(lambda clip=clip, up=up: spacetime(clip, up), clip, times=3))
+        print(f"\n{name}: {len(clip)} frames, {ratios[-1]:.0f} times forward kinematics")
+    assert ratios[1] < 1.5 * ratios[0]
