@@ -9,5 +9,6 @@ Reading order
 5. `files`: `mocap info`, `mocap convert`, `mocap data`
 6. `view`: play a clip in the browser
 7. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
-8. `main`: all of them under one name
+8. `editing`: commands that change one clip: `mocap warp`
+9. `main`: all of them under one name
 """

@@ -49,7 +49,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "retargeting.copied_motion": ["copied"],
         "retargeting.floors": ["floor_pins"],
         "retargeting.proportions": ["proportioned"],
-        "retargeting.retargeted": ["retarget"],
+        "retargeting.retargeted": ["retarget", "standing_like"],
         "retargeting.stances": [
             "Stance",
             "stance_of",
@@ -62,5 +62,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "warping.posing": ["posed"],
         "warping.retiming": ["at_frames", "old_seconds", "retime"],
         "warping.scaling": ["gains", "scaled", "scaled_height"],
+        "warping.warp_plans": ["WarpPlan", "Wish", "load_plan", "warp"],
     },
 )

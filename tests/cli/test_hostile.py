@@ -52,6 +52,7 @@ FILES = {
     "graph info": ["g.npz"],
     "walk": ["g.npz", "--random", "1s"],
     "convert": ["a.bvh", "c.amc"],
+    "warp": ["a.bvh", "--keys", "k.txt", "-o", "w.bvh", "--loose-feet"],
 }
 
 
@@ -59,6 +60,7 @@ FILES = {
 def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("hostile")
     load_save.save(wave(60, name="a"), place / "a.bvh")
+    (place / "k.txt").write_text("at 30 hand 0 0.1 0")
     clip = load_save.load(place / "a.bvh")
     storage.save(prune(build([clip], window=10, threshold=0.05)), place / "g.npz")
     return place

@@ -14,4 +14,5 @@ Reading order
 3. `scaling`: a warp by scale
 4. `retiming`: time keys, and motions at moments between their frames
 5. `looping`: a cycle closed by a warp
+6. `warp_plans`: a whole warp out of a small text file
 """

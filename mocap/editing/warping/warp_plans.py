@@ -1,0 +1,207 @@
+"""A warp written down in a small text file: which joints are moved when, and which moments happen when."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.planar import heading
+from mocap.editing.displacements import displaced
+from mocap.editing.warping.keys import HALF_SECOND, Key, offsets
+from mocap.editing.warping.posing import posed
+from mocap.editing.warping.retiming import retime
+from mocap.errors import FormatError, MocapError
+from mocap.feet.footskate import clean_up
+from mocap.formats.text import lines, read_text, to_numbers
+
+AT = "'at MOMENT JOINT LEFT UP AHEAD', 'at MOMENT same' or 'at MOMENT level'"
+LINE = f"{AT}, or 'time NEW OLD'"
+MOMENT = re.compile(r"(\d+\.?\d*|\.\d+)(s?)")
+
+
+class Wish(NamedTuple):
+    """One line about one moment: a joint that is moved, or `joint` "same" or "level" for the pose as it was.
+
+    Parameters
+    ----------
+    line : its number in the file, for messages.
+    moment : a frame, or a second where `in_seconds`.
+    in_seconds : which of the two.
+    joint : its name.
+    move : metres to the body's left, up, and ahead of it.
+
+    Examples
+    --------
+    >>> Wish(1, 1.5, True, "lhand", (0.1, 0.2, 0.0)).frame(120.0)
+    180
+    """
+
+    line: int
+    moment: float
+    in_seconds: bool
+    joint: str
+    move: tuple[float, ...] = ()
+
+    def frame(self, fps: float) -> int:
+        """Give the nearest frame at some rate."""
+        return round(self.moment * fps if self.in_seconds else self.moment)
+
+
+@dataclass(frozen=True)
+class WarpPlan:
+    """What a file of keys says: `wishes` in its order, and `times`, pairs (new second, old second).
+
+    Examples
+    --------
+    >>> WarpPlan("keys.txt", (), ((0.0, 0.0), (2.5, 2.0))).times[1]
+    (2.5, 2.0)
+    """
+
+    path: str
+    wishes: tuple[Wish, ...]
+    times: tuple[tuple[float, float], ...]
+
+
+def load_plan(path: str | Path) -> WarpPlan:
+    """Read a warp from a text file with one key in each line; what follows a # is left out.
+
+    `at 1.5s lhand 0.10 0.25 0` moves the left hand, at second 1.5, by 10 cm to the body's left and by 25 cm
+    up; without the s the moment is a frame. Several joints may be moved at one moment. `at 1s same` says that
+    the pose is as it was there, and `at 1s level` that the change stands still as well, as at take-off and
+    landing. `time 2.5 2` shows the clip's second 2 at second 2.5.
+
+    Parameters
+    ----------
+    path : the file.
+
+    Raises
+    ------
+    MocapError : for a file that cannot be read.
+    FormatError : for a line of another form, with its number, and for a file without a key.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "keys.txt")
+    ...     _ = file.write_text("at 1.5s lhand 0.1 0.25 0  # to the post")
+    ...     load_plan(file).wishes[0].move
+    (0.1, 0.25, 0.0)
+    """
+    wishes, times = [], []
+    for number, words in lines(read_text(path)):
+        if words[0] == "at":
+            wishes.append(_wish(path, number, words[1:]))
+        elif words[0] == "time" and len(words) == 3:
+            new, old = to_numbers(path, number, words[1:], "time NEW OLD, in seconds", 2).tolist()
+            times.append((new, old))
+        else:
+            raise FormatError(path, number, LINE, f"'{' '.join(words)}'")
+    if not wishes and not times:
+        raise FormatError(path, None, LINE, "no key")
+    return WarpPlan(str(path), tuple(wishes), tuple(times))
+
+
+def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: bool = True) -> Motion:
+    """Carry out a plan: poses by `posed`, the curves between them by `offsets`, then the times by `retime`.
+
+    Where the plan does not say from when on the motion is as it was, it is so `window` seconds before the
+    first pose and after the last one.
+
+    Parameters
+    ----------
+    motion : F frames.
+    plan : as `load_plan` reads it.
+    window : seconds.
+    feet : keep feet that stand in their places, at the keys by `posed`, and between them by `feet.clean_up`;
+        asks for the motion's `contacts`. The clean-up may raise the root, and so leave joints that were moved
+        some millimetres off their places.
+
+    Raises
+    ------
+    FormatError : for a joint or a moment that the motion does not have, with the plan's line.
+    MocapError : for places out of reach, times that do not rise, missing contacts, and a window of no frame.
+
+    Warns
+    -----
+    MocapWarning : for places that are missed by more than 5 mm, and plants that are let go.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> plan = WarpPlan("keys.txt", (Wish(1, 1.5, True, "lhand", (0.1, 0.25, 0.0)),), ())
+    >>> warp(walk, plan)
+    Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
+    """
+    moments = _by_frame(motion, plan)
+    if not (math.isfinite(window) and window * motion.fps >= 1):
+        raise MocapError(f"A window lasts a frame or longer, got {window} s at {motion.fps:g} Hz.")
+    if moments:
+        keys = [_key(motion, plan, frame, wishes, feet) for frame, wishes in sorted(moments.items())]
+        motion = displaced(motion, offsets(motion, _with_ends(keys, round(window * motion.fps), len(motion))))
+    if plan.times:
+        motion = retime(motion, plan.times)
+    return clean_up(motion) if feet else motion
+
+
+def _wish(path: str | Path, number: int, words: list[str]) -> Wish:
+    """Read what stands behind `at`."""
+    moment = MOMENT.fullmatch(words[0]) if len(words) in (2, 5) else None
+    if not moment or (len(words) == 2) != (words[1] in ("same", "level")):
+        raise FormatError(path, number, AT, f"'at {' '.join(words)}'")
+    value = float(to_numbers(path, number, [moment[1]], "a moment", 1)[0])
+    move = to_numbers(path, number, words[2:], "LEFT UP AHEAD, in metres", len(words) - 2)
+    return Wish(number, value, bool(moment[2]), words[1], tuple(move.tolist()))
+
+
+def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
+    """Sort the wishes by their frames, and refuse those that the motion cannot have."""
+    moments: dict[int, list[Wish]] = {}
+    for wish in plan.wishes:
+        frame = wish.frame(motion.fps)
+        if frame >= len(motion):
+            last = f"{len(motion) - 1}, or second {motion.duration:g}"
+            raise FormatError(plan.path, wish.line, f"a moment up to frame {last}", f"frame {frame}")
+        if wish.move and wish.joint not in motion.skeleton.names:
+            names = ", ".join(motion.skeleton.names)
+            raise FormatError(plan.path, wish.line, f"a joint, one of {names}", f"'{wish.joint}'")
+        for other in moments.setdefault(frame, []):
+            if not (wish.move and other.move) or wish.joint == other.joint:
+                got = f"'{wish.joint}' beside '{other.joint}' of line {other.line}"
+                raise FormatError(plan.path, wish.line, f"one wish for a joint at frame {frame}", got)
+        moments[frame].append(wish)
+    return moments
+
+
+def _key(motion: Motion, plan: WarpPlan, frame: int, wishes: Sequence[Wish], feet: bool) -> Key:
+    """Make the key of one frame."""
+    if not wishes[0].move:
+        return Key(frame, flat=wishes[0].joint == "level")
+    now = motion[frame : frame + 1]
+    at, turn = joint_positions(now)[0], rotations.about_y(heading(now.rotations[0, 0]))
+    places: dict[str, Array] = {
+        wish.joint: at[motion.skeleton.index(wish.joint)] + rotations.rotate(turn, wish.move)
+        for wish in wishes
+    }
+    try:
+        return Key(frame, posed(motion, frame, places, feet=feet))
+    except MocapError as error:
+        raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
+
+
+def _with_ends(keys: list[Key], window: int, frames: int) -> list[Key]:
+    """Add the keys from which on the motion is as it was, where the plan has none."""
+    poses = [key.frame for key in keys if key.pose is not None]
+    ends = [poses[0] - window, poses[-1] + window] if poses else []
+    before = [Key(frame) for frame in ends[:1] if frame >= 0 and keys[0].pose is not None]
+    after = [Key(frame) for frame in ends[1:] if frame < frames and keys[-1].pose is not None]
+    return [*before, *keys, *after]

@@ -1,0 +1,189 @@
+"""`mocap warp`, as a person types it, and the files of keys that it reads."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body.kinematics import joint_positions
+from mocap.cli.main import main
+from mocap.datasets.samples import sample
+from mocap.editing.warping.warp_plans import load_plan, warp
+from mocap.errors import FormatError, MocapError
+from mocap.files import load_save
+from tests.strategies import wave
+
+WALK = sample("walk_straight")[:361]  # 3 s
+HAND = WALK.skeleton.index("lhand")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("warps")
+    load_save.save(WALK, place / "walk.bvh")
+    load_save.save(wave(60), place / "arm.bvh")
+    return place
+
+
+def plan(folder, text):
+    path = folder / "keys.txt"
+    path.write_text(text)
+    return load_plan(path)
+
+
+def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, capsys):
+    keys = folder / "post.txt"
+    keys.write_text("# to the post\n\nat 1.5s lhand 0.1 0.25 0.05\ntime 0 0\ntime 4 3\n")
+    out = folder / "new.bvh"
+    assert main(["warp", str(folder / "walk.bvh"), "--keys", str(keys), "-o", str(out)]) == 0
+    assert capsys.readouterr().out == (
+        f"warped     1 keys of poses, 2 of time\nwrote      {out}: 481 frames, 4.00 s\n"
+    )
+    made, walk = load_save.load(out), load_save.load(folder / "walk.bvh")
+    hand = [joint_positions(m)[f, m.skeleton.index("lhand")] for m, f in ((made, 240), (walk, 180))]
+    assert hand[0] - hand[1] == pytest.approx([0.1, 0.25, 0.05], abs=0.012)  # the walk faces +z, nearly
+
+
+def test_without_feet_another_body_can_be_warped(folder, capsys):
+    keys, out = folder / "arm.txt", folder / "arm2.bvh"
+    keys.write_text("at 30 hand 0 0.1 0")
+    words = ["warp", str(folder / "arm.bvh"), "--keys", str(keys), "-o", str(out)]
+    assert main(words) == 2
+    assert capsys.readouterr().err.rstrip().endswith("give --loose-feet.")
+    assert not out.exists()
+    assert main([*words, "--loose-feet"]) == 0
+    assert len(load_save.load(out)) == 60
+
+
+def test_the_move_is_by_the_bodys_own_directions(folder):
+    turned = sample("walk_circle")[1200:1500]
+    key = plan(folder, "at 150 lhand 0.10 0.2 0.05")
+    moved = joint_positions(warp(turned, key))[150, HAND] - joint_positions(turned)[150, HAND]
+    assert np.linalg.norm(moved) == pytest.approx(np.linalg.norm([0.1, 0.2, 0.05]), abs=1e-4)
+    assert moved[1] == pytest.approx(0.2, abs=1e-4)
+    assert np.abs(moved - [0.1, 0.2, 0.05]).max() > 0.02
+
+
+def test_the_motion_is_as_it_was_outside_the_window_unless_the_plan_says_from_when(folder):
+    at = joint_positions(WALK)[:, HAND]
+
+    def changed(text, window=0.5):
+        warped = warp(WALK, plan(folder, text), window=window, feet=False)
+        return np.flatnonzero(np.linalg.norm(joint_positions(warped)[:, HAND] - at, axis=-1) > 1e-9)
+
+    plain = changed("at 1.5s lhand 0 0.1 0")
+    assert plain[[0, -1]].tolist() == [121, 239]
+    assert changed("at 1.5s lhand 0 0.1 0", 1.0)[[0, -1]].tolist() == [61, 299]
+    assert changed("at 1.5s lhand 0 0.1 0\nat 170 same\nat 190 level")[[0, -1]].tolist() == [171, 189]
+    assert changed("at 0.1s lhand 0 0.1 0")[[0, -1]].tolist() == [0, 71]
+    assert len(changed("at 90 same\nat 100 same")) == 0
+
+
+def test_several_joints_at_one_moment(folder):
+    both = plan(folder, "at 1.5s lhand 0 0.1 0\nat 180 rhand 0 0.12 0")
+    right = WALK.skeleton.index("rhand")
+    for feet, most in ((False, 1e-5), (True, 0.006)):  # the clean-up may raise the root a little
+        change = joint_positions(warp(WALK, both, feet=feet))[180] - joint_positions(WALK)[180]
+        assert change[[HAND, right], 1] == pytest.approx([0.1, 0.12], abs=most)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "expected some text, got an empty file"),
+        ("# nothing", "or 'time NEW OLD', got no key"),
+        ("at 5 same\nmove lhand", "line 2: expected 'at MOMENT JOINT LEFT UP AHEAD', .*got 'move lhand'"),
+        ("at 5", "line 1: expected 'at MOMENT .*got 'at 5'"),
+        ("at 5 lhand", "line 1: .*got 'at 5 lhand'"),
+        ("at 5 lhand 1 2", "line 1: .*got 'at 5 lhand 1 2'"),
+        ("at 5 same 1 2 3", "line 1: .*got 'at 5 same 1 2 3'"),
+        ("at -5 same", "line 1: .*got 'at -5 same'"),
+        ("at 5m same", "line 1: .*got 'at 5m same'"),
+        (f"at {'9' * 400} same", "line 1: expected a moment, all below 1e[+]09"),
+        ("\n\nat 5 lhand 1 nan 3", "line 3: expected LEFT UP AHEAD, in metres.*got 'nan' as number 2"),
+        ("time 1", "line 1: .*got 'time 1'"),
+        ("time 1 x", "line 1: expected time NEW OLD, in seconds, got 'x' as number 2"),
+        ("\0", "a zero byte"),
+    ],
+)
+def test_a_file_of_another_form_names_the_line(folder, text, message):
+    with pytest.raises(FormatError, match=message) as told:
+        plan(folder, text)
+    assert len(str(told.value)) <= 200 + len(str(folder / "keys.txt"))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("at 361 same", r"line 1: expected a moment up to frame 360, or second 3, got frame 361"),
+        ("at 5s same", "got frame 600"),
+        ("at 5 hand 0 0 0", r"line 1: expected a joint, one of root, .*got 'hand'"),
+        (
+            "at 1s same\nat 120 level",
+            "line 2: expected one wish for a joint at frame 120, got 'level' beside",
+        ),
+        ("at 1s lhand 0 0 0\nat 120 lhand 0 1 0", "line 2: .*'lhand' beside 'lhand' of line 1"),
+        ("at 1s lhand 0 9 0", r"keys.txt, line 1: Frame 120: '\w+' would be .* m from"),
+        ("time 0 0", "two or more finite pairs"),
+        ("time 0 0\ntime 1 9", "Second 9 is not on"),
+        ("time 0 0\ntime 1 2\ntime 2 1", "the old second 1 follows 2"),
+    ],
+)
+def test_a_plan_that_the_clip_cannot_follow(folder, text, message):
+    with pytest.raises(MocapError, match=message) as told:
+        warp(WALK, plan(folder, text))
+    assert len(str(told.value)) <= 200 + len(str(folder / "keys.txt"))
+
+
+@pytest.mark.parametrize("window", [0.0, np.nan, -1.0])
+def test_a_window_lasts_a_frame(folder, window):
+    with pytest.raises(MocapError, match="A window lasts a frame or longer"):
+        warp(WALK, plan(folder, "at 5 same"), window=window)
+
+
+words = st.sampled_from(
+    ["at", "time", "same", "level", "lhand", "1s", "7", "0.1", "-1", "nan", "é", "#", "9" * 99]
+)
+
+
+@given(st.lists(st.lists(words, max_size=7).map(" ".join), max_size=4).map("\n".join))
+@settings(max_examples=60)
+def test_any_words_are_a_plan_or_one_sentence(tmp_path_factory, text):
+    path = tmp_path_factory.getbasetemp() / "any.txt"
+    path.write_text(text, encoding="utf-8")
+    try:
+        warp(WALK[:40], load_plan(path), feet=False)
+    except MocapError as error:
+        assert "\n" not in str(error)
+        assert len(str(error)) <= 200 + len(str(path))
+
+
+@pytest.mark.parametrize(
+    ("out", "message"),
+    [
+        ("new.txt", "is written as .bvh, .glb, .amc, got"),
+        ("walk.bvh", "is the clip to warp itself"),
+        ("nowhere/new.bvh", "Cannot write"),
+    ],
+)
+def test_where_nothing_can_be_written_nothing_is_done(folder, monkeypatch, capsys, out, message):
+    monkeypatch.chdir(folder)
+    (folder / "k.txt").write_text("at 5 same")
+    before = {path: path.read_bytes() for path in folder.iterdir()}
+    assert main(["warp", "walk.bvh", "--keys", "k.txt", "-o", out]) == 2
+    assert message in capsys.readouterr().err
+    assert {path: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_clip_of_a_file_that_holds_hinges_only_says_how_it_can_be_written(
+    folder, real_data, monkeypatch, capsys
+):
+    monkeypatch.chdir(folder)
+    (folder / "k.txt").write_text("at 200 lhand 0.05 0.1 0")
+    clip = str(real_data / "cmu" / "16" / "16_15.amc")
+    words = ["warp", clip, "--keys", "k.txt", "-o", "w.amc"]
+    status = main(words)
+    said = capsys.readouterr().err
+    assert status == 0 or "--widen" in said
+    assert main([*words, "--widen"]) == 0
+    assert (folder / "w.amc").exists()
