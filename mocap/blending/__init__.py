@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "inertialization": ["inertialize"],
         "matched_stretches": ["draw_stretches"],
         "registration.timewarps": ["Curve", "fit_curve"],
-        "registration.contact_matches": ["ContactMatch", "match_contacts"],
+        "registration.contact_matches": ["ContactMatch", "match_contacts", "plants_on_clock"],
         "registration.registering": ["Registration", "Warp", "register"],
         "registration.clocks": ["clock_speed", "frame_times"],
         "registration.mixing": ["Course", "ground_course", "mix"],

@@ -14,6 +14,7 @@ Reading order (notebooks 00 to 10)
 7. `search_tree`: the walks that a search expands and cuts off
 8. `spread_charts`: medians with quartiles, and random walks as rows
 9. `picture`: a figure as a picture in a notebook
+10. `many_clips`: clips on one clock
 
 References
 ----------
@@ -45,5 +46,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
         "spread_charts": ["Band", "quartile_band", "walk_rows"],
         "picture": ["Picture", "show"],
+        "many_clips.registration_charts": ["WarpPicture", "ground_tracks", "plant_bars", "warp_image"],
     },
 )

@@ -83,13 +83,35 @@ def match_contacts(
     return tuple(matches)
 
 
+def plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
+    """Give a clip's plants on the common clock, joint by joint.
+
+    Parameters
+    ----------
+    clip : its contacts are marked.
+    times : the curve from the common clock to the clip's seconds.
+
+    Returns
+    -------
+    For each joint the starts and stops, shape (N, 2), seconds.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import generate
+    >>> walk, twice_as_fast = generate("walk_straight"), Curve(0.0, 1.0, np.array([-1.0, 1.0, 3.0]))
+    >>> plants_on_clock(walk, twice_as_fast)["lfoot"][0].round(2)
+    array([0.06, 0.2 ])
+    """
+    return {joint: times.inverse(runs(marks) / clip.fps) for joint, marks in clip.contacts.items()}
+
+
 def _plants(
     joint: str, clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
 ) -> list[_Plant]:
     """List the plants of all clips on the common clock, by their starts."""
     plants = []
     for number, (clip, curve) in enumerate(zip(clips, times, strict=True)):
-        for start, stop in curve.inverse(runs(clip.contacts[joint]) / clip.fps):
+        for start, stop in plants_on_clock(clip, curve)[joint]:
             plants.append(_Plant(float(start), float(stop), number).part(*span))
     return sorted(plant for plant in plants if plant.lasts)
 
