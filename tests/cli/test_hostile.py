@@ -52,6 +52,7 @@ FILES = {
     "graph info": ["g.npz"],
     "walk": ["g.npz", "--random", "1s"],
     "convert": ["a.bvh", "c.amc"],
+    "retarget": ["a.bvh", "--to", "a.bvh", "-o", "r"],
     "warp": ["a.bvh", "--keys", "k.txt", "-o", "w.bvh", "--loose-feet"],
 }
 

@@ -2,5 +2,5 @@
 
 Reading order
 -------------
-1. `warp`: `mocap warp`, keys out of a small text file
+1. `retarget`: `mocap retarget`, one body wears the clips of others
 """
