@@ -2,13 +2,14 @@
 
 Reading order
 -------------
-1. `options`: what the commands share
-2. `demo`: clips in, a new walk out
-3. `graph`: build a motion graph and save it, or describe a saved one
-4. `walk`: a walk through a saved graph, along a path or at random
-5. `files`: `mocap info`, `mocap convert`, `mocap data`
-6. `view`: play a clip in the browser
-7. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
-8. `editing`: commands that change one clip: `mocap warp`
-9. `main`: all of them under one name
+ 1. `options`: what the commands share
+ 2. `demo`: clips in, a new walk out
+ 3. `graph`: build a motion graph and save it, or describe a saved one
+ 4. `walk`: a walk through a saved graph, along a path or at random
+ 5. `blend`: clips blended as wholes, or one that passes into another
+ 6. `files`: `mocap info`, `mocap convert`, `mocap data`
+ 7. `view`: play a clip in the browser
+ 8. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
+ 9. `editing`: commands that change one clip: `mocap warp`
+10. `main`: all of them under one name
 """

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 import mocap
+from mocap.cli.blend import add_blend
 from mocap.cli.course import add_course, add_lab
 from mocap.cli.demo import add_demo
 from mocap.cli.editing.warp import add_warp
@@ -39,6 +40,7 @@ def _parser() -> argparse.ArgumentParser:
         add_demo,
         add_graph,
         add_walk,
+        add_blend,
         add_info,
         add_convert,
         add_retarget,
