@@ -12,8 +12,8 @@ import mocap
 from mocap.cli.blend import add_blend
 from mocap.cli.course import add_course, add_lab
 from mocap.cli.demo import add_demo
-from mocap.cli.editing.warp import add_warp
 from mocap.cli.editing.retarget import add_retarget
+from mocap.cli.editing.warp import add_warp
 from mocap.cli.files import add_convert, add_data, add_info
 from mocap.cli.graph import ACTIONS, add_graph
 from mocap.cli.view import add_view

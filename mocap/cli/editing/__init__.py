@@ -2,5 +2,6 @@
 
 Reading order
 -------------
-1. `retarget`: `mocap retarget`, one body wears the clips of others
+1. `warp`: `mocap warp`, keys out of a small text file
+2. `retarget`: `mocap retarget`, one body wears the clips of others
 """
