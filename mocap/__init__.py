@@ -28,6 +28,7 @@ blending         from one motion into another: blends, inertialization (04)
 quality          numbers that judge clips and seams (01, 04, 09, 10)
 editing          the motion itself changed: keys, pins, paths, other bodies (11 to 14)
 datasets         clips to start with: bundled ones, the CMU database (01, 10)
+variants         more clips out of one: its mirror image, the cycle in it
 graphs           motion graphs: build, prune, choose a threshold, save (05, 06)
 match_webs       all motions like an example, and spaces of blends between them (16)
 synthesis        walks through a graph, at random or by search, and their motions (07)
@@ -81,6 +82,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "quality",
         "steering",
         "synthesis",
+        "variants",
         "widgets",
     ],
     submod_attrs={

@@ -113,13 +113,26 @@ class Skeleton:
         >>> [body.side(joint) for joint in range(3)]
         ['middle', 'left', 'right']
         """
+        return self._image(joint)[1]
+
+    def partner(self, joint: int) -> int:
+        """Find a joint's mirror image by its name; a joint in the middle is its own.
+
+        Examples
+        --------
+        >>> body = Skeleton(["lowerback", "lfoot", "rfoot"], [-1, 0, 0], np.eye(3))
+        >>> [body.partner(joint) for joint in range(3)]
+        [0, 2, 1]
+        """
+        return self._image(joint)[0]
+
+    def _image(self, joint: int) -> tuple[int, str]:
         name = self.names[joint]
         for left, right in _SIDES:
-            if left in name and name.replace(left, right, 1) in self.names:
-                return "left"
-            if right in name and name.replace(right, left, 1) in self.names:
-                return "right"
-        return "middle"
+            for side, own, other in (("left", left, right), ("right", right, left)):
+                if own in name and (image := name.replace(own, other, 1)) in self.names:
+                    return self.names.index(image), side
+        return joint, "middle"
 
     def require_same(self, other: Skeleton) -> None:
         """Raise `SkeletonMismatch` unless `other` has the same joints, the same tree and the same offsets."""

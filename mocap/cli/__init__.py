@@ -8,8 +8,9 @@ Reading order
  4. `walk`: a walk through a saved graph, along a path or at random
  5. `blend`: clips blended as wholes, or one that passes into another
  6. `files`: `mocap info`, `mocap convert`, `mocap data`
- 7. `view`: play a clip in the browser
- 8. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
- 9. `editing`: commands that change one clip: `mocap warp`
-10. `main`: all of them under one name
+ 7. `loop`: the best cycle in a clip, closed
+ 8. `view`: play a clip in the browser
+ 9. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
+10. `editing`: commands that change one clip: `mocap warp`, `mocap retarget`
+11. `main`: all of them under one name
 """

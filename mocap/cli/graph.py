@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import body, datasets, files, graphs
+from mocap import body, datasets, files, graphs, variants
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_building, bar, window_frames
 from mocap.errors import MocapError
@@ -37,6 +37,7 @@ def add_graph(commands: "Commands") -> None:
     add_building(build)
     add("--by-labels", action="store_true", help="keep the largest component of each set of labels")
     add("--whole", action="store_true", help="do not prune")
+    add("--mirror", action="store_true", help="add the mirror image of every clip: turns to both sides")
     add("--graphml", type=Path, help="a second file to write, .graphml, for other tools")
     build.set_defaults(run=_build)
     info = actions.add_parser(
@@ -59,6 +60,10 @@ def _build(options: argparse.Namespace) -> int:
     window = window_frames(options.window, options.fps)
     found = files.find_files(options.clips)
     clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
+    origins = [datasets.Origin(file, options.skeleton, options.scale) for file in found]
+    if options.mirror:
+        clips += [variants.mirror(clip) for clip in clips]
+        origins += [origin._replace(mirrored=True) for origin in origins]
     graph = graphs.build(
         [body.resample(clip, options.fps) for clip in clips],
         window=window,
@@ -68,9 +73,7 @@ def _build(options: argparse.Namespace) -> int:
     if not options.whole:
         graph = graphs.prune(graph, by_labels=options.by_labels)
     print(graphs.summary(graph.graph, fps=graph.fps).table())
-    graphs.save(
-        graph, options.out, [datasets.Origin(file, options.skeleton, options.scale) for file in found]
-    )
+    graphs.save(graph, options.out, origins)
     print(f"{'wrote':<12} {options.out}")
     if options.graphml:
         graphs.write_graphml(graph, options.graphml)

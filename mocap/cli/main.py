@@ -16,6 +16,7 @@ from mocap.cli.editing.retarget import add_retarget
 from mocap.cli.editing.warp import add_warp
 from mocap.cli.files import add_convert, add_data, add_info
 from mocap.cli.graph import ACTIONS, add_graph
+from mocap.cli.loop import add_loop
 from mocap.cli.view import add_view
 from mocap.cli.walk import add_walk
 from mocap.errors import MocapError, MocapWarning, shortened
@@ -43,8 +44,9 @@ def _parser() -> argparse.ArgumentParser:
         add_blend,
         add_info,
         add_convert,
-        add_retarget,
         add_warp,
+        add_loop,
+        add_retarget,
         add_data,
         add_view,
         add_course,

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import body, files, graphs, steering, synthesis
+from mocap import body, files, graphs, steering, synthesis, variants
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import LENGTH, SEED, SKELETON, bar, whole
 from mocap.errors import MocapError
@@ -125,6 +125,7 @@ def _graph(options: argparse.Namespace) -> "MotionGraph":
         clips = files.load_all(
             options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
         )
+        clips += [variants.mirror(c) for c in clips if variants.mirrored_name(c.name) in found.names]
     else:
         clips = graphs.find_clips(options.graph, skeleton=options.skeleton, progress=progress)
     graph: MotionGraph = graphs.load(options.graph, [body.resample(clip, found.fps) for clip in clips])

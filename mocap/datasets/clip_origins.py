@@ -9,11 +9,15 @@ from typing import NamedTuple
 
 
 class Origin(NamedTuple):
-    """The file that a clip was read from; `skeleton` and `scale` are those of `mocap.load`."""
+    """The file that a clip was read from; `skeleton` and `scale` are those of `mocap.load`.
+
+    If `mirrored`, the clip is the mirror image of what the file holds.
+    """
 
     path: Path
     skeleton: Path | None = None
     scale: float | None = None
+    mirrored: bool = False
 
     def text(self, folder: Path) -> str:
         """Write an origin as JSON: each file by its place seen from a folder, and by its absolute place.
@@ -25,7 +29,8 @@ class Origin(NamedTuple):
         """
         skeleton = _places(self.skeleton, folder) if self.skeleton else []
         scale = None if self.scale is None else float(self.scale)
-        return json.dumps({"path": _places(self.path, folder), "skeleton": skeleton, "scale": scale})
+        kept = {"path": _places(self.path, folder), "skeleton": skeleton, "scale": scale}
+        return json.dumps(kept | ({"mirrored": True} if self.mirrored else {}))
 
 
 def _places(file: Path, folder: Path) -> list[str]:
@@ -45,7 +50,7 @@ def find_again(text: str, folder: Path) -> Origin | None:
     """
     kept = json.loads(text)
     path, skeleton = (_existing(kept[name], folder) for name in ("path", "skeleton"))
-    return Origin(path, skeleton, kept["scale"]) if path else None
+    return Origin(path, skeleton, kept["scale"], kept.get("mirrored", False)) if path else None
 
 
 def _existing(places: list[str], folder: Path) -> Path | None:
@@ -63,7 +68,8 @@ def is_origin(text: str) -> bool:
     try:
         kept = json.loads(text)
         places = [*kept["path"], *kept["skeleton"]]
-        scale = kept["scale"]
-    except (ValueError, TypeError, KeyError):
+        scale, mirrored = kept["scale"], kept.get("mirrored", False)
+    except (ValueError, TypeError, KeyError, AttributeError):
         return False
-    return (scale is None or isinstance(scale, float)) and all(isinstance(place, str) for place in places)
+    fine = (scale is None or isinstance(scale, float)) and isinstance(mirrored, bool)
+    return fine and all(isinstance(place, str) for place in places)

@@ -23,6 +23,7 @@ from mocap.errors import FormatError, MocapError
 from mocap.files.folders import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
+from mocap.variants.mirroring import mirror
 
 FORMAT = "mocap motion graph"
 VERSION = 1
@@ -221,7 +222,12 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
         if origin is None and name not in beside:
             raise MocapError(f"The clip '{name}' is no longer where {path} found it: give clips=.")
         placed.append(origin or Origin(beside[name]))
-    return [load_motion(o.path, skeleton=skeleton or o.skeleton, scale=o.scale) for o in progress(placed)]
+    return [_read_clip(origin, skeleton) for origin in progress(placed)]
+
+
+def _read_clip(origin: Origin, skeleton: Path | None) -> Motion:
+    clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
+    return mirror(clip) if origin.mirrored else clip
 
 
 def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:

@@ -1,0 +1,55 @@
+"""The command `mocap loop`: the best cycle in a clip, closed."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mocap import body, editing, files, variants
+from mocap._shared.atomic import require_writable
+from mocap.cli.options import add_reading, number, require_amc, whole
+
+if TYPE_CHECKING:
+    from mocap.cli.options import Commands
+
+LASTS = number(0.1, 600)
+
+
+def add_loop(commands: "Commands") -> None:
+    """Add `mocap loop`."""
+    loop = commands.add_parser(
+        "loop",
+        help="cut the best cycle out of a clip and close it",
+        description="Find the stretch of a clip that makes the best cycle: its ends are alike, and it holds "
+        "most of what the clip does. Close it, and write it as .bvh, .glb, .amc or .npz. Its last frame is "
+        "its first one, farther on over the ground.",
+    )
+    add = loop.add_argument
+    add("clip", type=Path, help="an .amc, .bvh or AMASS .npz file")
+    add("-o", "--out", type=Path, default=Path("loop.bvh"), help="file to write (default: %(default)s)")
+    add_reading(loop)
+    add("--shortest", type=LASTS, default=0.4, help="seconds of a cycle at least (default: %(default)g)")
+    add("--longest", type=LASTS, default=3.0, help="seconds of a cycle at most (default: %(default)g)")
+    add("--straight", action="store_true", help="take out the turn of a round: it goes on straight ahead")
+    add("--inertialize", action="store_true", help="close it by an offset that fades, not by a blend")
+    add("--times", type=whole(1, 1000), default=1, help="rounds to write (default: %(default)s)")
+    loop.set_defaults(run=_loop)
+
+
+def _loop(options: argparse.Namespace) -> int:
+    require_amc(options.clip, options.skeleton)
+    require_writable(options.out)
+    motion = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+    found = variants.find_loop(motion, seconds=(options.shortest, options.longest))
+    way = "inertialize" if options.inertialize else "blend"
+    cycle = variants.loop(motion, found, way=way, straight=options.straight)
+    files.save(editing.repeated(cycle, options.times), options.out, widen=True)
+    facing = np.unwrap(body.heading(cycle.rotations[:, 0]))
+    step = np.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
+    print(f"{'cycle':<12} frames {found.first} to {found.last}, {cycle.duration:.2f} s")
+    print(f"{'seam':<12} {100 * found.seam:.1f} cm RMS")
+    print(f"{'misses':<12} {100 * found.missed:.1f} cm of the clip's other poses, on average")
+    print(f"{'a round':<12} {step:.2f} m, turns by {np.degrees(facing[-1] - facing[0]):.0f}°")
+    print(f"{'wrote':<12} {options.out}")
+    return 0

@@ -1,0 +1,186 @@
+"""The best cycle in a clip, closed: a stride that walks for ever.
+
+The pair of frames with the smallest seam is the wrong one: it lies where the body hardly moves, and the cycle
+is a held pose. So a cycle is judged by two lengths in metres: how far apart its ends are, and how far the
+other frames of the clip are from the nearest of its own, on average. The average counts a frame by how far
+the body moves there, so that a clip of somebody who mostly stands still gives a step, too. The second length
+is large for a held pose, and for half a stride. Method and measure are ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.blending.inertialization import inertialize
+from mocap.blending.joining import join
+from mocap.body import rotations
+from mocap.body.motion import Motion, resample
+from mocap.body.planar import PlanarTransform, heading
+from mocap.errors import MocapError, shortened
+from mocap.matching.distance_grids import distance_grid
+
+COARSE = 30.0  # frames per second at which the whole clip is searched
+ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
+ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
+
+Way = Literal["blend", "inertialize"]
+WAYS: dict[str, Callable[..., Motion]] = {"blend": join, "inertialize": inertialize}
+
+
+class Loop(NamedTuple):
+    """A cycle found in a clip.
+
+    Parameters
+    ----------
+    first, last : its frames in the clip; the pose at `last` is nearly that at `first`.
+    seam : how far apart they are, RMS over the points of a window, metres.
+    missed : how far another frame of the clip is from the nearest one of the cycle, on average over the
+        motion of the clip, metres.
+    """
+
+    first: int
+    last: int
+    seam: float
+    missed: float
+
+
+def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> Loop:
+    """Find the cycle with the smallest sum of `seam` and `missed`; of all within a tenth of it, the shortest.
+
+    Parameters
+    ----------
+    motion : F frames.
+    seconds : the shortest and the longest cycle.
+
+    Raises
+    ------
+    MocapError : for a clip that has no room for such a cycle and its seam, and for bounds in a wrong order.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> found = find_loop(sample("walk_straight"))
+    >>> round((found.last - found.first) / 120, 1), found.seam < 0.02
+    (1.2, True)
+    """
+    slow = resample(motion, COARSE) if motion.fps > COARSE else motion
+    least, most = _lengths(motion, slow.fps, seconds)
+    window = max(2, round(SEAM * slow.fps))
+    grid = np.sqrt(np.maximum(distance_grid(slow, slow, window=window), 0.0))
+    most = min(most, len(grid) - 1)
+    if least > most:
+        wanted = f"{seconds[0] + SEAM:g} s"
+        raise MocapError(
+            f"'{shortened(motion.name)}' lasts {motion.duration:.2g} s: a cycle takes {wanted} or more."
+        )
+    first, length, missed = _best(grid, least, most)
+    ends = (first / slow.fps, (first + length) / slow.fps)
+    return _refined(motion, ends, seconds[0], missed)
+
+
+def _lengths(motion: Motion, fps: float, seconds: tuple[float, float]) -> tuple[int, int]:
+    """Turn the bounds of a cycle into frames."""
+    if not 0 < seconds[0] <= seconds[1] < np.inf:
+        raise MocapError(f"A cycle lasts from one number of seconds to a larger one, got {seconds}.")
+    return max(2, round(seconds[0] * fps)), round(seconds[1] * fps)
+
+
+def _best(grid: Array, least: int, most: int) -> tuple[int, int, float]:
+    """Find the first frame and the length of the best cycle, and what it misses."""
+    count = len(grid)
+    chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
+    moved = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # how far the body moves from each to the next frame
+    share = (moved + 1e-9) / (moved + 1e-9).sum()
+    before = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, share, count))])
+    rows = grid[chosen]
+    nearest = rows.copy()  # [f, i]: from frame f to the nearest of the cycle that starts at i
+    found = []
+    for length in range(1, most + 1):
+        starts = count - length
+        if length >= least:
+            outside = 1 - (before[length:-1] - before[:starts])
+            missed = share @ nearest[:, :starts] / np.maximum(outside, 1e-9)
+            costs = np.diagonal(grid, length) + missed
+            start = int(costs.argmin())
+            found.append((float(costs[start]), start, length, float(missed[start])))
+        np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
+    enough = ENOUGH * min(cost for cost, *_ in found)
+    return next(row[1:] for row in found if row[0] <= enough)
+
+
+def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed: float) -> Loop:
+    """Move both ends by less than a coarse frame to where they are closest."""
+    window, reach = max(2, round(SEAM * motion.fps)), int(np.ceil(motion.fps / COARSE))
+    around = []
+    for time in ends:
+        middle = min(round(time * motion.fps), len(motion) - window - 1)  # a frame must follow the window
+        around.append(range(max(0, middle - reach), min(middle + reach, len(motion) - window - 1) + 1))
+    parts = [motion[places[0] : places[-1] + window] for places in around]
+    grid = distance_grid(*parts, window=window)
+    grid[np.subtract.outer(*around) > -shortest * motion.fps] = np.inf
+    i, j = np.unravel_index(int(grid.argmin()), grid.shape)
+    return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
+
+
+def loop(motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = False) -> Motion:
+    """Cut a cycle out of a clip and close it.
+
+    What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
+    graph does. So the cycle starts that much later than `found.first`, and no frame is invented.
+
+    Parameters
+    ----------
+    motion : F frames.
+    found : from `find_loop`, or frames of your own choice.
+    way : "blend", or "inertialize", which plays nothing from after the cycle but an offset that fades.
+    straight : whether to take out the turn of one round, evenly, so that the cycle goes on straight ahead.
+        Feet that stand are then turned with the body: `feet.clean_up` of some rounds puts them back.
+
+    Returns
+    -------
+    last - first + 1 frames. The last one is the first one, moved over the ground; `editing.repeated` lays one
+    round behind the other.
+
+    Raises
+    ------
+    MocapError : for frames that leave no room for the seam, or another way.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[120:600]
+    >>> round_ = loop(walk, find_loop(walk), straight=True)
+    >>> turn = heading(round_.rotations[[0, -1], 0])
+    >>> bool(abs(turn[1] - turn[0]) < 1e-9)
+    True
+    """
+    if way not in WAYS:
+        raise MocapError(f"A cycle is closed by one of {', '.join(WAYS)}, not by '{way}'.")
+    window = max(2, round(SEAM * motion.fps))
+    if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
+        raise MocapError(
+            f"A cycle from frame {found.first} to {found.last} leaves no room for a seam of {window} frames "
+            f"in '{shortened(motion.name, 60)}', which has {len(motion)}."
+        )
+    joined = WAYS[way](motion, found.last, motion, found.first, window)
+    cycle = joined[found.first + window : found.last + window + 1]
+    cycle = replace(cycle, name=f"{motion.name}_loop")
+    return _straightened(cycle) if straight else cycle
+
+
+def _straightened(cycle: Motion) -> Motion:
+    """Turn each step a little more than the one before, until both ends face the same way."""
+    facing = np.unwrap(heading(cycle.rotations[:, 0]))
+    back = -(facing[-1] - facing[0]) * np.linspace(0, 1, len(cycle))
+    middle = (back[1:] + back[:-1]) / 2
+    steps = PlanarTransform(middle, 0.0, 0.0).apply_points(np.diff(cycle.root_positions, axis=0))
+    roots = cycle.root_positions[:1] + np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)])
+    local = cycle.rotations.copy()
+    local[:, 0] = rotations.multiply(rotations.about_y(back), local[:, 0])
+    return replace(cycle, root_positions=roots, rotations=local)

@@ -1,0 +1,203 @@
+"""A motion's mirror image: what the left side did, the right side does.
+
+With the reflection H of the body at rest, a rotation L becomes H L H: the same angle about the mirrored axis,
+the other way round. That is enough for a symmetric skeleton with symmetric axes. In general a bone at rest is
+not the mirror image of its partner: captured bodies are lopsided, and some programs let all bones point along
+their own x. So each joint gets a fixed turn K besides, which lays the bones of its partner on the mirror
+images of its own. The method is ours.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError, MocapWarning, shortened
+
+LOPSIDED = 0.01  # metres: by how much a bone and its partner may differ without a warning
+NEAR = np.cos(np.radians(10))  # of a plane to one of the axes, to be taken for it
+KEPT = 1e-6  # of the square of the bones: how much speaks for no turn, where bones leave it open
+ACROSS = np.array([1.0, 0.0, 0.0])  # the world is mirrored in the plane x = 0
+ENDING = "_mirrored"
+
+
+class Symmetry(NamedTuple):
+    """What is left and what is right in a skeleton.
+
+    Parameters
+    ----------
+    partners : shape (J,), each joint's mirror image; its own number in the middle.
+    across : the unit vector from right to left in the body at rest, (3,).
+    turns : shape (J, 4), quaternions K, which lay the bones of a partner on the mirror images of a joint's
+        own.
+    worst : the joint whose bone differs most from its partner's.
+    gap : by how much their lengths differ, metres.
+    """
+
+    partners: NDArray[np.intp]
+    across: Array
+    turns: Array
+    worst: str
+    gap: float
+
+
+def symmetry(skeleton: Skeleton) -> Symmetry:
+    """Find the partners of all joints by their names, and the plane between them by where they sit.
+
+    Raises
+    ------
+    MocapError : for a skeleton without left and right names, or whose sides have different joints.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import SKELETON
+    >>> found = symmetry(SKELETON)
+    >>> found.across.tolist(), found.gap
+    ([1.0, 0.0, 0.0], 0.0)
+    """
+    joints = range(len(skeleton))
+    partners = np.array([skeleton.partner(joint) for joint in joints])
+    above = skeleton.parents
+    alike = partners[partners] == np.arange(len(skeleton))
+    alike[1:] &= partners[above[1:]] == above[partners[1:]]
+    if not alike.all():
+        name = skeleton.names[int(alike.argmin())]
+        raise MocapError(
+            f"'{shortened(name, 40)}' has no mirror image: its side has other joints than the other."
+        )
+    across = _across(skeleton, partners)
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    gaps = np.abs(lengths - lengths[partners])
+    worst = int(gaps.argmax())
+    turns = _turns(skeleton, partners, across)
+    return Symmetry(partners, across, turns, skeleton.names[worst], float(gaps[worst]))
+
+
+def _across(skeleton: Skeleton, partners: NDArray[np.intp]) -> Array:
+    """Give the direction from right to left at rest, between the first partners that sit apart."""
+    places = np.zeros_like(skeleton.offsets)
+    for joint in range(1, len(skeleton)):
+        places[joint] = places[skeleton.parents[joint]] + skeleton.offsets[joint]
+        apart = places[joint] - places[partners[joint]]
+        if partners[joint] < joint and np.linalg.norm(apart) > 1e-3:
+            across = apart / np.linalg.norm(apart) * (1 if skeleton.side(joint) == "left" else -1)
+            axis = int(np.abs(across).argmax())
+            near = abs(across[axis]) > NEAR
+            return np.asarray(np.sign(across[axis]) * np.eye(3)[axis] + 0.0 if near else across)
+    raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
+
+
+def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Array:
+    """Give K of each joint: the rotation that maximises Σ H o · K o', with bones o and the partner's o'."""
+    mirror = np.eye(3) - 2 * np.outer(across, across)
+    upward = np.cross(across, np.roll(across, 1))  # any direction in the plane, for bones that are opposite
+    matrices = np.zeros((len(skeleton), 3, 3))
+    for child in range(1, len(skeleton)):
+        bone, other = mirror @ skeleton.offsets[child], skeleton.offsets[partners[child]]
+        matrices[skeleton.parents[child]] += np.outer(bone, other)
+    small = KEPT * np.linalg.norm(matrices, axis=(-2, -1), keepdims=True) + 1e-12
+    turns = _rotations(matrices + small * (np.eye(3) + np.outer(upward, upward)))
+    for _ in range(2):  # what the bones leave open stays as it is, and what they fix becomes exact
+        turns = _rotations(matrices + small * turns)
+    return rotations.from_matrix(turns)
+
+
+def _rotations(matrices: Array) -> Array:
+    """Give the rotations R that maximise tr(Rᵀ M), from the singular value decompositions of M (J, 3, 3)."""
+    left, _, right = np.linalg.svd(matrices)
+    left[..., 2] *= np.linalg.det(left @ right)[:, None]
+    return np.asarray(left @ right)
+
+
+def mirrored_name(name: str) -> str:
+    """Name the mirror image of a clip: that of the mirror image is the clip's own.
+
+    Examples
+    --------
+    >>> mirrored_name("walk"), mirrored_name("walk_mirrored")
+    ('walk_mirrored', 'walk')
+    """
+    return name.removesuffix(ENDING) if name.endswith(ENDING) else name + ENDING
+
+
+def mirror(motion: Motion) -> Motion:
+    """Swap left and right, in the body and over the ground: x becomes -x.
+
+    A rotation L of joint j becomes K_p⁻¹ (H L H) K_j of its partner, with p the joint above: a turn by θ
+    about the axis v becomes one by θ about -H v. Mirrored twice, a motion is what it was.
+
+    Parameters
+    ----------
+    motion : F frames.
+
+    Returns
+    -------
+    The mirror image, of the same skeleton: bones keep their lengths. Contacts change sides, and so do the
+    words left and right in labels.
+
+    Raises
+    ------
+    MocapError : as for `symmetry`.
+
+    Warns
+    -----
+    MocapWarning : where a bone and its partner differ by more than 1 cm, with the bone and how much.
+
+    Examples
+    --------
+    >>> from mocap.body import heading
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_curve_1")
+    >>> there, here = (heading(clip.rotations[600, 0]) for clip in (walk, mirror(walk)))
+    >>> bool(abs(there + here) < 1e-9), mirror(walk).name
+    (True, 'walk_curve_1_mirrored')
+    """
+    skeleton = motion.skeleton
+    found = symmetry(skeleton)
+    if found.gap > LOPSIDED:
+        warnings.warn(
+            f"'{shortened(motion.name, 60)}': left and right bones differ by up to {1000 * found.gap:.0f} mm "
+            f"({shortened(found.worst, 40)}), so its mirror image does not reach quite as far.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    before = rotations.inverse(found.turns[skeleton.parents])
+    before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(found.across))
+    local = rotations.multiply(
+        before, rotations.multiply(_flipped(motion.rotations, found.across), found.turns)
+    )
+    return replace(
+        motion,
+        root_positions=motion.root_positions * (1 - 2 * ACROSS),
+        rotations=local[:, found.partners],
+        name=mirrored_name(motion.name),
+        labels={_other_side(label): mark for label, mark in motion.labels.items()},
+        contacts={_partner(skeleton, found, joint): mark for joint, mark in motion.contacts.items()},
+    )
+
+
+def _reflection(across: Array) -> Array:
+    return np.eye(3) - 2 * np.outer(across, across)
+
+
+def _flipped(quaternions: Array, across: Array) -> Array:
+    """Mirror rotations: (w, v) becomes (w, -H v)."""
+    return np.concatenate([quaternions[..., :1], -quaternions[..., 1:] @ _reflection(across)], axis=-1)
+
+
+def _partner(skeleton: Skeleton, found: Symmetry, name: str) -> str:
+    return str(skeleton.names[found.partners[skeleton.index(name)]])
+
+
+def _other_side(label: str) -> str:
+    swap = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
+    return re.sub("|".join(swap), lambda word: swap[word[0]], label)
