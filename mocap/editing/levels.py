@@ -74,25 +74,32 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
     >>> control.round(3)[:, 0]
     array([0.   , 0.333, 1.333, 0.333, 0.   ])
     """
-    data, at = np.asarray(data, float), np.asarray(at, np.intp)
-    if data.ndim != 2 or at.shape != data.shape[:1]:
-        raise MocapError(f"Each datum, a row of numbers, needs one frame; got {data.shape} and {at.shape}.")
-    if at.size and not (at.min() >= 0 and at.max() < basis.shape[0]):
-        raise MocapError(f"Data stand at frames 0 to {basis.shape[0] - 1}, got {at.min()} to {at.max()}.")
-    weights = sparse.csr_array(basis[at])  # w_ij, shape (N, K)
+    _require_data(basis, data, at)
+    weights = basis[at]  # w_ij, shape (N, K)
     squared = weights.power(2)
     above = (squared * weights).T @ (data / squared.sum(axis=1)[:, None])
     below = np.asarray(squared.sum(axis=0))[:, None]
     return np.asarray(np.divide(above, below, out=np.zeros_like(above), where=below > 0))
 
 
-def hierarchy(
+def _require_data(basis: sparse.csr_array, data: Array, at: Indices) -> None:
+    """Raise `MocapError` unless there is a frame of the basis for each datum."""
+    if np.ndim(data) != 2 or np.shape(at) != np.shape(data)[:1]:
+        raise MocapError(
+            f"Each datum, a row of numbers, needs a frame; got {np.shape(data)}, {np.shape(at)}."
+        )
+    if np.size(at) and not (np.min(at) >= 0 and np.max(at) < basis.shape[0]):
+        raise MocapError(f"Data stand at frames 0 to {basis.shape[0] - 1}, got {min(at)} to {max(at)}.")
+
+
+def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why)
     base: Motion,
     pins: Pins,
     body: Body | None = None,
     *,
     knots: Sequence[float] = (0.5, 0.25, 0.125, 0.06, 0.03),
     tolerance: float = 1e-3,
+    listen: bool = True,
 ) -> tuple[Motion, list[Level]]:
     """Bring joints to their pins level by level, and end when the pins are met [LS99].
 
@@ -106,6 +113,7 @@ def hierarchy(
     body : which joints turn, at what price; `body_of(base, pins.joints)` by default.
     knots : seconds between knots, level by level, each smaller than the one before.
     tolerance : metres: a level is the last if no pin is missed by more.
+    listen : False lets each number listen to all frames.
 
     Returns
     -------
@@ -139,7 +147,8 @@ def hierarchy(
         frames = np.asarray(asked.any(axis=1))
         change, _ = each_frame(motion, pins.only(frames), body, WEIGHT, PASSES)
         basis = spline_basis(len(base), seconds * base.fps)
-        curve = basis @ fitted(basis, change, listeners(base, pins, body, asked))
+        who = listeners(base, pins, body, asked) if listen else np.repeat(frames[:, None], len(body.price), 1)
+        curve = basis @ fitted(basis, change, who)
         motion = displaced(motion, body.displacement(curve, len(base.skeleton)))
         errors = pin_errors(motion, pins)
         rms = float(np.sqrt((errors[frames] ** 2).mean()))

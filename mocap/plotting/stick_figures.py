@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
@@ -128,6 +131,46 @@ def stick_figure(
     for figure, pose in zip(figures, points, strict=True):
         figure.pose(pose)
     return figures
+
+
+def flat_bodies(
+    motion: Motion,
+    frames: Sequence[int],
+    *,
+    view: Literal["side", "front"] = "side",
+    alpha: float = 1.0,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw poses of a motion flat, where they are: z or x to the right, y upwards, metres.
+
+    Parameters
+    ----------
+    motion : a walk along z.
+    frames : which frames.
+    view : from the side, z to the right; or from the front, x to the left, as a reader sees a walker come.
+    alpha : 1 for solid bodies, less for ghosts.
+    ax : flat axes; by default new ones.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> ax = flat_bodies(datasets.sample("walk_straight"), [0, 60, 120], ax=Figure().add_subplot())
+    >>> len(ax.collections)
+    3
+
+    Notebook: 14-levels
+    """
+    across = 2 if view == "side" else 0
+    ax = ax or plt.subplots(figsize=(8, 2.6), layout="constrained")[1]
+    starts, ends, sides = bones(motion.skeleton)
+    colours = [COLOURS[side] for side in sides]
+    for points in joint_positions(motion)[list(frames)][..., [across, 1]]:
+        lines = np.stack([points[starts], points[ends]], axis=1)
+        ax.add_collection(LineCollection(list(lines), colors=colours, linewidths=1.8, alpha=alpha))
+    ax.autoscale_view()
+    ax.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel="y (m)")
+    ax.xaxis.set_inverted(across == 0)
+    return ax
 
 
 def laid_over(

@@ -5,12 +5,16 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.skeleton import Skeleton
+from mocap.datasets.samples import sample
 from mocap.plotting import stick_figures
 from mocap.plotting.axes import to_picture
-from mocap.plotting.stick_figures import bones, film_strip
+from mocap.plotting.stick_figures import bones, film_strip, flat_bodies
+from mocap.plotting.style import COLOURS
 from tests.plotting.test_axes import on_picture
 from tests.strategies import wave
 
@@ -82,3 +86,20 @@ def test_a_strip_shows_first_and_last_pose_and_all_who_play():
 
 def test_a_strip_of_one_frame_is_one_picture():
     assert len(film_strip([wave(1)]).axes) == 1
+
+
+def test_bodies_are_drawn_flat_where_they_are_from_the_side_and_from_the_front():
+    walk = sample("walk_straight")
+    side, front = (
+        flat_bodies(walk, [0, 90], view=view, ax=Figure().add_subplot()) for view in ("side", "front")
+    )
+    for ax, across in ((side, 2), (front, 0)):
+        points = joint_positions(walk)[90][:, [across, 1]]
+        drawn = np.concatenate(ax.collections[1].get_segments())
+        np.testing.assert_allclose(drawn.max(axis=0), points.max(axis=0), atol=1e-12)
+        assert {tuple(colour) for colour in ax.collections[0].get_colors()} == {
+            to_rgba(colour) for colour in COLOURS.values()
+        }
+    assert side.get_xlabel() == "z (m)" and not side.xaxis_inverted()
+    assert front.get_xlabel() == "x (m)" and front.xaxis_inverted()
+    plt.close(flat_bodies(walk, [0]).figure)
