@@ -82,12 +82,14 @@ def _body(options: argparse.Namespace) -> "Skeleton | Stance":
     if options.to.suffix.lower() == ".asf":
         if options.to_scale:
             raise MocapError(f"--to-scale is for clips; {options.to} says its unit of length itself.")
-        return files.load_skeleton(options.to)
+        body: Skeleton | Stance = files.load_skeleton(options.to)
+        return body
     clip = files.load(options.to, scale=options.to_scale)
     try:
-        return editing.stance_of(clip)
+        body = editing.stance_of(clip)
     except MocapError as error:
         raise MocapError(f"{options.to}: {error}") from None
+    return body
 
 
 def _wear(source: Path, target: Path, body: "Skeleton | Stance", options: argparse.Namespace) -> None:
