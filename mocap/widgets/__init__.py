@@ -9,9 +9,10 @@ Reading order (notebooks 00 to 10)
 2. `live_player`: players that Python and the reader move together, and a canvas to draw a path on
 3. `experiments`: a picture with controls
 4. `pointing`: an image to click on
-5. `reopening`: live while Python runs, a picture when the notebook is opened again
-6. `recording`: positions of an experiment, as pictures for pages without Python
-7. `film`: a motion as a film, a strip of poses or a page
+5. `dragging`: handles to drag on an experiment's picture
+6. `reopening`: live while Python runs, a picture when the notebook is opened again
+7. `recording`: positions of an experiment, as pictures for pages without Python
+8. `film`: a motion as a film, a strip of poses or a page
 """
 
 import lazy_loader
@@ -23,6 +24,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "live_player": ["draw_path", "linked"],
         "experiments": ["Experiment", "explore", "step_aside"],
         "pointing": ["Pointed", "pointer"],
+        "dragging": ["Dragged", "handles"],
         "film": ["save_animation"],
     },
 )

@@ -27,6 +27,7 @@ from PIL import Image
 
 from mocap.errors import MocapError
 from mocap.plotting.picture import Picture, few_colours, figure_of
+from mocap.widgets.dragging import Dragged
 from mocap.widgets.pointing import Pointed, pointer
 from mocap.widgets.reopening import display_live
 
@@ -46,7 +47,8 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     alt : a sentence that says what the picture shows, for readers who do not see it.
     controls : name=(low, high) or (low, high, step) for a slider, a bool for a check box, a list or
         {label: value} for a choice, an image such as a `plotting.distance_image` to click on for its
-        (row, column), or a widget. A control starts at the default in `draw`'s signature.
+        (row, column), `handles` to drag on what `draw` returns, or a widget. A control starts at the default
+        in `draw`'s signature, handles where they were made.
 
     Returns
     -------
@@ -86,6 +88,8 @@ def _widgets(draw: Callable[..., Drawn], controls: dict[str, Any]) -> dict[str, 
                 f"The control {name}={control!r} is no range, choice or widget, such as (0, 10)."
             )
         made[name].description = name.replace("_", " ")
+    if sum(isinstance(control, Dragged) for control in made.values()) > 1:
+        raise MocapError("An experiment has one control of handles: put all points into it.")
     return made
 
 
@@ -149,15 +153,19 @@ class Experiment:
         self._canvas = BlittedFigure()
         # Pictures shrink to 320 pixels and then stack, and further where there is less room.
         shrinking = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
-        self.picture = ipywidgets.Image(format="png", layout=shrinking)
+        dragged: Any = [control for control in controls.values() if isinstance(control, Dragged)]
+        self._dragged = dragged[0] if dragged else None
+        self.picture: Any = self._dragged or ipywidgets.Image(format="png")
+        self.picture.layout = shrinking
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
         sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
         self._images = [control for control in controls.values() if isinstance(control, Pointed)]
         for image in self._images:
             image.layout = shrinking
-        above = [control for control in controls.values() if control not in self._images]
-        below = ipywidgets.HBox([*self._images, self.picture, self.message])
+        shown = [*self._images, self.picture]
+        above = [control for control in controls.values() if control not in shown]
+        below = ipywidgets.HBox([*shown, self.message])
         below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
         naming = _naming_class()
         parts = [*above, below, sentence, *([naming(alt=alt)] if naming else [])]
@@ -188,14 +196,21 @@ class Experiment:
     def refresh(self) -> None:
         """Draw anew; an error is shown in the picture's place until a drawing works again."""
         try:
-            self.picture.value = self._canvas.png(self.draw(**self.values()))
+            self.png = self._canvas.png(self.draw(**self.values()))
             self.error = None
+            self._show()
         except Exception as error:  # of any kind: it comes from a student's function
             self.error = error
             style = "color:#A00000; white-space:pre-wrap"
             self.message.value = f"<pre style='{style}'>{html.escape(_error_text(error))}</pre>"
         self.picture.layout.display = "none" if self.error else None
         self.message.layout.display = None if self.error else "none"
+
+    def _show(self) -> None:
+        if self._dragged:
+            self._dragged.show(self.png)
+        else:
+            self.picture.value = self.png
 
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
         """Return what stands where no Python runs: the data and the metadata of a picture."""
@@ -206,7 +221,8 @@ class Experiment:
 
     def _whole_picture(self) -> bytes:
         """Return the images to click on and, to their right, the picture, as one PNG."""
-        parts = [image.with_ring() for image in self._images] + [Image.open(io.BytesIO(self.picture.value))]
+        drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
+        parts = [*(image.with_ring() for image in self._images), drawn]
         row = Image.new(
             "RGB", (sum(part.width for part in parts), max(part.height for part in parts)), "white"
         )

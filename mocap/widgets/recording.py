@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from mocap.widgets.dragging import Dragged
 from mocap.widgets.experiments import Experiment
 from mocap.widgets.pointing import Pointed
 
@@ -53,7 +54,7 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     >>> recorded["labels"], recorded["at"], len(recorded["pictures"])
     (['0', '2', '4'], 1, 3)
     """
-    movable = {name: c for name, c in experiment.controls.items() if not isinstance(c, Pointed)}
+    movable = {name: c for name, c in experiment.controls.items() if not isinstance(c, Pointed | Dragged)}
     for name, control in movable.items():
         if positions := _positions(control):
             rest = control.value

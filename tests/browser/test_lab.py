@@ -40,6 +40,14 @@ CELLS = {
             return plotting.laid_over(walk[i : i + 10], laid[j : j + 10])
         grid = matching.distance_grid(walk, walk, window=10)
         explore(lay, alt="Two windows laid over each other.", at=plotting.distance_image(grid, fps=30))""",
+    "drag": """
+        from mocap.widgets import handles
+        ax = plt.figure(figsize=(5, 5)).add_subplot(xlim=(3, -3), ylim=(0, 6), xlabel="x (m)", ylabel="z (m)")
+        (bent,) = ax.plot([], [])
+        def bend(way):
+            bent.set_data(*zip(*way))
+            return [bent]
+        explore(bend, alt="A line through handles.", way=handles(ax, [[0, 1], [0, 3], [0, 5]]))""",
     "wide": """
         wide = plt.figure(figsize=(12, 2))
         (dot,) = wide.add_subplot(xlim=(0, 1)).plot([0], [0], "o")
@@ -155,7 +163,7 @@ def test_pictures_fit_the_width_that_there_is(notebook, width):
     page, cell = notebook
     page.set_viewport_size({"width": width, "height": 900})
     try:
-        for name in ("wide", "explore", "point", "choose", "draw"):
+        for name in ("wide", "explore", "point", "drag", "choose", "draw"):
             place = cell(name)
             output = place.locator(".jp-OutputArea-output:visible").last.bounding_box()
             for part in place.locator(":is(.mocap-picture, .mocap-pointing, canvas):visible").all():
@@ -212,6 +220,30 @@ def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook
     wait_until(lambda: f"row {row + 1}, column {column - 10}:" in status.inner_text())
     wait_until(lambda: laid.get_attribute("src") != before)
     page.screenshot(path=artefacts / "lab-point.png")
+
+
+def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows(notebook, artefacts):
+    page, cell = notebook
+    place = cell("drag")
+    handle, status = place.get_by_role("button", name="handle 2"), place.get_by_role("status")
+    drawn = place.locator(".mocap-dragging img")
+    before, box = drawn.get_attribute("src"), handle.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 40, y - 30, steps=4)
+    page.mouse.up()
+    wait_until(lambda: drawn.get_attribute("src") != before)
+    across, up = (float(part.split()[-1]) for part in status.inner_text().split(", "))
+    assert -1.0 < across < -0.3  # the axis of x points to the left
+    assert 3.2 < up < 4.0
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press("Shift+ArrowLeft")
+    wait_until(lambda: f"x {across + 0.5:.2f}, z {up + 0.05:.2f}" in status.inner_text())
+    for _ in range(20):
+        page.keyboard.press("Shift+ArrowUp")
+    wait_until(lambda: "z 6.00" in status.inner_text())  # no handle leaves the axes
+    page.screenshot(path=artefacts / "lab-drag.png")
 
 
 def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):

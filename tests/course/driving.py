@@ -59,6 +59,8 @@ def settings(experiment):
         elif hasattr(control, "min"):
             middle = type(control.value)((control.min + control.max) / 2)
             ends[name] = [control.min, middle, control.max]
+        elif isinstance(control, widgets.Dragged):
+            ends[name] = control.elsewhere()
         elif isinstance(control, widgets.Pointed):
             rows, columns = control.shape
             ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]

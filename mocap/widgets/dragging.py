@@ -1,0 +1,145 @@
+"""Handles to drag on the picture of an experiment, by mouse, by touch or by the arrow keys.
+
+The handles lie on the picture that the experiment draws, so the reader drags the very thing that answers.
+"""
+
+from __future__ import annotations
+
+import io
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
+from PIL import Image, ImageDraw
+
+from mocap.errors import MocapError
+from mocap.plotting.picture import figure_of
+
+SCRIPT = Path(__file__).with_name("dragging.js")
+
+
+def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa: ANN401
+    """Make a control of points on axes: its value is a tuple of (across, up), in the units of the axes.
+
+    `explore` shows it on the picture that `draw` gives. So let `draw` move artists of the figure of these
+    axes and return them; it may also return a new figure whose axes lie in the same place.
+
+    Parameters
+    ----------
+    ax : linear axes, whose limits stay; no handle leaves them. Their labels name the two numbers.
+    points : shape (K, 2), where the handles are at first.
+    step : how far an arrow key moves a handle, in the units of the axes; with shift ten times as far.
+
+    Returns
+    -------
+    A widget with the trait `value`, for `explore`.
+
+    Raises
+    ------
+    MocapError : where anywidget is not installed, for points of another shape or outside the axes, here and
+        when they are set later, for axes that are not linear, and for a step that is not above 0.
+
+    Examples
+    --------
+    >>> ax = plt.figure().add_subplot(xlim=(3, -3), ylim=(0, 6), xlabel="x (m)", ylabel="z (m)")
+    >>> dragged = handles(ax, [[0, 1], [0, 3], [0, 5]])
+    >>> dragged.value = ((0, 1), (1.5, 3), (0, 5))  # as a drag of the second one does
+    >>> dragged.value[1]
+    (1.5, 3.0)
+
+    Notebook: 12-path-editing
+    """
+    where = np.asarray(points, float)
+    if where.ndim != 2 or where.shape[1] != 2 or not len(where):
+        raise MocapError(f"Handles are rows of two numbers, got an array of shape {where.shape}.")
+    if (ax.get_xscale(), ax.get_yscale()) != ("linear", "linear"):
+        raise MocapError(f"Handles need linear axes, not {ax.get_xscale()} and {ax.get_yscale()} ones.")
+    if not 0 < step < np.inf:
+        raise MocapError(f"An arrow key moves a handle by a number above 0, got step={step}.")
+    limits = [[float(end) for end in ends] for ends in (ax.get_xlim(), ax.get_ylim())]
+    names = [label.split(" (")[0] for label in (ax.get_xlabel() or "across", ax.get_ylabel() or "up")]
+    widget = _class()(limits=limits, names=names, step=float(step), points=len(where))
+    widget.ax = ax
+    widget.value = where
+    plt.close(figure_of(ax))
+    return widget
+
+
+class Dragged:
+    """The handles without their traits: where they are in the picture, also where no Python runs."""
+
+    ax: Axes
+    value: tuple[tuple[float, float], ...]
+    limits: list[list[float]]
+    box: list[float]
+    picture: bytes
+    layout: Any
+
+    def show(self, png: bytes) -> None:
+        """Take the picture that was just drawn; the axes' place may have changed with it."""
+        (left, right), (bottom, top) = self.limits
+        corners = self.ax.transData.transform([(left, top), (right, bottom)])
+        (x0, y0), (x1, y1) = figure_of(self.ax).transFigure.inverted().transform(corners)
+        self.box = [float(share) for share in (x0, 1 - y0, x1, 1 - y1)]
+        self.picture = png
+
+    def with_handles(self) -> Image.Image:
+        """Draw the handles into the picture."""
+        picture = Image.open(io.BytesIO(self.picture)).convert("RGB")
+        (low, high), draw = np.array(self.limits).T, ImageDraw.Draw(picture)
+        left, top, right, bottom = self.box
+        shares = (np.array(self.value) - low) / (high - low)
+        places = [left, bottom] + shares * [right - left, top - bottom]
+        for number, (x, y) in enumerate(places * picture.size, start=1):
+            draw.ellipse((x - 9, y - 9, x + 9, y + 9), fill="#FFFFFF", outline="#222222", width=2)
+            draw.text((x, y), str(number), fill="#222222", anchor="mm")
+        return picture
+
+    def elsewhere(self) -> list[tuple[tuple[float, float], ...]]:
+        """Give values that a reader may reach: as it is, one handle in the middle, another at a corner."""
+        middle, corner = np.mean(self.limits, axis=1), np.array(self.limits)[:, 1]
+        points = np.tile(np.array(self.value), (3, 1, 1))
+        points[1, 0], points[2, -1] = middle, corner
+        return [tuple((float(x), float(y)) for x, y in some) for some in points]
+
+
+@cache
+def _class() -> type[Any]:
+    """Make the widget's class, once; it needs anywidget, which may not be installed."""
+    try:
+        import anywidget
+        import traitlets
+        from ipywidgets import ValueWidget
+    except ImportError as error:
+        raise MocapError("Handles to drag need anywidget: pip install 'mocap[notebooks]'.") from error
+
+    class Handles(Dragged, anywidget.AnyWidget, ValueWidget):  # type: ignore[misc]  # untyped
+        """A picture with points as its `value`, which Python and the reader may set."""
+
+        _esm = SCRIPT.read_text("utf-8")
+        description = traitlets.Unicode().tag(sync=True)
+        picture = traitlets.Bytes().tag(sync=True)
+        box: traitlets.List[float] = traitlets.List([0.0, 0.0, 1.0, 1.0]).tag(sync=True)
+        limits: traitlets.List[list[float]] = traitlets.List().tag(sync=True)
+        names: traitlets.List[str] = traitlets.List().tag(sync=True)
+        step = traitlets.Float().tag(sync=True)
+        points = traitlets.Int()
+        value = traitlets.Any(()).tag(sync=True)
+
+        @traitlets.validate("value")
+        def _inside(self, proposal: dict[str, Any]) -> tuple[tuple[float, float], ...]:
+            where = np.asarray(proposal["value"], float)
+            if where.shape != (self.points, 2):
+                raise MocapError(f"There are {self.points} handles, got an array of shape {where.shape}.")
+            low, high = np.sort(self.limits, axis=1).T
+            outside = ~((where >= low) & (where <= high)).all(axis=1)
+            if outside.any():
+                first = int(outside.argmax())
+                raise MocapError(f"Handle {first + 1} would leave the axes: {where[first].tolist()}.")
+            return tuple((float(x), float(y)) for x, y in where)
+
+    return Handles
