@@ -20,6 +20,7 @@ symmetric rules of [SC78] for P = 1 and P = 1/2. (That [KG03] weighs all steps a
 With the weight 1 for all of them, a known timewarp comes back 16 % less exactly. The free ends are ours.)
 """
 
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,29 +66,50 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
     array([[2., 7.],
            [7., 4.]])
     """
-    rows, columns = costs.shape
     totals, steps = np.empty_like(costs), np.empty(costs.shape, np.int8)
     begins, open_rows = np.zeros(costs.shape, bool), np.asarray(starts.any(axis=1))
-    # The states A, V₁ …, H₁ … of this row and of the one above.
-    layers, above = (np.full((2 * slope + 1, columns), np.inf, costs.dtype) for _ in range(2))
-    least = np.full(columns + 1, np.inf, costs.dtype)  # M of the row above, one to the right
-    for i in range(rows):
-        cost = costs[i]
-        before = least[:-1]
+    rows = _rows(costs, slope)
+    least = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right
+    above, doubled = least[:-1], 2 * costs
+    for i, cost in enumerate(costs):
+        row, before, later = rows[i % 2], above, cost[1:]
         if open_rows[i]:
-            np.logical_and(starts[i], before >= 0, out=begins[i])
-            before = np.where(begins[i], 0, before)
-        np.add(before, 2 * cost, out=layers[0])
-        np.add(above[:slope], cost, out=layers[1 : slope + 1])
-        run = layers[0]
-        for longer in layers[slope + 1 :]:
-            np.add(run[:-1], cost[1:], out=longer[1:])
-            run = longer
-        steps[i] = layers.argmin(0)
-        layers.min(0, out=totals[i])
-        least[1:] = totals[i]
-        layers, above = above, layers
+            np.logical_and(starts[i], above >= 0, out=begins[i])
+            before = np.where(begins[i], 0, above)
+        np.add(before, doubled[i], out=row.diagonal)
+        np.add(row.above, cost, out=row.down)
+        for run, longer in row.right:
+            np.add(run, later, out=longer)
+        steps[i] = row.states.argmin(0)
+        least[1:] = np.minimum.reduce(row.states, axis=0, out=totals[i])
     return PathSums(totals, steps, begins, slope)
+
+
+class _Row(NamedTuple):
+    """The states A, V₁ …, H₁ … of a row, shape (2 W + 1, m), and views of them that are needed in each row.
+
+    diagonal, down : A, and all V.
+    above : A and all V but the last, of the row above.
+    right : for each H the state that it goes on from, without its last cell, and H without its first.
+    """
+
+    states: Floats
+    diagonal: Floats
+    down: Floats
+    above: Floats
+    right: list[tuple[Floats, Floats]]
+
+
+def _rows(costs: Floats, slope: int) -> tuple[_Row, _Row]:
+    """Make room for two rows, each of which is the one above the other in turn."""
+    first, second = (np.full((2 * slope + 1, costs.shape[1]), np.inf, costs.dtype) for _ in range(2))
+
+    def row(states: Floats, other: Floats) -> _Row:
+        runs = [states[0], *states[slope + 1 :]]
+        right = [(run[:-1], longer[1:]) for run, longer in pairwise(runs)]
+        return _Row(states, states[0], states[1 : slope + 1], other[:slope], right)
+
+    return row(first, second), row(second, first)
 
 
 def origins(sums: PathSums) -> Indices:
