@@ -118,6 +118,33 @@ def random_line(seed: int) -> GroundPath:
     return spline(np.vstack([[0, 0], np.cumsum(steps, axis=0)]))
 
 
+def sine() -> GroundPath:
+    """Draw two waves of 7 m, 1.2 m to either side."""
+    t = np.linspace(0, 1, 240)
+    return GroundPath(np.stack([1.2 * np.sin(4 * np.pi * t), 14 * t], axis=1))
+
+
+def spiral() -> GroundPath:
+    """Draw one and a half turns outwards, from 1.5 to 6.2 m."""
+    t = np.linspace(0, 3 * np.pi, 240)
+    return GroundPath((1.5 + 0.5 * t)[:, None] * np.stack([np.cos(t), np.sin(t)], axis=1))
+
+
+def zigzag() -> GroundPath:
+    """Draw five corners of 100°, 3 m apart."""
+    return GroundPath(np.array([[0, 0], *([1.2 * (-1) ** n, 2.0 * n] for n in range(1, 7))]))
+
+
+def heart() -> GroundPath:
+    """Draw a heart 9 m wide, with a cusp at its bottom."""
+    t = np.linspace(0.15, 2 * np.pi - 0.15, 240)
+    z = 13 * np.cos(t) - 5 * np.cos(2 * t) - 2 * np.cos(3 * t) - np.cos(4 * t)
+    return GroundPath(0.28 * np.stack([16 * np.sin(t) ** 3, z], axis=1))
+
+
+LINES = {"sine": sine, "spiral": spiral, "zigzag": zigzag, "heart": heart}
+
+
 def unseen(found: dict[str, CompiledGraph]) -> list[str]:
     """Follow lines by which no weight was chosen; count those that are followed within the bounds."""
     sets = {

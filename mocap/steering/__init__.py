@@ -13,13 +13,16 @@ Reading order (notebook 08)
 3. `beam_search`: all walks advance along the path together
 4. `followed`: what was found along a path, and how well it follows the path
 5. `path_following`: find a walk along a path
-6. `paper_search`: the same by the paper's branch and bound
-7. `waypoints`: places, labels and times to pass
-8. `crowd`: many characters that keep apart
+6. `own_turning`: how walks turn by themselves, and what it costs to turn them further
+7. `bent_following`: any line with any walk: a walk laid on its path
+8. `paper_search`: the same as in 5 by the paper's branch and bound
+9. `waypoints`: places, labels and times to pass
+10. `crowd`: many characters that keep apart
 
 References
 ----------
 .. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
 """
 
 import lazy_loader
@@ -32,6 +35,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "beam_search": ["Beam", "Found", "find_walk"],
         "followed": ["Departure", "Followed"],
         "path_following": ["follow_path"],
+        "own_turning": ["Bending", "OwnTurning", "turning_of"],
+        "bent_following": ["BentWalk"],
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
         "waypoints": ["Arrival", "Waypoint", "WaypointWalk", "through_waypoints"],
         "crowd": ["Crowd", "walk_crowd"],

@@ -80,9 +80,16 @@ class Followed:
         return kinds.count("transition") / self.seconds
 
     @property
+    def most_seams(self) -> float:
+        """The seams per second of a path that is followed well, at most."""
+        return SEAMS
+
+    @property
     def excess(self) -> float:
         """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
-        return float(max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_per_second / SEAMS))
+        return float(
+            max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_per_second / self.most_seams)
+        )
 
     @property
     def progress(self) -> float:

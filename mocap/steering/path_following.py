@@ -4,6 +4,7 @@ import time
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -13,8 +14,9 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Beam, find_walk
-from mocap.steering.followed import SEAMS, Departure, Followed, account
+from mocap.steering.beam_search import Beam, Found, find_walk
+from mocap.steering.bent_following import plan_bending
+from mocap.steering.followed import Departure, Followed, account
 from mocap.steering.path_objective import Prices, Route, Wishes, make_route
 from mocap.steering.search_states import States, start_states
 
@@ -29,6 +31,7 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     beam: Beam | None = None,
     prices: Prices | None = None,
     tries: int = 3,
+    bend: float = 0.0,
 ) -> Followed:
     """Find a walk whose root, seen from above, follows a path.
 
@@ -36,6 +39,10 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the search
     is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk is
     taken. Where no clip turns as the path does, the walk cuts the corner and returns; a warning says where.
+
+    With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
+    its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet
+    are cleaned up. Where the path turns too fast, it is rounded; `report` says where and by how much.
 
     Parameters
     ----------
@@ -45,10 +52,12 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     beam : how thoroughly to search.
     prices : what deviations cost.
     tries : the largest number of searches; 1 for one search with this beam and these prices.
+    bend : the fastest that a walk is turned beyond its own turning, radians per second: `editing.LIMIT`, 60°
+        per second, looks right. 0 leaves walks as they are.
 
     Returns
     -------
-    The walk, and how well it follows the path.
+    The walk, and how well it follows the path; with `bend` a `BentWalk`.
 
     Raises
     ------
@@ -57,7 +66,7 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
 
     Warns
     -----
-    MocapWarning : where the walk is more than 15 cm off the path.
+    MocapWarning : where the walk is more than 15 cm off the path, and with `bend` for plants that are let go.
 
     Examples
     --------
@@ -67,24 +76,38 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     >>> followed = follow_path(graph, body.GroundPath([[0, 0], [0, 6]]))
     >>> followed.progress, bool(followed.off.mean() < 0.05)
     (1.0, True)
+    >>> bent = follow_path(graph, body.circle(1.2), bend=1.0)  # radians per second
+    >>> bool(bent.off.max() < 0.08), bent.bent.kept > 0.95
+    (True, True)
 
     Notebook: 08-path-synthesis
     """
     wishes, compiled = wishes or Wishes(), compile_graph(graph)
     if tries < 1:
         raise MocapError(f"A path takes at least one search, got tries={tries}.")
-    route = make_route(compiled, path, wishes)
+    route, measure = _objective(compiled, path, wishes, bend)
     starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
 
     def search(beam: Beam, prices: Prices) -> Followed:
-        return account(compiled, path, route, find_walk(compiled, route, starts, beam, prices))
+        return measure(find_walk(compiled, route, starts, beam, prices))
 
     beam = replace(beam or Beam(), width=(beam or Beam()).width_on(route))
     followed = _best_of(search, beam, prices or Prices(), tries)
     if not wishes.others:  # with others it leaves the path to give way
-        _warn(followed.departures)
+        _warn(followed.departures, "it turns too fast there" if bend else "no clips turn as it does there")
     return followed
+
+
+def _objective(
+    graph: CompiledGraph, path: GroundPath, wishes: Wishes, bend: float
+) -> tuple[Route, Callable[[Found], Followed]]:
+    """Lay out what a walk is asked for, and say how to measure one that was found."""
+    if bend:
+        plan = plan_bending(graph, path, wishes, bend)
+        return plan.route, plan.lay
+    route = make_route(graph, path, wishes)
+    return route, partial(account, graph, path, route)
 
 
 def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Prices, tries: int) -> Followed:
@@ -94,7 +117,7 @@ def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Pri
     for again in range(1, tries):
         if best.excess <= 1 or last.found.stopped:
             return best
-        seam = prices.seam * (AGAIN if best.seams_per_second > SEAMS else 1 / AGAIN)
+        seam = prices.seam * (AGAIN if best.seams_per_second > best.most_seams else 1 / AGAIN)
         left = beam.seconds - (time.monotonic() - begun)
         wider = replace(beam, width=round((1 + again / 2) * (beam.width or 0)), seconds=left)
         try:
@@ -105,13 +128,13 @@ def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Pri
     return best
 
 
-def _warn(departures: Sequence[Departure]) -> None:
-    """Warn where a walk leaves its path."""
+def _warn(departures: Sequence[Departure], why: str) -> None:
+    """Warn where a walk leaves its path, and say why."""
     if departures:
         worst = max(departures, key=lambda d: d.worst)
         warnings.warn(
             f"The walk leaves the path {len(departures)} times, the furthest by {100 * worst.worst:.0f} cm "
-            f"at {worst.start:.1f} to {worst.end:.1f} m: no clips turn as it does there.",
+            f"at {worst.start:.1f} to {worst.end:.1f} m: {why}.",
             MocapWarning,
             stacklevel=3,
         )

@@ -12,6 +12,7 @@ from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
+from mocap.steering.own_turning import Bending
 
 SPACING = 0.02  # metres between the points of a route, at most
 
@@ -67,13 +68,16 @@ class Prices:
     label : for each frame without the label asked for.
     late : times the square of the seconds late or early, in each frame.
     crowding : times the square of the metres too near to another, in each frame.
+    bend : of walks that are laid on the path: times the square of the radians per second by which a frame is
+        turned beyond what it turns itself.
+    idle : of such walks: for each frame that moves on by less than the least progress.
 
     Examples
     --------
     Fewer transitions, further from the path:
 
-    >>> Prices(seam=1.0)
-    Prices(seam=1.0, match=30.0, stray=100.0, label=0.1, late=0.2, crowding=1.0)
+    >>> Prices(seam=1.0).seam
+    1.0
 
     Notebook: 08-path-synthesis
     """
@@ -84,6 +88,8 @@ class Prices:
     label: float = 0.1
     late: float = 0.2
     crowding: float = 1.0
+    bend: float = 0.05
+    idle: float = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +106,7 @@ class Route:
     slide : the share by which s moves to the point abreast of the body after each hop.
     others : shape (K, T), where K others are in each frame.
     apart : metres to keep away from them.
+    bending : where walks are laid on the path, how they and the path turn.
 
     Examples
     --------
@@ -116,6 +123,7 @@ class Route:
     slide: float = 0.5
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
     apart: float = 0.8
+    bending: Bending | None = None
 
     @property
     def length(self) -> float:

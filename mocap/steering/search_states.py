@@ -14,7 +14,10 @@ from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
+from mocap.steering.own_turning import Bending
 from mocap.steering.path_objective import Prices, Route, least_progress
+
+CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
 
 
 class States(NamedTuple):
@@ -74,7 +77,9 @@ class SearchSpace:
 def search_space(graph: CompiledGraph, route: Route, prices: Prices) -> SearchSpace:
     """Compute the price of each hop's transition, and its progress along the path."""
     hops = graph.hops
-    along = np.cumsum(least_progress(graph, route))
+    along = np.cumsum(
+        least_progress(graph, route) if route.bending is None else _progress(graph, route.bending)
+    )
     before = np.concatenate([[0.0], along])
     parts = before[hops.starts + hops.counts] - before[hops.starts]  # (H, 2)
     since = before[hops.starts] - np.stack([np.zeros(len(parts)), parts[:, 0]], axis=1)
@@ -148,7 +153,21 @@ def expand(space: SearchSpace, states: States, number: int) -> States:
         number + of,
         hop,
     )
+    if space.route.bending is not None:
+        return _laid(space, new, space.route.bending)
     return new._replace(along=new.along + slide(space, new, space.length[hop]))
+
+
+def _progress(graph: CompiledGraph, bending: Bending) -> Array:
+    """Give the progress of frames that are laid on the path: along their own, and never quite none."""
+    return np.maximum(bending.own.step, CREEP / graph.fps)
+
+
+def _laid(space: SearchSpace, states: States, bending: Bending) -> States:
+    """Put walks on the path, and turn them the way it goes."""
+    route, node = space.route, states.node
+    turn = np.exp(-1j * bending.own.going[node]) * route.ways[route.point(states.along)]
+    return states._replace(turn=turn, move=route.at(states.along) - turn * space.graph.at[node])
 
 
 def frames_along(space: SearchSpace, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
@@ -171,10 +190,9 @@ def hop_costs(space: SearchSpace, states: States, chosen: Indices, hop: Indices)
         return np.empty(0)
     row, number, along = frames_along(space, hop, states.along[chosen])
     of = chosen[number]
-    body = states.move[of] + states.turn[of] * graph.tracks.ground[row]
     first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
-    off = _square(body - route.at(along))
-    off += prices.stray * off**2
+    body = states.move[of] + states.turn[of] * graph.tracks.ground[row]
+    off = _astray(space, body, along) if route.bending is None else _bent(space, route.bending, row, along)
     if route.bare:
         return np.asarray(np.add.reduceat(off, first))
     point, frame = route.point(along), states.frames[of] + np.arange(len(of)) - first[number]
@@ -184,6 +202,19 @@ def hop_costs(space: SearchSpace, states: States, chosen: Indices, hop: Indices)
     off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
     off += crowding(space, body, frame)
     return np.asarray(np.add.reduceat(off, first))
+
+
+def _astray(space: SearchSpace, body: Points, along: Array) -> Array:
+    """Compute the cost of the distance from the path, of the shape of `body`."""
+    off = _square(body - space.route.at(along))
+    return off + space.prices.stray * off**2
+
+
+def _bent(space: SearchSpace, bending: Bending, row: Indices, along: Array) -> Array:
+    """Compute the cost of turning frames further than they turn themselves, and of those that stand."""
+    graph, route, prices = space.graph, space.route, space.prices
+    rates = bending.rates(row, route.point(along), graph.fps)
+    return prices.bend * rates**2 + prices.idle * (bending.own.step[row] < route.least / graph.fps)
 
 
 def crowding(space: SearchSpace, body: Points, frame: Indices) -> Array:
@@ -210,8 +241,9 @@ def score(space: SearchSpace, states: States, rescue: float) -> Array:
     The second term is at most `rescue` (m²), because a transition can still save the walk.
     """
     graph, node = space.graph, states.node
-    ahead = states.move[:, None] + states.turn[:, None] * graph.ahead[node]
-    off = _square(ahead - space.route.near(states.along[:, None] + space.ahead[node]))
+    line = space.route.near(states.along[:, None] + space.ahead[node])
+    ahead = line if space.route.bending else states.move[:, None] + states.turn[:, None] * graph.ahead[node]
+    off = _square(ahead - line)
     if len(space.route.others):  # to give way takes longer: look up to three times as far
         body = states.move + states.turn * graph.at[node]
         further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None]) * [0, 1, 2]

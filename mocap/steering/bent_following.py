@@ -1,0 +1,146 @@
+"""Any line with any walk: search a walk that needs little bending, and lay it on the line [Gle01].
+
+A walk from the graph turns only where its clips turn; path editing can turn it further. So the search asks by
+how much a walk must be turned beyond what it turns by itself, and not how far it strays.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mocap._shared.arrays import Mask
+from mocap.body.ground_path import GroundPath
+from mocap.body.motion import Motion
+from mocap.body.planar import IDENTITY
+from mocap.editing.bending import Bent, bend
+from mocap.editing.line_rounding import round_line
+from mocap.editing.path_editing import Ride
+from mocap.errors import MocapError
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.steering.beam_search import Found
+from mocap.steering.followed import Followed
+from mocap.steering.own_turning import OwnTurning, bending_on, turning_of
+from mocap.steering.path_objective import Route, Wishes, make_route
+from mocap.synthesis.walk_to_motion import to_motion
+
+FURTHER = (
+    0.5,
+    0.02,
+)  # metres, and a share of the line: the search goes on so far beyond its end; the rest is cut
+WALKING = 0.3  # metres per second: slower frames do not count for the pace of clips
+SEAMS = 0.7  # transitions per second, at most, for a walk that is laid on its path
+
+
+@dataclass(frozen=True, eq=False)
+class BentWalk(Followed):
+    """A walk laid on a path: what `Followed` says of it, and `bent`, how it was laid there.
+
+    `walk` and `found` are of the search; `off`, `track` and `along` are of the motion on the path. No single
+    `place` lays the walk there, so it is the identity.
+    """
+
+    bent: Bent
+
+    def motion(self, *, name: str = "walk", clean: bool = True) -> Motion:
+        """Give the motion on the path, with clean feet or, if `clean` is false, as it was laid there."""
+        return replace(self.bent.motion if clean else self.bent.laid, name=name)
+
+    @property
+    def most_seams(self) -> float:
+        """The seams per second of a path that is followed well, at most."""
+        return SEAMS
+
+    @property
+    def excess(self) -> float:
+        """Seams per second / 0.7: the distance from the path is no matter of the search."""
+        return self.seams_per_second / self.most_seams
+
+    def report(self) -> str:
+        """Say how well the walk keeps to the path, and where the path was rounded and by how much."""
+        line = f"{self.bent.report()}; {self.seams_per_second:.2f} seams per second"
+        if self.unlabelled.any():
+            line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
+        return line + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
+
+
+@dataclass(frozen=True, eq=False)
+class BendingPlan:
+    """What is prepared once to lay walks of a graph on a path.
+
+    Parameters
+    ----------
+    graph, path : as for `follow_path`.
+    wishes : with metres along the rounded path.
+    limit : the fastest that a walk is turned, radians per second.
+    route : the path, rounded for the clips' usual pace, so that the search reckons with what can be turned,
+        and a little further.
+    """
+
+    graph: CompiledGraph
+    path: GroundPath
+    wishes: Wishes
+    limit: float
+    route: Route
+
+    def lay(self, found: Found) -> BentWalk:
+        """Lay a walk that was found on the path, and measure how well it follows."""
+        graph = self.graph
+        walk = [graph.edges[edge] for edge in found.edges]
+        bent = bend(to_motion(graph.source, walk), self.path, limit=self.limit)
+        walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), len(bent.motion))) + 1]
+        track = bent.motion.root_positions[:, [0, 2]]
+        at_length = np.hypot(*(track - self.path.at(bent.ride.along)).T)
+        unlabelled = _unlabelled(bent, self.wishes)
+        place = (graph.source, self.path, walk, IDENTITY)
+        return BentWalk(*place, track, bent.along, bent.off, at_length, unlabelled, found, bent)
+
+
+def plan_bending(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float) -> BendingPlan:
+    """Round a path for the usual pace of some clips, and lay out the wishes along it.
+
+    Raises
+    ------
+    MocapError : for a limit that is not above 0, clips that only stand, and wishes that make no sense.
+    NoWalk : for a label that no clip of the graph has.
+    """
+    if not limit > 0:
+        raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
+    own = turning_of(graph)
+    line = round_line(path, _steady(own, graph.fps, path.length), graph.fps, limit)
+    make_route(graph, path, wishes)  # which refuses what is asked for off the path
+
+    def rounded(where: float) -> float:
+        return float(np.interp(where, line.asked, line.along))
+
+    wishes = replace(
+        wishes,
+        labels=[(rounded(where), label) for where, label in wishes.labels],
+        times=[(rounded(where), seconds) for where, seconds in wishes.times],
+    )
+    points = line.path.points
+    way = points[-1] - points[-2]
+    # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.
+    further = FURTHER[0] + (1 + FURTHER[1]) * max(path.length, line.path.length) - line.path.length
+    longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
+    route = make_route(graph, longer, wishes)
+    bending = bending_on(own, longer, len(route.points))
+    return BendingPlan(graph, path, wishes, limit, replace(route, slide=0.0, bending=bending))
+
+
+def _steady(own: OwnTurning, fps: float, length: float) -> Ride:
+    """Walk straight on for some metres, at the clips' usual pace."""
+    walks = own.step[own.step * fps > WALKING]
+    if not len(walks):
+        raise MocapError("The clips of this graph only stand: no walk of theirs can be laid on a path.")
+    along = np.arange(0.0, length + 1.0, float(np.median(walks)))
+    return Ride(GroundPath(np.array([[0.0, 0.0], [0.0, along[-1]]])), along, np.zeros((4, 2)))
+
+
+def _unlabelled(bent: Bent, wishes: Wishes) -> Mask:
+    """Mark the frames without the label asked for there."""
+    lacks = np.zeros(len(bent.along), bool)
+    for where, label in sorted(wishes.labels):
+        there = bent.ride.along >= where
+        bears = bent.motion.labels.get(label, np.zeros_like(lacks))
+        lacks[there] = bool(label) & ~bears[there]
+    return lacks

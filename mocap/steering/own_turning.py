@@ -1,0 +1,117 @@
+"""How a walk turns by itself: what a line asks for beyond that is what it costs to bend the walk along it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices
+from mocap.body.ground_path import GroundPath
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, heading
+from mocap.editing.path_editing import moving_frames, ride_of
+from mocap.errors import MocapError
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.edge_tables import EdgeTable, frame_table
+
+
+class OwnTurning(NamedTuple):
+    """How the T frames of all edges of a graph turn and move on along their own path, without its sway.
+
+    `turn` (T,): radians in each frame; `step` (T,): metres in each frame; `going` (N,): the heading of the
+    path at each node, radians, in the coordinates of its clip.
+    """
+
+    turn: Array
+    step: Array
+    going: Array
+
+
+class Bending(NamedTuple):
+    """What a search needs to lay walks on a route: their own turning, and how the route bends.
+
+    `own`: of the graph; `curvature` (n,): of the route at each of its points, radians per metre.
+    """
+
+    own: OwnTurning
+    curvature: Array
+
+    def rates(self, row: Indices, point: Indices, fps: float) -> Array:
+        """Say how fast some frames must be turned beyond what they turn themselves, radians per second.
+
+        Parameters
+        ----------
+        row : shape (F,), the frames' numbers among those of all edges.
+        point : shape (F,), the route's points where they are.
+        fps : frames per second.
+
+        Examples
+        --------
+        A frame that turns by 0.1 and moves on by 1 m, on a route that turns by 0.3 per metre:
+
+        >>> own = OwnTurning(np.array([0.1]), np.array([1.0]), np.array([0.0]))
+        >>> Bending(own, np.array([0.0, 0.3])).rates(np.array([0]), np.array([1]), 1.0).round(6)
+        array([0.2])
+        """
+        return np.asarray((self.curvature[point] * self.own.step[row] - self.own.turn[row]) * fps)
+
+
+def turning_of(graph: CompiledGraph) -> OwnTurning:
+    """Follow the path of every edge: how far it goes, and by how much it turns, frame by frame.
+
+    The path is that of `editing.ride_of`, so that the sway of the body is no turning. In a transition both
+    clips' headings are blended as their poses are; the difference of the two is turned through as well.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_circle"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> own = turning_of(graph)
+    >>> len(own.turn) == len(own.step) == len(graph.tracks.step)
+    True
+    """
+    source = graph.source
+    lengths = np.array([len(clip) for clip in source.clips])
+    first = np.cumsum(lengths) - lengths
+    heads, along = np.concatenate([_ride(clip) for clip in source.clips], axis=1)
+
+    def rows(frames: Indices) -> Indices:
+        return np.asarray(first[frames[:, 0]] + np.clip(frames[:, 1], 0, lengths[frames[:, 0]] - 1))
+
+    edges = _edges(graph)
+    frames = frame_table(edges, source.window)
+    here, there, weight = rows(frames.here), rows(frames.there), 1 - frames.alpha
+    other = heads[there] + np.asarray(edges.transform.angle)[frames.edge]
+    apart = (other - heads[here] + np.pi) % (2 * np.pi) - np.pi
+    head = heads[here] + np.where(weight > 0, weight * apart, 0.0)
+    turn = np.diff(head, prepend=0.0)
+    starts = graph.tracks.first
+    turn[starts] = head[starts] - heads[rows(edges.leaves - np.array([0, 1]))]
+    steps = np.diff(along, prepend=along[0])
+    steps[first] = 0.0
+    step = frames.alpha * steps[here] + weight * steps[there]
+    return OwnTurning(turn, step, heads[rows(np.array(graph.nodes))])
+
+
+def _edges(graph: CompiledGraph) -> EdgeTable:
+    """Put the edges of a compiled graph into a table, which is faster than to look each of them up."""
+    leaves, enters = np.array([start for start, _, _ in graph.edges]), np.array(graph.nodes)[graph.target]
+    place = PlanarTransform.from_complex(graph.turn, graph.move)
+    return EdgeTable(leaves, enters, graph.frames, graph.blended, graph.cost, place)
+
+
+def _ride(clip: Motion) -> Array:
+    """Give the heading of a clip's path and the metres along it, (2, F); where it stands, how it faces."""
+    try:
+        ride = ride_of(clip)
+    except MocapError:
+        return np.stack([np.unwrap(heading(clip.rotations[:, 0])), np.zeros(len(clip))])
+    return np.stack([np.asarray(moving_frames(ride.path, ride.along).angle), ride.along])
+
+
+def bending_on(own: OwnTurning, path: GroundPath, points: int) -> Bending:
+    """Measure how a route of some evenly spaced points along a path bends."""
+    along = np.linspace(0, path.length, points)
+    return Bending(own, np.gradient(np.asarray(moving_frames(path, along).angle), along[1]))

@@ -1,0 +1,182 @@
+"""Any line with any walk: laid on it, with few seams, feet that stand, and nothing that jolts."""
+
+import warnings
+from functools import cache
+
+import numpy as np
+import pytest
+from follow_paths import LINES, random_line
+
+import mocap
+from mocap.body.ground_path import GroundPath, circle, letter_s
+from mocap.body.motion import resample
+from mocap.datasets import samples
+from mocap.editing.bending import LIMIT
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.steering.beam_search import Beam
+from mocap.steering.bent_following import BentWalk
+from mocap.steering.path_following import follow_path
+from mocap.steering.path_objective import Prices, Wishes
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.bundled import bundled, sneaking, walking
+from tests.editing.test_path_editing import acc99, slide
+
+SOME = {
+    "sine": LINES["sine"](),
+    "letter S": letter_s(1.2),
+    "circle": circle(1.2),
+    "heart": LINES["heart"](),
+    "random": random_line(501),
+}
+OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
+STRAIGHT = (15, 16, 21, 22, 31, 32, 47)  # seven straight walks of subject 16
+
+
+def quietly(graph, path, **options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        return follow_path(graph, path, bend=LIMIT, **options)
+
+
+def graph_of(clips, threshold=0.04):
+    return compile_graph(prune(build([resample(clip, 30) for clip in clips], window=10, threshold=threshold)))
+
+
+@cache
+def straight_walker() -> CompiledGraph:
+    """One straight walk, again and again: no line can be followed with it unless it is bent."""
+    return graph_of([samples.sample("walk_straight")], threshold=0.06)
+
+
+def require_kept_to(followed):
+    """Hold a walk against every bar."""
+    bent = followed.bent
+    as_asked = bent.off[~bent.rounded]
+    if len(as_asked):
+        assert as_asked.mean() <= 0.025
+        assert as_asked.max() <= 0.08
+    assert followed.seams_per_second <= 0.7
+    assert slide(bent.motion) <= 1e-4
+    assert bent.kept >= 0.95
+    assert bent.progress > 0.97
+    # Clips differ, and a walk plays some of them more: so it is measured against itself before it was bent.
+    assert acc99(bent.motion, to_motion(followed.graph, followed.walk)) <= 1.25
+
+
+@pytest.mark.parametrize("line", SOME)
+@pytest.mark.parametrize("graph", [walking, straight_walker])
+def test_any_line_with_any_walk(graph, line):
+    require_kept_to(quietly(graph(), SOME[line]))
+
+
+def test_without_bending_a_straight_walk_stays_straight():
+    """The naive way: 6 m off an S on average, and nothing that the search could do about it."""
+    path = letter_s(1.6)
+    with pytest.warns(MocapWarning, match="no clips turn as it does there"):
+        plain = follow_path(straight_walker(), path)
+    assert plain.off.mean() > 0.5
+    assert not isinstance(plain, BentWalk)
+    assert quietly(straight_walker(), path).off.mean() < 0.025
+
+
+def test_the_search_asks_for_little_bending():
+    """A walk found by its distance and bent afterwards is turned as much, or has more seams."""
+    path = SOME["sine"]
+    bent = quietly(walking(), path)
+    careless = quietly(walking(), path, prices=Prices(bend=0))
+    assert np.square(bent.bent.turned).sum() < 0.6 * np.square(careless.bent.turned).sum()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        plain = follow_path(walking(), path)
+    assert bent.seams_per_second < plain.seams_per_second
+    assert bent.off.mean() < plain.off.mean()
+
+
+def test_what_it_says_is_what_the_motion_does():
+    path = GroundPath([[0, 0], [0, 5], [5, 5]])
+    followed = quietly(walking(), path)
+    motion = followed.motion(name="corner")
+    assert motion.name == "corner"
+    assert followed.track == pytest.approx(motion.root_positions[:, [0, 2]])
+    assert len(motion) == len(followed.off) == len(followed.along) == len(followed.unlabelled)
+    assert followed.progress > 0.98
+    assert motion.root_positions[-1, [0, 2]] == pytest.approx([5, 5], abs=0.1)
+    assert slide(followed.motion(clean=False)) > slide(motion)
+    assert "rounded at" in followed.report()
+    assert f"{followed.seams_per_second:.2f} seams per second" in followed.report()
+    frames = [followed.graph.graph.edges[edge]["frames"] for edge in followed.walk]
+    assert sum(frames[:-1]) <= len(motion) <= sum(frames)
+
+
+def test_a_path_that_is_rounded_by_much_is_warned_of():
+    with pytest.warns(MocapWarning, match="it turns too fast there"):
+        follow_path(walking(), GroundPath([[0, 0], [0, 5], [5, 5]]), bend=np.radians(30))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", MocapWarning)
+        follow_path(walking(), circle(2.0), bend=LIMIT)
+
+
+def test_labels_and_times_are_kept_on_the_line():
+    path = SOME["sine"]
+    followed = quietly(sneaking(), path, wishes=Wishes(labels=[(0, "walk"), (6, "sneak"), (12, "walk")]))
+    sneaks = followed.bent.motion.labels["sneak"]
+    assert sneaks[(followed.along > 7.5) & (followed.along < 11)].mean() > 0.9
+    assert not sneaks[followed.along < 5].any()
+    assert "without the label asked for" in followed.report()
+    late = Wishes(times=[(0, 0), (8, 14)])
+    slow = quietly(sneaking(), path, wishes=late)
+    arrival = np.searchsorted(slow.along, 8) / 30
+    assert abs(arrival - 14) < 1.0
+
+
+def test_a_search_that_is_stopped_says_so():
+    followed = quietly(walking(), SOME["sine"], beam=Beam(seconds=0.05))
+    assert followed.report().endswith("the best so far") or followed.progress > 0.97
+
+
+def test_bad_input():
+    with pytest.raises(MocapError, match="got bend=-1"):
+        follow_path(walking(), circle(2.0), bend=-1.0)
+    with pytest.raises(MocapError, match="got bend=nan"):
+        follow_path(walking(), circle(2.0), bend=np.nan)
+    with pytest.raises(NoWalk, match="bears the label 'swim'"):
+        follow_path(walking(), circle(2.0), Wishes(labels=[(0, "swim")]), bend=LIMIT)
+    with pytest.raises(MocapError, match=r"asked for 99 m along a path of 12\.6 m"):
+        follow_path(walking(), circle(2.0), Wishes(labels=[(99, "walk")]), bend=LIMIT)
+
+
+def test_clips_that_stand_cannot_be_laid_on_a_line():
+    stop = samples.sample("stop_and_go")
+    speed = np.hypot(*np.gradient(stop.root_positions[:, [0, 2]], axis=0).T) * stop.fps
+    first = int(np.flatnonzero(speed < 0.01)[0])
+    standing = stop[first : first + 200]
+    assert (speed[first : first + 200] < 0.1).all()
+    graph = build([standing], window=20, threshold=0.2)
+    with pytest.raises(MocapError, match="only stand"):
+        follow_path(graph, circle(2.0), bend=LIMIT)
+
+
+# ---------------------------------------------------------------------------------------------- everything
+def walks_of(real_data, name):
+    folder = real_data / "cmu"
+    if name == "bundled clips":
+        return bundled(*OWN)
+    trials = {
+        "7 straight walks": [f"16_{n}" for n in STRAIGHT],
+        "CMU 16": [f"16_{n:02}" for n in (*range(11, 35), 47, 58)],
+        "CMU 02": ["02_01", "02_02", "02_03"],
+    }[name]
+    return graph_of(
+        [mocap.load(folder / trial[:2] / f"{trial}.amc") for trial in trials], 0.06 if "02" in name else 0.04
+    )
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", ["bundled clips", "7 straight walks", "CMU 16", "CMU 02"])
+def test_every_line_with_every_walk(real_data, name):
+    graph = compile_graph(walks_of(real_data, name))
+    for line in [*(draw() for draw in LINES.values()), *(random_line(seed) for seed in range(500, 540))]:
+        require_kept_to(quietly(graph, line))
