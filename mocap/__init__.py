@@ -36,6 +36,7 @@ steering         walks that follow a wish: paths, waypoints, crowds (08)
 control          characters that get a new command in any frame (08)
 plotting         pictures, by matplotlib (00 to 10)
 motion_matching  characters without a graph: the frame that fits best, searched again and again
+groups           a crowd that was planned: group motion graphs, and characters for their members
 diagrams         ideas drawn step by step (00 to 09)
 widgets          players and experiments for notebooks (00 to 10)
 course           the notebooks: checks of exercises, hand-outs, pages
@@ -74,6 +75,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "files",
         "formats",
         "graphs",
+        "groups",
         "marking",
         "match_webs",
         "matching",

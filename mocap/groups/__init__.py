@@ -1,0 +1,55 @@
+"""Group motion graphs: a crowd that was planned, after [LCF05].
+
+The same idea as a motion graph, one storey higher. A pose is where all members of a group are and how they
+move; a clip is a few seconds of the whole group, simulated beforehand; nodes are configurations that come
+again and again. A search strings clips together, so that the group passes points and keeps clear of
+obstacles. Then each member's way is walked by a character of a motion graph.
+
+Take this where a group stays together and must find its way. `steering.walk_crowd` is for a few characters
+whose paths are given and cross.
+
+Only the abstract of [LCF05] could be had. From it are: nodes by clustering, clips that join them by
+constrained simulation, and a search that known bounds make easy. All else is ours.
+
+Reading order
+-------------
+1. `flocking`: walking people simulated by three rules
+2. `configurations`: when do two groups stand and move alike?
+3. `clustering`: configurations that come again
+4. `group_clips`: clips that lead from node to node
+5. `group_graphs`: the graph, and what a walk through it plays
+6. `group_files`: save and load it
+7. `planning`: past points, between obstacles, beside other groups
+8. `group_steering`: the same without a plan, to compare with
+9. `group_walkers`: a character of a motion graph for each member
+
+References
+----------
+.. [LCF05] Y.-C. Lai, S. Chenney, S. Fan, *Group Motion Graphs*, SCA 2005, doi 10.1145/1073368.1073409.
+.. [AMC03] M. Anderson, E. McDaniel, S. Chenney, *Constrained Animation of Flocks*, SCA 2003.
+.. [Rey87] C. Reynolds, *Flocks, Herds, and Schools*, SIGGRAPH 1987, doi 10.1145/37402.37406.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "flocking": ["APART", "RATE", "Flock", "Trajectories", "nearest_two", "simulate"],
+        "configurations": ["Configuration", "Match", "compare", "seen_from_itself"],
+        "clustering": ["Clusters", "cluster"],
+        "group_clips": ["Drawn", "GroupClip", "accelerations", "bend_to", "part"],
+        "group_graphs": [
+            "GroupGraph",
+            "Placed",
+            "build_group",
+            "make_clips",
+            "play_group",
+            "random_group_walk",
+        ],
+        "group_files": ["load_group", "save_group"],
+        "planning": ["GroupWalk", "Scene", "plan_group"],
+        "group_steering": ["clearances", "steer_group"],
+        "group_walkers": ["GroupWalkers", "walk_group"],
+    },
+)

@@ -1,0 +1,204 @@
+"""A flock of walking people, simulated by Reynolds's three rules [Rey87], with whims of their own.
+
+Each member keeps away from those who are near, stays with those it sees, and goes as they go. It also steers
+towards a wish, and keeps a pace. The figures are those of walking people, not of birds [ours]. Without whims
+a flock settles into a lattice that hardly ever changes, so that there is nothing to build a graph of.
+
+Points on the ground are complex, z + ix, ten of them per second.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Points
+from mocap.errors import MocapError
+
+RATE = 10.0  # frames per second
+APART = 0.6  # metres; members nearer than this collide
+MARGIN = 0.03  # metres, by which simulated members keep further apart
+DISC_FROM = 2.0  # metres from a disc at which a member begins to steer away
+DISC_FORCE = 3.0  # m/s² per metre
+
+Disc = tuple[complex, float]
+"""An obstacle: its centre on the ground and its radius, metres."""
+
+
+class Flock(NamedTuple):
+    """The rules' figures; lengths in metres, speeds in m/s, accelerations in m/s².
+
+    Those nearer than `space` are kept away from, those within `sight` are stayed and gone with; `separate`,
+    `gather`, `align`, `steer` and `keep` weigh the rules. `whim` is how much each member's wish drifts.
+
+    Examples
+    --------
+    >>> Flock(pace=1.3).pace
+    1.3
+    """
+
+    sight: float = 4.0
+    space: float = 1.4
+    separate: float = 3.0
+    gather: float = 0.35
+    align: float = 0.8
+    steer: float = 0.9
+    pace: float = 1.1
+    keep: float = 1.0
+    slowest: float = 0.5
+    fastest: float = 1.6
+    accelerate: float = 1.5
+    whim: float = 0.5
+
+
+class Trajectories(NamedTuple):
+    """Where N members are in each of F frames, and how they move: `places` and `velocities`, (F, N) complex.
+
+    Examples
+    --------
+    >>> Trajectories(np.zeros((2, 3), complex), np.ones((2, 3), complex)).places.shape
+    (2, 3)
+    """
+
+    places: Points
+    velocities: Points
+
+
+class Whims:
+    """Each member's own wish: a direction and a pace that drift about the group's.
+
+    Parameters
+    ----------
+    shape : of the members, with any leading axes for runs side by side.
+    rules : how much they drift.
+    random : draws them.
+    """
+
+    def __init__(self, shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> None:
+        self.direction, self.mood = np.zeros(shape), np.zeros(shape)
+        self.rules, self.random = rules, random
+
+    def drift(self) -> Points:
+        """Go on by one frame; give the wishes, complex: a direction and a share of the pace."""
+        step, root = 1 / RATE, np.sqrt(1 / RATE) * self.rules.whim
+        shape = self.direction.shape
+        self.direction += -step * self.direction / 2.0 + root * self.random.normal(size=shape)
+        self.mood += -step * self.mood / 4.0 + root * 0.35 * self.random.normal(size=shape)
+        return np.asarray(np.exp(1j * self.direction) * np.clip(1 + self.mood, 0.6, 1.4))
+
+
+def steering_force(now: Trajectories, wish: Points, rules: Flock, discs: Sequence[Disc] = ()) -> Points:
+    """Work out each member's acceleration by the rules [Rey87], m/s².
+
+    separate · Σ ê (space - d) / space over those nearer than `space`, gather · (mean place - p) and
+    align · (mean velocity - v) over those in sight, steer · (wish - v̂) and keep · (pace - |v|) v̂ [ours],
+    cut at `accelerate`.
+
+    Parameters
+    ----------
+    now : places and velocities, (..., N); each leading axis holds other runs.
+    wish : (..., N), direction times share of the pace.
+    rules, discs : the figures, and what to keep away from.
+    """
+    places, velocities = now
+    gap = places[..., :, None] - places[..., None, :]
+    far = np.abs(gap) + 1e9 * np.eye(places.shape[-1])
+    seen = far < rules.sight
+    count = np.maximum(seen.sum(-1), 1)
+    away = np.where(far < rules.space, gap / far * (rules.space - far) / rules.space, 0).sum(-1)
+    middle = (seen @ places[..., None])[..., 0] / count - places
+    alike = (seen @ velocities[..., None])[..., 0] / count - velocities
+    ahead = _unit(velocities)
+    force = rules.separate * away + np.where(seen.any(-1), rules.gather * middle + rules.align * alike, 0)
+    force = force + rules.steer * (_unit(wish) - ahead)
+    force = force + rules.keep * (np.abs(wish) * rules.pace - np.abs(velocities)) * ahead
+    for centre, radius in discs:
+        off = places - centre
+        force = force + DISC_FORCE * np.maximum(DISC_FROM - (np.abs(off) - radius), 0) * _unit(off)
+    return np.asarray(force * np.minimum(1, rules.accelerate / np.maximum(np.abs(force), 1e-9)))
+
+
+def advance(now: Trajectories, wish: Points, rules: Flock, discs: Sequence[Disc] = ()) -> Trajectories:
+    """Go on by one frame; those who come too near are put apart, half each, in three passes [ours].
+
+    Examples
+    --------
+    >>> still = Trajectories(np.array([0j, 5j]), np.array([1 + 0j, 1 + 0j]))
+    >>> advance(still, np.ones(2, complex), Flock(whim=0)).places.real.round(2)
+    array([0.1, 0.1])
+    """
+    velocities = now.velocities + steering_force(now, wish, rules, discs) / RATE
+    speeds = np.abs(velocities)
+    velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, 1e-9)
+    places = now.places + velocities / RATE
+    for _ in range(3):
+        places = places + push_apart(places, APART + MARGIN)
+    return Trajectories(places, (places - now.places) * RATE)
+
+
+def push_apart(places: Points, apart: float) -> Points:
+    """Say how far each member must move, (..., N), so that no two are nearer than `apart`: half each.
+
+    Examples
+    --------
+    >>> push_apart(np.array([0j, 0.4 + 0j]), 0.6).round(2)
+    array([-0.1+0.j,  0.1+0.j])
+    """
+    gap = places[..., :, None] - places[..., None, :]
+    far = np.abs(gap) + 1e9 * np.eye(places.shape[-1])
+    return np.asarray(np.where(far < apart, gap / far * (apart - far) / 2, 0).sum(-1))
+
+
+def simulate(
+    count: int, seconds: float, *, rules: Flock | None = None, seed: int = 0, settle: float = 20.0
+) -> Trajectories:
+    """Let a flock wander over open ground.
+
+    Parameters
+    ----------
+    count : members, from 2 on.
+    seconds : how long, after `settle` seconds that are left out.
+    rules : their figures.
+    seed : of the start, the drifting heading of the group, and the whims.
+
+    Raises
+    ------
+    MocapError : for fewer than two members, and a time that is not above 0.
+
+    Examples
+    --------
+    >>> flock = simulate(6, 30)
+    >>> flock.places.shape, bool(nearest_two(flock.places).min() > APART)
+    ((300, 6), True)
+    """
+    if count < 2:
+        raise MocapError(f"A group has two members or more, got {count}.")
+    if not (np.isfinite(seconds) and seconds > 0):
+        raise MocapError(f"A flock is simulated for more than 0 seconds, got {seconds}.")
+    rules, random = rules or Flock(), np.random.default_rng(seed)
+    start = random.normal(0, 1.5, (2, count))
+    now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
+    whims, heading, bend, frames = Whims((count,), rules, random), 0.0, 0.0, []
+    for _ in range(round((seconds + settle) * RATE)):
+        bend += -bend / 3.0 / RATE + np.sqrt(1 / RATE) * 0.25 * random.normal()
+        heading += np.clip(bend, -0.5, 0.5) / RATE
+        now = advance(now, np.exp(1j * heading) * whims.drift(), rules)
+        frames.append(now)
+    places, velocities = (np.array(part) for part in zip(*frames[round(settle * RATE) :], strict=True))
+    return Trajectories(places, velocities)
+
+
+def nearest_two(places: Points) -> Array:
+    """Measure the least distance of any two members in each frame, (F,) of (F, N).
+
+    Examples
+    --------
+    >>> nearest_two(np.array([[0j, 3 + 4j, 1j]]))
+    array([1.])
+    """
+    gap = np.abs(places[..., :, None] - places[..., None, :])
+    return np.asarray((gap + 1e9 * np.eye(places.shape[-1])).min(axis=(-2, -1)))
+
+
+def _unit(vectors: Points) -> Points:
+    return np.asarray(vectors / np.maximum(np.abs(vectors), 1e-9))

@@ -1,0 +1,121 @@
+"""Plans pass all points and clear all obstacles; a pocket holds who only steers."""
+
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError, NoWalk
+from mocap.groups.flocking import APART, RATE, Trajectories, nearest_two
+from mocap.groups.group_graphs import Placed, play_group
+from mocap.groups.group_steering import clearances, steer_group
+from mocap.groups.planning import Scene, plan_group
+from tests.groups.built import course, graph, pocket
+
+
+def walked(found, start=None):
+    """What the group does until it passes the last point."""
+    played = play_group(graph(), found.clips, start)
+    frames = round(found.seconds * RATE) + 1
+    return Trajectories(played.places[:frames], played.velocities[:frames])
+
+
+def passed(flock, scene):
+    """Count the points that the middle passes, in order."""
+    middle, goal = flock.places.mean(axis=1), 0
+    for place in middle:
+        while goal < len(scene.points) and abs(place - scene.points[goal]) < scene.near:
+            goal += 1
+    return goal
+
+
+def test_ten_of_twelve_courses_are_found_and_every_one_is_clear():
+    found = 0
+    for seed in range(12):
+        scene = course(seed)
+        try:
+            flock = walked(plan_group(graph(), scene))
+        except NoWalk:
+            continue
+        found += 1
+        assert passed(flock, scene) == len(scene.points)
+        assert clearances(flock, scene).min() >= scene.body - 1e-9
+        assert nearest_two(flock.places).min() >= APART
+    assert found >= 10
+
+
+@pytest.mark.parametrize("seed", [1, 4, 5])
+def test_bounds_spare_most_tests_and_change_nothing(seed):
+    quick, slow = (plan_group(graph(), course(seed), bounds=bounds) for bounds in (True, False))
+    assert quick.clips == slow.clips and slow.spared == 0
+    assert quick.spared >= 0.7 * (quick.spared + quick.tested)
+    assert quick.spared + quick.tested >= slow.tested
+
+
+@pytest.mark.parametrize("depth", [4.5, 7.0])
+def test_a_plan_leaves_the_pocket_that_steering_never_leaves(depth):
+    scene = pocket(depth)
+    flock = walked(plan_group(graph(), scene))
+    assert passed(flock, scene) == 1 and clearances(flock, scene).min() >= scene.body - 1e-9
+    stuck, points = steer_group(graph().nodes[0], scene, limit=60.0)
+    assert points == 0 and stuck.places[-1].real.mean() < 16
+
+
+def test_on_open_ground_steering_is_enough():
+    scene = Scene((10 + 2j, 18 - 3j))
+    flock, points = steer_group(graph().nodes[0], scene)
+    assert points == 2 and passed(flock, scene) == 2
+
+
+def test_more_weight_finds_a_way_with_fewer_states():
+    few, many = (plan_group(graph(), course(5), weight=weight).expanded for weight in (3.0, 1.5))
+    assert few < many
+
+
+def test_two_groups_pass_each_other():
+    """The second plans around the first, frame by frame, and needs more than the bounds to know."""
+    first = walked(plan_group(graph(), Scene((24 + 0j,))))
+    back = Placed(0, -1 + 0j, 24 + 0j)
+    alone = plan_group(graph(), Scene((0j,)), start=back)
+    careful = plan_group(graph(), Scene((0j,), others=tuple(first.places.T[:, :, None])), start=back)
+
+    def gap(found):
+        flock = walked(found, back)
+        frames = np.minimum(np.arange(len(flock.places)), len(first.places) - 1)
+        return np.abs(flock.places[:, :, None] - first.places[frames][:, None]).min()
+
+    assert gap(alone) < APART <= gap(careful)
+    assert careful.spared > 0
+
+
+def test_the_goal_may_be_passed_within_the_first_clip():
+    found = plan_group(graph(), Scene((1.5 + 0j,)))
+    assert len(found.clips) == 1 and found.seconds < 4
+
+
+def test_where_no_way_is_found_it_says_how_far_it_came():
+    ring = tuple((3.5 * np.exp(2j * np.pi * k / 16), 0.8) for k in range(16))
+    with pytest.raises(NoWalk, match=r"No way past point 1 of 1 was found: obstacles closed every way"):
+        plan_group(graph(), Scene((20 + 0j,), ring))
+    with pytest.raises(NoWalk, match=r"past point 1 of 1 was found: the limit of 5 states"):
+        plan_group(graph(), Scene((60 + 0j,)), most=5)
+
+
+@pytest.mark.parametrize(
+    ("scene", "sentence"),
+    [
+        (Scene(()), "one point to pass or more"),
+        (Scene((complex(np.nan),)), "all finite"),
+        (Scene((9j,), ((5j, 0.0),)), "a radius above 0"),
+        (Scene((9j,), ((complex(np.inf), 1.0),)), "An obstacle has a centre"),
+        (Scene((9j,), ((0.2 + 0.1j, 1.0),)), "starts inside the obstacle at x=0.1, z=0.2"),
+    ],
+)
+def test_scenes_that_make_no_sense_are_refused(scene, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        plan_group(graph(), scene)
+    with pytest.raises(MocapError, match=sentence):
+        steer_group(graph().nodes[0], scene)
+
+
+def test_a_start_that_is_no_node_is_refused():
+    with pytest.raises(MocapError, match="There is no node 99"):
+        plan_group(graph(), Scene((9 + 0j,)), start=Placed(99))
