@@ -7,12 +7,18 @@ Reading order (notebooks 00 to 10)
 ----------------------------------
 1. `player`: a motion that plays, on a page or in a notebook
 2. `live_player`: players that Python and the reader move together, and a canvas to draw a path on
-3. `experiments`: a picture with controls
-4. `pointing`: an image to click on
-5. `dragging`: handles to drag on an experiment's picture
-6. `reopening`: live while Python runs, a picture when the notebook is opened again
-7. `recording`: positions of an experiment, as pictures for pages without Python
-8. `film`: a motion as a film, a strip of poses or a page
+3. `live_mixing`: a blend whose weights sliders change while it plays
+4. `experiments`: a picture with controls
+5. `pointing`: an image to click on
+6. `dragging`: handles to drag on an experiment's picture
+7. `reopening`: live while Python runs, a picture when the notebook is opened again
+8. `recording`: positions of an experiment, as pictures for pages without Python
+9. `film`: a motion as a film, a strip of poses or a page
+
+References
+----------
+.. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
+   doi 10.5555/846276.846307.
 """
 
 import lazy_loader
@@ -22,6 +28,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "player": ["Player", "play"],
         "live_player": ["draw_path", "linked"],
+        "live_mixing": ["Mixer"],
         "experiments": ["Experiment", "explore", "step_aside"],
         "pointing": ["Pointed", "pointer"],
         "dragging": ["Dragged", "handles"],
