@@ -15,9 +15,8 @@ import json
 import re
 import textwrap
 from collections.abc import Iterator
-from importlib import import_module
-from operator import attrgetter
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 from mocap._shared.atomic import write_text
@@ -86,7 +85,7 @@ def shown_source(name: str) -> str:
 
     Parameters
     ----------
-    name : ROOM.FILE.FUNCTION, or ROOM.FILE.CLASS.METHOD.
+    name : ROOM.FILE.FUNCTION, or ROOM.FILE.CLASS.METHOD; a file in a folder is FOLDER.FILE.
 
     Examples
     --------
@@ -94,8 +93,7 @@ def shown_source(name: str) -> str:
     def about_y(angles):
         ...
     """
-    room, file, function = name.split(".", 2)
-    text = textwrap.dedent(inspect.getsource(attrgetter(function)(import_module(f"mocap.{room}.{file}"))))
+    text = textwrap.dedent(inspect.getsource(resolve_name(f"mocap.{name}")))
     node = ast.parse(text).body[0]
     assert isinstance(node, ast.FunctionDef)
     body = node.body[1:] if ast.get_docstring(node) is not None else node.body
