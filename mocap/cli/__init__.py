@@ -11,6 +11,6 @@ Reading order
  7. `loop`: the best cycle in a clip, closed
  8. `view`: play a clip in the browser
  9. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
-10. `editing`: commands that change one clip: `mocap warp`, `mocap retarget`
+10. `editing`: commands that change one clip: `mocap warp`, `mocap bend`, `mocap retarget`
 11. `main`: all of them under one name
 """

@@ -12,6 +12,7 @@ import mocap
 from mocap.cli.blend import add_blend
 from mocap.cli.course import add_course, add_lab
 from mocap.cli.demo import add_demo
+from mocap.cli.editing.bend import add_bend
 from mocap.cli.editing.retarget import add_retarget
 from mocap.cli.editing.warp import add_warp
 from mocap.cli.files import add_convert, add_data, add_info
@@ -45,6 +46,7 @@ def _parser() -> argparse.ArgumentParser:
         add_info,
         add_convert,
         add_warp,
+        add_bend,
         add_loop,
         add_retarget,
         add_data,

@@ -77,6 +77,7 @@ def whole(low: int, high: int) -> Callable[[str], int]:
 
 
 LENGTH, CM, SEED = number(1e-6, 1e6), number(0.001, 1000), whole(0, 2**32 - 1)
+TURN = number(1, 3600)  # degrees per second
 
 
 def add_reading(command: argparse.ArgumentParser) -> None:

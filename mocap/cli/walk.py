@@ -1,13 +1,14 @@
 """The command `mocap walk`: a walk through a saved graph, along a path or at random."""
 
 import argparse
+import math
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import body, files, graphs, steering, synthesis, variants
 from mocap._shared.atomic import require_writable
-from mocap.cli.options import LENGTH, SEED, SKELETON, bar, whole
+from mocap.cli.options import LENGTH, SEED, SKELETON, TURN, bar, whole
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ def add_walk(commands: "Commands") -> None:
     add("--unit", type=LENGTH, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
     wish = "kind of motion from that many metres along the path, as in 6.5:sneak; may be repeated"
     add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
+    bend = "lay the walk on the path, turned by up to so many degrees per second (without a number: 60)"
+    add("--bend", type=TURN, nargs="?", const=60.0, metavar="DEGREES", help=bend)
     add("--width", type=whole(1, 10_000), help="walks that the search keeps at a time (default: 100)")
     add("--clean", action="store_true", help="clean up footskate: planted feet stand still")
     add("--seed", type=SEED, help="seed of the random walk (default: 0)")
@@ -70,15 +73,15 @@ def _walk(options: argparse.Namespace) -> int:
     else:
         followed = _followed(options)
         print(f"{'walked':<12} {followed.report()}")
-        files.save(followed.motion(clean=options.clean), options.out)
+        files.save(followed.motion(clean=options.clean or bool(options.bend)), options.out)
     print(f"{'wrote':<12} {options.out}")
     return 130 if options.random is None and followed.found.stopped else 0
 
 
 def _require_together(options: argparse.Namespace) -> None:
     """Raise for options that would have no effect."""
-    if options.random is not None and (options.label or options.width or options.unit):
-        raise MocapError("--label, --width and --unit belong to --path, not to --random.")
+    if options.random is not None and (options.label or options.width or options.unit or options.bend):
+        raise MocapError("--label, --bend, --width and --unit belong to --path, not to --random.")
     if options.random is None and options.seed is not None:
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
     if options.scale and not options.clips:
@@ -89,7 +92,9 @@ def _followed(options: argparse.Namespace) -> "Followed":
     path = files.load_path(options.path, scale=options.unit)
     wishes = steering.Wishes(labels=[_label(text) for text in options.label])
     beam = steering.Beam(width=options.width or 100, progress=bar("searching"))
-    followed: Followed = steering.follow_path(_graph(options), path, wishes, beam=beam)
+    followed: Followed = steering.follow_path(
+        _graph(options), path, wishes, beam=beam, bend=math.radians(options.bend or 0)
+    )
     return followed
 
 

@@ -52,6 +52,7 @@ FILES = {
     "graph info": ["g.npz"],
     "walk": ["g.npz", "--random", "1s"],
     "convert": ["a.bvh", "c.amc"],
+    "bend": ["a.bvh", "--along", "l.csv", "-o", "w.bvh"],
     "blend": ["a.bvh", "a.bvh"],
     "retarget": ["a.bvh", "--to", "a.bvh", "-o", "r"],
     "warp": ["a.bvh", "--keys", "k.txt", "-o", "w.bvh", "--loose-feet"],
@@ -63,6 +64,7 @@ def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("hostile")
     load_save.save(wave(60, name="a"), place / "a.bvh")
     (place / "k.txt").write_text("at 30 hand 0 0.1 0")
+    (place / "l.csv").write_text("0,0\n0,3\n3,3\n")
     clip = load_save.load(place / "a.bvh")
     storage.save(prune(build([clip], window=10, threshold=0.05)), place / "g.npz")
     return place

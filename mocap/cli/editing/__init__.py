@@ -3,5 +3,6 @@
 Reading order
 -------------
 1. `warp`: `mocap warp`, keys out of a small text file
-2. `retarget`: `mocap retarget`, one body wears the clips of others
+2. `bend`: `mocap bend`, a walk laid on a line
+3. `retarget`: `mocap retarget`, one body wears the clips of others
 """
