@@ -7,7 +7,7 @@ Reading order
  3. `graph`: build a motion graph and save it, or describe a saved one
  4. `walk`: a walk through a saved graph, along a path or at random
  5. `blend`: clips blended as wholes, or one that passes into another
- 6. `files`: `mocap info`, `mocap convert`, `mocap data`
+ 6. `files`: `mocap info`, `mocap judge`, `mocap convert`, `mocap data`
  7. `loop`: the best cycle in a clip, closed
  8. `view`: play a clip in the browser
  9. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them

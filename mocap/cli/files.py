@@ -1,11 +1,14 @@
-"""The commands for clip files: `mocap info`, `mocap convert` and `mocap data`."""
+"""The commands for clip files: `mocap info`, `mocap judge`, `mocap convert` and `mocap data`."""
 
 import argparse
+import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import datasets, files, quality
-from mocap.cli.options import add_reading, bar, require_amc, whole
+from mocap.cli.options import LENGTH, add_reading, bar, require_amc, whole
+from mocap.errors import MocapError
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
@@ -29,6 +32,52 @@ def _info(options: argparse.Namespace) -> int:
     angles = files.read_angles(options.file, skeleton=options.skeleton)
     print(quality.inspect(motion, angles).table())
     return 0
+
+
+def add_judge(commands: "Commands") -> None:
+    """Add `mocap judge`."""
+    judge = commands.add_parser(
+        "judge",
+        help="measure motions, whatever made them, and rank them",
+        description="Measure motions, whatever program made them, and list the best first: jolts, trembling, "
+        "feet that sink, slide or skate, knees, joints that turn too fast, and how far from a path. Each "
+        "number is a share of its limit; above 1 it stands out beyond what captured people do. It cannot see "
+        "whether a motion is the one that was wanted, or looks alive.",
+    )
+    add = judge.add_argument
+    add(
+        "files",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help=".amc, .bvh or AMASS .npz files, or folders of them",
+    )
+    add_reading(judge)
+    add("--against", nargs="+", type=Path, default=[], metavar="CLIP", help="the clips that they are made of")
+    add("--path", type=Path, help="the path that they should follow, .csv or .svg")
+    add("--unit", type=LENGTH, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
+    add("--json", action="store_true", help="print all numbers as JSON")
+    judge.set_defaults(run=_judge)
+
+
+def _judge(options: argparse.Namespace) -> int:
+    """Judge, and return 2 if any file could not be."""
+    reading = {"skeleton": options.skeleton, "fps": options.fps, "scale": options.scale}
+    clips = [files.load(path, **reading) for path in files.find_files(options.against)]
+    path = files.load_path(options.path, scale=options.unit) if options.path else None
+    judged, failed = [], []
+    for file in bar("judging")(files.find_files(options.files)):
+        try:
+            judged.append(quality.judge(files.load(file, **reading), against=clips, path=path))
+        except MocapError as error:
+            failed.append(str(error))
+    if options.json:
+        print(json.dumps([one.as_dict() for one in judged], indent=1))
+    elif judged:
+        print(quality.judgement_table(judged))
+    for problem in dict.fromkeys([*(text for one in judged for text in one.left_out), *failed]):
+        print(f"mocap: {problem}", file=sys.stderr)
+    return 2 if failed else 0
 
 
 def add_convert(commands: "Commands") -> None:

@@ -15,7 +15,7 @@ from mocap.cli.demo import add_demo
 from mocap.cli.editing.bend import add_bend
 from mocap.cli.editing.retarget import add_retarget
 from mocap.cli.editing.warp import add_warp
-from mocap.cli.files import add_convert, add_data, add_info
+from mocap.cli.files import add_convert, add_data, add_info, add_judge
 from mocap.cli.graph import ACTIONS, add_graph
 from mocap.cli.loop import add_loop
 from mocap.cli.view import add_view
@@ -44,6 +44,7 @@ def _parser() -> argparse.ArgumentParser:
         add_walk,
         add_blend,
         add_info,
+        add_judge,
         add_convert,
         add_warp,
         add_bend,

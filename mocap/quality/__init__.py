@@ -10,6 +10,7 @@ Reading order (notebooks 01, 04, 09, 10)
 2. `seam_measures`: a seam in five numbers
 3. `blend_measures`: what the blend itself adds, sliding feet, turning knees
 4. `falling`: the centre of mass, and the gravity that a flight shows
+5. `judging`: any motion in nine numbers, each over its limit
 
 References
 ----------
@@ -24,6 +25,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "blend_measures": ["BlendJolts", "added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
         "clip_flaws": ["Flaw", "Report", "inspect"],
         "falling": ["SEGMENTS", "Segment", "centre_of_mass", "gravity"],
+        "judging": ["Judgement", "Measure", "judge", "judgement_table"],
         "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
     },
 )

@@ -1,12 +1,16 @@
 """`mocap info`, `mocap convert` and `mocap data`, as a person types them, and `files.conversion`."""
 
+import json
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from mocap.body.kinematics import joint_positions
+from mocap.body.motion import concatenate, resample
 from mocap.cli.main import main
+from mocap.datasets import samples
 from mocap.errors import MocapError
 from mocap.files import conversion, load_save
 from tests.strategies import wave
@@ -137,3 +141,31 @@ def test_the_list_of_data(capsys):
     assert "may not resell" in told.replace("\n", " ")
     assert main(["data", "list", "--subject", "5"]) == 2
     assert "No trial of subject 5" in capsys.readouterr().err
+
+
+def test_judge_ranks_files_and_names_what_it_could_not(clips, tmp_path, capsys):
+    walk = resample(samples.sample("walk_straight"), 30)[:200]
+    load_save.save(walk, tmp_path / "good.bvh")
+    gliding = replace(walk, root_positions=walk.root_positions * [0.7, 1, 0.7])
+    load_save.save(gliding, tmp_path / "glides.bvh")
+    load_save.save(concatenate([walk[:90], walk[120:]]), tmp_path / "cut.bvh")
+    (tmp_path / "broken.bvh").write_text("HIERARCHY")
+    (tmp_path / "path.csv").write_text("0,0\n0,9\n")
+    names = [str(tmp_path / f"{name}.bvh") for name in ("glides", "cut", "good")]
+    assert main(["judge", *names, "--path", str(tmp_path / "path.csv")]) == 0
+    head, *rows = capsys.readouterr().out.splitlines()
+    assert head.split()[:3] == ["name", "score", "jolt"]
+    assert "path" in head
+    assert rows[0].split()[:2] == ["good", "0.0"]
+    assert {row.split()[0] for row in rows[1:]} == {"glides", "cut"}
+    assert main(["judge", *names, str(clips / "a.bvh"), str(tmp_path / "broken.bvh"), "--json"]) == 2
+    said = capsys.readouterr()
+    found = {row["name"]: row for row in json.loads(said.out)}
+    assert set(found) == {"good", "glides", "cut", "a"}
+    assert found["good"]["score"] == 0 < found["cut"]["score"]
+    assert "broken.bvh: expected a line 'MOTION'" in said.err
+    assert "feet and knees: No legs found" in said.err
+    assert main(["judge", names[1], "--against", names[2]]) == 0
+    assert "jolt" in capsys.readouterr().out.splitlines()[1].split("0.0")[-1]
+    assert main(["judge", str(tmp_path / "broken.bvh")]) == 2
+    assert capsys.readouterr().out == ""

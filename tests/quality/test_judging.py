@@ -1,0 +1,142 @@
+"""Each flaw that is put into a walk is found by its own measure; captured people pass."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.blending.joining import join
+from mocap.body import rotations
+from mocap.body.ground_path import GroundPath
+from mocap.body.motion import Motion, concatenate, resample
+from mocap.datasets import samples
+from mocap.errors import MocapError
+from mocap.files import load_save
+from mocap.quality.judging import Judgement, Measure, judge, judgement_table
+from tests.strategies import wave
+
+WALK = resample(samples.sample("walk_straight"), 60)
+
+
+def turned(joint, angles, axis):
+    """Turn one joint of the walk by angles (F,), degrees, about an axis."""
+    local = WALK.rotations.copy()
+    place = WALK.skeleton.index(joint)
+    local[:, place] = rotations.multiply(
+        local[:, place], rotations.from_rotvec(np.outer(np.radians(angles), axis))
+    )
+    return replace(WALK, rotations=local)
+
+
+def trembling():
+    noise = np.random.default_rng(0).normal(size=(*WALK.rotations.shape[:2], 3))
+    return replace(WALK, rotations=rotations.multiply(WALK.rotations, rotations.from_rotvec(0.01 * noise)))
+
+
+def lopsided():
+    offsets = WALK.skeleton.offsets.copy()
+    offsets[WALK.skeleton.index("lradius")] *= 1.1
+    return replace(WALK, skeleton=replace(WALK.skeleton, offsets=offsets))
+
+
+FLAWS = {
+    "jolt": lambda: concatenate([WALK[:200], WALK[240:]]),
+    "tremble": trembling,
+    "sunk": lambda: replace(WALK, root_positions=WALK.root_positions - [0, 0.1, 0]),
+    "turn": lambda: turned("lhand", 90.0 * (np.arange(len(WALK)) == 100), [1, 0, 0]),
+    "lopsided": lopsided,
+    "slide": lambda: replace(WALK, root_positions=WALK.root_positions * [0.8, 1, 0.8]),
+    "skate": lambda: replace(WALK, root_positions=WALK.root_positions * [0.5, 1, 0.5]),
+    "knee": lambda: turned("ltibia", np.where(np.arange(len(WALK)) % 120 < 30, -40.0, 0.0), [1, 0, 0]),
+}
+
+
+@pytest.mark.parametrize("name", FLAWS)
+def test_each_flaw_is_found_by_its_own_measure(name):
+    good, bad = judge(WALK), judge(FLAWS[name]())
+    assert good.stand_out == []
+    assert name in [measure.name for measure in bad.stand_out]
+    assert bad.score > good.score == 0
+
+
+@pytest.mark.parametrize("name", ["walk_circle", "walk_curve_1", "sneak", "jog", "stop_and_go"])
+def test_the_bundled_clips_pass_at_any_rate(name):
+    for fps in (30, 60):
+        assert judge(resample(samples.sample(name), fps)[: 20 * fps]).stand_out == []
+
+
+def test_a_longer_flaw_is_a_worse_one():
+    scores = [
+        judge(replace(WALK, root_positions=WALK.root_positions * [share, 1, share])).score
+        for share in (1.0, 0.9, 0.8, 0.7, 0.5)
+    ]
+    assert scores == sorted(scores)
+    assert scores[0] == 0 < scores[2]
+
+
+def test_a_cut_stands_out_against_the_clips_and_a_blend_does_not():
+    cut, blend = concatenate([WALK[:200], WALK[240:]]), join(WALK, 250, WALK, 116, 20)
+    ratios = [judge(motion, against=[WALK]).measures[0].ratio for motion in (cut, blend)]
+    assert ratios[0] > 1 > ratios[1]
+
+
+def test_the_path_is_measured_where_one_is_given():
+    x, z = WALK.root_positions[:, [0, 2]].T
+    beside = GroundPath(np.stack([x + 0.3, z], axis=1))
+    (off,) = (m for m in judge(WALK, path=beside).measures if m.name == "path")
+    assert 25 < off.value <= 30 + 1e-6
+    assert off.ratio > 1
+    assert "path" not in [measure.name for measure in judge(WALK).measures]
+
+
+def test_a_body_without_known_legs_is_measured_without_its_feet():
+    judged = judge(wave(60))
+    assert [measure.name for measure in judged.measures] == ["jolt", "tremble", "sunk", "turn"]
+    assert judged.left_out[0].startswith("feet and knees: No legs found")
+    table = judgement_table([judged, judge(WALK)])
+    assert table.splitlines()[0].split()[-2:] == ["knee", "worst"]
+    assert " - " in table
+
+
+def test_one_who_does_not_move_is_no_fault():
+    still = Motion(
+        WALK.skeleton,
+        np.tile(WALK.root_positions[:1], (30, 1, 1))[:, 0],
+        np.tile(WALK.rotations[:1], (30, 1, 1)),
+        30.0,
+        "still",
+    )
+    assert judge(still).stand_out == []
+
+
+def test_json_holds_plain_numbers():
+    text = json.dumps(judge(WALK, against=[WALK]).as_dict())
+    assert json.loads(text)["frames"] == len(WALK)
+    assert json.loads(text)["measures"][0]["unit"] == "times the clips'"
+
+
+def test_the_score_counts_doublings_beyond_the_limits():
+    measures = (Measure("a", 4, 1, ""), Measure("b", 0.1, 1, ""), Measure("c", 2, 1, ""))
+    judged = Judgement("x", 9, 30.0, measures, ())
+    assert (judged.score, judged.worst.name, [m.name for m in judged.stand_out]) == (3.0, "a", ["a", "c"])
+
+
+def test_too_short_a_motion_is_refused():
+    with pytest.raises(MocapError, match="To judge 'wave' takes 12 frames or more, it has 11"):
+        judge(wave(11))
+    assert judge(wave(12)).frames == 12
+
+
+def test_captured_people_pass_and_flaws_are_ranked_behind_them(real_data):
+    good = ["cmu/02/02_01.amc", "cmu/16/16_35.amc", "bvh/olaf_bvh_toolbox/walk01.bvh"]
+    good += ["bvh/bandai_namco/dataset-2_walk_normal_001.bvh", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh"]
+    for name in good:
+        assert judge(load_save.load(real_data / name)).stand_out == [], name
+    # Smoothed limbs slide, compared with the same take; a body lies with its hands in the floor.
+    skates = {
+        name: {m.name: m.ratio for m in judge(load_save.load(real_data / name)).measures}
+        for name in ("bvh/imusim/16_15.bvh", "cmu/16/16_15.amc", "bvh/pybvh/bvh_test1.bvh")
+    }
+    assert skates["bvh/imusim/16_15.bvh"]["skate"] > 1 > skates["cmu/16/16_15.amc"]["skate"]
+    assert skates["bvh/pybvh/bvh_test1.bvh"]["sunk"] > 5
