@@ -9,7 +9,8 @@ was drawn as numbers, so that a test finds a stale picture, whichever version of
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,6 +24,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
@@ -36,6 +38,7 @@ from mocap import (
     control,
     datasets,
     diagrams,
+    editing,
     feet,
     graphs,
     matching,
@@ -45,7 +48,7 @@ from mocap import (
     steering,
     synthesis,
 )
-from mocap.body import GroundPath, figure_eight, joint_positions, rotations, velocities
+from mocap.body import GroundPath, arcs, figure_eight, joint_positions, planar, rotations, velocities
 from mocap.body.euler import from_euler
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
 
@@ -53,6 +56,7 @@ Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
 
 WINDOW = 10  # frames at 30 Hz
+WARPED = 238  # frame at 120 Hz: the key of the picture of warping
 
 
 @cache
@@ -436,6 +440,82 @@ def draw_steered() -> Figure:
     return figure
 
 
+def draw_levels() -> Figure:
+    """Draw a walk over a stone, before and after the edit, and what each level of splines leaves."""
+    walk = datasets.sample("walk_straight")[100:600]
+    start, stop = feet.runs(walk.contacts["ltoes"])[1].tolist()
+    names, pins = walk.skeleton.names, editing.plant_pins(walk)
+    left = np.array([names[joint] in ("lfoot", "ltoes") for joint in pins.joints])
+    up = np.zeros(pins.low.shape)
+    up[start:stop, left, 1] = 0.3
+    pins = editing.Pins(pins.joints, pins.low + up, pins.high + up)
+    figure = plt.figure(figsize=(9, 3.2), layout="constrained")
+    side, curve = figure.subplots(1, 2, width_ratios=[1.6, 1])
+    frames = range(start - 80, stop + 90, 60)
+    plotting.flat_bodies(walk, frames, alpha=0.25, ax=side)
+    plotting.flat_bodies(editing.edit(walk, pins, knots=(0.5, 0.25, 0.125)), frames, ax=side)
+    toes = joint_positions(walk)[start:stop, names.index("ltoes"), 2].mean()
+    side.add_patch(Rectangle((toes - 0.22, 0), 0.36, 0.3, color=plotting.FLOOR, zorder=0))
+    _, levels = editing.hierarchy(walk, pins)
+    curve.semilogy(range(1, 1 + len(levels)), [1000 * level.rms for level in levels], "o-", color=CURVES[0])
+    curve.set(xlabel="level", ylabel="left to the pins (mm)", title="from coarse to fine")
+    curve.set_xticks(range(1, 1 + len(levels)))
+    return figure
+
+
+def draw_registration() -> Figure:
+    """Draw the path of time through a grid, and a walk to the left and one to the right with their blend."""
+    figure = plt.figure(figsize=(9, 3.9), layout="constrained")
+    grid_axes, ground = figure.subplots(1, 2)
+    slow, brisk = (datasets.generate_walk([[0, 0], [0, 5]], speed=speed, seed=1) for speed in (0.8, 1.4))
+    grid = np.sqrt(matching.distance_grid(resample(slow, 30), resample(brisk, 30), window=5))
+    curve = blending.register([slow, brisk]).times[1]
+    plotting.warp_image(grid, matching.time_path(grid, slack=36), curve=curve, ax=grid_axes)
+    grid_axes.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="which frame belongs to which")
+    turns = [arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))]).points[::20] for turn in (120, -120)]
+    both = blending.register([datasets.generate_walk(path, speed=1.1, seed=1) for path in turns])
+    blends = [blending.mix(both, [1 - share, share]) for share in np.linspace(0, 1, 5)]
+    placed = [planar.place(blend, 0.0, [0, 0]) for blend in blends]
+    plotting.ground_tracks(placed, colours=[SOURCES[0], *[plotting.PATH] * 3, SOURCES[1]], ax=ground)
+    ground.set(title="left, right, and three blends of them")
+    return figure
+
+
+def draw_warping() -> Figure:
+    """Draw a hand that reaches for a post by one key, and a jump that is 20 cm higher."""
+    walk, jump = datasets.sample("walk_straight")[:480], datasets.sample("jump")
+    place = joint_positions(walk)[WARPED, walk.skeleton.index("rhand")] + [-0.15, 0.30, 0.15]
+    pose = editing.posed(walk, WARPED, {"rhand": place})
+    keys = editing.keys_around(walk, WARPED, pose)
+    reaching = editing.displaced(walk, editing.offsets(walk, keys))
+    apex = int(jump.root_positions[:, 1].argmax())
+    lifted = replace(
+        jump[apex : apex + 1], root_positions=jump.root_positions[apex] + np.array([[0, 0.2, 0]])
+    )
+    keys = [editing.Key(208, flat=True), editing.Key(apex, lifted), editing.Key(267, flat=True)]
+    higher = editing.displaced(jump, editing.offsets(jump, keys))
+    figure, axes = plt.subplots(2, 1, figsize=(8.4, 5.2), layout="constrained")
+    for ax, pair, frames in (
+        (axes[0], (walk, reaching), range(WARPED - 80, WARPED + 81, 20)),
+        (axes[1], (jump, higher), (60, 150, 190, 208, 222, 238, 253, 267, 290, 400)),
+    ):
+        for motion, alpha in zip(pair, (0.25, 1.0), strict=True):
+            plotting.flat_bodies(_side_by_side(motion, frames, 0.9), range(len(frames)), alpha=alpha, ax=ax)
+        ax.axhline(0, color=plotting.QUIET, linewidth=1)
+        ax.set_axis_off()
+    middle = 0.9 * 4 + place[2] - walk.root_positions[WARPED, 2]  # of the fifth body
+    axes[0].plot(middle, place[1], "o", color=ASKED, markersize=8)
+    return figure
+
+
+def _side_by_side(motion: Motion, frames: Sequence[int], metres: float) -> Motion:
+    """Put some poses of a motion in a row along z."""
+    roots = motion.root_positions[list(frames)].copy()
+    roots[:, 2] += metres * np.arange(len(frames)) - roots[:, 2]
+    turned = motion.rotations[list(frames)]
+    return Motion(motion.skeleton, roots, turned, motion.fps)
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "skeleton": draw_skeleton,
@@ -457,6 +537,9 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "angles": draw_angles,
     "dying_walks": draw_dying_walks,
     "added": draw_added,
+    "warping": draw_warping,
+    "levels": draw_levels,
+    "registration": draw_registration,
 }
 
 
