@@ -60,7 +60,6 @@ def test_tracks_have_the_ways_and_the_facings(pair):
     lines = ground_tracks([*pair.parts, blend])
     assert [line.get_color() for line in lines] == list(SOURCES[:3])
     assert lines[2].get_xdata() == pytest.approx(blend.root_positions[:, 0])
-    strokes = lines[2].axes.lines[-1].get_xydata()
-    ahead = strokes[1::3] - strokes[::3]
+    ahead = np.diff(lines[2].axes.collections[-1].get_segments(), axis=1)[:, 0]
     assert np.hypot(*ahead.T) == pytest.approx(0.25)
     assert np.abs(np.degrees(np.arctan2(*ahead.T))).max() < 30

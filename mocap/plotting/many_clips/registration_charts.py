@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
@@ -152,7 +152,6 @@ def ground_tracks(
         places = motion.root_positions[::step][:, [0, 2]]
         facing = heading(motion.rotations[::step, 0])
         ends = places + 0.25 * np.stack([np.sin(facing), np.cos(facing)], axis=-1)
-        strokes = np.stack([places, ends, np.full_like(ends, np.nan)], axis=1).reshape(-1, 2)
-        ax.plot(*strokes.T, color=colour, linewidth=1)
+        ax.add_collection(LineCollection(list(np.stack([places, ends], axis=1)), colors=colour, linewidths=1))
         ways.append(line)
     return ways
