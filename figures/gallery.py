@@ -48,7 +48,7 @@ from mocap import (
     steering,
     synthesis,
 )
-from mocap.body import GroundPath, arcs, figure_eight, joint_positions, planar, rotations, velocities
+from mocap.body import GroundPath, arcs, figure_eight, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
 
@@ -440,6 +440,13 @@ def draw_steered() -> Figure:
     return figure
 
 
+def draw_bent() -> Figure:
+    """Draw a walk that was straight, laid on a line that winds."""
+    walk = resample(datasets.sample("walk_straight"), 30)[:210]
+    line = editing.start_at(spline([[0, 0], [0, 1], [1.6, 3], [-0.4, 5], [0.6, 7]]), editing.ride_of(walk))
+    return plotting.bodies_along(editing.bend(walk, line).motion, path=line.points)
+
+
 def draw_levels() -> Figure:
     """Draw a walk over a stone, before and after the edit, and what each level of splines leaves."""
     walk = datasets.sample("walk_straight")[100:600]
@@ -516,6 +523,33 @@ def _side_by_side(motion: Motion, frames: Sequence[int], metres: float) -> Motio
     return Motion(motion.skeleton, roots, turned, motion.fps)
 
 
+def draw_retargeted() -> Figure:
+    """Draw an adult's walk, the same walk on a child, and how far the child's standing ball strays."""
+    walk = datasets.sample("walk_straight")[:360]
+    adult = editing.stance_of(walk)
+    child = editing.proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    worn = editing.retarget(walk, child, adult)
+    naive = replace(walk, skeleton=child.skeleton)
+    figure = plt.figure(figsize=(9, 3.6), layout="constrained")
+    bodies, strays = figure.subplots(1, 2, width_ratios=[1.5, 1])
+    for motion, up in ((walk, 0.0), (worn, -1.35)):
+        lifted = replace(motion, root_positions=motion.root_positions + np.array([0, up, 0]))
+        plotting.flat_bodies(lifted, range(20, 360, 45), ax=bodies)
+        bodies.axhline(up, color=plotting.QUIET, linewidth=1)
+    bodies.set(xlim=(-0.5, 3.7), ylim=(-1.45, 1.8), yticks=[], ylabel="", title="one walk, two bodies")
+    ball = child.skeleton.index("ltoes")
+    first, last = feet.runs(walk.contacts["ltoes"])[1]
+    seconds = np.arange(first, last) / walk.fps
+    for motion, name, colour in ((worn, "retargeted", CURVES[0]), (naive, "the same numbers", CURVES[1])):
+        places = joint_positions(motion)[first:last, ball]
+        away = 100 * np.linalg.norm(places - places.mean(axis=0), axis=1)
+        strays.plot(seconds, away, color=colour, label=name)
+    strays.set(xlabel="seconds", ylabel="cm from its mean place", title="the child's standing left ball")
+    strays.set_ylim(-1, 16)
+    strays.legend(frameon=False)
+    return figure
+
+
 PICTURES: dict[str, Callable[[], Figure]] = {
     "walk": draw_walk,
     "skeleton": draw_skeleton,
@@ -529,12 +563,14 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "components": draw_components,
     "path": draw_path,
     "steered": draw_steered,
+    "bent": draw_bent,
     "search": draw_search,
     "bound": draw_bound,
     "seam": draw_seam,
     "feet": draw_feet,
     "match": draw_match,
     "angles": draw_angles,
+    "retargeted": draw_retargeted,
     "dying_walks": draw_dying_walks,
     "added": draw_added,
     "warping": draw_warping,
