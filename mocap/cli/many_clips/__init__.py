@@ -1,0 +1,6 @@
+"""Commands for many clips at once.
+
+Reading order
+-------------
+1. `find`: `mocap find`, all motions like an example
+"""
