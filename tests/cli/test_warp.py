@@ -59,8 +59,8 @@ def test_the_move_is_by_the_bodys_own_directions(folder):
     turned = sample("walk_circle")[1200:1500]
     key = plan(folder, "at 150 lhand 0.10 0.2 0.05")
     moved = joint_positions(warp(turned, key))[150, HAND] - joint_positions(turned)[150, HAND]
-    assert np.linalg.norm(moved) == pytest.approx(np.linalg.norm([0.1, 0.2, 0.05]), abs=1e-4)
-    assert moved[1] == pytest.approx(0.2, abs=1e-4)
+    assert np.linalg.norm(moved) == pytest.approx(np.linalg.norm([0.1, 0.2, 0.05]), abs=1e-3)
+    assert moved[1] == pytest.approx(0.2, abs=1e-3)
     assert np.abs(moved - [0.1, 0.2, 0.05]).max() > 0.02
 
 

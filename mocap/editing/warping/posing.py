@@ -15,13 +15,19 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.editing.linear_bodies import Body, body_of, require_reachable
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
 from mocap.editing.reaching import reach
 from mocap.errors import MocapError
 
-WEIGHT = 1000.0  # of the places against the turns; a key is then met to a hundredth of a millimetre
-HEAVY = 1e12  # the price of a metre of a root that is held
+WEIGHT = 3000.0  # of the places against the turns; a key is then met to a hundredth of a millimetre
+PASSES = 60  # at most; a root that is held asks for about 40, other poses for 7
+HEAVY = 1e10  # how many times its price a metre of a root costs that is held
+
+# How many times their prices the root and the joints of the trunk cost. With 1 the trunk leans by 30° so that
+# a hand moves by 30 cm, and the arm hardly turns; people move the arm first.
+TRUNK = 16.0
 
 
 def posed(
@@ -74,7 +80,7 @@ def posed(
     require_reachable(motion, pins)
     body = _body(motion, pins.joints, tuple(still))
     now = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
-    return replace(reach(now, pins.at([frame]), body, weight=WEIGHT).motion, name=motion.name)
+    return replace(reach(now, pins.at([frame]), body, weight=WEIGHT, passes=PASSES).motion, name=motion.name)
 
 
 @lru_cache(maxsize=1)
@@ -86,10 +92,17 @@ def _standing(motion: Motion) -> Pins:
 @lru_cache(maxsize=1)
 def _body(motion: Motion, pinned: tuple[int, ...], still: tuple[str, ...]) -> Body:
     """Choose the joints that turn; a root that is still does not move either."""
-    body = body_of(motion, pinned, still=still)
-    if motion.skeleton.names[0] in still:
-        body = replace(body, price=np.append(np.full(3, HEAVY), body.price[3:]))
-    return body
+    body = body_of(motion, pinned, prices=dict.fromkeys(_trunk(motion.skeleton), TRUNK), still=still)
+    root = HEAVY if motion.skeleton.names[0] in still else TRUNK
+    return replace(body, price=np.append(root * body.price[:3], body.price[3:]))
+
+
+def _trunk(skeleton: Skeleton) -> list[str]:
+    """Name the joints with a third of the body, or more, below them; a leg or an arm has less."""
+    below = np.ones(len(skeleton))
+    for joint in range(len(skeleton) - 1, 0, -1):  # a parent stands before its children
+        below[skeleton.parents[joint]] += below[joint]
+    return [name for name, share in zip(skeleton.names, below / len(skeleton), strict=True) if share > 1 / 3]
 
 
 def _box(place: ArrayLike) -> tuple[Array, Array]:
