@@ -117,7 +117,7 @@ def _convert(options: argparse.Namespace) -> int:
 
 
 def add_data(commands: "Commands") -> None:
-    """Add `mocap data list`."""
+    """Add `mocap data list` and `mocap data sets`."""
     data = commands.add_parser("data", help="list clips to download", description="List clips to download.")
     actions = data.add_subparsers(title="actions", required=True, metavar="ACTION")
     listing = actions.add_parser(
@@ -128,6 +128,8 @@ def add_data(commands: "Commands") -> None:
     listing.add_argument("--subject", type=whole(1, 999), help="only this person's trials")
     listing.add_argument("--kind", help="only trials with this word in their description")
     listing.set_defaults(run=_list)
+    what = "list the named sets that datasets.from_set reads, with their licences and joints"
+    actions.add_parser("sets", help=what, description=f"{what.capitalize()}.").set_defaults(run=_sets)
 
 
 def _list(options: argparse.Namespace) -> int:
@@ -136,4 +138,14 @@ def _list(options: argparse.Namespace) -> int:
     for trial in trials:
         print(f"{trial.name:<8} {trial.frames:>6}  {trial.description}")
     print(f"\n{datasets.TERMS}")
+    return 0
+
+
+def _sets(_: argparse.Namespace) -> int:
+    for name, known in datasets.SETS.items():
+        print(f"{name:<12} {known.title}")
+        rows = [("licence", known.licence), ("address", known.address), ("rate", f"{known.fps:g} Hz")]
+        rows += [("hips", known.hips), ("left leg", ", ".join(known.legs))]
+        rows += [("at hand", f"{len(datasets.list_set(name))} clips")]
+        print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows))
     return 0
