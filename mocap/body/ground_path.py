@@ -56,8 +56,8 @@ class GroundPath:
 
     def at(self, along: ArrayLike) -> Array:
         """Give the points (..., 2) that lie `along` metres from the start; past either end, that end."""
-        along = np.asarray(along, float)
-        return np.stack([np.interp(along, self.along, axis) for axis in self.points.T], axis=-1)
+        along, places = np.asarray(along, float), self.along
+        return np.stack([np.interp(along, places, axis) for axis in self.points.T], axis=-1)
 
     def resampled(self, spacing: float) -> GroundPath:
         """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by as much."""

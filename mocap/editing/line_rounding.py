@@ -104,19 +104,18 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     """
     even = path.resampled(SPACING)
     asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)
-    own = np.diff(moving_frames(ride.path, ride.along).angle) * fps
-    widest = (
-        np.diff(ride.along).max(initial=0.0) * fps / limit / spacing
-    )  # the radius at full speed, in cells
+    widest = np.diff(ride.along).max(initial=0.0) * fps / limit / spacing  # the radius, in cells
     asked = _opened(asked, spacing, widest)
+    walked = ride.along[ride.along <= np.abs(np.diff(asked)).sum()]  # to round a line makes it shorter
+    own = np.diff(moving_frames(ride.path, walked).angle) * fps
     reach = np.full(len(asked), SMOOTH / spacing)
     while True:
         line = _smoothed(asked, reach**4)
         along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
         rounded = GroundPath(from_ground(line))
-        rate = np.diff(moving_frames(rounded, ride.along).angle) * fps
+        rate = np.diff(moving_frames(rounded, walked).angle) * fps
         fast = np.abs(rate) > limit + np.maximum(np.sign(rate) * own, 0)
-        places = ride.along[1:][fast & (ride.along[1:] < along[-1])]
+        places = walked[1:][fast & (walked[1:] < along[-1])]
         near = np.unique(np.searchsorted(along, places))
         near = near[reach[near] < WIDEST * widest]
         if not len(near):

@@ -136,25 +136,26 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
     if not (np.isfinite(chord) and chord > 0):
         raise MocapError(f"A chord reaches more than 0 m before and after, got chord={chord}.")
     along = np.asarray(along, float)
-    way = _points(path, along + chord, chord) - _points(path, along - chord, chord)
+    place, ahead, behind = _points(path, np.stack([along, along + chord, along - chord]), chord)
+    way = ahead - behind
     defined = np.abs(way) > CLOSEST  # not where the path comes back on itself
     angle = np.zeros(len(along))
     if defined.any():
         frames = np.arange(len(along))
         angle = np.interp(frames, frames[defined], np.unwrap(np.angle(way[defined])))
-    place = _points(path, along, chord)
     return PlanarTransform(angle, place.imag, place.real)
 
 
 def _points(path: GroundPath, along: Array, chord: float) -> Array:
-    """Give the points `along` metres from the start as complex numbers; beyond the ends straight on."""
+    """Give the points `along` (...) metres from the start as complex numbers; beyond the ends straight on."""
     ends = on_ground(path.points[[0, -1]])
-    inner = on_ground(path.at([min(chord, path.length), max(path.length - chord, 0)]))
+    length = path.length
+    inner = on_ground(path.at([min(chord, length), max(length - chord, 0)]))
     way = np.array([inner[0] - ends[0], ends[1] - inner[1]])
     steps = np.diff(on_ground(path.points))[[0, -1]]
     way = np.where(np.abs(way) > CLOSEST, way, steps)
     way /= np.abs(way)
-    beyond = np.minimum(along, 0) * way[0] + np.maximum(along - path.length, 0) * way[1]
+    beyond = np.minimum(along, 0) * way[0] + np.maximum(along - length, 0) * way[1]
     return np.asarray(on_ground(path.at(along)) + beyond)
 
 
