@@ -52,6 +52,8 @@ def roles(skeleton: Skeleton, told: Mapping[str, str] | None = None) -> dict[str
     >>> found = roles(SKELETON)
     >>> [SKELETON.names[found[role]] for role in ("pelvis", "waist", "chest", "neck", "left wrist")]
     ['root', 'lowerback', 'thorax', 'lowerneck', 'lwrist']
+
+    Notebook: 13-retargeting
     """
     told = dict(told or {})
     if unknown := [role for role in told if role not in ROLES]:

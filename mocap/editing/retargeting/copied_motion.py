@@ -75,6 +75,8 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     >>> same = copied(walk, stance, stance)
     >>> bool(abs(joint_positions(same) - joint_positions(walk)).max() < 1e-12)
     True
+
+    Notebook: 13-retargeting
     """
     source.skeleton.require_same(motion.skeleton)
     ratio = target.leg / source.leg

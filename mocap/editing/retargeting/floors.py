@@ -44,6 +44,8 @@ def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None 
     >>> ankle = pins.low[:, 0, 1]  # held at one height, or free
     >>> np.unique(ankle[np.isfinite(ankle)]).round(3)
     array([0.068])
+
+    Notebook: 13-retargeting
     """
     positions, several = joint_positions(motion), []
     settled = settled_marks(motion, stance.legs)

@@ -35,6 +35,8 @@ def proportioned(
     >>> child = proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
     >>> round(child.leg / adult.leg, 3)
     0.55
+
+    Notebook: 13-retargeting
     """
     given = {"legs": legs, "trunk": trunk, "arms": arms, "head": head}
     for name, share in given.items():
@@ -45,7 +47,7 @@ def proportioned(
             if f"{side} {part}" in stance.roles}  # fmt: skip
     tops |= {stance.roles["neck"]: "head"} if "neck" in stance.roles else {}
     old = stance.skeleton
-    shares = np.full(len(old), trunk)
+    shares = np.full(len(old), float(trunk))
     for joint in range(1, len(old)):
         over = [tops[above] for above in ancestors(old, joint)[1:] if above in tops]
         shares[joint] = given[over[0]] if over else trunk

@@ -72,6 +72,8 @@ def retarget(
     >>> worn = retarget(walk, child)
     >>> [round(float(clip.root_positions[-1, 2] - clip.root_positions[0, 2]), 2) for clip in (walk, worn)]
     [2.12, 1.17]
+
+    Notebook: 13-retargeting
     """
     source = stance_of(motion) if source is None else source
     target = body if isinstance(body, Stance) else standing_like(body, source)

@@ -229,6 +229,8 @@ def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stanc
     >>> from mocap.datasets import sample
     >>> stance_of(sample("walk_straight")).turns[0]
     array([1., 0., 0., 0.])
+
+    Notebook: 13-retargeting
     """
     who = roles(motion.skeleton, told)
     turns = np.tile(rotations.IDENTITY, (len(motion.skeleton), 1))

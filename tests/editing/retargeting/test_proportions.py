@@ -26,6 +26,13 @@ def test_each_part_has_its_share():
     assert new.leg == pytest.approx(0.5 * adult().leg)
 
 
+def test_whole_numbers_are_numbers():
+    assert np.allclose(
+        proportioned(adult(), trunk=1, legs=0.5).skeleton.offsets[2:4],
+        adult().skeleton.offsets[2:4] * [[1], [0.5]],
+    )
+
+
 def test_a_body_without_a_neck_has_its_head_on_the_trunk():
     body = without(walk(), "lowerneck", "upperneck")
     new = proportioned(stance_of(body), head=0.5, trunk=0.9)
