@@ -125,6 +125,16 @@ def test_capsules_are_closed_and_face_outwards():
         assert {(b, a) for a, b in edges} == set(edges)
 
 
+def test_a_head_is_a_ball_whether_a_bone_starts_there_or_not():
+    neck = ["hips", "neck", "Head"]
+    for names, parents in ((neck, [-1, 0, 1]), ([*neck, "Head_end"], [-1, 0, 1, 2])):
+        offsets = [[0, 0, 0], [0, 0.6, 0], [0, 0.1, 0], [0, 0.15, 0]][: len(names)]
+        shape = capsules.body(Skeleton(names, parents, offsets))
+        ball = shape.places[shape.joints == 2]
+        width, height = np.ptp(ball, axis=0)[[0, 1]]
+        assert 0.08 < width < height < 2 * width
+
+
 def test_a_large_skeleton_counts_corners_in_32_bits():
     count = 1200
     chain = Skeleton([f"j{n}" for n in range(count)], np.arange(count) - 1, np.eye(3)[np.zeros(count, int)])

@@ -5,6 +5,8 @@ thicker than a shank, and a shank than a toe. So a body of any size and with any
 one, without a table of names; only a head is known by its name.
 """
 
+import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +21,9 @@ RINGS = (-90, -50, -15, 15, 50, 90)  # degrees from the middle of a ball up to i
 LEAST = 1e-4  # of the longest limb: a shorter bone gets no capsule
 THICK = 0.06  # of the geometric mean of the longest limb and of what is left of it behind a joint
 HEAD = 0.075  # of the longest limb: the radius of a head
+
+
+Piece = tuple[int, Array, Array, NDArray[np.intp]]  # a joint; places, normals and corners around it
 
 
 class Mesh(NamedTuple):
@@ -72,20 +77,10 @@ def body(skeleton: Skeleton) -> Mesh:
     >>> body(Skeleton(["hip", "knee"], [-1, 0], [[0, 0, 0], [0, -0.4, 0]])).places.min(axis=0).round(2)
     array([-0.02, -0.42, -0.02])
     """
-    behind, places = reaches(skeleton), rest(skeleton)
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    longest = behind[0] or 1.0
-    pieces = []
-    for joint in range(1, len(skeleton)):
-        parent = int(skeleton.parents[joint])
-        if lengths[joint] > LEAST * longest:
-            radius = THICK * np.sqrt(longest * (lengths[joint] + behind[joint]))
-            start, bone = places[parent], skeleton.offsets[joint]
-            if "head" in skeleton.names[parent].lower():  # a ball rather than a limb
-                start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, HEAD * longest)
-            pieces.append((parent, *_capsule(start, bone, radius)))
+    longest = reaches(skeleton)[0] or 1.0
+    pieces = [*_bones(skeleton, longest), *_heads(skeleton, longest)]
     if not pieces:
-        pieces.append((0, *_capsule(places[0], np.zeros(3), THICK * longest)))
+        pieces.append((0, *_capsule(np.zeros(3), np.zeros(3), THICK * longest)))
     counts = np.cumsum([0, *(len(points) for _, points, _, _ in pieces)])
     return Mesh(
         np.vstack([points for _, points, _, _ in pieces]),
@@ -93,6 +88,35 @@ def body(skeleton: Skeleton) -> Mesh:
         np.repeat([joint for joint, *_ in pieces], np.diff(counts)),
         np.vstack([start + corners for start, (*_, corners) in zip(counts[:-1], pieces, strict=True)]),
     )
+
+
+def _bones(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
+    """Give a capsule for each bone; around one that starts at a head, it is a ball rather than a limb."""
+    behind, places = reaches(skeleton), rest(skeleton)
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    for joint in range(1, len(skeleton)):
+        parent = int(skeleton.parents[joint])
+        if lengths[joint] > LEAST * longest:
+            radius = THICK * np.sqrt(longest * (lengths[joint] + behind[joint]))
+            start, bone = places[parent], skeleton.offsets[joint]
+            if _is_head(skeleton, parent):
+                start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, HEAD * longest)
+            yield parent, *_capsule(start, bone, radius)
+
+
+def _heads(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
+    """Give a ball for each head from which no bone starts, further along the bone that leads to it."""
+    places, radius = rest(skeleton), HEAD * longest
+    for joint in range(1, len(skeleton)):
+        length = np.linalg.norm(skeleton.offsets[joint])
+        if _is_head(skeleton, joint) and not skeleton.children(joint) and length > 0:
+            centre = places[joint] + 0.7 * radius * skeleton.offsets[joint] / length
+            yield joint, *_capsule(centre, np.zeros(3), radius)
+
+
+def _is_head(skeleton: Skeleton, joint: int) -> bool:
+    name = skeleton.names[joint].lower()
+    return "head" in name and not re.search("head.*(end|top|nub|site)", name)
 
 
 def _capsule(start: Array, bone: Array, radius: float) -> tuple[Array, Array, NDArray[np.intp]]:
