@@ -75,11 +75,24 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
     array([0.   , 0.333, 1.333, 0.333, 0.   ])
     """
     _require_data(basis, data, at)
-    weights = basis[at]  # w_ij, shape (N, K)
+    return local_heights(basis[at], np.asarray(data, float))
+
+
+def local_heights(weights: sparse.csr_array, data: Array) -> Array:
+    """Give the control points c (K, n) of `scattered_fit`, from w (N, K) and u (N, n).
+
+    Examples
+    --------
+    >>> local_heights(sparse.csr_array([[0.0, 0.5, 0.5]]), np.array([[1.0]])).T
+    array([[0., 1., 1.]])
+
+    Notebook: 14-levels
+    """
     squared = weights.power(2)
     above = (squared * weights).T @ (data / squared.sum(axis=1)[:, None])
-    below = np.asarray(squared.sum(axis=0))[:, None]
-    return np.asarray(np.divide(above, below, out=np.zeros_like(above), where=below > 0))
+    below = squared.sum(axis=0)[:, None]
+    heights = np.divide(above, below, out=np.zeros_like(above), where=below > 0)
+    return np.asarray(heights)
 
 
 def _require_data(basis: sparse.csr_array, data: Array, at: Indices) -> None:
