@@ -25,10 +25,10 @@ files            motion files by their suffix, whole folders of them; paths from
 matching         which moments are alike: metrics, distance grids, transitions (02, 05)
 feet             feet that stand still: footplants, footskate clean-up (04)
 blending         from one motion into another: blends, inertialization (04)
-quality          numbers that judge clips and seams (01, 04, 09, 10)
+quality          numbers that judge clips and seams (01, 04, 09 to 11)
 editing          the motion itself changed: keys, pins, paths, other bodies (11 to 14)
-datasets         clips to start with: bundled ones, the CMU database (01, 10)
-variants         more clips out of one: its mirror image, the cycle in it
+datasets         clips to start with: bundled ones, the CMU database (01, 10, 11)
+variants         more clips out of one: its mirror image, the cycle in it (10)
 graphs           motion graphs: build, prune, choose a threshold, save (05, 06)
 match_webs       all motions like an example, and spaces of blends between them (16)
 synthesis        walks through a graph, at random or by search, and their motions (07)

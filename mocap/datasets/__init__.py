@@ -3,7 +3,7 @@
 The bundled clips are generated: footsteps planned along a path, a few harmonics for each joint, and inverse
 kinematics for the legs. The course does not need to know how: files 5 to 10 can be read last.
 
-Reading order (notebooks 01, 10)
+Reading order (notebooks 01, 10, 11)
 --------------------------------
  1. `samples`: the bundled clips by name
  2. `cmu_database`: trials of the CMU database, fetched once

@@ -56,6 +56,8 @@ def difference(motion: Motion, base: Motion) -> Displacement:
     >>> walk = sample("walk_straight")[:9]
     >>> float(abs(difference(walk, walk).turns).max().round(9))
     0.0
+
+    Notebook: 11-warping
     """
     motion.skeleton.require_same(base.skeleton)
     if len(motion) != len(base):
@@ -94,6 +96,8 @@ def displaced(base: Motion, change: Displacement) -> Motion:
     >>> lifted = displaced(walk, Displacement(np.tile([0, 0.1, 0], (9, 1)), np.zeros((9, 38, 3))))
     >>> (lifted.root_positions - walk.root_positions)[0].round(9) + 0.0
     array([0. , 0.1, 0. ])
+
+    Notebook: 11-warping
     """
     frames, joints = base.rotations.shape[:2]
     if np.shape(change.root) != (frames, 3) or np.shape(change.turns) != (frames, joints, 3):

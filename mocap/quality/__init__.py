@@ -4,7 +4,7 @@ A seam is compared with the clips' own windows of the same length: a jump that t
 nothing special. A new measure of clips goes into `clip_flaws`, one of seams into `seam_measures`,
 one of a blend beside its two clips into `blend_measures`, and one of something else into a file of its own.
 
-Reading order (notebooks 01, 04, 09, 10)
+Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
 1. `clip_flaws`: a clip's length, its path and its flaws
 2. `seam_measures`: a seam in five numbers

@@ -68,6 +68,8 @@ def centre_of_mass(motion: Motion, segments: Sequence[Segment] = SEGMENTS) -> Ar
     >>> from mocap.datasets import sample
     >>> float(centre_of_mass(sample("walk_straight")[:1])[0, 1].round(2))
     0.98
+
+    Notebook: 11-warping
     """
     weights = np.zeros(len(motion.skeleton))
     for above, below, mass, at in segments:
@@ -100,6 +102,8 @@ def gravity(motion: Motion, first: int, last: int, segments: Sequence[Segment] =
     >>> walk = sample("walk_straight")
     >>> abs(gravity(walk, 0, 60)) < 2  # a walk does not fall
     True
+
+    Notebook: 11-warping
     """
     if not 0 <= first <= last < len(motion) or last - first < 3:
         raise MocapError(

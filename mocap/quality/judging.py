@@ -140,6 +140,8 @@ def judge(
     >>> gliding = replace(walk, root_positions=walk.root_positions * [0.8, 1, 0.8])
     >>> [measure.name for measure in judge(gliding).stand_out]
     ['skate', 'slide']
+
+    Notebook: 10-real-data
     """
     if len(motion) < 12:
         raise MocapError(
@@ -260,6 +262,8 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     >>> print(judgement_table([judge(generate("walk_straight"))]))
     name          score    jolt tremble    sunk    turn lopsided   slide   skate    knee  worst
     walk_straight   0.0    0.38    0.05    0.00    0.23     0.00    0.00    0.00    0.43  knee 0.429 of ...
+
+    Notebook: 10-real-data
     """
     names = list(dict.fromkeys(measure.name for judged in judgements for measure in judged.measures))
     width = max([4, *(len(shortened(judged.name, 40)) for judged in judgements)])

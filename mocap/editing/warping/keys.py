@@ -32,6 +32,8 @@ class Key(NamedTuple):
     --------
     >>> Key(40), Key(60, flat=True).flat
     (Key(frame=40, pose=None, flat=False), True)
+
+    Notebook: 11-warping
     """
 
     frame: int
@@ -72,6 +74,8 @@ def cardinal(
     --------
     >>> cardinal([0, 10, 30], [0, 1, -1], [5, 15, 20]).round(6)
     array([ 0.541667,  0.59375 , -0.083333])
+
+    Notebook: 11-warping
     """
     at, values = np.asarray(at, float), np.asarray(values, float)
     if at.ndim != 1 or not len(at) or len(at) != len(values):
@@ -116,6 +120,8 @@ def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_
     >>> walk = sample("walk_straight")
     >>> [key.frame for key in keys_around(walk, 100, walk[100:101])]
     [40, 100, 160]
+
+    Notebook: 11-warping
     """
     if not (np.isfinite(seconds) and seconds * motion.fps >= 1):
         raise MocapError(
@@ -154,6 +160,8 @@ def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Dis
     >>> warped = displaced(walk, offsets(walk, [Key(60), Key(100, higher), Key(140)]))
     >>> (warped.root_positions - walk.root_positions)[[50, 80, 100], 1].round(3) + 0.0
     array([0.  , 0.05, 0.1 ])
+
+    Notebook: 11-warping
     """
     check_keys(motion, keys)
     frames = [key.frame for key in keys]
@@ -168,7 +176,10 @@ def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Dis
 
 
 def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
-    """Raise unless the keys lie on the clip, in order, with poses of one frame and of its skeleton."""
+    """Raise unless the keys lie on the clip, in order, with poses of one frame and of its skeleton.
+
+    Notebook: 11-warping
+    """
     if not keys:
         raise MocapError("A warp needs a key or more, got none.")
     for key in keys:

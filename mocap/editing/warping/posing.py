@@ -69,6 +69,8 @@ def posed(
     >>> pose = posed(walk, 100, {"lhand": hand + [0, 0.2, 0]})
     >>> float((joint_positions(pose)[0, walk.skeleton.index("lhand")] - hand).round(4)[1])
     0.2
+
+    Notebook: 11-warping
     """
     if not (0 <= frame < len(motion) and frame == int(frame)):
         raise MocapError(f"Frame {frame} is none of '{motion.name}', which has {len(motion)}.")

@@ -43,6 +43,8 @@ def old_seconds(keys: TimeKeys, seconds: ArrayLike) -> Array:
     --------
     >>> old_seconds([(0, 0), (2, 1), (3, 2)], [0, 1, 2, 3]).round(3)
     array([0.   , 0.369, 1.   , 2.   ])
+
+    Notebook: 11-warping
     """
     new, old = _checked(keys)
     curve = PchipInterpolator(new, old)
@@ -73,6 +75,8 @@ def retime(motion: Motion, keys: TimeKeys, *, smooth: bool = True) -> Motion:
     >>> walk = sample("walk_straight")[:241]  # 2 s
     >>> retime(walk, [(0, 0), (1, 0.5), (2.5, 2)]).duration
     2.5
+
+    Notebook: 11-warping
     """
     new, old = _checked(keys)
     slack = 1e-6 / motion.fps

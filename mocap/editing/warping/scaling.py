@@ -87,6 +87,8 @@ def scaled(motion: Motion, joint: str | int, gain: ArrayLike, *, about: ArrayLik
     >>> walk = sample("walk_straight")[:200]
     >>> bool(abs(scaled(walk, "lhumerus", 1.0).rotations - walk.rotations).max() < 1e-12)
     True
+
+    Notebook: 11-warping
     """
     number, reference = _joint(motion, joint), _reference(motion, joint, about)
     amount = _amount(motion, gain)
