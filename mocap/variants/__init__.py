@@ -3,8 +3,8 @@
 Clips are expensive. Left and right swapped, every turn to the left is a turn to the right as well; and a
 stride that is closed into a cycle walks as long as anybody wants.
 
-Reading order
--------------
+Reading order (notebook 10)
+---------------------------
 1. `mirroring`: left and right swapped, by names and geometry
 2. `cycles`: the stretch of a clip that makes the best cycle, closed
 """

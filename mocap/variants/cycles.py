@@ -68,6 +68,8 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     >>> found = find_loop(sample("walk_straight"))
     >>> round((found.last - found.first) / 120, 1), found.seam < 0.02
     (1.2, True)
+
+    Notebook: 10-real-data
     """
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     least, most = _lengths(motion, slow.fps, seconds)
@@ -159,6 +161,8 @@ def loop(motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = Fa
     >>> turn = heading(round_.rotations[[0, -1], 0])
     >>> bool(abs(turn[1] - turn[0]) < 1e-9)
     True
+
+    Notebook: 10-real-data
     """
     if way not in WAYS:
         raise MocapError(f"A cycle is closed by one of {', '.join(WAYS)}, not by '{way}'.")
