@@ -23,8 +23,9 @@ GROW = 1.15
 FALL = 0.6
 
 WIDEST = 2.5  # times the radius that the limit asks for: no reach is wider
-BACK = np.radians(130)  # a line that turns by more within that radius comes back on itself
-LOOP = 1.75  # times the radius: the reach of the loop there; with 1.2, smoothing closes it again
+CUT = 1.75  # times that radius: a line that is cut by more goes back on itself, or nearly so
+AHEAD = 0.6  # times the radius: how far ahead on a line a walk looks that is steered along it
+SLOWEST = 0.5  # of its own pace: at least so fast the point on the line moves on, or the walk might circle it
 SEEN = 0.01  # metres: a line that is moved by less is not called rounded
 JOINED = 0.5  # metres: rounded stretches nearer to each other count as one
 
@@ -83,7 +84,8 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     min Σ |x_k - p_k|² + Σ λ_k |x_{k-1} - 2 x_k + x_{k+1}|², a linear system with five diagonals. λ_k = r_k⁴
     is small at first. Where a frame of the walk turns too fast, the reach r grows around it, and the line is
     laid anew. The walk may turn by the limit, and by as much more as it turns there by itself to the same
-    side. Where the line comes back on itself, it is first opened to a loop.
+    side. Where that is not enough, at one corner upon another, or cuts off too much, where the line comes
+    back on itself, a walk is steered along the line, which turns as fast as it may and makes loops.
 
     Parameters
     ----------
@@ -104,25 +106,85 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     """
     even = path.resampled(SPACING)
     asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)
-    widest = np.diff(ride.along).max(initial=0.0) * fps / limit / spacing  # the radius, in cells
-    asked = _opened(asked, spacing, widest)
-    walked = ride.along[ride.along <= np.abs(np.diff(asked)).sum()]  # to round a line makes it shorter
+    radius = np.diff(ride.along).max(initial=0.0) * fps / limit / spacing  # in cells
+    walked = ride.along[ride.along <= path.length]  # to round a line makes it shorter
     own = np.diff(moving_frames(ride.path, walked).angle) * fps
-    reach = np.full(len(asked), SMOOTH / spacing)
+    turns = _Turns(walked, own, fps, limit, SMOOTH / spacing, WIDEST * radius)
+    line, slow = _as_slow(asked, turns)
+    rounded = _measured(path, even, line, even.along)
+    if slow and rounded.moved.max() <= max(CUT * radius * spacing, CHORD):
+        return rounded
+    places, points = _steered(asked, radius)
+    line = _smoothed(points, np.full(len(points), turns.least**4))
+    return _measured(path, even, line, spacing * places)
+
+
+def _measured(path: GroundPath, even: GroundPath, line: Points, places: Array) -> RoundedLine:
+    """Measure how far a line is from the one asked for, and that from the line."""
+    rounded = GroundPath(from_ground(line))
+    missed = np.interp(places, even.along, _distance(on_ground(even.points), rounded))
+    return RoundedLine(rounded, _metres(line), places, np.maximum(_distance(line, path), missed))
+
+
+class _Turns(NamedTuple):
+    """What a line is rounded for: a walk, and the least and the largest reach, in points of the line.
+
+    `along` (F,) are the walk's metres along its path, `own` (F - 1,) how fast it turns itself, radians per
+    second; it has `fps` frames per second, and may be turned by `limit` radians per second.
+    """
+
+    along: Array
+    own: Array
+    fps: float
+    limit: float
+    least: float
+    most: float
+
+    def too_fast(self, line: Points) -> Array:
+        """List the metres along a line where the walk would turn too fast."""
+        along = self.along[self.along <= _metres(line)[-1]]
+        rate = np.diff(moving_frames(GroundPath(from_ground(line)), along).angle) * self.fps
+        own = np.maximum(np.sign(rate) * self.own[: len(rate)], 0)  # to the same side
+        fast: Array = along[1:][np.abs(rate) > self.limit + own]
+        return fast
+
+
+def _as_slow(points: Points, turns: _Turns) -> tuple[Points, bool]:
+    """Smooth a line where the walk turns too fast, until it does not; say whether that was reached."""
+    reach = np.full(len(points), turns.least)
+    cells = round(CHORD / SPACING)
     while True:
-        line = _smoothed(asked, reach**4)
-        along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
-        rounded = GroundPath(from_ground(line))
-        rate = np.diff(moving_frames(rounded, walked).angle) * fps
-        fast = np.abs(rate) > limit + np.maximum(np.sign(rate) * own, 0)
-        places = walked[1:][fast & (walked[1:] < along[-1])]
-        near = np.unique(np.searchsorted(along, places))
-        near = near[reach[near] < WIDEST * widest]
-        if not len(near):
-            break
-        reach = _wider(reach, near, round(CHORD / spacing))
-    moved = np.maximum(_distance(line, path), _distance(asked, rounded))
-    return RoundedLine(rounded, along, even.along, moved)
+        line = _smoothed(points, reach**4)
+        fast = turns.too_fast(line)
+        near = np.unique(np.searchsorted(_metres(line), fast))
+        grows = near[reach[near] < turns.most]
+        if not len(grows):
+            return line, not len(near)
+        reach = _wider(reach, grows, cells)
+
+
+def _metres(line: Points) -> Array:
+    return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
+
+
+def _steered(points: Points, radius: float) -> tuple[Array, Points]:
+    """Walk along a line, always towards a point ahead on it, and never in a tighter bend than `radius` cells.
+
+    Gives where on the line each point of the walk belongs, in cells, and the points.
+    """
+    step, last, ahead = np.abs(points[1] - points[0]), len(points) - 1, max(1, round(AHEAD * radius))
+    here, way, at = points[0], points[1] - points[0], 0.0
+    places, found = [at], [here]
+    while at < last:
+        window = points[int(at) : int(at) + ahead + 1]
+        at = min(max(at + SLOWEST, int(at) + float(np.abs(window - here).argmin())), last)
+        goal = points[min(int(at) + ahead, last)] - here
+        turn = 2 * np.angle(goal / way) * step / max(np.abs(goal), step)
+        way = way * np.exp(1j * np.clip(turn, -1 / radius, 1 / radius))
+        here = here + way
+        places.append(at)
+        found.append(here)
+    return np.array(places), np.array(found)
 
 
 def _distance(points: Points, path: GroundPath) -> Array:
@@ -153,21 +215,3 @@ def _smoothed(points: Points, weight: Array) -> Points:
     ]
     solved = solveh_banded(np.stack(diagonals), np.stack([points.real, points.imag], axis=1))
     return np.asarray(solved[:, 0] + 1j * solved[:, 1])
-
-
-def _opened(points: Points, spacing: float, radius: float) -> Points:
-    """Open a line where it comes back on itself: out on its one side, and back on the other.
-
-    A smoother line would come back on itself as well, and a walk would turn by 180° between two frames.
-    `radius` is counted in cells of `spacing` metres.
-    """
-    cells = max(1, min(round(radius), (len(points) - 1) // 2))
-    before, after = points[cells:-cells] - points[: -2 * cells], points[2 * cells :] - points[cells:-cells]
-    turn = np.abs(np.angle(after * before.conj()))
-    opened, number, wide = points.copy(), np.arange(len(points)), max(LOOP * radius, 1.0)
-    for start, stop in runs(turn > BACK):
-        tip = (start + stop - 1) // 2
-        from_tip = (number - tip - cells) / wide
-        aside = 1.5j * spacing * wide * before[tip] / np.abs(before[tip])
-        opened += aside * from_tip * np.exp(-(from_tip**2) / 2)
-    return opened
