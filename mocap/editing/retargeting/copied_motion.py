@@ -105,9 +105,9 @@ def _hips(positions: Array, stance: Stance) -> Array:
 def _global(motion: Motion, poses: GlobalPoses, source: Stance, target: Stance) -> dict[int, Array]:
     """Turn the target's joints in the world, (F, 4) each, where a joint of the source turns them."""
     looks = bone_turns(source, target)
-    world = {}
-    for joint, (own, look) in looks.items():
-        world[joint] = rotations.multiply(rotations.from_matrix(poses.matrices[:, own]), look)
+    joints, turns = zip(*looks.values(), strict=True)
+    world_of_source = rotations.from_matrix(poses.matrices[:, joints])
+    world = dict(zip(looks, np.swapaxes(rotations.multiply(world_of_source, turns), 0, 1), strict=True))
     if 0 not in world:  # a root above the pelvis turns with the heading only
         heading = heading_by_hips(poses.positions, source.roles)
         world[0] = rotations.multiply(rotations.about_y(heading), target.turns[0])

@@ -19,6 +19,8 @@ from mocap.graphs.pruning import prune
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.editing.retargeting.test_retargeted import slide
 
+pytestmark = pytest.mark.exhaustive  # tests/datasets/test_cmu_database.py joins three people quickly
+
 TRIALS = {"16": ("16_15", "16_17", "16_19", "16_31", "16_32"), "02": ("02_01", "02_02"), "49": ("49_01",)}
 FILES = {
     "Bandai-Namco": "bvh/bandai_namco/dataset-?_walk*normal*.bvh",
@@ -58,7 +60,6 @@ def joined(graph: MotionGraph, owners: list[str]) -> Counter:
     return Counter(tuple(sorted((owners[u[0]], owners[v[0]]))) for u, v in edges)
 
 
-@pytest.mark.exhaustive
 def test_five_bodies_share_one_graph_and_a_walk_goes_through_all_of_them(clips):
     graph, owners = graph_of(clips)
     counts = joined(graph, owners)

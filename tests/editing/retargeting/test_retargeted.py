@@ -265,6 +265,16 @@ def test_turns_runs_and_jumps_on_a_child_and_on_another_tree(real_data, name):
     held_to_the_bars(clip, upright, other, smooth=1.07, deep=10)
 
 
+@pytest.mark.parametrize("name", ["cmu/16/16_31.amc", "cmu/16/16_22.amc", "hw3/walk_fwd_curve1.AMC"])
+@pytest.mark.filterwarnings("ignore:.*let go")
+def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_data, name):
+    clip = mark_plants(load(real_data / name)[12:1000])
+    source, target = stance_of(clip), stance_of(mark_plants(load(real_data / REAL_BODIES["Bandai-Namco"])))
+    worn, own = retarget(clip, target, source), clean_up(clip)
+    assert slide(clip, source) > 1 > 1e-3 >= slide(worn, target)
+    assert kept(worn, copied(clip, source, target)) == kept(own, clip) > 0.94
+
+
 def test_there_and_back_between_real_bodies(real_data):
     clip = captured(real_data, "cmu/16/16_15.amc", 12)
     for name, far in (("CMU 49", 0.1), ("Bandai-Namco", 10), ("puppy", 25)):
