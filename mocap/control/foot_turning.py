@@ -72,6 +72,8 @@ class FootTurner:
     >>> alone = measure_delay(Controller(graph), turns=10).mean
     >>> alone - measure_delay(FootTurner(Controller(graph)), turns=10).mean > 0.3
     True
+
+    Notebook: 12-path-editing
     """
 
     def __init__(self, character: Turnable, rate: float = np.radians(40)) -> None:

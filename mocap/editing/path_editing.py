@@ -274,6 +274,8 @@ def plants_kept(cleaned: Motion, bent: Motion) -> float:
     >>> walk = sample("walk_straight")
     >>> plants_kept(walk, walk)
     1.0
+
+    Notebook: 12-path-editing
     """
     after, before = (sum(int(mark.sum()) for mark in m.contacts.values()) for m in (cleaned, bent))
     return after / before if before else 1.0

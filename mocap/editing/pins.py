@@ -228,6 +228,8 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None) -> Pins:
     >>> pins = plant_pins(sample("walk_straight"))
     >>> pins.joints, bool(pins.held.any(axis=(0, 2)).all())
     ((4, 5, 10, 11), True)
+
+    Notebook: 12-path-editing
     """
     legs = legs_of(motion.skeleton, legs)
     positions, several = joint_positions(motion), []
@@ -258,6 +260,8 @@ def pin_errors(motion: Motion, pins: Pins) -> Array:
     >>> walk = sample("walk_straight")
     >>> bool(pin_errors(walk, plant_pins(walk)).max() < 1e-9)  # generated feet stand still
     True
+
+    Notebook: 12-path-editing
     """
     require_pins_of(motion, pins)
     return np.asarray(np.linalg.norm(pins.gap(joint_positions(motion)), axis=-1))

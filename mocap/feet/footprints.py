@@ -2,7 +2,9 @@
 
 from typing import NamedTuple
 
-from mocap._shared.arrays import runs
+import numpy as np
+
+from mocap._shared.arrays import Array, runs
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 
@@ -57,3 +59,32 @@ def find_footprints(motion: Motion) -> list[Footprint]:
             x, _, z = points[start:end, joint].mean(axis=0).tolist()
             prints.append(Footprint(name, motion.skeleton.side(joint), start, end, x, z))
     return prints
+
+
+def standing_tracks(motion: Motion) -> Array:
+    """Give where joints are over the ground while they stand, as one line with gaps: a slide is a smear.
+
+    Parameters
+    ----------
+    motion : the motion, with contacts.
+
+    Returns
+    -------
+    Points (x, z), metres, shape (N, 2), joint by joint; nan where a joint does not stand, and between joints.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:120]
+    >>> tracks = standing_tracks(walk)
+    >>> tracks.shape, bool(np.isnan(tracks).any())
+    ((484, 2), True)
+
+    Notebook: 12-path-editing
+    """
+    points = joint_positions(motion)[..., [0, 2]]
+    lines = [np.zeros((0, 2))]
+    for name, down in motion.contacts.items():
+        line = np.where(down[:, None], points[:, motion.skeleton.index(name)], np.nan)
+        lines.append(np.append(line, [[np.nan, np.nan]], axis=0))
+    return np.concatenate(lines)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
-from mocap.feet.footprints import find_footprints
+from mocap.feet.footprints import find_footprints, standing_tracks
 from tests.strategies import wave
 
 
@@ -29,3 +29,13 @@ def test_each_run_of_contact_is_one_print(down):
 
 def test_without_contacts_there_are_no_prints():
     assert find_footprints(replace(wave(5), contacts={})) == []
+
+
+def test_tracks_have_gaps_where_no_joint_stands():
+    motion = replace(wave(4), contacts={"hand": [1, 1, 0, 1], "root": [0, 0, 0, 0]})
+    tracks = standing_tracks(motion)
+    hand = joint_positions(motion)[:, motion.skeleton.index("hand")][:, [0, 2]]
+    assert tracks[[0, 1, 3]] == pytest.approx(hand[[0, 1, 3]])
+    assert np.isnan(tracks[[2, 4, 5, 6, 7, 8, 9]]).all()
+    assert len(tracks) == 10
+    assert standing_tracks(replace(wave(5), contacts={})).shape == (0, 2)
