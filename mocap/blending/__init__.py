@@ -4,7 +4,7 @@ Both ways start with two windows that look alike. The second clip is laid on the
 mixed, or the second clip plays with an offset that fades. Whole clips, two or more, are first registered:
 which of their frames belong together, and how they lie on one another there.
 
-Reading order (notebook 04)
+Reading order (notebooks 04, 15)
 ---------------------------
 1. `weights`: how much of the first motion each frame holds
 2. `interpolation`: two motions into one, frame by frame

@@ -4,7 +4,7 @@ The metric is that of [KGP02, 3.1]: lay one window of frames on the other by the
 measure how far apart the points still are. At its local minima one clip can pass into another. (*Motion
 matching*, as games use it, is another method: it looks for the next frame while the character walks.)
 
-Reading order (notebooks 02, 05)
+Reading order (notebooks 02, 05, 15)
 --------------------------------
 1. `point_clouds`: the points a motion drives, and how to align two clouds of them
 2. `distance_grids`: all windows against all, by matrix products

@@ -202,6 +202,8 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
     >>> rows, columns = np.indices((7, 4))
     >>> time_path(np.abs(rows - 2 * columns)).tolist()
     [[0, 0], [1, 0], [2, 1], [3, 1], [4, 2], [5, 2], [6, 3]]
+
+    Notebook: 15-registration
     """
     costs = _checked(grid, slope, slack)
     rows, columns = np.arange(len(costs))[:, None], np.arange(costs.shape[1])
@@ -238,6 +240,8 @@ def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
     >>> grid = np.abs(rows - 2 * columns)
     >>> path_mean(grid, time_path(grid)) == 3 / 11
     True
+
+    Notebook: 15-registration
     """
     values, cells = np.asarray(grid), np.asarray(path)
     advanced = np.append(2, np.abs(np.diff(cells, axis=0)).sum(axis=1))

@@ -54,6 +54,8 @@ class Mixer:
     >>> mixer.sliders[0].value, mixer.sliders[1].value = 0.0, 1.0  # as a reader moves them
     >>> mixer.weights(0.0, 0.5).round(2), mixer.weights(0.0, 2.0).round(2)
     (array([1., 0.]), array([0., 1.]))
+
+    Notebook: 15-registration
     """
 
     def __init__(self, registration: Registration, weights: ArrayLike = (), *, ease: float = 0.4) -> None:

@@ -40,6 +40,8 @@ def frame_times(
     ------
     MocapError : for weights that are not C finite numbers or do not add up to one, a rate that is not above
         0, another pace, and a clock that would stop, which takes weights far outside [0, 1].
+
+    Notebook: 15-registration
     """
     if not (np.isfinite(fps) and fps > 0):
         raise MocapError(f"A frame rate must be above 0, got {fps}.")

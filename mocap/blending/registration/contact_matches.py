@@ -101,6 +101,8 @@ def plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
     >>> walk, twice_as_fast = generate("walk_straight"), Curve(0.0, 1.0, np.array([-1.0, 1.0, 3.0]))
     >>> plants_on_clock(walk, twice_as_fast)["lfoot"][0].round(2)
     array([0.06, 0.2 ])
+
+    Notebook: 15-registration
     """
     return {joint: times.inverse(runs(marks) / clip.fps) for joint, marks in clip.contacts.items()}
 

@@ -43,6 +43,8 @@ def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | N
     >>> faster = crossfade(register([slow, brisk]), seconds=2.0)
     >>> faster.name, bool(3.3 < faster.duration < 5.0)
     ('walk to walk', True)
+
+    Notebook: 15-registration
     """
     if len(registration.clips) != 2:
         raise MocapError(f"A crossfade needs two registered clips, got {len(registration.clips)}.")

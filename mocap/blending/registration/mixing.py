@@ -73,6 +73,8 @@ def mix(
     >>> walking = register(walks)
     >>> walking.durations.round(2), round(mix(walking, [0.5, 0.5]).duration, 2)
     (array([3.57, 3.21]), 3.38)
+
+    Notebook: 15-registration
     """
     fps = registration.clips[0].fps if fps is None else fps
     times, shares = frame_times(registration, weights, fps=fps, pace=pace)
@@ -116,6 +118,8 @@ def ground_course(
     >>> course = ground_course(np.stack([angle, -angle]), np.stack([left, right]), np.full((91, 2), 0.5))
     >>> complex(course.centres[-1].round(3))
     (1.571+0j)
+
+    Notebook: 15-registration
     """
     heading, place = start or (0.0, complex(centres[0, 0]))
     halfway = (shares[1:] + shares[:-1]).T / 2

@@ -33,6 +33,8 @@ class Warp(NamedTuple):
     slope : how many frames of one clip may pass in a row while the other stands: its pace stays between
         1 / (slope + 1) and slope + 1 times the other's.
     spacing : seconds between the knots of the curves.
+
+    Notebook: 15-registration
     """
 
     rate: float = 30.0
@@ -137,6 +139,8 @@ def register(
     >>> walking = register(walks)
     >>> walking.durations.round(1), bool(walking.costs[1] < 0.1)
     (array([3.6, 3.2]), True)
+
+    Notebook: 15-registration
     """
     warp = warp or Warp()
     step = _checked(clips, reference, slack, warp)

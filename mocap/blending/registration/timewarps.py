@@ -28,6 +28,8 @@ class Curve(NamedTuple):
     >>> line = Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
     >>> line([0.0, 0.25, 3.0]), line.slope([0.0, 3.0]), float(line.inverse(3.0))
     (array([0.  , 0.25, 3.  ]), array([1., 1.]), 3.0)
+
+    Notebook: 15-registration
     """
 
     start: float
@@ -103,6 +105,8 @@ def fit_curve(
     >>> curve = fit_curve([0, 1, 2, 3, 4], [0, 0, 0, 3, 4], spacing=1.0, least=1 / 3, most=3)
     >>> curve([0, 1, 2, 3, 4]).round(4), curve.slope([0, 1, 2, 3, 4]).round(4)
     (array([-0.3167,  0.0167,  0.6   ,  2.5167,  4.1833]), array([0.3333, 0.3333, 0.8333, 3.    , 0.3333]))
+
+    Notebook: 15-registration
     """
     u, y = np.asarray(times, float), np.asarray(values, float)
     _check(u, y, spacing, (least, most))

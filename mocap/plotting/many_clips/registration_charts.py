@@ -61,6 +61,8 @@ def warp_image(
     >>> drawn = warp_image(grid, [(0, 0), (1, 1)], warp=warp)
     >>> drawn.cells.get_xydata().tolist()
     [[0.0, 0.0], [0.1, 0.1]]
+
+    Notebook: 15-registration
     """
     ax = ax or plt.figure(figsize=(4.8, 4.4), layout="constrained").add_subplot()
     fps, window, *_ = warp or Warp()
@@ -97,6 +99,8 @@ def plant_bars(
     >>> bars = plant_bars({"slow": {"left": [(0.0, 0.7)], "right": [(0.6, 1.3), (1.9, 2.6)]}})
     >>> len(bars["slow"].get_paths())
     3
+
+    Notebook: 15-registration
     """
     ax = ax or plt.figure(figsize=(7, 0.9 + 0.55 * len(plants)), layout="constrained").add_subplot()
     drawn = {}
@@ -143,6 +147,8 @@ def ground_tracks(
     >>> lines = ground_tracks([datasets.sample("walk_straight")])
     >>> lines[0].get_label()
     'walk_straight'
+
+    Notebook: 15-registration
     """
     ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
     ways = []
