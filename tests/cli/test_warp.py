@@ -87,16 +87,32 @@ def test_several_joints_at_one_moment(folder):
         assert change[[HAND, right], 1] == pytest.approx([0.1, 0.12], abs=most)
 
 
+def test_between_two_level_poses_the_hand_stays(folder):
+    wide, level = (
+        joint_positions(
+            warp(WALK, plan(folder, f"at 1s lhand 0 0.3 0{end}\nat 2s lhand 0 0.3 0{end}"), feet=False)
+        )
+        for end in ("", " level")
+    )
+    rise = [(at[120:241, HAND] - joint_positions(WALK)[120:241, HAND])[:, 1] for at in (wide, level)]
+    assert rise[1] == pytest.approx(0.3, abs=0.06)
+    assert np.ptp(rise[1]) < np.ptp(rise[0])
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("", "expected some text, got an empty file"),
         ("# nothing", "or 'time NEW OLD', got no key"),
-        ("at 5 same\nmove lhand", "line 2: expected 'at MOMENT JOINT LEFT UP AHEAD', .*got 'move lhand'"),
+        ("at 5 same\nmove lhand", "line 2: expected 'at MOMENT JOINT LEFT UP AHEAD .*got 'move lhand'"),
         ("at 5", "line 1: expected 'at MOMENT .*got 'at 5'"),
         ("at 5 lhand", "line 1: .*got 'at 5 lhand'"),
         ("at 5 lhand 1 2", "line 1: .*got 'at 5 lhand 1 2'"),
         ("at 5 same 1 2 3", "line 1: .*got 'at 5 same 1 2 3'"),
+        ("at 5 same level", "line 1: .*got 'at 5 same level'"),
+        ("at 5 lhand 1 2 level", "line 1: .*got 'at 5 lhand 1 2 level'"),
+        ("at", "line 1: .*got 'at '"),
+        ("at level", "line 1: .*got 'at level'"),
         ("at -5 same", "line 1: .*got 'at -5 same'"),
         ("at 5m same", "line 1: .*got 'at 5m same'"),
         (f"at {'9' * 400} same", "line 1: expected a moment, all below 1e[+]09"),

@@ -24,6 +24,7 @@ keys, one in each line of FILE; what follows a # is left out:
   at 180 lhand 0.10 0.25 0    the same at frame 180; more joints may be moved at one moment
   at 1s same                  from there on, or up to there, the pose is as it was
   at 1s level                 the same, and the change stands still there: at take-off and landing
+  at 2s lhand 0 0.5 0 level   a pose may be level, too
   time 2.5 2                  the clip's second 2 is shown at second 2.5; two such lines or more
 Where FILE does not say it, the motion is as it was --window seconds before the first pose and after
 the last one.

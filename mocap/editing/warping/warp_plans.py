@@ -22,7 +22,7 @@ from mocap.errors import FormatError, MocapError
 from mocap.feet.footskate import clean_up
 from mocap.formats.text import lines, read_text, to_numbers
 
-AT = "'at MOMENT JOINT LEFT UP AHEAD', 'at MOMENT same' or 'at MOMENT level'"
+AT = "'at MOMENT JOINT LEFT UP AHEAD [level]', 'at MOMENT same' or 'at MOMENT level'"
 LINE = f"{AT}, or 'time NEW OLD'"
 MOMENT = re.compile(r"(\d+\.?\d*|\.\d+)(s?)")
 
@@ -37,6 +37,7 @@ class Wish(NamedTuple):
     in_seconds : which of the two.
     joint : its name.
     move : metres to the body's left, up, and ahead of it.
+    level : the change stands still there.
 
     Examples
     --------
@@ -49,6 +50,7 @@ class Wish(NamedTuple):
     in_seconds: bool
     joint: str
     move: tuple[float, ...] = ()
+    level: bool = False
 
     def frame(self, fps: float) -> int:
         """Give the nearest frame at some rate."""
@@ -75,8 +77,9 @@ def load_plan(path: str | Path) -> WarpPlan:
 
     `at 1.5s lhand 0.10 0.25 0` moves the left hand, at second 1.5, by 10 cm to the body's left and by 25 cm
     up; without the s the moment is a frame. Several joints may be moved at one moment. `at 1s same` says that
-    the pose is as it was there, and `at 1s level` that the change stands still as well, as at take-off and
-    landing. `time 2.5 2` shows the clip's second 2 at second 2.5.
+    the pose is as it was there. A line that ends with `level` says that the change stands still as well, as
+    at take-off and landing: `at 1s level`, or `at 1s lhand 0.10 0.25 0 level`. `time 2.5 2` shows the clip's
+    second 2 at second 2.5.
 
     Parameters
     ----------
@@ -155,12 +158,14 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
 
 def _wish(path: str | Path, number: int, words: list[str]) -> Wish:
     """Read what stands behind `at`."""
-    moment = MOMENT.fullmatch(words[0]) if len(words) in (2, 5) else None
-    if not moment or (len(words) == 2) != (words[1] in ("same", "level")):
+    level = words[-1:] == ["level"]
+    rest = words[:-1] if level and len(words) > 2 else words  # "level" alone stands where a joint would
+    moment = MOMENT.fullmatch(rest[0]) if len(rest) in (2, 5) else None
+    if not moment or (len(rest) == 2) != (rest[1] in ("same", "level")) or (level and rest[1] == "same"):
         raise FormatError(path, number, AT, f"'at {' '.join(words)}'")
     value = float(to_numbers(path, number, [moment[1]], "a moment", 1)[0])
-    move = to_numbers(path, number, words[2:], "LEFT UP AHEAD, in metres", len(words) - 2)
-    return Wish(number, value, bool(moment[2]), words[1], tuple(move.tolist()))
+    move = to_numbers(path, number, rest[2:], "LEFT UP AHEAD, in metres", len(rest) - 2)
+    return Wish(number, value, bool(moment[2]), rest[1], tuple(move.tolist()), level)
 
 
 def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
@@ -185,7 +190,7 @@ def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
 def _key(motion: Motion, plan: WarpPlan, frame: int, wishes: Sequence[Wish], feet: bool) -> Key:
     """Make the key of one frame."""
     if not wishes[0].move:
-        return Key(frame, flat=wishes[0].joint == "level")
+        return Key(frame, flat=wishes[0].level)
     now = motion[frame : frame + 1]
     at, turn = joint_positions(now)[0], rotations.about_y(heading(now.rotations[0, 0]))
     places: dict[str, Array] = {
@@ -193,7 +198,7 @@ def _key(motion: Motion, plan: WarpPlan, frame: int, wishes: Sequence[Wish], fee
         for wish in wishes
     }
     try:
-        return Key(frame, posed(motion, frame, places, feet=feet))
+        return Key(frame, posed(motion, frame, places, feet=feet), any(wish.level for wish in wishes))
     except MocapError as error:
         raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
 
