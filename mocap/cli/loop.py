@@ -32,6 +32,7 @@ def add_loop(commands: "Commands") -> None:
     add("--shortest", type=LASTS, default=0.4, help="seconds of a cycle at least (default: %(default)g)")
     add("--longest", type=LASTS, default=3.0, help="seconds of a cycle at most (default: %(default)g)")
     add("--straight", action="store_true", help="take out the turn of a round: it goes on straight ahead")
+    add("--clean", action="store_true", help="clean up footskate: planted feet stand still")
     add("--inertialize", action="store_true", help="close it by an offset that fades, not by a blend")
     add("--times", type=whole(1, 1000), default=1, help="rounds to write (default: %(default)s)")
     loop.set_defaults(run=_loop)
@@ -43,7 +44,7 @@ def _loop(options: argparse.Namespace) -> int:
     motion = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
     found = variants.find_loop(motion, seconds=(options.shortest, options.longest))
     way = "inertialize" if options.inertialize else "blend"
-    cycle = variants.loop(motion, found, way=way, straight=options.straight)
+    cycle = variants.loop(motion, found, way=way, straight=options.straight, clean=options.clean)
     files.save(editing.repeated(cycle, options.times), options.out, widen=True)
     facing = np.unwrap(body.heading(cycle.rotations[:, 0]))
     step = np.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])

@@ -20,13 +20,17 @@ from mocap.blending.inertialization import inertialize
 from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, resample
-from mocap.body.planar import PlanarTransform, heading
+from mocap.body.planar import PlanarTransform, heading, lay_on
+from mocap.editing.warping.looping import repeated
 from mocap.errors import MocapError, shortened
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
 from mocap.matching.distance_grids import distance_grid
 
 COARSE = 30.0  # frames per second at which the whole clip is searched
 ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
 ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
 
 Way = Literal["blend", "inertialize"]
@@ -130,7 +134,9 @@ def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed:
     return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
 
 
-def loop(motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = False) -> Motion:
+def loop(
+    motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = False, clean: bool = False
+) -> Motion:
     """Cut a cycle out of a clip and close it.
 
     What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
@@ -142,7 +148,8 @@ def loop(motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = Fa
     found : from `find_loop`, or frames of your own choice.
     way : "blend", or "inertialize", which plays nothing from after the cycle but an offset that fades.
     straight : whether to take out the turn of one round, evenly, so that the cycle goes on straight ahead.
-        Feet that stand are then turned with the body: `feet.clean_up` of some rounds puts them back.
+        Feet that stand are then turned with the body.
+    clean : whether to mark the plants anew and remove footskate, as it would be in the midst of many rounds.
 
     Returns
     -------
@@ -151,7 +158,8 @@ def loop(motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = Fa
 
     Raises
     ------
-    MocapError : for frames that leave no room for the seam, or another way.
+    MocapError : for frames that leave no room for the seam, another way, and with `clean` for legs that are
+        not found.
 
     Examples
     --------
@@ -175,7 +183,8 @@ def loop(motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = Fa
     joined = WAYS[way](motion, found.last, motion, found.first, window)
     cycle = joined[found.first + window : found.last + window + 1]
     cycle = replace(cycle, name=f"{motion.name}_loop")
-    return _straightened(cycle) if straight else cycle
+    cycle = _straightened(cycle) if straight else cycle
+    return _cleaned(cycle) if clean else cycle
 
 
 def _straightened(cycle: Motion) -> Motion:
@@ -188,3 +197,12 @@ def _straightened(cycle: Motion) -> Motion:
     local = cycle.rotations.copy()
     local[:, 0] = rotations.multiply(rotations.about_y(back), local[:, 0])
     return replace(cycle, root_positions=roots, rotations=local)
+
+
+def _cleaned(cycle: Motion) -> Motion:
+    """Clean up many rounds, of which the middle one has neighbours as far as any correction reaches."""
+    around = int(np.ceil(MARGIN / cycle.duration))
+    rounds = repeated(replace(cycle, contacts={}), 2 * around + 1)
+    start = around * (len(cycle) - 1)
+    middle = clean_up(mark_plants(rounds))[start : start + len(cycle)]
+    return lay_on(middle, cycle).apply_motion(middle)

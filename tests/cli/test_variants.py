@@ -19,7 +19,7 @@ def folder(tmp_path_factory):
     return place
 
 
-@pytest.mark.parametrize("more", [[], ["--straight", "--times", "3"], ["--inertialize"]])
+@pytest.mark.parametrize("more", [[], ["--straight", "--clean", "--times", "3"], ["--inertialize"]])
 def test_loop(folder, tmp_path, capsys, more):
     out = tmp_path / "loop.bvh"
     assert main(["loop", str(folder / "walk.bvh"), "-o", str(out), *more]) == 0

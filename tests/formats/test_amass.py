@@ -166,3 +166,16 @@ def test_other_skeletons_are_not_written(tmp_path):
         Motion(other, np.zeros((1, 3)), np.tile([1.0, 0, 0, 0], (1, 22, 1)), 30.0), tmp_path / "a.npz"
     )
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
+
+
+def test_broken_bytes_are_read_or_refused(archive, tmp_path):
+    whole, random = archive().read_bytes(), np.random.default_rng(0)
+    for number in range(150):
+        data = bytearray(whole)
+        for at in random.integers(0, len(data), 1 + number % 5):
+            data[at] = random.integers(256)
+        (tmp_path / "b.npz").write_bytes(bytes(data[: len(data) - (number % 3) * 400]))
+        try:
+            assert isinstance(amass.read(tmp_path / "b.npz"), Motion)
+        except MocapError as error:
+            assert len(str(error).replace(str(tmp_path / "b.npz"), "")) <= 200

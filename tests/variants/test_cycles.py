@@ -12,8 +12,10 @@ from mocap.body.planar import heading, lay_on
 from mocap.datasets import samples
 from mocap.editing.warping.looping import repeated
 from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from mocap.matching.distance_grids import distance_grid
+from mocap.quality.blend_measures import ground_slides
 from mocap.quality.seam_measures import jumps
 from mocap.variants.cycles import Loop, find_loop, loop
 from tests.strategies import wave
@@ -63,10 +65,11 @@ def test_one_stride_is_found(name):
 
 
 @pytest.mark.parametrize("way", ["blend", "inertialize"])
+@pytest.mark.parametrize("clean", [False, True])
 @pytest.mark.parametrize("straight", [False, True])
-def test_rounds_go_on_without_a_jump(way, straight):
+def test_rounds_go_on_without_a_jump(way, straight, clean):
     clip = resample(samples.sample("walk_circle"), 60)
-    cycle = loop(clip, find_loop(clip), way=way, straight=straight)
+    cycle = loop(clip, find_loop(clip), way=way, straight=straight, clean=clean)
     first, last = lay_on(cycle, cycle, len(cycle) - 1).apply_motion(cycle[:1]), cycle[-1:]
     assert np.abs(joint_positions(first) - joint_positions(last)).max() < 1e-9
     rounds = repeated(cycle, 4)
@@ -76,6 +79,18 @@ def test_rounds_go_on_without_a_jump(way, straight):
     if straight:  # four rounds go four times as far, in one line
         ends = [np.subtract(*c.root_positions[[-1, 0]][:, [0, 2]]) for c in (cycle, rounds)]
         assert np.allclose(4 * ends[0], ends[1], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["walk_circle", "sneak"])
+def test_feet_that_a_straight_path_turns_are_put_back(name):
+    clip = resample(samples.sample(name), 30)
+    found = find_loop(clip)
+    slides = {
+        clean: ground_slides(mark_plants(repeated(loop(clip, found, straight=True, clean=clean), 3))).sum()
+        for clean in (False, True)
+    }
+    assert slides[False] > 3  # cm, all joints of the feet together
+    assert slides[True] < 0.1 * slides[False]
 
 
 def test_the_path_is_kept_where_it_is_not_made_straight():

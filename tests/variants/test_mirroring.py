@@ -130,6 +130,7 @@ def test_files_of_many_programs(real_data):
         assert np.abs(joint_positions(mirror(image)) - joint_positions(clip)).max() < 1e-12
 
 
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_the_mirrored_s_is_followed_as_well_as_the_s():
     clips = [resample(samples.sample(name), 30) for name in ("walk_circle", "walk_straight")]
     ahead = s_curve(12.0)
