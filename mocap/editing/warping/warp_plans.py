@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -12,9 +12,11 @@ from typing import NamedTuple
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
+from mocap.editing.linear_bodies import chain
 from mocap.editing.warping.keys import HALF_SECOND, Key, offsets
 from mocap.editing.warping.posing import posed
 from mocap.editing.warping.retiming import retime
@@ -125,8 +127,8 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     plan : as `load_plan` reads it.
     window : seconds.
     feet : keep feet that stand in their places, at the keys by `posed`, and between them by `feet.clean_up`;
-        asks for the motion's `contacts`. The clean-up may raise the root, and so leave joints that were moved
-        some millimetres off their places.
+        asks for the motion's `contacts`. The clean-up may raise the root, so arms and head are then brought
+        to their places once more.
 
     Raises
     ------
@@ -149,11 +151,16 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     if not (math.isfinite(window) and window * motion.fps >= 1):
         raise MocapError(f"A window lasts a frame or longer, got {window} s at {motion.fps:g} Hz.")
     if moments:
-        keys = [_key(motion, plan, frame, wishes, feet) for frame, wishes in sorted(moments.items())]
-        motion = displaced(motion, offsets(motion, _with_ends(keys, round(window * motion.fps), len(motion))))
+        wanted = {frame: _places(motion, frame, wishes) for frame, wishes in moments.items()}
+        keys = [_key(motion, plan, wanted[frame], moments[frame], feet) for frame in sorted(moments)]
+        motion = _through(motion, keys, window)
+        if feet:
+            motion = clean_up(motion)
+            motion = _through(motion, [_again(motion, key, wanted[key.frame]) for key in keys], window)
     if plan.times:
         motion = retime(motion, plan.times)
-    return clean_up(motion) if feet else motion
+        motion = clean_up(motion) if feet else motion
+    return motion
 
 
 def _wish(path: str | Path, number: int, words: list[str]) -> Wish:
@@ -187,26 +194,49 @@ def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
     return moments
 
 
-def _key(motion: Motion, plan: WarpPlan, frame: int, wishes: Sequence[Wish], feet: bool) -> Key:
-    """Make the key of one frame."""
-    if not wishes[0].move:
-        return Key(frame, flat=wishes[0].level)
+def _places(motion: Motion, frame: int, wishes: Sequence[Wish]) -> dict[str, Array]:
+    """Give the places of the joints that are moved in one frame, (3,) each, metres."""
     now = motion[frame : frame + 1]
     at, turn = joint_positions(now)[0], rotations.about_y(heading(now.rotations[0, 0]))
-    places: dict[str, Array] = {
-        wish.joint: at[motion.skeleton.index(wish.joint)] + rotations.rotate(turn, wish.move)
-        for wish in wishes
-    }
+    index = motion.skeleton.index
+    return {w.joint: at[index(w.joint)] + rotations.rotate(turn, w.move) for w in wishes if w.move}
+
+
+def _key(
+    motion: Motion, plan: WarpPlan, places: Mapping[str, Array], wishes: Sequence[Wish], feet: bool
+) -> Key:
+    """Make the key of one frame."""
+    frame, level = wishes[0].frame(motion.fps), any(wish.level for wish in wishes)
+    if not places:
+        return Key(frame, flat=level)
     try:
-        return Key(frame, posed(motion, frame, places, feet=feet), any(wish.level for wish in wishes))
+        return Key(frame, posed(motion, frame, places, feet=feet), level)
     except MocapError as error:
         raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
 
 
-def _with_ends(keys: list[Key], window: int, frames: int) -> list[Key]:
-    """Add the keys from which on the motion is as it was, where the plan has none."""
+def _again(motion: Motion, key: Key, places: Mapping[str, Array]) -> Key:
+    """Make a key for the joints that no leg carries and that carry none: the root and the legs stay."""
+    skeleton = motion.skeleton
+    legs = {joint for leg in find_legs(skeleton) for joint in chain(skeleton, leg.ball)}
+    hips = {leg.hip for leg in find_legs(skeleton)}
+    free = {
+        name: place
+        for name, place in places.items()
+        if skeleton.index(name) not in legs and not hips & set(chain(skeleton, skeleton.index(name)))
+    }
+    root = skeleton.names[:1]
+    pose = posed(motion, key.frame, free, feet=False, still=root) if free else None
+    return key._replace(pose=pose)
+
+
+def _through(motion: Motion, keys: Sequence[Key], window: float) -> Motion:
+    """Warp through keys; add those from which on the motion is as it was, where the plan has none."""
     poses = [key.frame for key in keys if key.pose is not None]
-    ends = [poses[0] - window, poses[-1] + window] if poses else []
-    before = [Key(frame) for frame in ends[:1] if frame >= 0 and keys[0].pose is not None]
-    after = [Key(frame) for frame in ends[1:] if frame < frames and keys[-1].pose is not None]
-    return [*before, *keys, *after]
+    if not poses:
+        return motion
+    half = round(window * motion.fps)
+    ends = Key(poses[0] - half), Key(poses[-1] + half)
+    before = [end for end in ends[:1] if end.frame >= 0 and keys[0].pose is not None]
+    after = [end for end in ends[1:] if end.frame < len(motion) and keys[-1].pose is not None]
+    return displaced(motion, offsets(motion, [*before, *keys, *after]))
