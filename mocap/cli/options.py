@@ -125,7 +125,7 @@ def require_amc(clip: Path, skeleton: Path | None) -> None:
     --------
     >>> require_amc(Path("walk.bvh"), Path("walk.asf"))
     Traceback (most recent call last):
-    mocap.errors.MocapError: --skeleton is for .amc clips; walk.bvh has its skeleton in it.
+    mocap.errors.MocapError: --skeleton is for .amc clips; walk.bvh needs none.
     """
-    if skeleton and clip.suffix.lower() == ".bvh":
-        raise MocapError(f"--skeleton is for .amc clips; {clip} has its skeleton in it.")
+    if skeleton and clip.suffix.lower() in (".bvh", ".npz"):
+        raise MocapError(f"--skeleton is for .amc clips; {clip} needs none.")

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
 
 from mocap.blending.joining import join
 from mocap.body import rotations
@@ -14,7 +15,7 @@ from mocap.datasets import samples
 from mocap.errors import MocapError
 from mocap.files import load_save
 from mocap.quality.judging import Judgement, Measure, judge, judgement_table
-from tests.strategies import wave
+from tests.strategies import planar, wave
 
 WALK = resample(samples.sample("walk_straight"), 60)
 
@@ -73,6 +74,14 @@ def test_a_longer_flaw_is_a_worse_one():
     ]
     assert scores == sorted(scores)
     assert scores[0] == 0 < scores[2]
+
+
+@given(planar)
+@settings(max_examples=5)
+def test_where_it_happens_and_which_way_makes_no_difference(place):
+    walk = FLAWS["slide"]()[:200]
+    values = [[m.value for m in judge(motion).measures] for motion in (walk, place.apply_motion(walk))]
+    assert np.allclose(*values, rtol=1e-6, atol=1e-6)
 
 
 def test_a_cut_stands_out_against_the_clips_and_a_blend_does_not():
