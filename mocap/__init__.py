@@ -32,8 +32,8 @@ variants         more clips out of one: its mirror image, the cycle in it (10)
 graphs           motion graphs: build, prune, choose a threshold, save (05, 06)
 match_webs       all motions like an example, and spaces of blends between them (16)
 synthesis        walks through a graph, at random or by search, and their motions (07)
-steering         walks that follow a wish: paths, waypoints, crowds (08)
-control          characters that get a new command in any frame (08)
+steering         walks that follow a wish: paths, waypoints, crowds (08, 12)
+control          characters that get a new command in any frame (08, 12)
 plotting         pictures, by matplotlib (00 to 10)
 motion_matching  characters without a graph: the frame that fits best, searched again and again
 groups           a crowd that was planned: group motion graphs, and characters for their members

@@ -6,8 +6,8 @@ that leads to a path gets a file of its own and calls `follow_path`; one that re
 the room `control`. A new kind of wish is a field of `Wishes`, with its price in `Prices` and its cost in
 `search_states.hop_costs`.
 
-Reading order (notebook 08)
----------------------------
+Reading order (notebooks 08, 12)
+--------------------------------
 1. `path_objective`: a path, the wishes along it, and their prices
 2. `search_states`: the walks of a search as arrays: expand, score, prune
 3. `beam_search`: all walks advance along the path together
