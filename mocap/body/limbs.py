@@ -19,6 +19,10 @@ _NAMES = (
     ("LeftThigh LeftShin LeftFoot", "RightThigh RightShin RightFoot"),
     ("UpperLeg_L LowerLeg_L Foot_L", "UpperLeg_R LowerLeg_R Foot_R"),
     ("left_hip left_knee left_ankle", "right_hip right_knee right_ankle"),
+    ("LeftUpLeg LeftLowLeg LeftFoot", "RightUpLeg RightLowLeg RightFoot"),
+    ("LeftUpperLeg LeftLowerLeg LeftFoot", "RightUpperLeg RightLowerLeg RightFoot"),
+    ("lThigh lShin lFoot", "rThigh rShin rFoot"),  # Poser, Daz
+    ("L_Hip L_Knee L_Ankle", "R_Hip R_Knee R_Ankle"),  # SMPL
 )
 
 

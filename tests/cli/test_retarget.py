@@ -111,6 +111,13 @@ def test_a_rest_pose_that_does_not_stand_asks_for_a_clip(clips, tmp_path, capsys
     assert main([*words, str(tmp_path / "flat.amc")]) == 0
 
 
+def test_a_single_pose_says_whose_body_it_is(clips, tmp_path):
+    load_save.save(copied(walk(), adult(), child())[:1], tmp_path / "pose.bvh")
+    out = tmp_path / "out"
+    assert main(["retarget", str(clips / "a.bvh"), "--to", str(tmp_path / "pose.bvh"), "-o", str(out)]) == 0
+    assert stance_of(load(out / "a.bvh")).leg == pytest.approx(child().leg, abs=1e-5)
+
+
 def test_an_interruption_leaves_whole_files_only(clips, tmp_path, monkeypatch, capsys):
     def interrupt(*_, **__):
         raise KeyboardInterrupt

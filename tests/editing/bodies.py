@@ -16,11 +16,20 @@ from mocap.editing.retargeting.stances import Stance, stance_of
 # As cgspeed's conversions of the CMU clips name them, and as Bandai-Namco's files do.
 LONG = {"root": "Hips", "lowerback": "LowerBack", "upperback": "Spine", "thorax": "Spine1"}
 LONG |= {"lowerneck": "Neck", "upperneck": "Neck1", "head": "Head"}
+# As in Biovision's own example, as Poser and Daz have it (cgspeed's second conversion), and as SMPL has it.
+UP_AND_LOW = {"head": "Head"}
+DAZ, SMPL = {"root": "hip", "lowerback": "abdomen", "thorax": "chest"}, {"root": "Pelvis", "head": "Head"}
 UNDERSCORED = {"root": "Hips", "lowerback": "Spine", "thorax": "Chest", "lowerneck": "Neck", "head": "Head"}
 for _side, _name, _end in (("l", "Left", "_L"), ("r", "Right", "_R")):
     _parts = ("clavicle", "humerus", "radius", "wrist", "femur", "tibia", "foot", "toes")
     _long = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase")
     _short = ("Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes")
+    _low = ("Collar", "UpArm", "LowArm", "Hand", "UpLeg", "LowLeg", "Foot", "Toe")
+    _daz = ("Collar", "Shldr", "ForeArm", "Hand", "Thigh", "Shin", "Foot", "Toe")
+    _smpl = ("Collar", "Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle", "Foot")
+    UP_AND_LOW |= {_side + old: _name + new for old, new in zip(_parts, _low, strict=True)}
+    DAZ |= {_side + old: _side + new for old, new in zip(_parts, _daz, strict=True)}
+    SMPL |= {_side + old: f"{_side.upper()}_{new}" for old, new in zip(_parts, _smpl, strict=True)}
     LONG |= {_side + old: _name + new for old, new in zip(_parts, _long, strict=True)}
     UNDERSCORED |= {_side + old: new + _end for old, new in zip(_parts, _short, strict=True)}
 

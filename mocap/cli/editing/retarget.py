@@ -88,7 +88,10 @@ def _body(options: argparse.Namespace) -> "Skeleton | Stance":
     try:
         body = editing.stance_of(clip)
     except MocapError as error:
-        raise MocapError(f"{options.to}: {error}") from None
+        try:  # nobody stands in it, but its rest pose alone may do
+            body = editing.stance_of_zero(clip.skeleton, 0.0).skeleton
+        except MocapError:
+            raise MocapError(f"{options.to}: {error}") from None
     return body
 
 

@@ -26,6 +26,10 @@ _ARMS = (
     ("LeftShoulder LeftElbow LeftWrist", "RightShoulder RightElbow RightWrist"),
     ("UpperArm_L LowerArm_L Hand_L", "UpperArm_R LowerArm_R Hand_R"),
     ("left_shoulder left_elbow left_wrist", "right_shoulder right_elbow right_wrist"),
+    ("LeftUpArm LeftLowArm LeftHand", "RightUpArm RightLowArm RightHand"),
+    ("LeftUpperArm LeftLowerArm LeftHand", "RightUpperArm RightLowerArm RightHand"),
+    ("lShldr lForeArm lHand", "rShldr rForeArm rHand"),  # Poser, Daz
+    ("L_Shoulder L_Elbow L_Wrist", "R_Shoulder R_Elbow R_Wrist"),  # SMPL
 )
 
 

@@ -42,8 +42,8 @@ def retarget(
     """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
 
     The motion is copied; pins say where its feet must be; the smallest smooth change over all frames at once
-    brings them there [Gle98], and `edit` closes what is left. Copied angle by angle, feet would slide, float
-    and sink, and bodies with other rest poses would fold.
+    brings them there [Gle98], and `feet.clean_up` closes what is left (`edit`, where there are more pins).
+    Copied angle by angle, feet would slide, float and sink, and bodies with other rest poses would fold.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def retarget(
 
     Raises
     ------
-    MocapError : for legs that are not found, rest poses that do not stand, and what `edit` refuses.
+    MocapError : for legs that are not found, rest poses that do not stand, and pins that no pose can meet.
     SkeletonMismatch : for a motion of another skeleton than the source's.
 
     Warns
@@ -91,8 +91,10 @@ def retarget(
     names = [target.skeleton.names[leg.knee] for leg in target.legs]
     linear = body_of(base, floor.joints, prices=dict.fromkeys(names, KNEES))
     # A floor alone is no ceiling: it needs no slow rise of the weight.
-    solved = solved_in_time(base, floor, linear, (KNOTS, WEIGHT), again=pins is None)
-    return edit(solved.motion, plants, body=linear, knots=(), legs=target.legs)
+    solved = solved_in_time(base, floor, linear, (KNOTS, WEIGHT), again=pins is None).motion
+    if pins is None:
+        return clean_up(solved, target.legs, pins=plants)
+    return edit(solved, plants, body=linear, legs=target.legs)
 
 
 def standing_like(skeleton: Skeleton, source: Stance) -> Stance:

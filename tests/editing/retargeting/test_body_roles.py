@@ -8,7 +8,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.datasets.generated import SKELETON
 from mocap.editing.retargeting.body_roles import ROLES, ancestors, legs_among, roles
 from mocap.errors import MocapError
-from tests.editing.bodies import LONG, UNDERSCORED, renamed, walk, without
+from tests.editing.bodies import DAZ, LONG, SMPL, UNDERSCORED, UP_AND_LOW, renamed, walk, without
 
 FILES = {
     "cmu/49/49_01.amc": "root lowerback thorax lowerneck lwrist",
@@ -28,7 +28,7 @@ def test_the_bundled_body_has_all_roles():
     assert [SKELETON.names[leg.ball] for leg in legs_among(found)] == ["ltoes", "rtoes"]
 
 
-@pytest.mark.parametrize("names", [LONG, UNDERSCORED])
+@pytest.mark.parametrize("names", [LONG, UNDERSCORED, UP_AND_LOW, DAZ, SMPL])
 def test_names_do_not_matter_where_they_are_known(names):
     body = renamed(walk(), names).skeleton
     assert {role: SKELETON.names[joint] for role, joint in roles(body).items()} == {

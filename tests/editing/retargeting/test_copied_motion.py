@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.editing.retargeting.body_roles import ancestors
 from mocap.editing.retargeting.copied_motion import copied
@@ -38,6 +39,14 @@ def test_onto_a_scaled_copy_all_places_are_scaled(share):
     here = joint_positions(walk(1.0))
     centre = here[0, [adult().roles["left hip"], adult().roles["right hip"]]].mean(axis=0) * [1, 0, 1]
     assert np.allclose(there - centre, share * (here - centre), atol=1e-12)
+
+
+@settings(max_examples=5)
+@given(angle=st.floats(-3, 3), x=st.floats(-9, 9), z=st.floats(-9, 9))
+def test_a_copy_is_carried_over_the_ground_with_its_source(angle, x, z):
+    carry = PlanarTransform(angle, x, z)
+    moved = copied(carry.apply_motion(walk(1.0)), adult(), child())
+    assert farthest(moved, carry.apply_motion(copied(walk(1.0), adult(), child()))) < 1e-11
 
 
 def test_the_rest_pose_does_not_matter():

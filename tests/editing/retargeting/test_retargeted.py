@@ -2,9 +2,12 @@
 
 import warnings
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mocap import load, load_skeleton
 from mocap.body.kinematics import joint_positions
@@ -119,6 +122,17 @@ def test_other_rates(fps):
     held_to_the_bars(clip, stance_of(clip), broad())
 
 
+@settings(max_examples=5)
+@given(shares=st.tuples(*[st.floats(0.4, 1.3)] * 4))
+def test_bodies_of_any_proportions_stand(shares):
+    legs, trunk, arms, head = shares
+    body = proportioned(adult(), legs=legs, trunk=trunk, arms=arms, head=head)
+    worn = retarget(walk(1.5), body, adult())
+    assert slide(worn, body) <= 1e-3
+    assert sinks(worn, body, walk(1.5), adult()) <= 3
+    assert kept(worn, copied(walk(1.5), adult(), body)) >= 0.99
+
+
 def test_onto_itself_nothing_moves():
     worn = retarget(walk(), adult(), adult())
     assert (
@@ -197,11 +211,12 @@ def test_bad_input():
         retarget(walk(2.0), child(), adult(), pins=pin(walk(), "lwrist", [0], [0, 1, 0]))
 
 
-def captured(real_data, name: str, first: int = 0) -> Motion:
+@cache
+def captured(real_data, name: str, first: int = 0, last: int | None = None) -> Motion:
     """Give a real clip with its plants marked and its feet clean."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return clean_up(mark_plants(load(real_data / name)[first:]))
+        return clean_up(mark_plants(load(real_data / name)[first:last]))
 
 
 REAL_BODIES = {
@@ -214,13 +229,19 @@ REAL_BODIES = {
 }
 
 
+@cache
+def stance_in(real_data, name: str) -> Stance:
+    """Say how the body in a real file stands."""
+    scale = 0.0564444 if name == "cgspeed" else None
+    return stance_of(mark_plants(load(real_data / REAL_BODIES[name], scale=scale)))
+
+
 @pytest.mark.parametrize("name", REAL_BODIES)
 def test_a_captured_walk_on_captured_bodies(real_data, name):
     if not (real_data / REAL_BODIES[name]).exists():
         pytest.skip(f"no {REAL_BODIES[name]} among the real clips")
     clip = captured(real_data, "cmu/16/16_15.amc", 12)
-    file = mark_plants(load(real_data / REAL_BODIES[name], scale=0.0564444 if name == "cgspeed" else None))
-    target = stance_of(file)
+    target = stance_in(real_data, name)
     source = stance_of_walk(clip) if name == "Bandai-Namco" else stance_of(clip)
     held_to_the_bars(clip, source, target)
 
@@ -238,7 +259,7 @@ def test_angles_copied_one_by_one_fold_other_bodies(real_data):
     """Shoulders are 81° off and hips 101° on Bandai-Namco's body; on CMU 02's and 49's feet slide."""
     clip = captured(real_data, "cmu/16/16_15.amc", 12)
     source = stance_of(clip)
-    other = stance_of(mark_plants(load(real_data / REAL_BODIES["Bandai-Namco"])))
+    other = stance_in(real_data, "Bandai-Namco")
     turns = np.tile([1.0, 0, 0, 0], (len(clip), len(other.skeleton), 1))
     for role in source.roles.keys() & other.roles.keys():
         turns[:, other.roles[role]] = clip.rotations[:, source.roles[role]]
@@ -255,12 +276,12 @@ def test_angles_copied_one_by_one_fold_other_bodies(real_data):
 
 @pytest.mark.parametrize("name", ["16_17", "16_35", "16_05", "16_03", "02_04", "127_25", "49_02"])
 def test_turns_runs_and_jumps_on_a_child_and_on_another_tree(real_data, name):
-    clip = captured(real_data, f"cmu/{name.split('_')[0]}/{name}.amc", 4)[:600]
+    clip = captured(real_data, f"cmu/{name.split('_')[0]}/{name}.amc", 4, 604)
     source = stance_of(clip)
     small = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
     held_to_the_bars(clip, source, small, smooth=1.07, deep=10)
     walked = stance_of_walk(captured(real_data, "cmu/16/16_15.amc", 12))
-    other = stance_of(mark_plants(load(real_data / REAL_BODIES["Bandai-Namco"])))
+    other = stance_in(real_data, "Bandai-Namco")
     upright = Stance(clip.skeleton, source.roles, walked.turns, source.heights)
     held_to_the_bars(clip, upright, other, smooth=1.07, deep=10)
 
@@ -269,7 +290,7 @@ def test_turns_runs_and_jumps_on_a_child_and_on_another_tree(real_data, name):
 @pytest.mark.filterwarnings("ignore:.*let go")
 def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_data, name):
     clip = mark_plants(load(real_data / name)[12:1000])
-    source, target = stance_of(clip), stance_of(mark_plants(load(real_data / REAL_BODIES["Bandai-Namco"])))
+    source, target = stance_of(clip), stance_in(real_data, "Bandai-Namco")
     worn, own = retarget(clip, target, source), clean_up(clip)
     assert slide(clip, source) > 1 > 1e-3 >= slide(worn, target)
     assert kept(worn, copied(clip, source, target)) == kept(own, clip) > 0.94
@@ -278,9 +299,9 @@ def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_
 def test_there_and_back_between_real_bodies(real_data):
     clip = captured(real_data, "cmu/16/16_15.amc", 12)
     for name, far in (("CMU 49", 0.1), ("Bandai-Namco", 10), ("puppy", 25)):
-        file = mark_plants(load(real_data / REAL_BODIES[name]))
+        target = stance_in(real_data, name)
         source = stance_of_walk(clip) if name == "Bandai-Namco" else stance_of(clip)
-        back = copied(copied(clip, source, stance_of(file)), stance_of(file), source)
+        back = copied(copied(clip, source, target), target, source)
         joints = list(source.roles.values())
         apart = np.linalg.norm(joint_positions(back) - joint_positions(clip), axis=-1)[:, joints]
         assert MM * np.sqrt((apart**2).mean()) <= far
