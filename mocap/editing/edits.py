@@ -10,13 +10,13 @@ from dataclasses import replace
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
-from mocap.editing.linear_bodies import Body
+from mocap.editing.linear_bodies import Body, chain
 from mocap.editing.pins import Pins, join_pins, plant_pins
 from mocap.editing.reaching import TOLERANCE, ready, warn_of_gaps
-from mocap.editing.spacetime_solver import KNOTS, WEIGHT, solved_in_time
+from mocap.editing.spacetime_solver import KNOTS, WEIGHT, solved_again
 from mocap.feet.ankle_targets import smooth_fill
 from mocap.feet.footskate import clean_up
 from mocap.feet.leg_ik import pose_leg
@@ -78,58 +78,63 @@ def edit(
     legs = legs_of(motion.skeleton, legs)
     pins = join_pins(plant_pins(motion, legs), pins) if legs else pins
     body = ready(motion, pins, body, WEIGHT)
-    edited = motion
-    for number, seconds in enumerate([knots] if isinstance(knots, int | float) else knots):
-        edited = solved_in_time(edited, pins, body, (seconds, WEIGHT), again=number > 0).motion
+    edited = solved_again(motion, pins, body, np.atleast_1d(knots).tolist(), WEIGHT)
     if legs:
         edited = clean_up(edited, legs, pins=pins)
     tolerance = np.full(pins.asked.shape, TOLERANCE)
     for limb in _limbs(motion, pins, body):
-        column = pins.joints.index(limb.ankle)
-        known, gap = _left(motion, edited, pins, limb)
-        edited = _close(edited, limb, known, gap)
-        tolerance[known, column] = CLOSED
+        track = LegTrack(edited, limb, forward_kinematics(edited))
+        if track.bends:
+            known, gap = _left(motion, track, pins)
+            edited = _closed(track, known, gap)
+            tolerance[known, pins.joints.index(limb.ankle)] = CLOSED
     warn_of_gaps(edited, pins, tolerance)
     return edited
 
 
 def _limbs(motion: Motion, pins: Pins, body: Body) -> list[Leg]:
-    """Find the limbs of two bones, with a hinge between them, whose end is held, but not what is between."""
+    """Find the limbs of two bones whose end is held somewhere, and what is between them is not.
+
+    Between the bones is a hinge, or the limb is on one side of the body, as arms and legs are: the bones of a
+    neck, nearly in line, would fold to close a millimetre.
+    """
     skeleton, limbs = motion.skeleton, []
     hinges = {joint for joint, axes in zip(body.joints, body.axes, strict=True) if axes.shape[1] == 1}
-    bones = np.linalg.norm(skeleton.offsets, axis=-1)
     held = {pins.joints[column] for column in np.flatnonzero(pins.held.any(axis=(0, 2)))}
+    above = {joint for end in held for joint in chain(skeleton, end)[1:]}
+    bones = np.linalg.norm(skeleton.offsets, axis=-1)
     for end in sorted(held):
         middle = int(skeleton.parents[end])
         start = int(skeleton.parents[middle]) if middle > 0 else 0
-        if start > 0 and middle in hinges - held and min(bones[end], bones[middle]) > SHORT:
+        bends = middle in hinges or (skeleton.side(end) != "middle" and end not in above)
+        if start > 0 and bends and middle not in held and min(bones[end], bones[middle]) > SHORT:
             limbs.append(Leg(start, middle, end, (skeleton.children(end) or [end])[0]))
     return limbs
 
 
-def _left(motion: Motion, edited: Motion, pins: Pins, limb: Leg) -> tuple[Mask, Array]:
+def _left(motion: Motion, track: LegTrack, pins: Pins) -> tuple[Mask, Array]:
     """Say in which frames a limb's end is known, (F,), and what is left to its place there, (F, 3), metres.
 
     Where a foot stands, the clean-up has put it to its place, or let it go: there the limb stays.
     """
-    column, names = pins.joints.index(limb.ankle), motion.skeleton.names
+    limb, column, names = track.leg, pins.joints.index(track.leg.ankle), motion.skeleton.names
     held = pins.held[:, column].any(axis=-1)
     stands = np.zeros(len(motion), bool)
     for joint in (limb.ankle, limb.ball):
-        for clip in (motion, edited):
+        for clip in (motion, track.motion):
             stands |= clip.contacts.get(names[joint], stands)
-    gap = pins.gap(joint_positions(edited))[:, column]
+    gap = pins.gap(track.poses.positions)[:, column]
     return held | stands, np.where(stands[:, None], 0.0, gap)
 
 
-def _close(motion: Motion, limb: Leg, known: Mask, gap: Array) -> Motion:
+def _closed(track: LegTrack, known: Mask, gap: Array) -> Motion:
     """Carry a limb's end by the gap where it is known, and smoothly between; its two bones turn."""
+    motion = track.motion
     if not gap[known].any():
         return motion
-    track = LegTrack(motion, limb, forward_kinematics(motion))
     wanted = track.ankle + smooth_fill(gap, known, motion.fps) - track.hip
     share = np.minimum(track.hinge.reach / np.linalg.norm(wanted, axis=-1), 1.0)
     posed = pose_leg(track, track.hip + share[:, None] * wanted, np.zeros_like(wanted))
     turned = motion.rotations.copy()
-    turned[:, limb[:3]] = posed
+    turned[:, track.leg[:3]] = posed
     return replace(motion, rotations=turned)

@@ -121,13 +121,18 @@ def refined(
     >>> float(abs(refined(walk, pins).root_positions - walk.root_positions).max().round(6))
     0.0
     """
-    if not len(knots):
-        raise MocapError("To solve takes knots: give the seconds between them, solve after solve.")
-    body, motion = ready(base, pins, body, weight), base
-    for number, seconds in enumerate(knots):
-        motion = solved_in_time(motion, pins, body, (seconds, weight), again=number > 0).motion
+    motion = solved_again(base, pins, ready(base, pins, body, weight), knots, weight)
     warn_of_gaps(motion, pins)
     return motion
+
+
+def solved_again(base: Motion, pins: Pins, body: Body, knots: Sequence[float], weight: float) -> Motion:
+    """Solve with each spacing of knots from where the one before ended, without a word on what is left."""
+    if not len(knots):
+        raise MocapError("To solve takes knots: give the seconds between them, solve after solve.")
+    for number, seconds in enumerate(knots):
+        base = solved_in_time(base, pins, body, (seconds, weight), again=number > 0).motion
+    return base
 
 
 def solved_in_time(

@@ -129,6 +129,11 @@ class LegTrack:
         return self.hinge.limit(self.distance)
 
     @cached_property
+    def bends(self) -> bool:
+        """Whether the knee is bent in any frame, and so shows which way it bends."""
+        return bool(np.linalg.norm(np.cross(*self.bones), axis=-1).max() > STIFF)
+
+    @cached_property
     def hinge(self) -> KneeHinge:
         """The axis in the thigh about which the knee bends over the clip, and what turning about it does.
 
@@ -137,11 +142,11 @@ class LegTrack:
         MocapError : for a knee that is straight in every frame: it does not show which way it bends.
         """
         thigh, shank = self.bones
+        if not self.bends:
+            raise MocapError(f"'{self.names[1]}' is straight in every frame: which way does it bend?")
         frame = self.poses.matrices[:, self.leg.hip]
         bends = np.einsum("fji,fj->fi", frame, np.cross(thigh, shank))  # seen from the thigh, (F, 3)
         axis = bends.sum(axis=0)
-        if not np.linalg.norm(bends, axis=-1).max() > STIFF:
-            raise MocapError(f"'{self.names[1]}' is straight in every frame: which way does it bend?")
         axis = frame @ (axis / np.linalg.norm(axis))
         along = (thigh * axis).sum(-1) * (shank * axis).sum(-1)
         cos = (thigh * shank).sum(-1) - along

@@ -1,19 +1,23 @@
 """One call: stones, bars, hands and rails; feet stand to the last digit, and what cannot be is said."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import difference
 from mocap.editing.edits import edit
-from mocap.editing.linear_bodies import Body, body_of
+from mocap.editing.linear_bodies import Body, body_of, hinge_of
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
+from mocap.files.load_save import load
 from tests.editing.wishes import bar, bones, captured, hand, hand_at, plants_kept, smoothness, stone, walk
 
 DENSER = (0.5, 0.25, 0.125)
@@ -132,6 +136,33 @@ def test_a_foot_in_the_air_meets_its_pin_as_well():
     check(edited, clip, join_pins(plant_pins(clip), kick), 1.7)
 
 
+@pytest.mark.parametrize(
+    ("name", "wrist"),
+    [
+        ("pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", "LeftHand"),
+        ("puppy0512_motion_graph/walk_normal_stright.bvh", "lhand"),
+    ],
+)
+def test_an_arm_whose_elbow_twists_as_well_is_a_limb(real_data, name, wrist):
+    clip = mark_plants(load(real_data / "bvh" / name)[:300])
+    joint = clip.skeleton.index(wrist)
+    assert hinge_of(clip, int(clip.skeleton.parents[joint])) is None
+    place = joint_positions(clip)[150, joint] + np.array([0, 0.1, 0])
+    pins = pin(clip, joint, range(147, 153), place)
+    assert pin_errors(edit(clip, pins), pins).max() < 1e-9
+
+
+def test_an_arm_that_is_straight_in_every_frame_shows_no_way_to_bend():
+    clip = walk()
+    arm = [clip.skeleton.index(name) for name in ("lhumerus", "lradius")]
+    turns = clip.rotations.copy()
+    turns[:, arm] = rotations.IDENTITY
+    clip = replace(clip, rotations=turns)
+    wrist = joint_positions(clip)[:, clip.skeleton.index("lwrist")]
+    pins = pin(clip, "lwrist", [240], wrist[240] + np.array([0.0, 0.05, 0.0]))
+    assert 1e-9 < pin_errors(edit(clip, pins), pins).max() < 0.005
+
+
 def test_nothing_asked_changes_nothing():
     clip = walk()
     assert edit(clip, pin(clip, "lwrist", [], [0, 0, 0])) is clip
@@ -163,7 +194,10 @@ def test_what_cannot_be_is_said():
         edit(clip, pin(clip, wrist, slice(240, 250), at[240, wrist] + np.array([0, 5, 0])))
     assert len(str(error.value)) <= 200
     with pytest.raises(MocapError, match="mark_plants finds out"):
-        edit(sample("walk_straight")[:9].__class__(**{**vars(clip), "contacts": {}}), hand(clip, [240], 240))
+        edit(replace(clip, contacts={}), hand(clip, [240], 240))
+    for knots, words in (((), "takes knots"), (0.0, "above 0 seconds"), ((0.5, np.nan), "got nan")):
+        with pytest.raises(MocapError, match=words):
+            edit(clip, hand(clip, [240], 240), knots=knots)
     apart = [pin(clip, j, [240], at[240, j] + np.array([0, y, 0])) for j, y in ((wrist, 0.1), (elbow, -0.1))]
     with pytest.warns(MocapWarning, match=r"frame 240: 'r\w+' is \d+\S* mm off its pin") as told:
         both = edit(clip, join_pins(*apart))

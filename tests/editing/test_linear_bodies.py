@@ -87,9 +87,17 @@ def test_knees_are_hinges_and_hips_are_not():
 
 
 def test_captured_knees_are_hinges(real_data):
-    for clip in (captured(real_data), load(real_data / "cmu" / "49" / "49_02.amc")):
+    for name, hinges in (
+        ("cmu/49/49_02.amc", True),
+        ("bvh/bandai_namco/dataset-1_walk_normal_001.bvh", True),
+        ("bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", True),
+        ("bvh/olaf_bvh_toolbox/walk01.bvh", True),
+        ("bvh/puppy0512_motion_graph/walk_normal_stright.bvh", False),
+    ):
+        clip = load(real_data / name)
         for leg in find_legs(clip.skeleton):
-            assert hinge_of(clip, leg.knee) is not None
+            assert (hinge_of(clip, leg.knee) is not None) == hinges, name
+    assert hinge_of(captured(real_data), LEGS[0].knee) is not None
 
 
 def test_a_knee_that_may_turn_about_three_axes_meets_the_stone_and_twists():
