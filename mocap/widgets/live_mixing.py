@@ -102,8 +102,13 @@ class Mixer:
         frame = self.player.frame
         self.changes = [change for change in self.changes if change.time < frame / FPS]
         self.changes.append(Change(frame / FPS, frozen(values / values.sum(), np.float64)))
-        self.player.show(self._played(), reports=True, autoplay=True)
-        self.player.frame = min(frame, self.player.scene["frames"] - 1)
+        played = self._played()
+        frame = min(frame, played.scene["frames"] - 1)
+        # The browser is to know the place before the scene: a place that comes later would stop the player.
+        self.player.move = [self.player.scene["number"] + 1, frame]
+        self.player.show(played, reports=True, autoplay=True)
+        with self.player.silent():
+            self.player.frame = frame
 
     def __repr__(self) -> str:
         return f"Mixer({len(self.sliders)} clips)"

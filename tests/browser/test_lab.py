@@ -15,7 +15,7 @@ CELLS = {
         from mocap import blending, datasets, matching, plotting, resample
         from mocap.body import joint_positions
         from mocap.plotting import show
-        from mocap.widgets import draw_path, explore, linked, play
+        from mocap.widgets import Mixer, draw_path, explore, linked, play
         walk = resample(datasets.sample("walk_circle"), 30)[:240]
         points = joint_positions(walk)
 """,
@@ -78,6 +78,11 @@ CELLS = {
         canvas = draw_path(follow, [[0, 0], [1, 2], [0, 4]])
         canvas""",
     "drawn": "drawn",
+    "mix": """
+        ways = [[[0, 0], [0, 2], [side, 4]] for side in (2, -2)]
+        both = blending.register([datasets.generate_walk(way) for way in ways])
+        mixer = Mixer(both, [1, 0])
+        mixer""",
     "set": "live.frame = 33",
 }
 PLAYER = ".mocap-player:visible"
@@ -273,6 +278,26 @@ def test_python_and_the_reader_move_one_frame(notebook):
     cell("linked").get_by_role("button", name="pause").click()
     stopped = state(place)
     wait_until(lambda: cell("label").get_by_text(f"Python is at {stopped}").is_visible())
+
+
+def test_a_slider_changes_a_blend_while_it_plays_and_the_body_walks_on(notebook, artefacts):
+    page, cell = notebook
+    place = cell("mix")
+    player = place.locator(PLAYER)
+    wait_until(lambda: state(place) >= 0)
+    place.locator("canvas:visible").focus()
+    page.keyboard.press("Home")
+    place.get_by_role("button", name="play").click()
+    wait_until(lambda: state(place) > 30)
+    number, end = player.evaluate("root => [root.player.scene.number, root.player.characters[0].path.at(-1)]")
+    place.locator(".noUi-handle").nth(1).focus()
+    page.keyboard.press("End")
+    wait_until(lambda: player.evaluate("root => root.player.scene.number") > number)
+    wait_until(lambda: player.get_attribute("data-playing") == "true")
+    assert state(place) >= 25
+    later = player.evaluate("root => root.player.characters[0].path.at(-1)")
+    assert np.abs(np.subtract(later, end)).max() > 0.3
+    page.screenshot(path=artefacts / "lab-mix.png")
 
 
 def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
