@@ -92,6 +92,17 @@ def test_every_key_of_any_body_is_met(seed):
         assert warped[key.frame] == pytest.approx(asked, abs=1e-9)
 
 
+def test_the_change_is_slow_so_quick_movements_stay_as_they_were():
+    def quick(seconds):
+        """Return the share of the change's power above 3 Hz."""
+        change = offsets(WALK, keys_around(WALK, 120, moved(WALK, 120), seconds))
+        power = np.abs(np.fft.rfft(change.turns[:, WALK.skeleton.index("lhumerus"), 2])) ** 2
+        return power[np.fft.rfftfreq(len(WALK), 1 / 120) > 3].sum() / power.sum()
+
+    assert quick(0.5) < 1e-3
+    assert quick(0.1) > 0.1
+
+
 def test_without_a_pose_nothing_changes():
     warped = displaced(WALK, offsets(WALK, [Key(10), Key(50), Key(100)]))
     assert np.array_equal(warped.rotations, WALK.rotations)
