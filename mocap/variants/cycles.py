@@ -15,7 +15,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array
 from mocap.blending.inertialization import inertialize
 from mocap.blending.joining import join
 from mocap.body import rotations
@@ -25,10 +24,13 @@ from mocap.editing.warping.looping import repeated
 from mocap.errors import MocapError, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
-from mocap.matching.distance_grids import distance_grid
+from mocap.matching.distance_grids import Floats, distance_grid
+from mocap.matching.point_clouds import point_cloud
 
 COARSE = 30.0  # frames per second at which the whole clip is searched
+LONGEST = 300.0  # seconds of a clip: the grid of all its windows takes 0.3 GB
 ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
+MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no more than these
 ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
 MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
@@ -64,7 +66,8 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
 
     Raises
     ------
-    MocapError : for a clip that has no room for such a cycle and its seam, and for bounds in a wrong order.
+    MocapError : for a clip that has no room for such a cycle and its seam, or lasts more than five minutes,
+        and for bounds in a wrong order.
 
     Examples
     --------
@@ -78,7 +81,14 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     least, most = _lengths(motion, slow.fps, seconds)
     window = max(2, round(SEAM * slow.fps))
-    grid = np.sqrt(np.maximum(distance_grid(slow, slow, window=window), 0.0))
+    if slow.duration > LONGEST:
+        raise MocapError(
+            f"'{shortened(motion.name)}' lasts {slow.duration:.0f} s: "
+            f"look for a cycle in {LONGEST:g} s of it."
+        )
+    points = point_cloud(slow).astype(np.float32)
+    grid = distance_grid(points, points, window=window)
+    np.sqrt(np.maximum(grid, 0.0, out=grid), out=grid)
     most = min(most, len(grid) - 1)
     if least > most:
         wanted = f"{seconds[0] + SEAM:g} s"
@@ -97,12 +107,13 @@ def _lengths(motion: Motion, fps: float, seconds: tuple[float, float]) -> tuple[
     return max(2, round(seconds[0] * fps)), round(seconds[1] * fps)
 
 
-def _best(grid: Array, least: int, most: int) -> tuple[int, int, float]:
+def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
     """Find the first frame and the length of the best cycle, and what it misses."""
     count = len(grid)
     chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
     moved = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # how far the body moves from each to the next frame
-    share = (moved + 1e-9) / (moved + 1e-9).sum()
+    moved = np.minimum(moved, np.percentile(moved, MOSTLY)) + 1e-9
+    share = moved / moved.sum()
     before = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, share, count))])
     rows = grid[chosen]
     nearest = rows.copy()  # [f, i]: from frame f to the nearest of the cycle that starts at i

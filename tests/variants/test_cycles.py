@@ -122,6 +122,8 @@ def test_real_walks_and_runs(real_data):
 def test_what_cannot_be_looped_is_refused():
     with pytest.raises(MocapError, match=r"'wave' lasts 0\.47 s: a cycle takes 0\.6 s or more"):
         find_loop(wave(15))
+    with pytest.raises(MocapError, match="'wave' lasts 303 s: look for a cycle in 300 s of it"):
+        find_loop(wave(9100))
     for seconds in ((2.0, 1.0), (0.0, 1.0), (1.0, np.inf), (np.nan, 1.0)):
         with pytest.raises(MocapError, match="from one number of seconds to a larger one"):
             find_loop(wave(200), seconds=seconds)
