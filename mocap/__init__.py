@@ -19,29 +19,30 @@ Rooms
 The rooms of the package, from the ground floor up, with the notebooks that teach them. A room uses only rooms
 on lower floors. `help(mocap.graphs)`, for example, lists the files of a room in reading order.
 
-body             what a moving body is: skeletons, motions, rotations, kinematics (01, 03)
-formats          the formats of motion files: ASF/AMC, BVH, AMASS .npz, glTF (01)
-files            motion files by their suffix, whole folders of them; paths from CSV and SVG (01, 10)
-matching         which moments are alike: metrics, distance grids, transitions (02, 05, 15)
-feet             feet that stand still: footplants, footskate clean-up (04)
-blending         from one motion into another: blends, inertialization, registration (04, 15)
-quality          numbers that judge clips and seams (01, 04, 09 to 11)
-editing          the motion itself changed: keys, pins, paths, other bodies (11 to 14)
-datasets         clips to start with: bundled ones, the CMU database (01, 10, 11)
-variants         more clips out of one: its mirror image, the cycle in it (10)
-graphs           motion graphs: build, prune, choose a threshold, save (05, 06)
-match_webs       all motions like an example, and spaces of blends between them (16)
-synthesis        walks through a graph, at random or by search, and their motions (07)
-steering         walks that follow a wish: paths, waypoints, crowds (08, 12)
-control          characters that get a new command in any frame (08, 12)
-plotting         pictures, by matplotlib (00 to 10)
-motion_matching  characters without a graph: the frame that fits best, searched again and again
-groups           a crowd that was planned: group motion graphs, and characters for their members
-diagrams         ideas drawn step by step (00 to 09)
-widgets          players and experiments for notebooks (00 to 10)
-course           the notebooks: checks of exercises, hand-outs, pages
-marking          marks for notebooks handed in, whose code runs sealed
-cli              the command `mocap`
+body               what a moving body is: skeletons, motions, rotations, kinematics (01, 03)
+formats            the formats of motion files: ASF/AMC, BVH, AMASS .npz, glTF (01)
+files              motion files by their suffix, whole folders of them; paths from CSV and SVG (01, 10)
+matching           which moments are alike: metrics, distance grids, transitions (02, 05, 15)
+feet               feet that stand still: footplants, footskate clean-up (04)
+blending           from one motion into another: blends, inertialization, registration (04, 15)
+quality            numbers that judge clips and seams (01, 04, 09 to 11)
+editing            the motion itself changed: keys, pins, paths, other bodies (11 to 14)
+datasets           clips to start with: bundled ones, the CMU database (01, 10, 11)
+variants           more clips out of one: its mirror image, the cycle in it (10)
+graphs             motion graphs: build, prune, choose a threshold, save (05, 06)
+match_webs         all motions like an example, and spaces of blends between them (16)
+synthesis          walks through a graph, at random or by search, and their motions (07)
+steering           walks that follow a wish: paths, waypoints, crowds (08, 12)
+control            characters that get a new command in any frame (08, 12)
+plotting           pictures, by matplotlib (00 to 10)
+parametric_graphs  graphs of whole spaces of strides, and characters that need no search
+motion_matching    characters without a graph: the frame that fits best, searched again and again
+groups             a crowd that was planned: group motion graphs, and characters for their members
+diagrams           ideas drawn step by step (00 to 09)
+widgets            players and experiments for notebooks (00 to 10)
+course             the notebooks: checks of exercises, hand-outs, pages
+marking            marks for notebooks handed in, whose code runs sealed
+cli                the command `mocap`
 
 Below them are `mocap.errors`, all errors that the package raises on purpose, and small helpers in `_shared`.
 
@@ -80,6 +81,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "match_webs",
         "matching",
         "motion_matching",
+        "parametric_graphs",
         "plotting",
         "quality",
         "steering",

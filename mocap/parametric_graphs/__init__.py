@@ -1,0 +1,58 @@
+"""Parametric motion graphs: a node is a whole space of strides, an edge says which may follow [HG07].
+
+In a motion graph a node is a moment of a clip. Here it is all strides of one kind, by turn and speed, each
+made by blending. An edge gives for each of them a box of targets that may follow, and when. So control needs
+no search: it reads the box, and takes what is nearest to the command.
+
+Reading order
+-------------
+1. `strides`: strides and steps, all on one grid of phases
+2. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
+3. `stride_changes`: strides that begin as one kind and end as another
+4. `nearest_windows`: where to leave one stride and enter another
+5. `parametric_edges`: boxes of targets that may follow
+6. `parametric_motion_graphs`: spaces and edges, under names
+7. `made_strides`: one stride, frame by frame
+8. `parametric_files`: save and load a graph
+9. `parametric_control`: a character that decides once per stride
+
+References
+----------
+.. [HG07] R. Heck, M. Gleicher, *Parametric Motion Graphs*, I3D 2007, doi 10.1145/1230100.1230123.
+.. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
+   doi 10.5555/846276.846307.
+.. [KG04] L. Kovar, M. Gleicher, *Automated Extraction and Parameterization of Motions in Large Data Sets*,
+   SIGGRAPH 2004, doi 10.1145/1015706.1015760.
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "strides": ["Strides", "cut_strides", "mixed_way"],
+        "stride_spaces": [
+            "StrideSpace",
+            "bell_weights",
+            "draw_parameters",
+            "make_space",
+            "measure_mixes",
+            "neighbours",
+        ],
+        "stride_changes": ["changing_strides"],
+        "nearest_windows": ["OptimalTransitions", "optimal_transitions"],
+        "parametric_edges": [
+            "ParametricEdge",
+            "Sampling",
+            "Way",
+            "build_edge",
+            "shrink_box",
+            "smallest_good",
+        ],
+        "parametric_motion_graphs": ["ParametricGraph", "build_parametric", "least_thresholds"],
+        "parametric_files": ["load_parametric", "save_parametric"],
+        "made_strides": ["MadeStride", "make_stride"],
+        "parametric_control": ["Chosen", "ParametricController"],
+    },
+)

@@ -1,0 +1,223 @@
+"""Control on a parametric motion graph: one decision per stride, and no search [HG07, 5]."""
+
+from typing import NamedTuple
+
+import networkx as nx
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask
+from mocap.blending.weights import cubic_weights
+from mocap.body import rotations
+from mocap.body.planar import PlanarTransform
+from mocap.body.skeleton import Skeleton
+from mocap.control.characters import Pose
+from mocap.errors import MocapError, NoWalk
+from mocap.matching.point_clouds import align
+from mocap.parametric_graphs.made_strides import MadeStride, make_stride
+from mocap.parametric_graphs.nearest_windows import HALF, WINDOW
+from mocap.parametric_graphs.parametric_edges import Way
+from mocap.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.parametric_graphs.stride_spaces import StrideSpace
+
+
+class Chosen(NamedTuple):
+    """A decision: the node, what was wished of it, what its box allows, and the seam's RMS distance, m.
+
+    Examples
+    --------
+    >>> Chosen("walk", np.array([1.2]), np.array([0.8]), 0.02).node
+    'walk'
+    """
+
+    node: str
+    wished: Array
+    taken: Array
+    cost: float
+
+
+class _Buffer(NamedTuple):
+    """Frames to be played before the next decision."""
+
+    roots: Array
+    turns: Array
+    blending: Mask
+    contacts: dict[str, Mask]
+
+
+class ParametricController:
+    """A character on a parametric motion graph; it fits `control.Character`.
+
+    Five frames before a stride is left, it reads which box of targets may follow, takes the parameters in it
+    that are nearest to the command, makes that stride, and blends over 11 frames. All frames until the next
+    decision are made at once, so that most steps only read.
+
+    Parameters
+    ----------
+    graph : of spaces that may follow one another for ever.
+    start : the first node; by default the first of the graph.
+
+    Raises
+    ------
+    MocapError : for a start that is not in the graph.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> from mocap.parametric_graphs.parametric_motion_graphs import build_parametric
+    >>> from mocap.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
+    >>> graph = build_parametric({"walk": make_space(strides, 0.2, -0.8, 0.8)}, good=0.05)
+    >>> ParametricController(graph).step(heading=0.5, speed=0.8).rotations.shape
+    (38, 4)
+    """
+
+    def __init__(self, graph: ParametricGraph, *, start: str | None = None) -> None:
+        self.graph = graph
+        self.node = next(iter(graph.graph)) if start is None else start
+        if self.node not in graph.graph:
+            raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph.graph)}.")
+        space = graph.space(self.node)
+        straight = np.array([0.0, np.median(space.strides.values[:, 1])])[space.columns]
+        self.parameters = space.clipped(straight)
+        self.chosen: list[Chosen] = []
+        self.stride, self.place = make_stride(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
+        self._play(
+            _Buffer(np.empty((0, 3)), np.empty((0, len(self.skeleton), 4)), np.empty(0, bool), {}),
+            self.stride.frame(0.0),
+        )
+
+    @property
+    def skeleton(self) -> Skeleton:
+        """The joints of the graph's strides."""
+        return self.graph.space(self.node).strides.skeleton
+
+    @property
+    def fps(self) -> float:
+        """Frames per second, those of the graph."""
+        return self.graph.fps
+
+    @property
+    def frames_left(self) -> int:
+        """The frames until the next decision."""
+        return len(self._buffer.roots) - self._next
+
+    def step(self, heading: float, speed: float, label: str = "") -> Pose:
+        """Walk on by one frame.
+
+        Parameters
+        ----------
+        heading : the direction to go in, radians; 0 is +z, π/2 is +x.
+        speed : metres per second.
+        label : the node to go to, by the fewest strides; "" for any.
+
+        Raises
+        ------
+        MocapError : for a heading or speed that is no finite number, or a speed below 0.
+        NoWalk : for a node that is not in the graph, or cannot be reached.
+        """
+        if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
+            raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
+        if self._next == len(self._buffer.roots):
+            self._choose(heading, speed, label)
+        frame = self._next
+        self._next += 1
+        buffer = self._buffer
+        return Pose(buffer.roots[frame], buffer.turns[frame], bool(buffer.blending[frame]))
+
+    def _play(self, blended: _Buffer, first: int) -> None:
+        """Put the frames of the stride from `first` to its decision behind the blended ones."""
+        self.way = self._ways()
+        last = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
+        frames = slice(first, max(last, first))
+        roots, turns = self.stride.placed(frames, self.place)
+        marks, none = self.stride.motion.contacts, np.empty(0, bool)
+        self._buffer = _Buffer(
+            np.concatenate([blended.roots, roots]),
+            np.concatenate([blended.turns, turns]),
+            np.concatenate([blended.blending, np.zeros(len(roots), bool)]),
+            {n: np.concatenate([blended.contacts.get(n, none), m[frames]]) for n, m in marks.items()},
+        )
+        self._next, self._at = 0, frames.stop
+
+    def _ways(self) -> dict[str, Way]:
+        """Look up for each node that may follow which box and when."""
+        return {
+            node: self.graph.edge(self.node, node).look_up(self.parameters)
+            for node in self.graph.graph.successors(self.node)
+        }
+
+    def _choose(self, heading: float, speed: float, label: str) -> None:
+        """Choose the next stride, make it, and blend into it."""
+        node = self._towards(label, heading, speed)
+        space, way = self.graph.space(node), self.way[node]
+        wished = self._wish(space, heading, speed)
+        taken = np.clip(wished, np.minimum(way.low, way.high), np.maximum(way.low, way.high))
+        made, centre = make_stride(space, taken), self._at + HALF
+        into = made.frame(way.enter)
+        window, other = self.stride.window(centre), made.window(into)
+        lay = align(window, other)
+        cost = float(np.sqrt(((window - lay.apply_points(other)) ** 2).sum(axis=-1).mean()))
+        place = self.place @ lay
+        blended = _blend(_Playing(self.stride, self.place, self._at), _Playing(made, place, into - HALF))
+        self.chosen.append(Chosen(node, wished, taken, cost))
+        self.node, self.parameters, self.stride, self.place = node, taken, made, place
+        self._play(blended, into + HALF + 1)
+
+    def _wish(self, space: StrideSpace, heading: float, speed: float) -> Array:
+        """Say which parameters would obey the command: the turn still missing, and the speed."""
+        at = self.stride.frame(1.0)
+        now = self.place.angle + self.stride.heading[at] + space.strides.offset
+        missing = (heading - now + np.pi) % (2 * np.pi) - np.pi
+        return np.array([missing, speed])[space.columns]
+
+    def _towards(self, label: str, heading: float, speed: float) -> str:
+        """Choose the node: one on the way to the label, or the one whose box comes nearest to the wish."""
+        if label:
+            if label not in self.graph.graph:
+                raise NoWalk(f"There is no node '{label}'; there are: {', '.join(self.graph.graph)}.")
+            try:
+                route = nx.shortest_path(self.graph.graph, self.node, label)
+            except nx.NetworkXNoPath as error:
+                raise NoWalk(f"No strides lead from '{self.node}' to '{label}'.") from error
+            if len(route) > 1:
+                return str(route[1])
+            if label in self.way:
+                return label
+            return min(self.way, key=lambda node: nx.shortest_path_length(self.graph.graph, node, label))
+        if len(self.way) == 1:
+            return next(iter(self.way))
+        return min(self.way, key=lambda node: self._missed(node, heading, speed))
+
+    def _missed(self, node: str, heading: float, speed: float) -> float:
+        """Measure how far the best of a box is from the wish, in radians and m/s together."""
+        space, way = self.graph.space(node), self.way[node]
+        full = np.array([self._wish(space, heading, speed), way.low, way.high])
+        taken = np.clip(full[0], full[1:].min(axis=0), full[1:].max(axis=0))
+        made = dict(zip(space.parameters, np.abs(full[0] - taken), strict=True))
+        usual = np.abs(np.median(space.strides.values[:, 1]) - speed)
+        return float(made.get("turn", 0.0) + made.get("speed", usual))
+
+
+class _Playing(NamedTuple):
+    """A stride that is placed, from a frame on."""
+
+    stride: MadeStride
+    place: PlanarTransform
+    frame: int
+
+    def window(self) -> tuple[Array, Array, dict[str, Mask]]:
+        """Take the frames of a transition: roots, rotations and contacts."""
+        frames = slice(self.frame, self.frame + WINDOW)
+        marks = {name: mark[frames] for name, mark in self.stride.motion.contacts.items()}
+        return *self.stride.placed(frames, self.place), marks
+
+
+def _blend(one: _Playing, other: _Playing) -> _Buffer:
+    """Blend the last frames of a stride with the first of the next, by cubic weights."""
+    (roots, turns, marks), (other_roots, other_turns, other_marks) = one.window(), other.window()
+    share = cubic_weights(WINDOW)
+    mixed = share[:, None] * roots + (1 - share)[:, None] * other_roots
+    amount = np.broadcast_to(share[:, None], turns.shape[:2])
+    contacts = {name: np.where(share >= 0.5, mark, other_marks[name]) for name, mark in marks.items()}
+    return _Buffer(mixed, rotations.slerp(other_turns, turns, amount), np.ones(WINDOW, bool), contacts)

@@ -1,0 +1,118 @@
+"""What is asked is got; what is near in parameters is near in motion; and two traps are traps."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.errors import MocapError
+from mocap.parametric_graphs.stride_spaces import (
+    StrideSpace,
+    bell_weights,
+    draw_parameters,
+    make_space,
+    measure_mixes,
+    neighbours,
+)
+from tests.parametric_graphs.built import space, strides
+
+
+def asked_and_got(tested, goals):
+    got = measure_mixes(tested.strides, tested.weights(goals))[:, tested.columns]
+    return np.degrees(np.abs(got - goals))
+
+
+@pytest.mark.parametrize("feet", ["lrl", "lr", "rl"])
+def test_what_is_asked_is_got(feet):
+    tested = space(feet)
+    off = asked_and_got(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
+    assert off.max() <= 1.0 and off.mean() <= 0.3
+
+
+def test_a_bell_alone_is_degrees_off():
+    tested = space()
+    goals = draw_parameters(tested, 200, np.random.default_rng(5))
+    alone = bell_weights(tested.strides.values[:, :1], goals, np.radians([12]))
+    off = np.degrees(np.abs(measure_mixes(tested.strides, alone)[:, :1] - goals))
+    assert off.mean() > 10 * asked_and_got(tested, goals).mean()
+
+
+def test_two_parameters_are_met_where_clips_fill_them():
+    both = make_space(strides(), [0.2, 0.1], [-0.8, 0.7], [0.8, 0.9], parameters=("turn", "speed"))
+    goals = draw_parameters(both, 200, np.random.default_rng(1))
+    got = measure_mixes(both.strides, both.weights(goals))
+    assert np.degrees(np.abs(got - goals)[:, 0]).mean() < 1.5
+    assert np.abs(got - goals)[:, 1].mean() < 0.01
+
+
+@given(st.lists(st.floats(0.01, 10), min_size=3, max_size=6))
+def test_weights_of_neighbours_add_up_to_one_and_the_farthest_has_none(gaps):
+    near, weights = neighbours(np.zeros((1, 1)), np.array(gaps)[:, None], np.ones(1), len(gaps))
+    assert weights.sum() == pytest.approx(1) and (weights >= 0).all()
+    if max(gaps) > min(gaps):
+        assert weights[0, -1] == 0
+    assert (np.diff(np.array(gaps)[near[0]]) >= 0).all()
+
+
+def test_the_formula_of_the_paper():
+    _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2], [4]]), np.ones(1), 3)
+    np.testing.assert_allclose(weights, [[0.75, 0.25, 0]])
+    _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2]]), np.ones(1), 2)
+    np.testing.assert_allclose(weights, [[1, 0]])
+
+
+def test_equal_gaps_and_a_hit_are_no_division_by_zero():
+    _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [-1], [1]]), np.ones(1), 3)
+    np.testing.assert_allclose(weights, 1 / 3)
+    near, weights = neighbours(np.zeros((1, 1)), np.array([[0.0], [1], [2]]), np.ones(1), 3)
+    assert near[0, 0] == 0 and weights[0, 0] == pytest.approx(1)
+
+
+def test_raw_strides_are_rough_and_the_bell_is_smooth():
+    """A change of 2 degrees in what is asked: how far do the mean poses go?"""
+    smooth = space()
+    raw = StrideSpace(
+        smooth.strides,
+        ("turn",),
+        smooth.strides.values[:, :1],
+        np.eye(len(smooth.strides)),
+        smooth.low,
+        smooth.high,
+    )
+    at = np.linspace(smooth.low, smooth.high - np.radians(2), 40)
+    changes = []
+    for tested in (smooth, raw):
+        one, other = (tested.weights(asked) for asked in (at, at + np.radians(2)))
+        poses = tested.strides.poses[:, ::12].reshape(len(tested.strides), -1)
+        changes.append(np.median(np.linalg.norm((one - other) @ poses, axis=1)))
+    assert changes[1] > 5 * changes[0]
+
+
+def test_the_range_is_cut_to_what_the_strides_come_to():
+    wide = make_space(strides(), 0.2, -9.0, 9.0)
+    assert wide.low[0] > -2.5 and wide.high[0] < 2.5
+    np.testing.assert_array_equal(wide.clipped([[-9.0], [9.0]]), [wide.low, wide.high])
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"parameters": ("height",)}, "asked by 'turn', 'speed' or both, got height"),
+        ({"parameters": ()}, "got none"),
+        ({"parameters": ("turn", "turn")}, "asked by"),
+        ({"width": 0.0}, "a width above 0"),
+        ({"low": 0.5, "high": 0.5}, "a low end below its high end"),
+        ({"low": [0.1, 0.2]}, "one finite number per parameter, 1"),
+        ({"high": np.nan}, "one finite number per parameter"),
+        ({"low": 20.0, "high": 21.0}, r"come to a turn of -?\d.\d+ to \d.\d+, outside the range"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(settings, sentence):
+    asked = {"width": 0.2, "low": -0.5, "high": 0.5, **settings}
+    with pytest.raises(MocapError, match=sentence):
+        make_space(strides(), asked.pop("width"), asked.pop("low"), asked.pop("high"), **asked)
+
+
+def test_more_neighbours_than_samples_are_refused():
+    with pytest.raises(MocapError, match="3 neighbours are taken, but there are 2 samples"):
+        neighbours(np.zeros((1, 1)), np.ones((2, 1)), np.ones(1))
