@@ -59,6 +59,8 @@ def test_weights_are_asked_at_both_times(pair):
     ("weights", "settings", "message"),
     [
         ([1.0], {}, r"2 clips needs 2 weights that add up to 1, got \[1.0\]"),
+        (["half", "half"], {}, r"Weights are numbers, got \['half', 'half'\]"),
+        ([[1], [0, 1]], {}, "Weights are numbers"),
         ([0.5, 0.6], {}, r"add up to 1, got \[0.5, 0.6\]"),
         ([np.nan, 1], {}, r"got \[nan, 1.0\]"),
         (np.full(9, 1 / 9), {}, r"got an array of shape \(9,\) with the sum 1"),

@@ -187,6 +187,36 @@ def test_alignment_by_three_splines_about_the_origin_depends_on_where_a_clip_was
     assert errors[0] < 0.02 and errors[1] > 0.2
 
 
+def test_the_arc_tangent_of_a_quotient_leaves_half_of_all_clips_facing_backwards():
+    """Eq. 2 needs both signs. Patched by ±π where neighbours differ, the angles still start wrong."""
+    clip = walks()[1.1, 120]
+    points, backwards = point_cloud(clip[::4])[:60], []
+    for turn in np.linspace(-3, 3, 40):
+        right = align(points, PlanarTransform(turn, 1.0, 2.0).apply_points(points)).angle
+        patched = np.unwrap(np.arctan(np.tan(right)), period=np.pi)
+        backwards.append(np.abs(np.angle(np.exp(1j * (patched - right)))).min() > 3)
+        assert np.abs(np.angle(np.exp(1j * (right + turn)))).max() < 1e-9
+    assert 0.4 <= np.mean(backwards) <= 0.6
+
+
+def test_a_path_of_cells_stands_still_where_a_curve_does_not():
+    """1 / S′, the paper's clock, is infinite on the path's own straight runs."""
+    registration = register([walks()[0.8, 0], walks()[1.4, 0]])
+    grid = np.sqrt(distance_grid(*(point_cloud(clip[::4]) for clip in registration.clips), window=5))
+    steps = np.diff(time_path(grid, slack=36), axis=0)
+    assert np.any(steps[:, 1] == 0)
+    assert registration.times[1].slope(np.linspace(*registration.span, 200)).min() >= 1 / 3 - 1e-9
+
+
+def test_without_a_limit_the_pace_nearly_stops():
+    clips = [walks()[0.8, 0], walks()[1.4, 0]]
+    slowest = []
+    for slope in (2, 30):
+        registration = register(clips, warp=Warp(slope=slope))
+        slowest.append(registration.times[1].slope(np.linspace(*registration.span, 300)).min())
+    assert slowest[0] >= 1 / 3 - 1e-9 and slowest[1] < 0.2
+
+
 def test_the_mean_distance_says_what_may_be_blended():
     walk, brisk, jog = walks()[0.8, 0], walks()[1.4, 0], sample("jog")[1200:1800]
     assert register([walk, brisk]).costs[1] < 0.08
@@ -229,6 +259,7 @@ def dot(frames, fps=30.0, name="dot"):
         ([dot(60), dot(60, 60.0)], {}, MocapError, "runs at 30 Hz"),
         ([dot(60), sample("jog")], {}, SkeletonMismatch, "dot"),
         ([dot(60), dot(60)], {"reference": 2}, MocapError, "clips 0 to 1, got 2"),
+        ([dot(60), dot(60)], {"reference": 0.5}, MocapError, "clips 0 to 1, got 0.5"),
         ([dot(60), dot(60)], {"slack": -0.1}, MocapError, "got -0.1 s"),
         ([dot(60), dot(60)], {"slack": np.nan}, MocapError, "got nan s"),
         ([dot(60), dot(31)], {"slack": 1.2}, MocapError, r"each clip lasts \('dot': 1.00 s\), got 1.2 s"),

@@ -173,7 +173,7 @@ def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) 
     if len(clips) < 2:
         raise MocapError(f"A registration needs two clips or more, got {len(clips)}.")
     require_alike(clips)
-    if not 0 <= reference < len(clips):
+    if reference not in range(len(clips)):
         raise MocapError(f"The reference is one of the clips 0 to {len(clips) - 1}, got {reference}.")
     if not (np.isfinite(warp.rate) and warp.rate > 0):
         raise MocapError(f"A rate must be above 0, got {warp.rate}.")
