@@ -103,6 +103,8 @@ def generate_jump(rise: float = 0.3, *, seed: int = 0) -> Motion:
     --------
     >>> generate_jump(0.25).name
     'jump'
+
+    Notebook: 13-retargeting
     """
     if not LOWEST_RISE <= rise <= HIGHEST_RISE:
         raise MocapError(f"A jump rises by {LOWEST_RISE} to {HIGHEST_RISE} m, got {rise}.")

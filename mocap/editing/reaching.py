@@ -88,6 +88,8 @@ def reach(
     >>> hand = joint_positions(walk)[30, walk.skeleton.index("lwrist")]
     >>> reach(walk, pin(walk, "lwrist", [30], hand + [0, 0.2, 0])).worst[-1] < 0.002
     True
+
+    Notebook: 13-retargeting
     """
     body = ready(base, pins, body, weight)
     if not passes >= 1:

@@ -82,6 +82,8 @@ def spacetime(
     >>> wishes = join_pins(plant_pins(walk), pin(walk, "lwrist", [60], hand + [0, 0.2, 0]))
     >>> spacetime(walk, wishes).worst[-1] < 0.005
     True
+
+    Notebook: 13-retargeting
     """
     body = ready(base, pins, body, weight)
     solved = solved_in_time(base, pins, body, (knots, weight))
