@@ -38,7 +38,7 @@ def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, capsys):
     out = folder / "new.bvh"
     assert main(["warp", str(folder / "walk.bvh"), "--keys", str(keys), "-o", str(out)]) == 0
     assert capsys.readouterr().out == (
-        f"warped     1 keys of poses, 2 of time\nwrote      {out}: 481 frames, 4.00 s\n"
+        f"keys       1 of poses, 2 of time\nwrote      {out}: 481 frames, 4.00 s\n"
     )
     made, walk = load_save.load(out), load_save.load(folder / "walk.bvh")
     hand = [joint_positions(m)[f, m.skeleton.index("lhand")] for m, f in ((made, 240), (walk, 180))]

@@ -64,7 +64,7 @@ def _warp(options: argparse.Namespace) -> int:
         motion = _with_plants(motion)
     warped = editing.warp(motion, plan, window=options.window, feet=not options.loose_feet)
     files.save(warped, options.out, widen=options.widen)
-    print(f"{'warped':<10} {len(plan.wishes)} keys of poses, {len(plan.times)} of time")
+    print(f"{'keys':<10} {len(plan.wishes)} of poses, {len(plan.times)} of time")
     print(f"{'wrote':<10} {options.out}: {len(warped)} frames, {warped.duration:.2f} s")
     return 0
 
