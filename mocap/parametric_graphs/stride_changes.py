@@ -14,6 +14,7 @@ from mocap.parametric_graphs.stride_spaces import measure_mixes
 from mocap.parametric_graphs.strides import Strides
 
 FROM, TO = 0.2, 0.8  # phases between which a change takes place
+NEAR = np.radians(5)  # a turn that the other kind nearly has
 MOST = 60  # examples of a change
 
 
@@ -75,7 +76,7 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
 def _pairs(first: Strides, second: Strides) -> tuple[Indices, Indices]:
     """Pair each stride of the first kind with the one of the second that turns most like it."""
     turns, others = first.values[:, 0], second.values[:, 0]
-    shared = np.flatnonzero((turns >= others.min()) & (turns <= others.max()))
+    shared = np.flatnonzero((turns >= others.min() - NEAR) & (turns <= others.max() + NEAR))
     if not len(shared):
         raise MocapError("The two kinds have no turn in common, so that none can change into the other.")
     ordered = shared[np.argsort(turns[shared])]
