@@ -99,7 +99,7 @@ class Bent:
         return f"{outside}, rounded at {', '.join(parts)}{more}"
 
 
-def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT) -> Bent:
+def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride | None = None) -> Bent:
     """Lay a walk on a line, and clean up its feet.
 
     Its own path is taken off and the line put in its place [Gle01]. That the line is rounded where it turns
@@ -111,6 +111,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT) -> Bent:
     motion : its plants are marked where it has none.
     path : the line, where on the ground it shall be walked.
     limit : the fastest that the walk is turned, radians per second; faster only where it turns by itself.
+    ride : of the motion, where its path is known better than by `ride_of(motion)`.
 
     Returns
     -------
@@ -137,7 +138,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT) -> Bent:
     if not limit > 0:
         raise MocapError(f"A walk is turned by more than 0 radians per second, got limit={limit}.")
     motion = _with_plants(motion)
-    ride = ride_of(motion)
+    ride = ride or ride_of(motion)
     line = round_line(path, ride, motion.fps, limit)
     frames = max(2, int(np.searchsorted(ride.along, line.along[-1], side="right")))
     motion, ride = motion[:frames], replace(ride, along=ride.along[:frames])

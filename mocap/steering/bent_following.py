@@ -19,7 +19,7 @@ from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering.beam_search import Found
 from mocap.steering.followed import Followed
-from mocap.steering.own_turning import OwnTurning, bending_on, turning_of
+from mocap.steering.own_turning import OwnTurning, bending_on, own_ride, turning_of
 from mocap.steering.path_objective import Route, Wishes, make_route
 from mocap.synthesis.walk_to_motion import to_motion
 
@@ -72,6 +72,7 @@ class BendingPlan:
     graph, path : as for `follow_path`.
     wishes : with metres along the rounded path.
     limit : the fastest that a walk is turned, radians per second.
+    own : how the graph's walks turn by themselves.
     route : the path, rounded for the clips' usual pace, so that the search reckons with what can be turned,
         and a little further.
     """
@@ -80,13 +81,15 @@ class BendingPlan:
     path: GroundPath
     wishes: Wishes
     limit: float
+    own: OwnTurning
     route: Route
 
     def lay(self, found: Found) -> BentWalk:
         """Lay a walk that was found on the path, and measure how well it follows."""
         graph = self.graph
         walk = [graph.edges[edge] for edge in found.edges]
-        bent = bend(to_motion(graph.source, walk), self.path, limit=self.limit)
+        ride = own_ride(graph, self.own, found.edges)
+        bent = bend(to_motion(graph.source, walk), self.path, limit=self.limit, ride=ride)
         walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), len(bent.motion))) + 1]
         track = bent.motion.root_positions[:, [0, 2]]
         at_length = np.hypot(*(track - self.path.at(bent.ride.along)).T)
@@ -124,7 +127,7 @@ def plan_bending(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: 
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
     route = make_route(graph, longer, wishes)
     bending = bending_on(own, longer, len(route.points))
-    return BendingPlan(graph, path, wishes, limit, replace(route, slide=0.0, bending=bending))
+    return BendingPlan(graph, path, wishes, limit, own, replace(route, slide=0.0, bending=bending))
 
 
 def _steady(own: OwnTurning, fps: float, length: float) -> Ride:

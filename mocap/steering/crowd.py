@@ -1,16 +1,19 @@
 """Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3]."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
+from mocap.editing.path_editing import moving_frames
 from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
@@ -20,6 +23,8 @@ from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Prices, Wishes
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
+ASIDE = 1.3  # times the distance to keep: how far a path is bent around another
+REACH = 1.2  # metres: how soon before and after
 
 
 class Crowd(NamedTuple):
@@ -33,20 +38,22 @@ class Crowd(NamedTuple):
     nearest: Array
 
 
-def walk_crowd(
+def walk_crowd(  # noqa: PLR0913 (where, how far apart, and how to search)
     graph: MotionGraph | CompiledGraph,
     paths: Sequence[GroundPath],
     *,
     apart: float = 0.8,
     beam: Beam | None = None,
     pool: Executor | None = None,
+    bend: float = 0.0,
 ) -> Crowd:
     """Find a walk along each path, so that the characters keep apart.
 
     First each walk is found as if alone; these searches run in parallel in a `pool`. Then the characters are
     visited in order. One that comes too near to an earlier one searches again, with a price on each frame too
     near. Where this does not help, it also waits before it starts. So the first gives way to nobody, and the
-    others give way to those before them.
+    others give way to those before them. With `bend`, walks cannot leave their paths; instead a path itself
+    is bent around the others, to the left or to the right.
 
     Parameters
     ----------
@@ -54,6 +61,7 @@ def walk_crowd(
     paths : one per character.
     apart : the least distance between the roots of any two, metres.
     beam : how thoroughly to search.
+    bend : as for `steering.follow_path`: all are laid on their paths, which are bent around others.
     pool : a `concurrent.futures.ProcessPoolExecutor` for many characters; by default one after the other.
 
     Raises
@@ -80,12 +88,14 @@ def walk_crowd(
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
     compiled, beam = compile_graph(graph), beam or Beam(width=100)
-    walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam), paths))
+    walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam, bend=bend), paths))
     waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
     for character, path in enumerate(paths):
         before = tracks[:character]
         if _clearance(tracks[character], before) < apart:
-            found = _give_way(compiled, path, before, apart, beam)
+            lines = [path, *(_around(path, tracks[character], before, apart) if bend else ())]
+            search = partial(_search, compiled, beam, bend)
+            found = _give_way(search, lines, before, apart, compiled.fps)
             walks[character], waits[character], tracks[character] = found
     nearest = np.array([[_nearest(a, b) if a is not b else np.inf for b in tracks] for a in tracks])
     if nearest.min(initial=np.inf) < apart:
@@ -99,25 +109,55 @@ def walk_crowd(
     return Crowd(walks, waits, nearest)
 
 
+def _search(graph: CompiledGraph, beam: Beam, bend: float, path: GroundPath, wishes: Wishes) -> Followed:
+    """Find a walk along a path that is free to leave it or to slow down."""
+    wide = replace(beam, width=3 * (beam.width or 100), rescue=30.0)
+    prices = Prices(crowding=60.0, stray=0.0)
+    return follow_path(graph, path, wishes, beam=wide, prices=prices, tries=1, bend=bend)
+
+
 def _give_way(
-    graph: CompiledGraph, path: GroundPath, before: Sequence[Array], apart: float, beam: Beam
+    search: Callable[[GroundPath, Wishes], Followed],
+    lines: Sequence[GroundPath],
+    before: Sequence[Array],
+    apart: float,
+    fps: float,
 ) -> tuple[Followed, float, Array]:
     """Find a walk that keeps away from the tracks `before`, with the shortest wait that is enough.
 
-    Returns the walk, its wait in seconds, and its track with the wait.
+    `lines` are the path, and the ways around the others if there are any. Returns the walk, its wait in
+    seconds, and its track with the wait.
     """
-    wide = replace(beam, width=3 * (beam.width or 100), rescue=30.0)
-    prices, found = Prices(crowding=60.0, stray=0.0), []
-    for wait in WAITS:
-        frames = round(wait * graph.fps)
+    found: list[tuple[Followed, float, Array]] = []
+    for wait, line in product(WAITS, lines):
+        frames = round(wait * fps)
         others = [track[min(frames, len(track) - 1) :] for track in before]
-        wishes = Wishes(others=others, apart=1.1 * apart)
-        walk = follow_path(graph, path, wishes, beam=wide, prices=prices, tries=1)
+        walk = search(line, Wishes(others=others, apart=1.1 * apart))
+        if line is not lines[0]:
+            off = cKDTree(lines[0].resampled(0.01).points).query(walk.track)[0]
+            walk = replace(walk, path=lines[0], off=off)
         track = np.concatenate([np.repeat(walk.track[:1], frames, axis=0), walk.track])
         found.append((walk, wait, track))
         if _clearance(track, before) >= apart:
             return found[-1]
     return max(found, key=lambda way: _clearance(way[2], before))
+
+
+def _around(path: GroundPath, track: Array, before: Sequence[Array], apart: float) -> list[GroundPath]:
+    """Bend a path aside, to the left and to the right, where a walk along it comes too near to another.
+
+    It swerves by a bump of `ASIDE` times the distance to keep, and comes back to the path at its ends.
+    """
+    nearest = min(before, key=lambda other: _nearest(track, other))
+    frames = np.arange(len(track))
+    frame = int(np.hypot(*(track - nearest[np.minimum(frames, len(nearest) - 1)]).T).argmin())
+    fine = path.resampled(0.1)
+    along, here = fine.along, int(np.hypot(*(fine.points - track[frame]).T).argmin())
+    bump = np.exp(-(((along - along[here]) / REACH) ** 2) / 2)
+    bump *= np.clip(np.minimum(along, path.length - along) / REACH, 0, 1)
+    heading = np.asarray(moving_frames(fine, along).angle)
+    left = np.stack([np.cos(heading), -np.sin(heading)], axis=1)
+    return [GroundPath(fine.points + side * ASIDE * apart * bump[:, None] * left) for side in (1, -1)]
 
 
 def _clearance(track: Array, others: Sequence[Array]) -> float:

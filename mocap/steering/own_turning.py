@@ -2,29 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, heading
-from mocap.editing.path_editing import moving_frames, ride_of
+from mocap.body.planar import PlanarTransform, from_ground, heading, on_ground
+from mocap.editing.path_editing import Ride, moving_frames, ride_of
 from mocap.errors import MocapError
-from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import EdgeTable, frame_table
 
 
 class OwnTurning(NamedTuple):
     """How the T frames of all edges of a graph turn and move on along their own path, without its sway.
 
-    `turn` (T,): radians in each frame; `step` (T,): metres in each frame; `going` (N,): the heading of the
-    path at each node, radians, in the coordinates of its clip.
+    `turn` (T,): radians in each frame; `step` (T,): metres in each frame; `ground` (T,): where the path is in
+    the coordinates of the clip that the edge leaves; `going` (N,): the heading of the path at each node,
+    radians, in the coordinates of its clip.
     """
 
     turn: Array
     step: Array
+    ground: Points
     going: Array
 
 
@@ -50,7 +53,7 @@ class Bending(NamedTuple):
         --------
         A frame that turns by 0.1 and moves on by 1 m, on a route that turns by 0.3 per metre:
 
-        >>> own = OwnTurning(np.array([0.1]), np.array([1.0]), np.array([0.0]))
+        >>> own = OwnTurning(np.array([0.1]), np.array([1.0]), np.array([0j]), np.array([0.0]))
         >>> Bending(own, np.array([0.0, 0.3])).rates(np.array([0]), np.array([1]), 1.0).round(6)
         array([0.2])
         """
@@ -75,7 +78,8 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     source = graph.source
     lengths = np.array([len(clip) for clip in source.clips])
     first = np.cumsum(lengths) - lengths
-    heads, along = np.concatenate([_ride(clip) for clip in source.clips], axis=1)
+    heads, along, *place = np.concatenate([_ride(clip) for clip in source.clips], axis=1)
+    points = on_ground(np.stack(place, axis=1))
 
     def rows(frames: Indices) -> Indices:
         return np.asarray(first[frames[:, 0]] + np.clip(frames[:, 1], 0, lengths[frames[:, 0]] - 1))
@@ -92,7 +96,22 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     steps = np.diff(along, prepend=along[0])
     steps[first] = 0.0
     step = frames.alpha * steps[here] + weight * steps[there]
-    return OwnTurning(turn, step, heads[rows(np.array(graph.nodes))])
+    laid = graph.turn[frames.edge] * points[there] + graph.move[frames.edge]
+    ground = frames.alpha * points[here] + weight * laid
+    return OwnTurning(turn, step, ground, heads[rows(np.array(graph.nodes))])
+
+
+def own_ride(graph: CompiledGraph, own: OwnTurning, edges: Indices) -> Ride:
+    """Join the paths of the clips that a walk plays to one path, and say where on it each frame is.
+
+    A spline through the whole walk would be too slow where a seam leads from a bend to the left into one to
+    the right: the walk strays from its own path there, and from a line on which it is laid, by up to 10 cm.
+    """
+    paths = replace(graph, tracks=replace(graph.tracks, ground=own.ground))
+    points, _ = walk_track(paths, edges, 1.0, 0.0)
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
+    ground = from_ground(points)
+    return Ride(GroundPath(ground), along, ground)
 
 
 def _edges(graph: CompiledGraph) -> EdgeTable:
@@ -103,12 +122,17 @@ def _edges(graph: CompiledGraph) -> EdgeTable:
 
 
 def _ride(clip: Motion) -> Array:
-    """Give the heading of a clip's path and the metres along it, (2, F); where it stands, how it faces."""
+    """Give the heading of a clip's path, the metres along it, and its x and z, (4, F).
+
+    Of a clip that stands it is how the body faces and where it is.
+    """
     try:
         ride = ride_of(clip)
     except MocapError:
-        return np.stack([np.unwrap(heading(clip.rotations[:, 0])), np.zeros(len(clip))])
-    return np.stack([np.asarray(moving_frames(ride.path, ride.along).angle), ride.along])
+        x, _, z = clip.root_positions.T
+        return np.stack([np.unwrap(heading(clip.rotations[:, 0])), np.zeros(len(clip)), x, z])
+    frames = moving_frames(ride.path, ride.along)
+    return np.stack([np.asarray(frames.angle), ride.along, np.asarray(frames.x), np.asarray(frames.z)])
 
 
 def bending_on(own: OwnTurning, path: GroundPath, points: int) -> Bending:

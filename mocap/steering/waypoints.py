@@ -56,6 +56,7 @@ def through_waypoints(
     *,
     beam: Beam | None = None,
     prices: Prices | None = None,
+    bend: float = 0.0,
 ) -> WaypointWalk:
     """Find a walk through waypoints, with their labels and at their times.
 
@@ -66,7 +67,7 @@ def through_waypoints(
     ----------
     graph : pruned.
     waypoints : two or more; times count from the start of the motion.
-    beam, prices : as for `steering.follow_path`; `prices.late` is the price of a delay.
+    beam, prices, bend : as for `steering.follow_path`; `prices.late` is the price of a delay.
 
     Raises
     ------
@@ -93,7 +94,7 @@ def through_waypoints(
     if any(seconds == 0 for place, seconds in times if place > 0):
         raise MocapError("Only the first waypoint can be asked for at 0 s.")
     wishes = Wishes(labels=labels, times=times)
-    followed = follow_path(graph, path, wishes, beam=beam, prices=prices)
+    followed = follow_path(graph, path, wishes, beam=beam, prices=prices, bend=bend)
     return WaypointWalk(followed, [_arrival(followed, a, p) for a, p in zip(along, waypoints, strict=True)])
 
 

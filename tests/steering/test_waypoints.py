@@ -4,9 +4,11 @@ import math
 
 import pytest
 
+from mocap.editing.bending import LIMIT
 from mocap.errors import MocapError
 from mocap.steering.waypoints import Waypoint, through_waypoints
 from tests.bundled import sneaking, walking
+from tests.steering.test_bent_following import straight_walker
 
 
 @pytest.mark.filterwarnings("ignore:The walk leaves")
@@ -34,3 +36,20 @@ def test_impossible_waypoints_are_told():
         through_waypoints(walking(), [Waypoint(0, 0)])
     with pytest.raises(MocapError, match="Only the first waypoint"):
         through_waypoints(walking(), [Waypoint(0, 0), Waypoint(0, 4, seconds=0.0)])
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_bent_walks_meet_waypoints_that_no_clip_turns_to():
+    """A straight walk: without bending it misses a waypoint by metres."""
+    points = [
+        Waypoint(0, 0),
+        Waypoint(1.5, 3, seconds=3.2),
+        Waypoint(-0.5, 5.5),
+        Waypoint(0, 9, seconds=10.0),
+    ]
+    plain = through_waypoints(straight_walker(), points)
+    bent = through_waypoints(straight_walker(), points, bend=LIMIT)
+    assert max(arrival.off for arrival in plain.arrivals) > 0.5
+    assert max(arrival.off for arrival in bent.arrivals) < 0.08
+    late = [abs(arrival.late) for arrival in bent.arrivals if not math.isnan(arrival.late)]
+    assert max(late) < 1.5
