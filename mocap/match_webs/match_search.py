@@ -5,9 +5,10 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from itertools import groupby, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
@@ -110,6 +111,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     _check(web, limit, lengths, steps)
     low, high = (share * (query.stop - query.start) for share in lengths)
     found, asking, left_out = [query], [0], 0
+    places = np.array([query[:2]])
     while asking and (steps is None or found[-1].generation < steps):
         moving = [number for number in asking if _spread(web, found[number]) >= still]
         left_out += len(asking) - len(moving)
@@ -121,8 +123,9 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         ]
         before = len(found)
         for other, number in sorted(new, key=lambda pair: pair[0].cost):
-            if not _is_among(other, found):
+            if not _is_among(other, places):
                 found.append(_composed(found[number], other, number))
+                places = np.append(places, [other[:2]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
     first, *others = (_match(web, one) for one in found)
@@ -167,9 +170,9 @@ def _spread(web: MatchWeb, found: _Found) -> float:
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
 
 
-def _is_among(other: Crossing, found: Sequence[_Found]) -> bool:
-    """Say whether a stretch and a match have more than half of their union in common."""
-    starts, stops = np.array([(one.start, one.stop) for one in found]).T
+def _is_among(other: Crossing, places: NDArray[np.integer[Any]]) -> bool:
+    """Say whether a stretch and a match, [start, stop), have more than half of their union in common."""
+    starts, stops = places.T
     common = np.minimum(stops, other.stop) - np.maximum(starts, other.start)
     union = np.maximum(stops, other.stop) - np.minimum(starts, other.start)
     return bool((common > SAME * union).any())
