@@ -12,6 +12,9 @@ from mocap.editing.linear_bodies import body_of
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, pin_errors, plant_pins
 from mocap.editing.reaching import reach
+from mocap.editing.retargeting.copied_motion import copied
+from mocap.editing.retargeting.proportions import proportioned
+from mocap.editing.retargeting.stances import stance_of
 from mocap.editing.spacetime_solver import spacetime
 from mocap.feet.footskate import clean_up
 from tests.editing.wishes import captured, plants_kept, smoothness, walk
@@ -56,6 +59,21 @@ def test_smoothing_in_turn_leaves_centimetres(clip):
     motions = [smoothed_in_turn(laid, pins, times) for times in (1, 7)]
     assert left(motions[0], pins) > 30 and left(motions[1], pins) > 10
     assert smoothness(motions[1], clip) < 1.1
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_on_a_child_with_long_steps_few_knots_miss_and_many_shake(clip):
+    source = stance_of(clip)
+    child = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    worn = copied(clip, source, child, scale=1.4 * 0.55)
+    pins = plant_pins(worn)
+    assert left(worn, pins) > 70
+    motions = [spacetime(worn, pins, knots=knots).motion for knots in (1.0, 0.25, 0.125, 0.03)]
+    motions.append(reach(worn, pins).motion)
+    errors = [left(motion, pins) for motion in motions]
+    shakes = [smoothness(motion, worn) for motion in motions]
+    assert errors[0] > 30 and errors[1] < 4.5 and errors[2] < 2 and errors[3] < 0.6 and errors[4] < 0.4
+    assert shakes[2] < 1.35 and shakes[3] > 3 and shakes[4] > 14
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
