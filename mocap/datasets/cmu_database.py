@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.retargeting.retargeted import retarget
-from mocap.editing.retargeting.stances import Stance
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
 

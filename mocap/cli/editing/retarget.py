@@ -12,7 +12,7 @@ from mocap.errors import MocapError
 if TYPE_CHECKING:
     from mocap.body.skeleton import Skeleton
     from mocap.cli.options import Commands
-    from mocap.editing.retargeting.stances import Stance
+    from mocap.editing.retargeting.upright_bodies import Stance
 
 FORMATS = ("bvh", "amc", "glb")
 

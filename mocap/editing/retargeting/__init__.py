@@ -6,9 +6,10 @@ smooth change that is as small as possible brings the feet back to the floor, ov
 Reading order
 -------------
 1. `body_roles`: which joint does what
-2. `stances`: how a body stands, whatever its rest pose is
-3. `proportions`: a body with shorter legs or a larger head
-4. `copied_motion`: every joint looks where the same joint of the other body looks
-5. `floors`: where the new feet may be
-6. `retargeted`: all of it in one function
+2. `upright_bodies`: how a body stands, as a value
+3. `stances`: find it, whatever the rest pose is
+4. `proportions`: a body with shorter legs or a larger head
+5. `copied_motion`: every joint looks where the same joint of the other body looks
+6. `floors`: where the new feet may be
+7. `retargeted`: all of it in one function
 """

@@ -14,7 +14,8 @@ from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.motion import Motion
 from mocap.editing.retargeting.body_roles import ancestors
-from mocap.editing.retargeting.stances import Stance, heading_by_hips
+from mocap.editing.retargeting.stances import heading_by_hips
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.errors import MocapError
 
 # The roles that a joint's bones lead to. Head, ankles and balls lead to none; a hand goes with its forearm.

@@ -12,7 +12,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.editing.pins import Pins, join_pins, pin
 from mocap.editing.retargeting.body_roles import FEET
-from mocap.editing.retargeting.stances import Stance
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.feet.ankle_targets import place_plants
 from mocap.feet.footskate import settled_marks
 

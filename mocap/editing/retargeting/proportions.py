@@ -4,7 +4,7 @@ import numpy as np
 
 from mocap.body.skeleton import Skeleton
 from mocap.editing.retargeting.body_roles import FEET, ancestors
-from mocap.editing.retargeting.stances import Stance
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.errors import MocapError
 
 

@@ -13,7 +13,8 @@ from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins
 from mocap.editing.retargeting.body_roles import FEET
 from mocap.editing.retargeting.copied_motion import copied
 from mocap.editing.retargeting.floors import dips_of, floor_pins
-from mocap.editing.retargeting.stances import Stance, stance_of, stance_of_zero
+from mocap.editing.retargeting.stances import stance_of, stance_of_zero
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.editing.spacetime_solver import WEIGHT, solved_in_time
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up

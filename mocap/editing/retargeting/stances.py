@@ -7,92 +7,24 @@ along one line. So two bodies are compared as they stand: feet flat, heading +z.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from mocap._shared.arrays import Array, Mask, frozen
+from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
-from mocap.body.limbs import Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.retargeting.body_roles import FEET, ancestors, legs_among, roles
+from mocap.editing.retargeting.upright_bodies import Stance, joint_points
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 
 # Degrees. A rest pose stands where the hips are level and the thighs hang, within these. The files at hand
 # keep to 0 and 20 (CMU), 0 and 1 (others), or are 90 and 90 off: their rest poses are no stances.
 LEVEL, HANGING = 30.0, 45.0
-
-
-@dataclass(frozen=True, eq=False)
-class Stance:
-    """How a skeleton stands upright on its flat feet, heading +z.
-
-    Parameters
-    ----------
-    skeleton : J joints.
-    roles : {role: joint}, from `roles`.
-    turns : shape (J, 4), quaternions: how each joint is turned in the world.
-    heights : {role: metres} of both ankles and balls over the floor.
-
-    Raises
-    ------
-    MocapError : for heights that are missing, or that no foot of this length has.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> stance = stance_of_walk(sample("walk_straight"))
-    >>> round(stance.leg, 2), round(stance.heights["left ankle"], 2)
-    (0.86, 0.07)
-    """
-
-    skeleton: Skeleton
-    roles: Mapping[str, int]
-    turns: Array
-    heights: Mapping[str, float]
-    points: Array = field(init=False)
-    """Where the joints are in this stance, seen from joint 0, shape (J, 3), metres."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "turns", frozen(self.turns, np.float64))
-        object.__setattr__(self, "points", frozen(_points(self.skeleton, self.turns), np.float64))
-        if missing := [role for role in FEET if not np.isfinite(self.heights.get(role, np.nan))]:
-            raise MocapError(
-                f"A stance needs the heights of both ankles and balls; '{missing[0]}' is missing."
-            )
-        for side, leg in zip(("left", "right"), self.legs, strict=True):
-            drop = self.heights[f"{side} ankle"] - self.heights[f"{side} ball"]
-            if not abs(drop) < (length := leg.lengths(self.skeleton)[2]):
-                raise MocapError(
-                    f"The {side} ankle would stand {100 * drop:.3g} cm over its ball; "
-                    f"the foot is {100 * length:.3g} cm long."
-                )
-
-    @property
-    def legs(self) -> tuple[Leg, Leg]:
-        """The left and the right leg."""
-        return legs_among(self.roles)
-
-    @property
-    def leg(self) -> float:
-        """How long a leg is from hip to ankle, the mean of both, metres."""
-        return float(np.mean([leg.lengths(self.skeleton)[:2].sum() for leg in self.legs]))
-
-    def height(self, part: str) -> float:
-        """Give the mean height of both ankles, or both balls, over the floor, metres."""
-        return float(np.mean([self.heights[f"{side} {part}"] for side in ("left", "right")]))
-
-
-def _points(skeleton: Skeleton, turns: Array) -> Array:
-    points = np.zeros((len(skeleton), 3))
-    for joint in range(1, len(skeleton)):
-        above = skeleton.parents[joint]
-        points[joint] = points[above] + rotations.rotate(turns[above], skeleton.offsets[joint])
-    return points
 
 
 def stance_of_zero(
@@ -122,7 +54,7 @@ def stance_of_zero(
     """
     who = roles(skeleton, told)
     turns = np.tile(rotations.IDENTITY, (len(skeleton), 1))
-    points = _points(skeleton, turns)
+    points = joint_points(skeleton, turns)
     if not _upright(who, points):
         level, hanging = _off_upright(who, points)
         raise MocapError(
@@ -234,7 +166,7 @@ def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stanc
     """
     who = roles(motion.skeleton, told)
     turns = np.tile(rotations.IDENTITY, (len(motion.skeleton), 1))
-    if _upright(who, _points(motion.skeleton, turns)):
+    if _upright(who, joint_points(motion.skeleton, turns)):
         return stance_of_zero(motion.skeleton, standing_heights(motion, told=told), told=told)
     return stance_of_walk(motion, told=told)
 

@@ -19,7 +19,8 @@ from mocap.editing.retargeting.copied_motion import copied
 from mocap.editing.retargeting.floors import dips_of, floor_pins
 from mocap.editing.retargeting.proportions import proportioned
 from mocap.editing.retargeting.retargeted import retarget, standing_like
-from mocap.editing.retargeting.stances import Stance, stance_of, stance_of_walk
+from mocap.editing.retargeting.stances import stance_of, stance_of_walk
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.editing.spacetime_solver import spacetime
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.feet.footplants import mark_plants, runs

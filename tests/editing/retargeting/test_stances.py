@@ -13,13 +13,13 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.planar import PlanarTransform
 from mocap.editing.retargeting.body_roles import FEET, roles
 from mocap.editing.retargeting.stances import (
-    Stance,
     heading_by_hips,
     stance_of,
     stance_of_walk,
     stance_of_zero,
     standing_heights,
 )
+from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from tests.editing.bodies import adult, along_x, renamed, rested, walk
@@ -108,6 +108,29 @@ def test_heights_that_no_foot_has_are_refused():
         Stance(body, who, turns, dict.fromkeys(FEET[:3], 0.05))
     with pytest.raises(MocapError, match="left ankle would stand 20 cm over its ball; the foot is 13"):
         Stance(body, who, turns, {role: 0.2 * role.endswith("ankle") for role in FEET})
+
+
+def test_a_stance_needs_legs_and_turns():
+    body, heights = walk().skeleton, adult().heights
+    who, turns = dict(adult().roles), adult().turns
+    with pytest.raises(MocapError, match=r"4\) of length 1, got \(3, 4\)"):
+        Stance(body, who, turns[:3], heights)
+    with pytest.raises(MocapError, match="of length 1"):
+        Stance(body, who, 2 * turns, heights)
+    del who["right knee"]
+    with pytest.raises(MocapError, match="the right knee is missing"):
+        Stance(body, who, turns, heights)
+
+
+def test_a_stance_keeps_its_own_values():
+    who, heights = dict(adult().roles), dict(adult().heights)
+    stance = Stance(walk().skeleton, who, adult().turns, heights)
+    who.clear()
+    heights.clear()
+    assert stance.roles == adult().roles
+    assert stance.height("ball") == adult().height("ball")
+    assert not stance.turns.flags.writeable
+    assert repr(stance).startswith("Stance(38 joints, legs 0.86 m")
 
 
 def test_plants_are_marked_where_they_are_not_yet():
