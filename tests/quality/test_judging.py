@@ -49,7 +49,7 @@ FLAWS = {
     "lopsided": lopsided,
     "slide": lambda: replace(WALK, root_positions=WALK.root_positions * [0.8, 1, 0.8]),
     "skate": lambda: replace(WALK, root_positions=WALK.root_positions * [0.5, 1, 0.5]),
-    "knee": lambda: turned("ltibia", np.where(np.arange(len(WALK)) % 120 < 30, -40.0, 0.0), [1, 0, 0]),
+    "bent": lambda: turned("ltibia", np.where(np.arange(len(WALK)) % 120 < 30, -40.0, 0.0), [1, 0, 0]),
 }
 
 
@@ -65,6 +65,18 @@ def test_each_flaw_is_found_by_its_own_measure(name):
 def test_the_bundled_clips_pass_at_any_rate(name):
     for fps in (30, 60):
         assert judge(resample(samples.sample(name), fps)[: 20 * fps]).stand_out == []
+
+
+def test_an_elbow_that_bends_backwards_is_found():
+    (bent,) = (
+        m for m in judge(turned("lradius", np.full(len(WALK), -25.0), [1, 0, 0])).measures if m.name == "bent"
+    )
+    straight = judge(WALK).measures[-1]
+    swung = np.where(np.arange(len(WALK)) % 200 < 20, 60.0, 0.0)
+    (broken,) = (m for m in judge(turned("lradius", swung, [1, 0, 0])).measures if m.name == "bent")
+    assert broken.ratio > 1 > straight.ratio
+    assert broken.where.startswith("'lradius' by -")
+    assert bent.ratio < broken.ratio
 
 
 def test_a_longer_flaw_is_a_worse_one():
@@ -101,10 +113,10 @@ def test_the_path_is_measured_where_one_is_given():
 
 def test_a_body_without_known_legs_is_measured_without_its_feet():
     judged = judge(wave(60))
-    assert [measure.name for measure in judged.measures] == ["jolt", "tremble", "sunk", "turn"]
+    assert [measure.name for measure in judged.measures] == ["jolt", "tremble", "sunk", "turn", "bent"]
     assert judged.left_out[0].startswith("feet and knees: No legs found")
     table = judgement_table([judged, judge(WALK)])
-    assert table.splitlines()[0].split()[-2:] == ["knee", "worst"]
+    assert table.splitlines()[0].split()[-2:] == ["skate", "worst"]
     assert " - " in table
 
 
