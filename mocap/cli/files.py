@@ -41,8 +41,8 @@ def add_judge(commands: "Commands") -> None:
         help="measure motions, whatever made them, and rank them",
         description="Measure motions, whatever program made them, and list the best first: jolts, trembling, "
         "feet that sink, slide or skate, knees, elbows, joints that turn too fast, and how far from a path. "
-        "Each number is a share of its limit; above 1 it stands out beyond what captured people do. It cannot "
-        "see whether a motion is the one that was wanted, or looks alive.",
+        "Each number is a share of its limit; above 1 it stands out beyond what captured people do. "
+        "Whether a motion is the one that was wanted, or looks alive, it cannot see.",
     )
     add = judge.add_argument
     add(
