@@ -12,6 +12,8 @@ Reading order (notebooks 08, 12)
 4. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
 5. `steered_motion`: steer a character by a list of headings
 6. `obedience`: how soon a character obeys
+7. `pursuit`: lead a character to places, and along a path
+8. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -28,7 +30,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "look_ahead": ["Command"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner", "Turnable"],
-        "steered_motion": ["Steered", "steer"],
+        "steered_motion": ["Steered", "as_motion", "steer"],
         "obedience": ["Delay", "measure_delay"],
+        "pursuit": ["Pursued", "pursue", "walk_to"],
+        "judged_control": ["ControlReport", "command_headings", "judge_control", "plant_slides"],
     },
 )

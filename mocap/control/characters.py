@@ -4,6 +4,8 @@
 steered, seen and measured as those before it.
 """
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
 from mocap._shared.arrays import Array
@@ -12,6 +14,8 @@ from mocap.body.skeleton import Skeleton
 
 class Pose(NamedTuple):
     """One frame: root position (3,) in metres, rotations (J, 4), and whether a transition is under way.
+
+    `contacts` says which joints stand, as the clips say that the frame comes from; empty where they do not.
 
     Examples
     --------
@@ -23,6 +27,7 @@ class Pose(NamedTuple):
     root_position: Array
     rotations: Array
     blending: bool
+    contacts: Mapping[str, bool] = MappingProxyType({})
 
 
 class Character(Protocol):

@@ -31,6 +31,12 @@ FULL = np.radians(20)
 # With 0.3 it counts as in the air while it still stands, and stances turn by up to 30°.
 STANDING = 0.5
 
+# Seconds in which the rate rises, from 0 where the pivot goes over to the other foot: there the root, which
+# turned to one side about a foot behind it, turns to the other about one ahead. Without it the root's
+# accelerations double. To let the pivot glide over instead would slide both feet.
+EASE = 0.1
+APART = 0.25  # metres: a pivot that moves further has gone over to the other foot
+
 # Metres per second. A slower character goes nowhere, so it has no direction that could be wrong.
 WALKING = 0.15
 
@@ -52,7 +58,8 @@ class FootTurner:
 
     The direction of the last third of a second is off the heading by e. Before each frame the figure
     turns towards it, by rate · min(1, e² / (20°)²) / fps, about the slowest of its ankles and balls. A joint
-    that stands is turned by 25° at most; then the figure waits until that foot is in the air.
+    that stands is turned by 25° at most; then the figure waits until that foot is in the air. The rate rises
+    over 0.1 s, and begins anew where the other foot becomes the slowest.
 
     Parameters
     ----------
@@ -84,6 +91,7 @@ class FootTurner:
         self.track: deque[complex] = deque(maxlen=round(character.fps / 3) + 1)
         self.feet: Points = np.zeros(0, complex)
         self.pivot = 0j  # the foot that stands
+        self.angle = 0.0  # by which the last frame was turned, radians
         self.turned = np.zeros(0)  # by how much each foot was turned since it stands, radians
 
     @property
@@ -121,7 +129,9 @@ class FootTurner:
         """Turn towards the heading, as far as the rate and the stances allow."""
         most = self.rate / self.fps * min(1.0, (missing / FULL) ** 2)
         least, largest = min(0.0, -MOST - self.turned.min()), max(0.0, MOST - self.turned.max())
-        angle = max(least, min(largest, math.copysign(most, missing)))
+        rise = self.rate / (EASE * self.fps**2)
+        angle = max(self.angle - rise, min(self.angle + rise, math.copysign(most, missing)))
+        self.angle = angle = max(least, min(largest, angle))
         self.character.turn_about(self.pivot, angle)
         self.feet = self.pivot + cmath.exp(1j * angle) * (self.feet - self.pivot)
         self.turned += angle
@@ -132,4 +142,7 @@ class FootTurner:
             self.feet, self.turned = feet, np.zeros(len(feet))
         moved = np.abs(feet - self.feet)
         self.turned[moved > STANDING / self.fps] = 0
-        self.feet, self.pivot = feet, complex(feet[moved.argmin()])
+        pivot = complex(feet[moved.argmin()])
+        if abs(pivot - self.pivot) > APART:
+            self.angle = 0.0
+        self.feet, self.pivot = feet, pivot

@@ -196,13 +196,20 @@ def pose_on_edge(graph: CompiledGraph, edge: int, frame: int, turn: complex, mov
     clips, window = graph.source.clips, graph.source.window
     root, turns = _placed(clips[clip], first + frame, turn, move)
     if not graph.blended[edge]:
-        return Pose(root, turns, blending=False)
+        return Pose(root, turns, blending=False, contacts=_contacts(clips[clip], first + frame))
     move += turn * complex(graph.move[edge])
     turn *= complex(graph.turn[edge])
     there = _placed(clips[other], end - window + frame, turn, move)
     alpha = cubic_weights(window)[frame]
     mixed = alpha * root + (1 - alpha) * there[0]
-    return Pose(mixed, rotations.slerp(there[1], turns, np.array(alpha)), blending=True)
+    owner = (clips[clip], first + frame) if alpha >= 0.5 else (clips[other], end - window + frame)
+    pose = rotations.slerp(there[1], turns, np.array(alpha))
+    return Pose(mixed, pose, blending=True, contacts=_contacts(*owner))
+
+
+def _contacts(clip: Motion, frame: int) -> dict[str, bool]:
+    """Say which joints stand in a frame of a clip."""
+    return {name: bool(mark[frame]) for name, mark in clip.contacts.items()}
 
 
 def _placed(motion: Motion, frame: int, turn: complex, move: complex) -> tuple[Array, Array]:

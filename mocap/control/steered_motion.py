@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.motion import Motion
-from mocap.control.characters import Character
+from mocap.control.characters import Character, Pose
 from mocap.errors import MocapError
 
 
@@ -77,6 +77,28 @@ def steer(character: Character, headings: Sequence[float], speed: float = 1.1) -
     for heading in headings:
         left.append(character.frames_left)
         poses.append(character.step(float(heading), speed))
-    roots, turns, blending = (np.array(values) for values in zip(*poses, strict=True))
-    motion = Motion(character.skeleton, roots, turns, character.fps, "steered")
-    return Steered(motion, blending, np.array(left))
+    return Steered(as_motion(character, poses), np.array([pose.blending for pose in poses]), np.array(left))
+
+
+def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered") -> Motion:
+    """Put the poses of a character in a row; marks that all of them have become contacts.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.control import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> character = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> walked = as_motion(character, [character.step(0.0, 1.0) for _ in range(9)])
+    >>> walked, sorted(walked.contacts)
+    (Motion('steered', 9 frames at 30 Hz, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
+    """
+    marks = [mark for mark in poses[0].contacts if all(mark in pose.contacts for pose in poses)]
+    return Motion(
+        character.skeleton,
+        np.array([pose.root_position for pose in poses]),
+        np.array([pose.rotations for pose in poses]),
+        character.fps,
+        name,
+        contacts={mark: np.array([pose.contacts[mark] for pose in poses]) for mark in marks},
+    )

@@ -127,6 +127,7 @@ class MotionMatcher:
             root + offset.root,
             rotations.multiply(turns, rotations.from_rotvec(offset.turns)),
             blending=bool(self.cuts) and self._steps - self.cuts[-1] < 2 * self.wants.fade * self.fps,
+            contacts={name: bool(mark[self.frame]) for name, mark in self.database.contacts.items()},
         )
         self._advance()
         return pose

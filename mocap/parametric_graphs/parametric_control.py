@@ -123,7 +123,8 @@ class ParametricController:
         frame = self._next
         self._next += 1
         buffer = self._buffer
-        return Pose(buffer.roots[frame], buffer.turns[frame], bool(buffer.blending[frame]))
+        marks = {name: bool(mark[frame]) for name, mark in buffer.contacts.items()}
+        return Pose(buffer.roots[frame], buffer.turns[frame], bool(buffer.blending[frame]), marks)
 
     def _play(self, blended: _Buffer, first: int) -> None:
         """Put the frames of the stride from `first` to its decision behind the blended ones."""

@@ -13,7 +13,7 @@ from mocap._shared.arrays import runs
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.planar import PlanarTransform, on_ground
-from mocap.control import Controller, FootTurner, measure_delay, steer
+from mocap.control import Controller, FootTurner, foot_turning, measure_delay, steer
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from tests.bundled import bundled
@@ -86,6 +86,20 @@ def test_feet_slide_no_more_and_no_stance_pivots_far():
     assert skate(motion) <= 1.05 * skate(straight)
     assert np.degrees(pivots(straight, angle).max()) <= 25
     assert np.ptp(angle) > np.pi / 2  # and it was turned a good deal
+
+
+def hard(motion):
+    """Give the 99th percentile of the root's accelerations."""
+    return np.percentile(np.linalg.norm(np.diff(motion.root_positions, 2, axis=0), axis=1), 99)
+
+
+def test_the_root_does_not_jolt_where_the_pivot_goes_from_foot_to_foot(monkeypatch):
+    """There the root turned about a foot behind it, and turns about one ahead: at once, this is a jolt."""
+    motion, straight, _ = turned_and_not(BUNDLED, zigzag(60))
+    assert hard(motion) < 1.6 * hard(straight)
+    monkeypatch.setattr(foot_turning, "EASE", 1e-6)
+    motion, straight, _ = turned_and_not(BUNDLED, zigzag(60))
+    assert hard(motion) > 1.9 * hard(straight)
 
 
 def test_a_turn_about_the_root_lets_the_feet_slide():

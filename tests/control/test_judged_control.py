@@ -1,0 +1,88 @@
+"""One loop for all characters: the graph, the graph turned about its feet, strides, and matching."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mocap.control import Controller, FootTurner, command_headings, judge_control, plant_slides
+from mocap.datasets.samples import sample
+from mocap.errors import MocapError
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.motion_matching import MotionMatcher, Wants
+from mocap.parametric_graphs import ParametricController
+from mocap.quality.seam_measures import spread
+from tests.bundled import bundled
+from tests.motion_matching.matched import walks
+from tests.parametric_graphs.built import WALKS, clips, stepping, walking
+
+SPEED = 0.8
+
+
+@cache
+def graph():
+    return compile_graph(bundled(*WALKS))
+
+
+CHARACTERS = {
+    "motion graph": lambda: Controller(graph()),
+    "motion graph, turned": lambda: FootTurner(Controller(graph()), np.radians(40)),
+    "strides": lambda: ParametricController(walking()),
+    "steps": lambda: ParametricController(stepping(0.04)),
+    "matching": lambda: MotionMatcher(walks(), Wants(future=0.5)),
+}
+
+
+@cache
+def report(name):
+    return judge_control(CHARACTERS[name], spread(clips()), speed=SPEED, seconds=40)
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_all_obey_and_all_feet_can_be_cleaned(name):
+    judged = report(name)
+    assert judged.delay.mean < 3 and judged.delay.slowest < 8
+    assert judged.cleaned < 0.01 < judged.slide < 4
+    assert judged.kept >= 0.9 and judged.jolting <= 0.02
+
+
+def test_quickness_costs_slide():
+    """Matching obeys soonest and slides most; a graph turned about its feet obeys sooner at its own slide."""
+    alone, turned, matching = (report(name) for name in ("motion graph", "motion graph, turned", "matching"))
+    assert matching.delay.mean < turned.delay.mean < alone.delay.mean
+    assert matching.slide > 1.3 * alone.slide
+    assert turned.slide < 1.5 * alone.slide
+
+
+def test_plants_found_anew_would_hide_the_fault():
+    """A foot that slides is no plant: marked anew, half of the slide is gone."""
+    from mocap.control import steer
+    from mocap.feet.footplants import mark_plants
+
+    headings = command_headings(40, 30).tolist()
+    walked = steer(CHARACTERS["matching"](), headings, SPEED).motion
+    found = mark_plants(replace(walked, contacts={}))
+    assert plant_slides(found).mean() < 0.8 * plant_slides(walked).mean()
+
+
+def test_commands_turn_by_30_to_120_degrees_every_two_seconds():
+    headings = command_headings(20, 30, seed=3)
+    turns = np.abs(np.diff(headings[::60]))
+    assert len(headings) == 600 and turns.min() >= np.pi / 6 and turns.max() <= 2 * np.pi / 3
+    assert not np.diff(headings.reshape(-1, 60), axis=1).any()
+
+
+def test_a_clip_s_own_feet_stand_and_no_plants_are_no_slide():
+    assert plant_slides(sample("walk_curve_2")).max() < 1e-6
+    assert plant_slides(replace(sample("walk_curve_2"), contacts={})).tolist() == [0.0]
+
+
+def test_a_character_without_marks_is_refused():
+    from mocap.graphs.motion_graph import build
+    from mocap.graphs.pruning import prune
+
+    bare = [replace(clip, contacts={}) for clip in clips()[:1]]
+    marks = compile_graph(prune(build(bare, window=10, threshold=0.04)))
+    with pytest.raises(MocapError, match="do not say when feet stand"):
+        judge_control(lambda: Controller(marks), spread(clips()), seconds=5)
