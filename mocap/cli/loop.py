@@ -1,12 +1,11 @@
 """The command `mocap loop`: the best cycle in a clip, closed."""
 
 import argparse
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from mocap import body, editing, files, variants
+from mocap import editing, files, quality, variants
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_reading, number, require_amc, whole
 
@@ -46,11 +45,11 @@ def _loop(options: argparse.Namespace) -> int:
     way = "inertialize" if options.inertialize else "blend"
     cycle = variants.loop(motion, found, way=way, straight=options.straight, clean=options.clean)
     files.save(editing.repeated(cycle, options.times), options.out, widen=True)
-    facing = np.unwrap(body.heading(cycle.rotations[:, 0]))
-    step = np.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
+    report = quality.inspect(cycle)
+    step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
     print(f"{'cycle':<12} frames {found.first} to {found.last}, {cycle.duration:.2f} s")
     print(f"{'seam':<12} {100 * found.seam:.1f} cm RMS")
     print(f"{'misses':<12} {100 * found.missed:.1f} cm of the clip's other poses, on average")
-    print(f"{'a round':<12} {step:.2f} m, turns by {np.degrees(facing[-1] - facing[0]):.0f}°")
+    print(f"{'a round':<12} {step:.2f} m, turns by {math.degrees(report.turn):.0f}°")
     print(f"{'wrote':<12} {options.out}")
     return 0
