@@ -62,6 +62,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "warping.posing": ["posed"],
         "warping.retiming": ["at_frames", "old_seconds", "retime"],
         "warping.scaling": ["gains", "scaled", "scaled_height"],
-        "warping.warp_plans": ["WarpPlan", "Wish", "load_plan", "warp"],
+        "warping.warp_plans": ["TimeKey", "WarpPlan", "Wish", "load_plan", "warp"],
     },
 )

@@ -80,6 +80,11 @@ def test_the_motion_is_as_it_was_outside_the_window_unless_the_plan_says_from_wh
     assert len(changed("at 90 same\nat 100 same")) == 0
 
 
+def test_the_last_second_may_be_rounded_up(folder):
+    clip = WALK[:359]  # 2.983 s
+    assert len(warp(clip, plan(folder, "time 0 0\ntime 2 2.985"), feet=False)) == 241
+
+
 def test_several_joints_at_one_moment(folder):
     both = plan(folder, "at 1.5s lhand 0 0.1 0\nat 180 rhand 0 0.12 0")
     right = WALK.skeleton.index("rhand")
@@ -127,6 +132,12 @@ def test_between_two_level_poses_the_hand_stays(folder):
         ("\n\nat 5 lhand 1 nan 3", "line 3: expected LEFT UP AHEAD, in metres.*got 'nan' as number 2"),
         ("time 1", "line 1: .*got 'time 1'"),
         ("time 1 x", "line 1: expected time NEW OLD, in seconds, got 'x' as number 2"),
+        ("time 0 0", "line 1: expected two lines or more about time, got one"),
+        (
+            "time 0 0\n\ntime 2 2\ntime 3 1",
+            "line 4: expected two seconds after 2 and 2, .* line 3, got 3 and 1",
+        ),
+        ("time 0 0\ntime 0 1", "line 2: expected two seconds after 0 and 0, .* line 1, got 0 and 1"),
         ("\0", "a zero byte"),
     ],
 )
@@ -148,9 +159,9 @@ def test_a_file_of_another_form_names_the_line(folder, text, message):
         ),
         ("at 1s lhand 0 0 0\nat 120 lhand 0 1 0", "line 2: .*'lhand' beside 'lhand' of line 1"),
         ("at 1s lhand 0 9 0", r"keys.txt, line 1: Frame 120: '\w+' would be .* m from"),
-        ("time 0 0", "two or more finite pairs"),
-        ("time 0 0\ntime 1 9", "Second 9 is not on"),
-        ("time 0 0\ntime 1 2\ntime 2 1", "the old second 1 follows 2"),
+        ("time 0 0\ntime 1 9", "line 2: expected an old second up to 3, the clip's last, got 9"),
+        ("time 0 -1\ntime 1 2", "line 1: expected an old second up to 3, the clip's last, got -1"),
+        ("time 0 0\ntime 1e8 2", r"ask for 1.2e\+10 frames"),
     ],
 )
 def test_a_plan_that_the_clip_cannot_follow(folder, text, message):

@@ -52,6 +52,11 @@ def test_a_curve_meets_its_keys_is_level_outside_and_smooth(gaps, seed):
     assert np.abs(np.diff(slope, axis=0)).max() < 0.02  # C¹: slopes do not jump at the keys
 
 
+def test_a_curve_is_level_only_at_keys_that_it_has():
+    with pytest.raises(MocapError, match="There are 2 keys, so no curve is level at key 2"):
+        cardinal([0, 1], [1.0, 2.0], [0], flat=[0, 2])
+
+
 @pytest.mark.parametrize(
     ("at", "values", "tension", "message"),
     [
@@ -139,6 +144,7 @@ def test_a_level_key_keeps_the_curve_from_swinging_before_it():
         ([Key(241)], MocapError, "Key 241 is no frame of 'walk_straight', which has 241"),
         ([Key(-1)], MocapError, "Key -1 is no frame"),
         ([Key(1.5)], MocapError, "Key 1.5 is no frame"),
+        ([Key(5.0)], MocapError, "Key 5.0 is no frame"),
         ([Key(float("nan"))], MocapError, "Key nan is no frame"),
         ([Key(50), Key(40)], MocapError, "frame 40 follows 50"),
         ([Key(50), Key(50)], MocapError, "once each: frame 50 follows 50"),

@@ -82,6 +82,8 @@ def cardinal(
         raise MocapError(f"A curve needs as many values as keys, got shapes {values.shape} and {at.shape}.")
     if not (np.isfinite(at).all() and np.isfinite(values).all() and (np.diff(at) > 0).all()):
         raise MocapError(f"Keys need finite values at times that rise, got times {at[:6].tolist()}.")
+    if not all(-len(at) <= number < len(at) for number in flat):
+        raise MocapError(f"There are {len(at)} keys, so no curve is level at key {max(flat, key=abs)}.")
     if not 0 <= tension <= 1:
         raise MocapError(f"A tension lies between 0 and 1, got {tension}.")
     if len(at) == 1:
@@ -183,7 +185,7 @@ def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
     if not keys:
         raise MocapError("A warp needs a key or more, got none.")
     for key in keys:
-        if not (0 <= key.frame < len(motion) and key.frame == int(key.frame)):
+        if not (isinstance(key.frame, int | np.integer) and 0 <= key.frame < len(motion)):
             raise MocapError(f"Key {key.frame} is no frame of '{motion.name}', which has {len(motion)}.")
         if key.pose is not None:
             motion.skeleton.require_same(key.pose.skeleton)

@@ -72,7 +72,7 @@ def posed(
 
     Notebook: 11-warping
     """
-    if not (0 <= frame < len(motion) and frame == int(frame)):
+    if not (isinstance(frame, int | np.integer) and 0 <= frame < len(motion)):
         raise MocapError(f"Frame {frame} is none of '{motion.name}', which has {len(motion)}.")
     if not places:
         raise MocapError("A pose needs one joint or more to drag, got none.")

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,7 +27,7 @@ from mocap.formats.text import lines, read_text, to_numbers
 
 AT = "'at MOMENT JOINT LEFT UP AHEAD [level]', 'at MOMENT same' or 'at MOMENT level'"
 LINE = f"{AT}, or 'time NEW OLD'"
-MOMENT = re.compile(r"(\d+\.?\d*|\.\d+)(s?)")
+WHEN = re.compile(r"(\d+\.?\d*|\.\d+)(s?)")
 
 
 class Wish(NamedTuple):
@@ -59,19 +60,33 @@ class Wish(NamedTuple):
         return round(self.moment * fps if self.in_seconds else self.moment)
 
 
-@dataclass(frozen=True)
-class WarpPlan:
-    """What a file of keys says: `wishes` in its order, and `times`, pairs (new second, old second).
+class TimeKey(NamedTuple):
+    """One line about time: the `old` second of the clip is shown at the `new` one.
 
     Examples
     --------
-    >>> WarpPlan("keys.txt", (), ((0.0, 0.0), (2.5, 2.0))).times[1]
-    (2.5, 2.0)
+    >>> TimeKey(3, new=2.5, old=2.0).new
+    2.5
+    """
+
+    line: int
+    new: float
+    old: float
+
+
+@dataclass(frozen=True)
+class WarpPlan:
+    """What a file of keys says: `wishes` about poses in its order, and `times`.
+
+    Examples
+    --------
+    >>> WarpPlan("keys.txt", (), (TimeKey(1, 0.0, 0.0), TimeKey(2, 2.5, 2.0))).times[1].old
+    2.0
     """
 
     path: str
     wishes: tuple[Wish, ...]
-    times: tuple[tuple[float, float], ...]
+    times: tuple[TimeKey, ...]
 
 
 def load_plan(path: str | Path) -> WarpPlan:
@@ -107,11 +122,12 @@ def load_plan(path: str | Path) -> WarpPlan:
             wishes.append(_wish(path, number, words[1:]))
         elif words[0] == "time" and len(words) == 3:
             new, old = to_numbers(path, number, words[1:], "time NEW OLD, in seconds", 2).tolist()
-            times.append((new, old))
+            times.append(TimeKey(number, new, old))
         else:
             raise FormatError(path, number, LINE, f"'{' '.join(words)}'")
     if not wishes and not times:
         raise FormatError(path, None, LINE, "no key")
+    _check_times(path, times)
     return WarpPlan(str(path), tuple(wishes), tuple(times))
 
 
@@ -147,6 +163,7 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     >>> warp(walk, plan)
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
     """
+    _require_on_clip(motion, plan)
     moments = _by_frame(motion, plan)
     if not (math.isfinite(window) and window * motion.fps >= 1):
         raise MocapError(f"A window lasts a frame or longer, got {window} s at {motion.fps:g} Hz.")
@@ -158,7 +175,8 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
             motion = clean_up(motion)
             motion = _through(motion, [_again(motion, key, wanted[key.frame]) for key in keys], window)
     if plan.times:
-        motion = retime(motion, plan.times)
+        last = motion.duration  # a second that was rounded up may lie half a frame behind it
+        motion = retime(motion, [(time.new, min(time.old, last)) for time in plan.times])
         motion = clean_up(motion) if feet else motion
     return motion
 
@@ -167,12 +185,30 @@ def _wish(path: str | Path, number: int, words: list[str]) -> Wish:
     """Read what stands behind `at`."""
     level = words[-1:] == ["level"]
     rest = words[:-1] if level and len(words) > 2 else words  # "level" alone stands where a joint would
-    moment = MOMENT.fullmatch(rest[0]) if len(rest) in (2, 5) else None
+    moment = WHEN.fullmatch(rest[0]) if len(rest) in (2, 5) else None
     if not moment or (len(rest) == 2) != (rest[1] in ("same", "level")) or (level and rest[1] == "same"):
         raise FormatError(path, number, AT, f"'at {' '.join(words)}'")
     value = float(to_numbers(path, number, [moment[1]], "a moment", 1)[0])
     move = to_numbers(path, number, rest[2:], "LEFT UP AHEAD, in metres", len(rest) - 2)
     return Wish(number, value, bool(moment[2]), rest[1], tuple(move.tolist()), level)
+
+
+def _check_times(path: str | Path, times: Sequence[TimeKey]) -> None:
+    """Raise unless there are no times, or two or more that rise."""
+    if len(times) == 1:
+        raise FormatError(path, times[0].line, "two lines or more about time", "one")
+    for before, after in pairwise(times):
+        if not (before.new < after.new and before.old < after.old):
+            expected = f"two seconds after {before.new:g} and {before.old:g}, those of line {before.line}"
+            raise FormatError(path, after.line, expected, f"{after.new:g} and {after.old:g}")
+
+
+def _require_on_clip(motion: Motion, plan: WarpPlan) -> None:
+    """Raise for a second that the clip does not have."""
+    for time in plan.times:
+        if not 0 <= time.old <= motion.duration + 0.5 / motion.fps:
+            last = f"an old second up to {motion.duration:g}, the clip's last"
+            raise FormatError(plan.path, time.line, last, f"{time.old:g}")
 
 
 def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
