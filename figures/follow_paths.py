@@ -1,7 +1,7 @@
 """Follow paths, and measure how well: `python figures/follow_paths.py [FOLDER OF CMU SUBJECT 16]`.
 
-Writes the tables `following.md` and the pictures `following.png` and `trade_off.png` beside this script.
-Times are CPU seconds, the least of three runs, as shares of the motion's duration.
+Writes the tables `following.md` and the pictures `following.png`, `bending.png` and `trade_off.png` beside
+this script. Times are CPU seconds, the least of three runs, as shares of the motion's duration.
 """
 
 import gc
@@ -18,12 +18,14 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from asked_lines import random_line
+from bend_paths import beside
 from matplotlib.axes import Axes
 
 import mocap
 from mocap import datasets, graphs
 from mocap._shared.arrays import Array
-from mocap.body import SHAPES, GroundPath, arcs, circle, s_curve, spline
+from mocap.body import SHAPES, GroundPath, circle, s_curve
 from mocap.control import Controller, measure_delay
 from mocap.graphs import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
@@ -103,46 +105,6 @@ def table_of_shapes(name: str, graph: CompiledGraph, axes: list[Axes]) -> list[s
         followed, seconds = timed(lambda length=length: follow_path(graph, s_curve(length)), 1)
         lines.append(row(f"S-curve of {length:.0f} m", followed, seconds))
     return [*lines, ""]
-
-
-def random_line(seed: int) -> GroundPath:
-    """Make a random line: arcs of 1.2 to 5 m radius, or a spline of 4 to 8 pieces."""
-    random = np.random.default_rng(seed)
-    count, arcs_only = random.integers(4, 9), seed % 2
-    if arcs_only:
-        radii, turns = random.uniform(1.2, 5, count), random.uniform(0.3, np.pi, count)
-        sides = random.choice([-1, 1], count)
-        return arcs((0, 0), 0.0, list(zip(radii * turns, sides * turns, strict=True)))
-    ways = np.cumsum(random.uniform(-1.1, 1.1, count))
-    steps = random.uniform(2, 4.5, count)[:, None] * np.stack([np.sin(ways), np.cos(ways)], axis=1)
-    return spline(np.vstack([[0, 0], np.cumsum(steps, axis=0)]))
-
-
-def sine() -> GroundPath:
-    """Draw two waves of 7 m, 1.2 m to either side."""
-    t = np.linspace(0, 1, 240)
-    return GroundPath(np.stack([1.2 * np.sin(4 * np.pi * t), 14 * t], axis=1))
-
-
-def spiral() -> GroundPath:
-    """Draw one and a half turns outwards, from 1.5 to 6.2 m."""
-    t = np.linspace(0, 3 * np.pi, 240)
-    return GroundPath((1.5 + 0.5 * t)[:, None] * np.stack([np.cos(t), np.sin(t)], axis=1))
-
-
-def zigzag() -> GroundPath:
-    """Draw five corners of 100°, 3 m apart."""
-    return GroundPath(np.array([[0, 0], *([1.2 * (-1) ** n, 2.0 * n] for n in range(1, 7))]))
-
-
-def heart() -> GroundPath:
-    """Draw a heart 9 m wide, with a cusp at its bottom."""
-    t = np.linspace(0.15, 2 * np.pi - 0.15, 240)
-    z = 13 * np.cos(t) - 5 * np.cos(2 * t) - 2 * np.cos(3 * t) - np.cos(4 * t)
-    return GroundPath(0.28 * np.stack([16 * np.sin(t) ** 3, z], axis=1))
-
-
-LINES = {"sine": sine, "spiral": spiral, "zigzag": zigzag, "heart": heart}
 
 
 def unseen(found: dict[str, CompiledGraph]) -> list[str]:
@@ -268,6 +230,7 @@ def main() -> None:
         *unseen(found),
     ]
     lines += ["## Seams against distance, the mean of the five shapes", "", *trade_off(found)]
+    lines += beside(FOLDER, Path(sys.argv[1]) if len(sys.argv) > 1 else None)
     lines += ["## Control and crowds", ""]
     lines += [
         "| clips | obeys after: mean, 95 % | of it waiting, in transitions | a step: mean, worst "

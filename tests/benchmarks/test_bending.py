@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from follow_paths import heart, sine, spiral
+from asked_lines import heart, sine, spiral
 
 from mocap.body.ground_path import GroundPath, circle, s_curve
 from mocap.body.kinematics import forward_kinematics

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from follow_paths import LINES, random_line
+from asked_lines import LINES, random_line
 
 import mocap
 from mocap.body.ground_path import GroundPath, circle, letter_s
