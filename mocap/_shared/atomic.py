@@ -77,8 +77,8 @@ def require_folder(path: Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot make the folder ...below: Not a directory.
     """
-    nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
     try:
+        nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
         tempfile.TemporaryDirectory(prefix=".", dir=nearest).cleanup()
     except OSError as error:
         raise MocapError(f"Cannot make the folder {path}: {error.strerror or error}.") from error
