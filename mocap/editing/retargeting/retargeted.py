@@ -8,9 +8,9 @@ from body to body, so that trees and rest poses may differ, and triangles close 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.edits import edit
-from mocap.editing.linear_bodies import body_of
+from mocap.editing.linear_bodies import Body, body_of
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins
-from mocap.editing.retargeting.body_roles import FEET
+from mocap.editing.retargeting.body_roles import FEET, ancestors
 from mocap.editing.retargeting.copied_motion import copied
 from mocap.editing.retargeting.floors import dips_of, floor_pins
 from mocap.editing.retargeting.stances import stance_of, stance_of_zero
@@ -23,9 +23,10 @@ from mocap.feet.footskate import clean_up
 # walk) and 37 % (a bundled one); with 0.125 by 28 and 61 %. With 0.2 some of its plants are let go.
 KNOTS = 0.16
 
-# What a knee's turn costs, as a share of what it moves. With 1 that child's knees straighten to 0.1°, and 9 %
-# of its planted frames are let go; with 4 they keep 6°, and no plant is let go.
-KNEES = 4.0
+# What turns of knees and of the trunk cost, as a share of what they move. With 1 that child's knees
+# straighten to 0.1°, and 9 % of its planted frames are let go; with 4 they keep 6°, and no plant is let go.
+# A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.
+STIFF = 4.0
 
 # Metres. Feet that move more while they stand are cleaned up first. Without that, up to 6 % of the planted
 # frames of captured walks are let go on the new body; with it, none that stand on the old one.
@@ -89,13 +90,21 @@ def retarget(
     plants, floor = (floor_pins(base, target, depth) for depth in (None, dips))
     if pins is not None:
         plants, floor = (join_pins(wishes, pins) for wishes in (plants, floor))
-    names = [target.skeleton.names[leg.knee] for leg in target.legs]
-    linear = body_of(base, floor.joints, prices=dict.fromkeys(names, KNEES))
+    linear = _priced(base, target, floor)
     # A floor alone is no ceiling: it needs no slow rise of the weight.
     solved = solved_in_time(base, floor, linear, (KNOTS, WEIGHT), again=pins is None).motion
     if pins is None:
         return clean_up(solved, target.legs, pins=plants)
     return edit(solved, plants, body=linear, legs=target.legs)
+
+
+def _priced(base: Motion, target: Stance, pins: Pins) -> Body:
+    """Price the joints that may turn: knees and trunk more than others."""
+    who, names = target.roles, target.skeleton.names
+    trunk = ancestors(target.skeleton, who["chest"]) if "chest" in who else []
+    stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
+    prices = dict.fromkeys((names[joint] for joint in stiff), STIFF)
+    return body_of(base, pins.joints, prices=prices)
 
 
 def standing_like(skeleton: Skeleton, source: Stance) -> Stance:

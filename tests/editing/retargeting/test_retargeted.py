@@ -181,6 +181,15 @@ def test_a_rail_for_a_hand():
     assert kept(worn, base) >= 0.99
 
 
+def test_a_hand_is_reached_by_the_arm_more_than_by_the_trunk():
+    base = copied(walk(), adult(), child())
+    place = joint_positions(base)[210, base.skeleton.index("rwrist")] + [-0.05, 0.1, 0]
+    rail = pin(base, "rwrist", range(150, 270), [*place[:2], -np.inf], [*place[:2], np.inf])
+    worn = retarget(walk(), child(), adult(), pins=rail)
+    spine = joint_positions(worn)[210, child().roles["neck"]] - worn.root_positions[210]
+    assert np.degrees(np.arctan2(abs(spine[0]), spine[1])) < 14
+
+
 def test_a_skeleton_alone_stands_as_high_as_the_source():
     body = child().skeleton
     stance = standing_like(body, adult())
