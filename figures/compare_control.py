@@ -1,0 +1,157 @@
+"""Compare five ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS]`.
+
+Writes the table `control.md` beside this script. The folder holds `hw3` and `cmu/16`; without it the bundled
+clips alone are compared. Times are CPU time of one run.
+"""
+
+import gc
+import sys
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+import mocap
+from mocap import control, datasets, feet, graphs, motion_matching, parametric_graphs, quality
+from mocap.body import SHAPES
+from mocap.errors import MocapError, MocapWarning
+
+FOLDER = Path(__file__).parent
+WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+CMU = (*range(11, 35), 47, 58)
+SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
+LIMITS = {"bundled clips": 75, "homework's clips": 120, "CMU 16, walks": 75}  # degrees per stride
+
+
+def clip_sets() -> dict[str, tuple[list[mocap.Motion], float]]:
+    """Load the clips, at 30 Hz with their plants marked, and the speed they are asked for."""
+    sets = {"bundled clips": ([datasets.sample(name) for name in WALKS], 0.8)}
+    if len(sys.argv) > 1:
+        folder = Path(sys.argv[1])
+        sets["homework's clips"] = (
+            [mocap.load(path) for path in sorted((folder / "hw3").glob("*.AMC"))],
+            0.8,
+        )
+        people = [mocap.load(folder / "cmu" / "16" / f"16_{trial:02}.amc") for trial in CMU]
+        sets["CMU 16, walks"] = (people, 1.1)
+    return {name: ([_marked(clip) for clip in clips], speed) for name, (clips, speed) in sets.items()}
+
+
+def _marked(clip: mocap.Motion) -> mocap.Motion:
+    clip = mocap.resample(clip, 30)
+    return clip if clip.contacts else feet.mark_plants(clip)
+
+
+def strides(
+    clips: list[mocap.Motion], kinds: tuple[str, ...], limit: float
+) -> parametric_graphs.ParametricGraph:
+    """Build a parametric graph of strides, or of steps, with T_GOOD from 4 cm on, as large as it must be."""
+    spaces = {}
+    for kind in kinds:
+        cut = parametric_graphs.cut_strides(clips, feet=kind)
+        high = np.radians(limit) * SHARE[kind]
+        spaces[kind] = parametric_graphs.make_space(cut, np.radians(14) * SHARE[kind], -high, high)
+    edges = [(kind, kinds[(number + 1) % len(kinds)]) for number, kind in enumerate(kinds)]
+    for good in (0.04, 0.05, 0.06):
+        try:
+            return parametric_graphs.build_parametric(spaces, edges, good=good)
+        except mocap.NoWalk as error:
+            refusal = error
+    raise refusal
+
+
+def ways(name: str, clips: list[mocap.Motion]) -> dict[str, tuple[Callable[[], control.Character], float]]:
+    """Prepare every way of control: how to make its character, and what the preparation took, s."""
+    made: dict[str, tuple[Callable[[], control.Character], float]] = {}
+
+    def add(
+        label: str, prepare: Callable[[], object], *characters: tuple[str, Callable[[object], object]]
+    ) -> None:
+        begun = time.process_time()
+        try:
+            ready = prepare()
+        except MocapError as error:
+            print(f"{name}, {label}: {error}")
+            return
+        took = time.process_time() - begun
+        for more, character in characters:
+            made[label + more] = (lambda character=character: character(ready), took)
+
+    def graph() -> object:
+        return graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+
+    turned = (
+        ", turned by 40°/s",
+        lambda ready: control.FootTurner(control.Controller(ready), np.radians(40)),
+    )
+    add("motion graph", graph, ("", control.Controller), turned)
+    add(
+        "strides",
+        lambda: strides(clips, ("lrl",), LIMITS[name]),
+        ("", parametric_graphs.ParametricController),
+    )
+    add(
+        "steps",
+        lambda: strides(clips, ("lr", "rl"), LIMITS[name]),
+        ("", parametric_graphs.ParametricController),
+    )
+    add("matching", lambda: motion_matching.tabulate(clips), *map(_matcher, (1.0, 0.25)))
+    return made
+
+
+def _matcher(future: float) -> tuple[str, Callable[[object], object]]:
+    wants = motion_matching.Wants(future=future)
+    return f", future × {future:g}", lambda table: motion_matching.MotionMatcher(table, wants)
+
+
+def main() -> None:
+    """Write the tables."""
+    warnings.simplefilter("ignore", MocapWarning)
+    text = __doc__.split("\n\n")[0]
+    lines = ["# Three answers to one question: how does a character obey?", "", HEAD, ""]
+    for name, (clips, speed) in clip_sets().items():
+        lines += [f"## {name}, asked for {speed} m/s", "", *_table(name, clips, speed), ""]
+    (FOLDER / "control.md").write_text("\n".join(lines), "utf-8")
+    print(text)
+
+
+HEAD = """Written by `python figures/compare_control.py`. Sixty turns by 30 to 120 degrees, as
+`control.measure_delay` commands them: seconds until the direction of the last third of a second is
+within 20 degrees, on average and for 95 %. Then a minute of such turns every two seconds
+(`control.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
+with plants carried from the clips. Jolting: frames whose velocity jumps further than 99.9 % of the
+clips' own. Wags: how the direction swings while a command stands. CPU time of a step, on average and at worst, and of
+the preparation. Below each table: led along five paths by commands alone (`control.pursue`), metres from
+the path on average and at worst."""
+COLUMNS = "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | step, ms | worst | ready, s |"
+
+
+def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
+    usual = quality.spread(clips)
+    rows, led = (
+        [COLUMNS, "|---" * 11 + "|"],
+        [f"| way | {' | '.join(SHAPES)} |", "|---" * (len(SHAPES) + 1) + "|"],
+    )
+    for label, (make, took) in ways(name, clips).items():
+        gc.collect()
+        gc.freeze()
+        judged = control.judge_control(make, usual, speed=speed)
+        delay = judged.delay
+        cells = [f"{delay.mean:.2f}", f"{delay.slowest:.2f}", f"{judged.slide:.1f}", f"{judged.cleaned:.1f}"]
+        cells += [f"{judged.kept:.0%}", f"{judged.jolting:.1%}", f"{judged.wags:.1f}°"]
+        cells += [f"{delay.step:.2f}", f"{delay.worst:.1f}", f"{took:.2f}"]
+        rows.append(f"| {label} | {' | '.join(cells)} |")
+        cells = []
+        for shape in SHAPES.values():
+            along = control.pursue(make(), shape(), speed=speed)
+            part = "" if along.progress == 1 else f" ({along.progress:.0%})"
+            cells.append(f"{along.off.mean():.2f}, {along.off.max():.2f}{part}")
+        led.append(f"| {label} | {' | '.join(cells)} |")
+        print(rows[-1])
+    return [*rows, "", *led]
+
+
+if __name__ == "__main__":
+    main()
