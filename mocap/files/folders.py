@@ -42,7 +42,10 @@ def find_files(paths: Sequence[Path]) -> list[Path]:
     """
     found: list[Path] = []
     for path in paths:
-        inside = sorted(p for p in path.iterdir() if is_clip(p)) if path.is_dir() else [path]
+        try:
+            inside = sorted(p for p in path.iterdir() if is_clip(p)) if path.is_dir() else [path]
+        except OSError as error:
+            raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:
             raise MocapError(f"The folder {path} holds no .amc, .bvh or AMASS .npz file.")
         found += inside

@@ -1,5 +1,7 @@
 """Motion files are found by their suffix, archives by what is in them."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -26,3 +28,8 @@ def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
 def test_an_empty_folder_is_refused(tmp_path):
     with pytest.raises(MocapError, match=r"holds no \.amc, \.bvh or AMASS \.npz file\."):
         folders.find_files([tmp_path])
+
+
+def test_a_name_without_end_is_refused_in_a_sentence():
+    with pytest.raises(MocapError, match="Cannot read a*: File name too long"):
+        folders.find_files([Path("a" * 5000)])
