@@ -71,6 +71,8 @@ def edit(
     >>> post = pin(walk, "lwrist", range(110, 130), hand + [0.05, 0.2, 0])
     >>> bool(pin_errors(edit(walk, post), post).max() < 1e-9)
     True
+
+    Notebook: 14-levels
     """
     if not pins.asked.any():
         ready(motion, pins, body, WEIGHT)

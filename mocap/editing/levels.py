@@ -4,8 +4,9 @@ At each level the pinned frames are brought to their pins, each by itself, and w
 spline with the level's knots and added: m_k = m_{k-1} ⊕ d_k. The fit is that of [LWS97]: local, without a
 system to solve. Coarse levels move the body as a whole, fine ones add what is still asked.
 
-Teach the levels, and use `spacetime`: it is as quick, comes nearer, and undoes what it overshot. The levels
-win where an editor drags and wants a coarse answer at once, and where few frames are pinned.
+Teach the levels, and use `spacetime`: it is quicker, comes nearer, and undoes what it overshot. The levels
+win where an editor drags and wants a coarse answer at once. Where few frames are pinned, coarse knots must
+come first in either way: `spacetime` alone makes a hand fly, `refined` and the levels do not.
 """
 
 from collections.abc import Sequence
@@ -73,6 +74,8 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
     >>> control = scattered_fit(spline_basis(11, 5), np.array([[1.0]]), np.array([5]))
     >>> control.round(3)[:, 0]
     array([0.   , 0.333, 1.333, 0.333, 0.   ])
+
+    Notebook: 14-levels
     """
     _require_data(basis, data, at)
     return local_heights(basis[at], np.asarray(data, float))
@@ -146,6 +149,8 @@ def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why
     >>> _, levels = hierarchy(walk, pin(walk, "lwrist", [60], hand + [0, 0.2, 0]))
     >>> levels[-1].worst < 0.001
     True
+
+    Notebook: 14-levels
     """
     body, motion, levels = ready(base, pins, body, WEIGHT), base, []
     if not len(knots) or not all(0 < b < a for a, b in zip((np.inf, *knots), knots, strict=False)):

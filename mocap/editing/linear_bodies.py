@@ -141,6 +141,8 @@ def body_of(
     >>> body = body_of(walk, [4, 5])  # left ankle and ball
     >>> [walk.skeleton.names[joint] for joint in body.joints], len(body.price)
     (['root', 'lfemur', 'ltibia', 'lfoot'], 13)
+
+    Notebook: 14-levels
     """
     skeleton, prices = motion.skeleton, prices or {}
     fixed, factors = (

@@ -43,6 +43,8 @@ class Pins:
     array([[[ True,  True, False]]])
     >>> rail.gap(np.zeros((1, 5, 3)))
     array([[[0.3, 0.9, 0. ]]])
+
+    Notebook: 14-levels
     """
 
     joints: tuple[int, ...]
@@ -119,6 +121,8 @@ def pin(
     >>> bar = pin(walk, "head", slice(20, 40), [-np.inf] * 3, [np.inf, 1.3, np.inf])
     >>> int(bar.asked.sum())
     20
+
+    Notebook: 14-levels
     """
     name, number = _joint(motion.skeleton, joint)
     rows = _frames(motion, frames)
@@ -188,6 +192,8 @@ def join_pins(*several: Pins) -> Pins:
     >>> both = join_pins(floor, bar)
     >>> both.low[0, 0, 1], both.high[0, 0, 1]
     (np.float64(0.0), np.float64(1.3))
+
+    Notebook: 14-levels
     """
     if not several or len({len(pins) for pins in several}) > 1:
         counts = ", ".join(str(len(pins)) for pins in several) or "none"

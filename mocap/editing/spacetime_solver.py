@@ -122,6 +122,8 @@ def refined(
     >>> pins = plant_pins(walk)
     >>> float(abs(refined(walk, pins).root_positions - walk.root_positions).max().round(6))
     0.0
+
+    Notebook: 14-levels
     """
     motion = solved_again(base, pins, ready(base, pins, body, weight), knots, weight)
     warn_of_gaps(motion, pins)
