@@ -122,10 +122,13 @@ HEAD = """Written by `python figures/compare_control.py`. Sixty turns by 30 to 1
 within 20 degrees, on average and for 95 %. Then a minute of such turns every two seconds
 (`control.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
 with plants carried from the clips. Jolting: frames whose velocity jumps further than 99.9 % of the
-clips' own. Wags: how the direction swings while a command stands. CPU time of a step, on average and at worst, and of
-the preparation. Below each table: led along five paths by commands alone (`control.pursue`), metres from
-the path on average and at worst."""
-COLUMNS = "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | step, ms | worst | ready, s |"
+clips' own. Wags: how the direction swings while a command stands. CPU time of a step, on average and
+at worst, and of the preparation. Below each table: led along five paths by commands alone
+(`control.pursue`), metres from the path on average and at worst."""
+COLUMNS = (
+    "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | step, ms | worst "
+    "| ready, s |"
+)
 
 
 def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
