@@ -8,6 +8,7 @@ was drawn as numbers, so that a test finds a stale picture, whichever version of
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import replace
@@ -41,6 +42,7 @@ from mocap import (
     editing,
     feet,
     graphs,
+    match_webs,
     matching,
     plotting,
     resample,
@@ -488,6 +490,36 @@ def draw_registration() -> Figure:
     return figure
 
 
+def draw_match_webs() -> Figure:
+    """Draw paths along the valleys of two walks, and a space of walking cycles with three wishes."""
+    figure = plt.figure(figsize=(9.4, 3.9), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    walks = [
+        datasets.generate_walk(arcs((0, 0), 0, [(6, np.radians(turn))]).points, speed=speed, seed=seed)
+        for seed, (speed, turn) in enumerate(itertools.product((0.8, 1.1, 1.4), (-150, 0, 150)))
+    ]
+    slow, brisk = (resample(walks[n], 30)[:130] for n in (1, 8))
+    grid = np.sqrt(matching.distance_grid(slow, brisk, window=5))
+    costs = grid - 0.12 + np.where(match_webs.minima_1d(grid), 0, 0.06)
+    paths = match_webs.apart(match_webs.local_paths(costs, least=9), near=3)
+    plotting.web_image(grid, paths=paths, ax=left)
+    left.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of like frames")
+    web = match_webs.build_web(walks, below=0.08)
+    start, stop = feet.runs(walks[4].contacts["lfoot"])[1:3, 0].tolist()
+    found = match_webs.search(web, 4, slice(start, stop), lengths=(0.6, 1.6))
+    cycles = blending.register([match_webs.cut_out(web, match) for match in found], slack=0)
+
+    def gait(motion: Motion) -> tuple[float, float]:
+        return np.degrees(match_webs.turn(motion)), match_webs.mean_speed(motion)
+
+    space = match_webs.sample_space(cycles, gait, scale=(10, 0.1))
+    wishes = [(20, 1.0), (-25, 1.3), (60, 1.5)]
+    got = [gait(match_webs.blend_of(cycles, match_webs.weights_for(space, wish))) for wish in wishes]
+    plotting.space_image(space.values, len(found), wishes=wishes, got=got, ax=right)
+    right.set(xlabel="turn of a cycle (degrees)", ylabel="speed (m/s)", title="asked and got")
+    return figure
+
+
 def draw_warping() -> Figure:
     """Draw a hand that reaches for a post by one key, and a jump that is 20 cm higher."""
     walk, jump = datasets.sample("walk_straight")[:480], datasets.sample("jump")
@@ -576,6 +608,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "warping": draw_warping,
     "levels": draw_levels,
     "registration": draw_registration,
+    "match_webs": draw_match_webs,
 }
 
 

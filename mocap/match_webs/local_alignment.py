@@ -47,6 +47,8 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     >>> costs[[0, 1, 2], [1, 2, 4]] = -1
     >>> next(local_paths(costs)).tolist()
     [[0, 1], [1, 2], [1, 3], [2, 4]]
+
+    Notebook: 16-match-webs
     """
     grid = np.asarray(costs)
     if grid.ndim != 2 or np.isnan(grid).any():
@@ -82,8 +84,10 @@ def apart(paths: Iterable[NDArray[Any]], *, near: int) -> list[NDArray[Any]]:
     >>> down = np.stack([np.arange(4), np.arange(4)], axis=1)
     >>> len(apart([down, down + [0, 1], down + [0, 2]], near=1))
     2
+
+    Notebook: 16-match-webs
     """
-    taken: set[int] = set()
+    taken = set[int]()
     beside = np.arange(-near, near + 1)
     kept = []
     for path in paths:

@@ -31,6 +31,8 @@ def minima_1d(grid: ArrayLike) -> Mask:
     array([[1, 0, 0, 0],
            [0, 1, 1, 1],
            [0, 1, 1, 0]])
+
+    Notebook: 16-match-webs
     """
     cells = np.asarray(grid)
     if cells.ndim != 2:

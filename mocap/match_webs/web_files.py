@@ -53,8 +53,6 @@ def save_web(web: MatchWeb, path: str | Path) -> None:
     ...     save_web(build_web([walk], below=0.05), f"{folder}/web.npz")
     ...     load_web(f"{folder}/web.npz", [walk])
     MatchWeb(1 clips, 8 paths, below 5 cm)
-
-    Notebook: 16-match-webs
     """
     arrays = {
         "names": np.array([clip.name for clip in web.clips]),
@@ -86,8 +84,6 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
     ------
     FormatError : for a file that is no match web, is damaged, or has a newer version.
     MocapError : for other clips than those that the web was built of.
-
-    Notebook: 16-match-webs
     """
     arrays = read_arrays(path, WEB)
     for what, holds in _rules(arrays):

@@ -51,8 +51,6 @@ def leap(motion: Motion) -> Array:
     >>> from mocap.datasets.generated import generate_walk
     >>> leap(generate_walk([[0, 0], [0, 5]])).round(1)
     array([1. , 5.1])
-
-    Notebook: 16-match-webs
     """
     places = on_ground(motion.root_positions)
     return np.array([motion.root_positions[:, 1].max(), np.abs(places[-1] - places[0])])
