@@ -48,7 +48,7 @@ class Bent:
     @cached_property
     def off(self) -> Array:
         """Metres of the root from the line asked for, shape (F,); the sway alone is 1 to 2 cm on average."""
-        line = cKDTree(self.path.resampled(FINE).points)
+        line = cKDTree(_reached(self.path, self.ride).resampled(FINE).points)
         return frozen(line.query(self.motion.root_positions[:, [0, 2]])[0], np.float64)
 
     @cached_property
@@ -139,11 +139,19 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
         raise MocapError(f"A walk is turned by more than 0 radians per second, got limit={limit}.")
     motion = _with_plants(motion)
     ride = ride or ride_of(motion)
-    line = round_line(path, ride, motion.fps, limit)
+    line = round_line(_reached(path, ride), ride, motion.fps, limit)
     frames = max(2, int(np.searchsorted(ride.along, line.along[-1], side="right")))
     motion, ride = motion[:frames], replace(ride, along=ride.along[:frames])
     laid = on_path(motion, line.path, ride)
     return Bent(_cleaned(laid), laid, path, line, ride)
+
+
+def _reached(path: GroundPath, ride: Ride) -> GroundPath:
+    """Leave out what lies so far along a line that the walk does not come there, however it is rounded."""
+    most = 3 * ride.path.length + 10.0
+    if path.length <= most:
+        return path
+    return GroundPath(np.vstack([path.points[path.along < most], path.at(most)]))
 
 
 def _cleaned(laid: Motion) -> Motion:

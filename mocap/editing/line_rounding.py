@@ -24,6 +24,7 @@ FALL = 0.6
 
 WIDEST = 2.5  # times the radius that the limit asks for: no reach is wider
 CUT = 1.75  # times that radius: a line that is cut by more goes back on itself, or nearly so
+SHORTER = 0.6  # of its length: so much stays at least of a line that is not cut by much more than it need be
 AHEAD = 0.6  # times the radius: how far ahead on a line a walk looks that is steered along it
 SLOWEST = 0.5  # of its own pace: at least so fast the point on the line moves on, or the walk might circle it
 SEEN = 0.01  # metres: a line that is moved by less is not called rounded
@@ -112,9 +113,10 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     turns = _Turns(walked, own, fps, limit, SMOOTH / spacing, WIDEST * radius)
     line, slow = _as_slow(asked, turns)
     rounded = _measured(path, even, line, even.along)
-    if slow and rounded.moved.max() <= max(CUT * radius * spacing, CHORD):
+    cut = rounded.moved.max() > max(CUT * radius * spacing, CHORD)
+    if slow and not cut and rounded.path.length > SHORTER * path.length:
         return rounded
-    places, points = _steered(asked, radius)
+    places, points = _steered(asked, spacing, radius)
     line = _smoothed(points, np.full(len(points), turns.least**4))
     return _measured(path, even, line, spacing * places)
 
@@ -167,13 +169,14 @@ def _metres(line: Points) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
 
 
-def _steered(points: Points, radius: float) -> tuple[Array, Points]:
+def _steered(points: Points, step: float, radius: float) -> tuple[Array, Points]:
     """Walk along a line, always towards a point ahead on it, and never in a tighter bend than `radius` cells.
 
-    Gives where on the line each point of the walk belongs, in cells, and the points.
+    Gives where on the line each point of the walk belongs, in cells of `step` metres, and the points.
     """
-    step, last, ahead = np.abs(points[1] - points[0]), len(points) - 1, max(1, round(AHEAD * radius))
-    here, way, at = points[0], points[1] - points[0], 0.0
+    last, ahead = len(points) - 1, max(1, round(AHEAD * radius))
+    here, at = points[0], 0.0
+    way = step * (points[1] - here) / np.abs(points[1] - here)
     places, found = [at], [here]
     while at < last:
         window = points[int(at) : int(at) + ahead + 1]

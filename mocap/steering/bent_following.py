@@ -108,9 +108,9 @@ def plan_bending(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: 
     """
     if not limit > 0:
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
+    make_route(graph, path, wishes)  # which refuses what is too long, and what is asked for off the path
     own = turning_of(graph)
     line = round_line(path, _steady(own, graph.fps, path.length), graph.fps, limit)
-    make_route(graph, path, wishes)  # which refuses what is asked for off the path
 
     def rounded(where: float) -> float:
         return float(np.interp(where, line.asked, line.along))

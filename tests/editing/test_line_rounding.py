@@ -139,6 +139,16 @@ def test_any_line_can_be_walked_after_rounding(seed):
     assert line.path.length < 3 * GroundPath(np.vstack([[0, 0], points])).length + 10
 
 
+def test_a_scrawl_is_walked_and_not_shrunk_to_a_dot():
+    turns = np.linspace(0, 20 * np.pi, 800)
+    circles = GroundPath(0.2 * np.stack([np.cos(turns), np.sin(turns)], axis=1))
+    noise = GroundPath(np.cumsum(np.random.default_rng(0).normal(0, 0.05, (500, 2)), axis=0))
+    for path in (circles, noise):
+        line = round_line(path, straight(), FPS, LIMIT)
+        assert fastest(line.path) <= 1.05 * LIMIT
+        assert line.path.length > 0.4 * path.length
+
+
 def test_a_short_line_is_no_harm():
     for path in (GroundPath([[0, 0], [0, 0.02]]), GroundPath([[0, 0], [0.1, 0.1], [0, 0]])):
         line = round_line(path, straight(), FPS, LIMIT)
