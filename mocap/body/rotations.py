@@ -198,7 +198,7 @@ def mean(quaternions: ArrayLike, weights: ArrayLike, *, rounds: int = 1) -> Arra
 
     All are first flipped to the side of the heaviest one, for q and -q are the same rotation. Their weighted
     sum, scaled to length 1, is near the mean m for which Σ w log(m⁻¹ q) = 0; each round brings it nearer, by
-    m ← m exp(Σ w log(m⁻¹ q)) [Karcher's way]. Of two rotations, one round gives `slerp` to 0.001°.
+    m ← m exp(Σ w log(m⁻¹ q)), Karcher's way. Of two rotations, one round gives `slerp`.
 
     Parameters
     ----------
