@@ -23,8 +23,8 @@ from mocap.errors import MocapError
 MOST = np.radians(24)
 
 # Radians. As long as the direction is off by more, the figure turns at its full rate; below, the rate falls
-# with the square. The pelvis sways, and the direction with it, by about 6° to both sides. If the rate fell
-# with the angle itself, a straight walk would wag by 5.3° instead of 4.3°, and not obey sooner.
+# with the square. The pelvis sways, and the direction with it, by about 6° to both sides: to turn against
+# that would wag the whole figure.
 FULL = np.radians(20)
 
 # Metres per second on the ground. A faster joint is in the air: what its stance was turned by is forgotten.
@@ -87,8 +87,11 @@ class FootTurner:
         if not 0 <= rate < np.inf:
             raise MocapError(f"A figure turns by a finite rate from 0 on, got {rate} radians per second.")
         self.character, self.rate = character, rate
-        # The root on the ground in the last third of a second, and the feet in the last frame.
+        # The root's way on the ground in the last third of a second, as it would be without any turn, and the
+        # turn so far: so what was turned shows at once. If it showed only as the walk goes on, the figure
+        # would turn too far and back, for ever: a straight walk would wag by 18°.
         self.track: deque[complex] = deque(maxlen=round(character.fps / 3) + 1)
+        self.last, self.turn = 0j, 1 + 0j
         self.feet: Points = np.zeros(0, complex)
         self.pivot = 0j  # the foot that stands
         self.angle = 0.0  # by which the last frame was turned, radians
@@ -115,13 +118,14 @@ class FootTurner:
             self._turn(self._missing(heading))
         pose = self.character.step(heading, speed, label)
         x, _, z = pose.root_position.tolist()
-        self.track.append(complex(z, x))
+        self.track.append(self.track[-1] + (complex(z, x) - self.last) / self.turn if self.track else 0j)
+        self.last = complex(z, x)
         self._find_standing_foot(self.character.feet())
         return pose
 
     def _missing(self, heading: float) -> float:
         """Give the angle from the direction of the last third of a second to the heading; 0 if it stands."""
-        way = self.track[-1] - self.track[0]
+        way = self.turn * (self.track[-1] - self.track[0])
         stands = abs(way) * self.fps < WALKING * (len(self.track) - 1)
         return 0.0 if stands else cmath.phase(cmath.exp(1j * heading) / way)
 
@@ -132,8 +136,11 @@ class FootTurner:
         rise = self.rate / (EASE * self.fps**2)
         angle = max(self.angle - rise, min(self.angle + rise, math.copysign(most, missing)))
         self.angle = angle = max(least, min(largest, angle))
+        more = cmath.exp(1j * angle)
         self.character.turn_about(self.pivot, angle)
-        self.feet = self.pivot + cmath.exp(1j * angle) * (self.feet - self.pivot)
+        self.turn *= more / abs(self.turn)
+        self.feet = self.pivot + more * (self.feet - self.pivot)
+        self.last = self.pivot + more * (self.last - self.pivot)
         self.turned += angle
 
     def _find_standing_foot(self, feet: Points) -> None:

@@ -111,13 +111,18 @@ def test_a_turn_about_the_root_lets_the_feet_slide():
 
 
 def test_a_straight_walk_wags_no_more_than_the_clips():
-    """The pelvis sways by some degrees to both sides; to turn against that would wag the whole body."""
+    """After turns by some angles; the pelvis sways, and a late answer would turn the figure to and fro."""
 
-    def wag(character):
-        track = on_ground(steer(character, np.zeros(600)).motion.root_positions)
-        return np.degrees(np.std(np.angle(track[100:] - track[90:-10])))
+    def wag(make):
+        found = []
+        for before in (0.0, 2.0, 3.0):
+            motion = steer(make(), np.repeat([before, 0.0], [60, 400])).motion
+            track = on_ground(motion.root_positions)
+            found.append(np.std(np.unwrap(np.angle(track[210:] - track[200:-10]))))
+        return np.mean(found)
 
-    assert wag(FootTurner(Controller(BUNDLED))) < 1.1 * wag(Controller(BUNDLED))
+    turned = wag(lambda: FootTurner(Controller(BUNDLED)))
+    assert turned < 1.25 * wag(lambda: Controller(BUNDLED))
 
 
 def test_a_rate_of_zero_changes_nothing():
@@ -180,8 +185,7 @@ def test_captured_walkers_obey_sooner_too():
     clips = [mocap.resample(clip, 30) for clip in clips]
     graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
     alone, turned = measure_delay(Controller(graph)), measure_delay(FootTurner(Controller(graph)))
-    # On average over six seeds 1.31 s; without the bound of 25° it would be 1.25 s, with stances up to 29°.
-    assert turned.mean <= 1.35
+    assert turned.mean <= 1.25
     assert turned.slowest <= 2.0
     assert turned.mean < 0.7 * alone.mean
     motion, straight, angle = turned_and_not(graph, zigzag(60))
