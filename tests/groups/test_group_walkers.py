@@ -62,7 +62,8 @@ def test_they_face_where_they_go():
 
 def test_the_bare_lines_bring_them_together_and_out_of_time():
     """Without bending, characters of these slow walks come late."""
-    loose = walk_group(bundled("walk_circle", "walk_curve_1"), plan(), bend=False)
+    two = Trajectories(plan().places[:81, :2], plan().velocities[:81, :2])
+    loose = walk_group(bundled("walk_circle", "walk_curve_1"), two, bend=False)
     assert loose.off.mean() > 3 * walkers().off.mean()
 
 

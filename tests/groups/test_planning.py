@@ -27,9 +27,15 @@ def passed(flock, scene):
     return goal
 
 
-def test_ten_of_twelve_courses_are_found_and_every_one_is_clear():
+@pytest.mark.parametrize(
+    ("seeds", "least"),
+    [(range(5, 9), 4), pytest.param(range(12), 10, marks=pytest.mark.exhaustive)],
+    ids=["four", "twelve"],
+)
+def test_courses_are_found_and_every_one_is_clear(seeds, least):
+    """Ten of twelve; in seed 0 discs close every way from the start."""
     found = 0
-    for seed in range(12):
+    for seed in seeds:
         scene = course(seed)
         try:
             flock = walked(plan_group(graph(), scene))
@@ -39,10 +45,10 @@ def test_ten_of_twelve_courses_are_found_and_every_one_is_clear():
         assert passed(flock, scene) == len(scene.points)
         assert clearances(flock, scene).min() >= scene.body - 1e-9
         assert nearest_two(flock.places).min() >= APART
-    assert found >= 10
+    assert found >= least
 
 
-@pytest.mark.parametrize("seed", [1, 4, 5])
+@pytest.mark.parametrize("seed", [5, 8])
 def test_bounds_spare_most_tests_and_change_nothing(seed):
     quick, slow = (plan_group(graph(), course(seed), bounds=bounds) for bounds in (True, False))
     assert quick.clips == slow.clips and slow.spared == 0

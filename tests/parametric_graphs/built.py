@@ -12,6 +12,7 @@ from mocap.parametric_graphs.stride_spaces import StrideSpace, make_space
 from mocap.parametric_graphs.strides import Strides, cut_strides
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+SMALL = Sampling(sources=12, targets=120)
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
 
 
@@ -39,7 +40,5 @@ def walking(good: float = 0.03) -> ParametricGraph:
 @cache
 def stepping(good: float = 0.03) -> ParametricGraph:
     spaces = {"left": space("lr"), "right": space("rl")}
-    return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good)
-
-
-SMALL = Sampling(sources=12, targets=120)
+    few = Sampling(sources=30, targets=300)
+    return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good, sampling=few)
