@@ -22,6 +22,7 @@ from mocap.editing.linear_bodies import (
 )
 from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.reaching import reach
+from mocap.editing.spacetime_solver import spacetime
 from mocap.errors import MocapError
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, captured, stone, walk
@@ -107,12 +108,12 @@ def test_a_knee_that_may_turn_about_three_axes_meets_the_stone_and_twists():
     axes = tuple(np.eye(3) for _ in hinged.joints)
     price = [*hinged.price[:3], *np.repeat([hinged.price[c][0] for c in hinged.columns], 3)]
     for kind, body in (("hinges", hinged), ("balls", Body(hinged.joints, axes, np.array(price)))):
-        solved = reach(clip, pins, body)
-        assert solved.worst[-1] < 0.002
+        solved = spacetime(clip, pins, body)
+        assert solved.worst[-1] < 0.005
         turns = [difference(solved.motion, clip).turns[:, leg.knee] for leg in LEGS]
         twists[kind] = np.degrees(np.linalg.norm(np.array(turns)[..., 1:], axis=-1).max())
     assert twists["hinges"] < 0.1
-    assert twists["balls"] > 4
+    assert twists["balls"] > 10
 
 
 def test_an_ankle_that_is_too_cheap_turns_too_far():
