@@ -5,6 +5,8 @@ for all frames at once, and solve again with more knots where something is not m
 from body to body, so that trees and rest poses may differ, and triangles close the last millimetres.
 """
 
+import warnings
+
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.edits import edit
@@ -16,12 +18,14 @@ from mocap.editing.retargeting.floors import dips_of, floor_pins
 from mocap.editing.retargeting.stances import stance_of, stance_of_zero
 from mocap.editing.retargeting.upright_bodies import Stance
 from mocap.editing.spacetime_solver import WEIGHT, solved_in_time
+from mocap.errors import MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 
-# Seconds. A child takes steps 1.8 times as long as its legs ask for: its accelerations grow by 26 % (a CMU
-# walk) and 37 % (a bundled one); with 0.125 by 28 and 61 %. With 0.2 some of its plants are let go.
-KNOTS = 0.16
+# Seconds from knot to knot; the next where a plant is let go. A child takes steps 1.8 times as long as its
+# legs ask for: its accelerations grow by 27 % (a CMU walk) and 37 % (a bundled one) with 0.16, by 28 and 61 %
+# with 0.125. With 0.16 alone, 4 % of the CMU walk's planted frames are let go at 1.6 times; with all, none.
+KNOTS = (0.16, 0.125, 0.1)
 
 # What turns of knees and of the trunk cost, as a share of what they move. With 1 that child's knees
 # straighten to 0.1°, and 9 % of its planted frames are let go; with 4 they keep 6°, and no plant is let go.
@@ -91,11 +95,28 @@ def retarget(
     if pins is not None:
         plants, floor = (join_pins(wishes, pins) for wishes in (plants, floor))
     linear = _priced(base, target, floor)
-    # A floor alone is no ceiling: it needs no slow rise of the weight.
-    solved = solved_in_time(base, floor, linear, (KNOTS, WEIGHT), again=pins is None).motion
     if pins is None:
-        return clean_up(solved, target.legs, pins=plants)
+        return _standing_again(base, (plants, floor), linear, target)
+    solved = solved_in_time(base, floor, linear, (KNOTS[0], WEIGHT)).motion
     return edit(solved, plants, body=linear, legs=target.legs)
+
+
+def _standing_again(base: Motion, wishes: tuple[Pins, Pins], body: Body, target: Stance) -> Motion:
+    """Bring plants to their places, over the floor; where any is let go, with denser knots [Gle98].
+
+    A floor alone is no ceiling, so the weight need not rise slowly.
+    """
+    plants, floor = wishes
+    for knots in KNOTS:
+        solved = solved_in_time(base, floor, body, (knots, WEIGHT), again=True).motion
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", MocapWarning)
+            worn = clean_up(solved, target.legs, pins=plants)
+        if not said:
+            return worn
+    for warning in said:
+        warnings.warn(warning.message, stacklevel=3)
+    return worn
 
 
 def _priced(base: Motion, target: Stance, pins: Pins) -> Body:
