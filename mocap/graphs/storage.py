@@ -3,7 +3,6 @@
 The file holds no frames of the clips and no code: it is safe to read a file from a stranger.
 """
 
-import hashlib
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -15,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, fingerprint
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, sample
@@ -56,17 +55,6 @@ class GraphFile(NamedTuple):
     fingerprints: tuple[str, ...]
     graph: nx.MultiDiGraph
     origins: tuple[str, ...] = ()
-
-
-def fingerprint(motion: Motion) -> str:
-    """Hash all that a graph needs of a clip: skeleton, poses, rate and labels (SHA-256)."""
-    skeleton = motion.skeleton
-    digest = hashlib.sha256(repr((skeleton.names, motion.fps, sorted(motion.labels))).encode())
-    marks = [motion.labels[label] for label in sorted(motion.labels)]
-    for array in (skeleton.parents, skeleton.offsets, motion.root_positions, motion.rotations, *marks):
-        digest.update(f"{array.dtype.str}{array.shape}".encode())
-        digest.update(np.ascontiguousarray(array).data)
-    return digest.hexdigest()
 
 
 def require_suffix(path: str | Path, suffix: str) -> None:
