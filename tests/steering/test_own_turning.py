@@ -1,0 +1,71 @@
+"""How walks turn by themselves: along a clip as its path does, through a seam from one path to the other."""
+
+import numpy as np
+import pytest
+
+from mocap.body.ground_path import circle
+from mocap.body.planar import on_ground
+from mocap.editing.path_editing import moving_frames, ride_of
+from mocap.steering.own_turning import bending_on, own_ride, turning_of
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.bundled import walking
+
+GRAPH = walking()
+OWN = turning_of(GRAPH)
+
+
+def ride_edges(clip):
+    """Give the numbers of the edges that play a clip from its first node to its last."""
+    return np.array(
+        [n for n, (start, _, _) in enumerate(GRAPH.edges) if start[0] == clip and not GRAPH.blended[n]]
+    )
+
+
+def rows_of(edges):
+    return np.concatenate([np.arange(GRAPH.frames[e]) + GRAPH.tracks.first[e] for e in edges])
+
+
+def test_along_a_clip_it_is_the_clips_own_path():
+    clip = GRAPH.source.clips[0]
+    ride = ride_of(clip)
+    heads = np.asarray(moving_frames(ride.path, ride.along).angle)
+    edges = ride_edges(0)
+    first, last = GRAPH.edges[edges[0]][0][1], GRAPH.edges[edges[-1]][1][1]
+    rows = rows_of(edges)
+    assert len(rows) == last - first
+    assert OWN.step[rows].sum() == pytest.approx(
+        ride.along[last - 1] - ride.along[max(first - 1, 0)], abs=1e-9
+    )
+    assert OWN.turn[rows].sum() == pytest.approx(heads[last - 1] - heads[max(first - 1, 0)], abs=1e-9)
+    joined = own_ride(GRAPH, OWN, edges)
+    assert joined.path.points == pytest.approx(ride.path.points[first:last], abs=1e-9)
+
+
+def test_a_seam_leads_smoothly_from_path_to_path():
+    walk = random_walk(GRAPH.source, seconds=30, seed=2)
+    numbers = {edge: n for n, edge in enumerate(GRAPH.edges)}
+    edges = np.array([numbers[edge] for edge in walk])
+    assert GRAPH.blended[edges].sum() > 3
+    ride, motion = own_ride(GRAPH, OWN, edges), to_motion(GRAPH.source, walk)
+    assert len(ride.along) == len(motion)
+    away = np.abs(on_ground(motion.root_positions) - on_ground(ride.path.at(ride.along)))
+    assert away.max() < 0.08  # the sway
+    assert OWN.step[rows_of(edges)].sum() == pytest.approx(ride.along[-1], rel=0.02)
+    turned = np.asarray(moving_frames(ride.path, ride.along).angle)
+    assert OWN.turn[rows_of(edges)].sum() == pytest.approx(
+        turned[-1] - turned[0], abs=0.5
+    )  # ends go straight on
+    assert np.abs(np.diff(np.abs(np.diff(on_ground(ride.path.points))))).max() < 0.01  # no jump at a seam
+    spline = ride_of(motion)
+    far = np.abs(on_ground(motion.root_positions) - on_ground(spline.path.points))
+    assert away.mean() < far.mean() + 0.005
+
+
+def test_a_route_of_a_circle_asks_for_its_curvature():
+    bending = bending_on(OWN, circle(2.0), 500)
+    assert bending.curvature[20:-20] == pytest.approx(0.5, abs=0.01)
+    point = np.full(3, 100)
+    rows = np.array([5, 50, 500])
+    expected = (0.5 * OWN.step[rows] - OWN.turn[rows]) * GRAPH.fps
+    assert bending.rates(rows, point, GRAPH.fps) == pytest.approx(expected, abs=0.02)
