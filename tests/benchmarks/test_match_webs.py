@@ -53,8 +53,6 @@ def test_to_answer_a_wish_takes_at_most_a_twentieth_of_the_blend(method):
         lambda: [gait(blend_of(made.registration, row, fps=30)) for row in rows],
         lambda: [weights_for(made, wish, method=method) for wish in wishes],
     )
-    print(
     share = 100 * inverse / blend
     print(f"\n{method}: a blend {25 * blend:.1f} ms, weights for a wish {share:.1f} % of it")
-    )
     assert inverse <= 0.05 * blend
