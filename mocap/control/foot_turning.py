@@ -18,8 +18,8 @@ from mocap.body.skeleton import Skeleton
 from mocap.control.characters import Character, Pose
 from mocap.errors import MocapError
 
-# Radians. No stance is turned by more than 25°: a foot stands for a frame before its joints are slow.
-# Without a bound a stance turns by up to 29° at 40° per second, and the character obeys 0.05 s sooner.
+# Radians. At 40° per second no stance is turned by more than 25°: a foot stands for a frame before its joints
+# are slow. Without a bound stances turn by up to 29°, and the character obeys 0.05 s sooner.
 MOST = np.radians(24)
 
 # Radians. As long as the direction is off by more, the figure turns at its full rate; below, the rate falls
@@ -58,7 +58,7 @@ class FootTurner:
 
     The direction of the last third of a second is off the heading by e. Before each frame the figure
     turns towards it, by rate · min(1, e² / (20°)²) / fps, about the slowest of its ankles and balls. A joint
-    that stands is turned by 25° at most; then the figure waits until that foot is in the air. The rate rises
+    that stands is turned by 24° at most; then the figure waits until that foot is in the air. The rate rises
     over 0.1 s, and begins anew where the other foot becomes the slowest.
 
     Parameters

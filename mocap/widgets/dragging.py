@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 from PIL import Image, ImageDraw
 
+from mocap._shared.arrays import Array
 from mocap.errors import MocapError
 from mocap.plotting.picture import figure_of
 
@@ -79,6 +80,17 @@ class Dragged:
     picture: bytes
     layout: Any
 
+    def inside(self, where: Array, count: int) -> tuple[tuple[float, float], ...]:
+        """Check that there are so many points, and that all lie within the axes."""
+        if where.shape != (count, 2):
+            raise MocapError(f"There are {count} handles, got an array of shape {where.shape}.")
+        low, high = np.sort(self.limits, axis=1).T
+        outside = ~((where >= low) & (where <= high)).all(axis=1)
+        if outside.any():
+            first = int(outside.argmax())
+            raise MocapError(f"Handle {first + 1} would leave the axes: {where[first].tolist()}.")
+        return tuple((float(x), float(y)) for x, y in where)
+
     def show(self, png: bytes) -> None:
         """Take the picture that was just drawn; the axes' place may have changed with it."""
         (left, right), (bottom, top) = self.limits
@@ -132,14 +144,6 @@ def _class() -> type[Any]:
 
         @traitlets.validate("value")
         def _inside(self, proposal: dict[str, Any]) -> tuple[tuple[float, float], ...]:
-            where = np.asarray(proposal["value"], float)
-            if where.shape != (self.points, 2):
-                raise MocapError(f"There are {self.points} handles, got an array of shape {where.shape}.")
-            low, high = np.sort(self.limits, axis=1).T
-            outside = ~((where >= low) & (where <= high)).all(axis=1)
-            if outside.any():
-                first = int(outside.argmax())
-                raise MocapError(f"Handle {first + 1} would leave the axes: {where[first].tolist()}.")
-            return tuple((float(x), float(y)) for x, y in where)
+            return self.inside(np.asarray(proposal["value"], float), self.points)
 
     return Handles
