@@ -28,6 +28,8 @@ def on_ground(points: ArrayLike) -> Points:
     --------
     >>> complex(on_ground([3.0, 1.0, 2.0])), complex(on_ground([3.0, 2.0]))
     ((2+3j), (2+3j))
+
+    Notebook: 15-registration
     """
     points = np.asarray(points, float)
     return np.asarray(points[..., -1] + 1j * points[..., 0])

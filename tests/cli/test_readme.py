@@ -2,13 +2,16 @@
 
 import re
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from mocap.body.motion import resample
 from mocap.cli.main import main
+from mocap.datasets import samples
+from mocap.datasets.generated import generate_walk
 from mocap.files import load_save
-from tests.strategies import wave
 
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
 SLOW = ("pytest", "pip", "demo", "lab", "data", "course")  # tested elsewhere, or not a command of ours
@@ -24,7 +27,15 @@ def commands():
 
 def test_the_readme_shows_commands():
     shown = " ".join(commands())
-    for command in ("mocap graph", "mocap walk", "--path", "--random", "mocap info", "mocap view"):
+    for command in (
+        "mocap graph",
+        "mocap walk",
+        "--path",
+        "--random",
+        "mocap info",
+        "mocap view",
+        "mocap bend",
+    ):
         assert command in shown
 
 
@@ -32,9 +43,19 @@ def test_the_readme_shows_commands():
 def newcomer(tmp_path, monkeypatch):
     """Give a newcomer a folder with clips, and with a path."""
     (tmp_path / "my-clips").mkdir()
-    for clip in (wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)):
-        load_save.save(clip, tmp_path / "my-clips" / f"{clip.name}.bvh")
-    load_save.save(wave(60), tmp_path / "walk.amc")
+    walk, *others = (
+        resample(samples.sample(f"walk_{name}"), 30) for name in ("curve_1", "curve_2", "circle")
+    )
+    for name, clip in zip("ab", others, strict=True):
+        load_save.save(clip[:240], tmp_path / "my-clips" / f"{name}.bvh")
+    load_save.save(walk[:200], tmp_path / "walk.amc")
+    for name, speed in (("slow", 0.8), ("brisk", 1.2)):
+        straight = generate_walk([[0, 0], [0, 5]], speed=speed)
+        load_save.save(resample(straight, 30), tmp_path / f"{name}.bvh")
+    small = replace(walk.skeleton, offsets=0.6 * walk.skeleton.offsets)
+    child = replace(walk, skeleton=small, root_positions=0.6 * walk.root_positions)
+    load_save.save(child[:150], tmp_path / "child.bvh")
+    (tmp_path / "keys.txt").write_text("at 1.5s rhand -0.1 0.2 0.1\n")
     (tmp_path / "path.svg").write_text('<svg><path d="M0 0 L 0 -300"/></svg>')
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("webbrowser.open", lambda page: True)
@@ -45,5 +66,5 @@ def test_each_command_works_after_those_before_it(newcomer, capsys):
     for line in commands():
         words = shlex.split(line.replace("1h", "10s").replace(" --clean", ""))
         assert main(words[1:]) == 0, (line, capsys.readouterr().err)
-    for made in ("graph.npz", "walk.bvh", "long.bvh"):
+    for made in ("graph.npz", "walk.bvh", "long.bvh", "bent.bvh", "reach.bvh", "half.bvh", "child", "found"):
         assert (newcomer / made).exists()
