@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -75,6 +76,17 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     >>> len(own.turn) == len(own.step) == len(graph.tracks.step)
     True
     """
+    if graph not in _KNOWN:
+        _KNOWN[graph] = _follow_edges(graph)
+    return _KNOWN[graph]
+
+
+# Found once for each compiled graph: to find it again makes following a line of 17 m a fifth slower.
+_KNOWN: WeakKeyDictionary[CompiledGraph, OwnTurning] = WeakKeyDictionary()
+
+
+def _follow_edges(graph: CompiledGraph) -> OwnTurning:
+    """Do what `turning_of` says."""
     source = graph.source
     lengths = np.array([len(clip) for clip in source.clips])
     first = np.cumsum(lengths) - lengths
