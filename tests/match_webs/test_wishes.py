@@ -102,6 +102,20 @@ def test_walks_turn_and_go_as_asked():
     assert plain >= 3 * convex
 
 
+def test_degrees_and_metres_per_second_need_a_scale():
+    """Without one, 0.1 m/s counts as a tenth of a degree: the nearest samples go at any speed."""
+    made = space(100)
+    raw = MotionSpace(made.registration, made.weights, made.values, [1, 1])
+    rng = np.random.default_rng(2)
+    wishes = rng.uniform([-20, 0.8], [20, 1.3], (25, 2))
+    off = {}
+    for name, each in (("scaled", made), ("raw", raw)):
+        rows = [weights_for(each, wish, method="neighbours") for wish in wishes]
+        speeds = [gait(blend_of(made.registration, row, fps=30))[1] for row in rows]
+        off[name] = np.abs(speeds - wishes[:, 1]).mean()
+    assert off["raw"] > 2 * off["scaled"]
+
+
 def test_out_of_reach_the_blend_stays_at_the_edge():
     made = space(100)
     wishes = np.array([[90.0, 1.1], [0, 2.2], [-70, 0.4], [60, 2.0]])
