@@ -34,12 +34,12 @@ match_webs         all motions like an example, and spaces of blends between the
 synthesis          walks through a graph, at random or by search, and their motions (07)
 steering           walks that follow a wish: paths, waypoints, crowds (08, 12)
 control            characters that get a new command in any frame (08, 12)
-plotting           pictures, by matplotlib (00 to 10)
+plotting           pictures, by matplotlib (00 to 16)
 parametric_graphs  graphs of whole spaces of strides, and characters that need no search
 motion_matching    characters without a graph: the frame that fits best, searched again and again
 groups             a crowd that was planned: group motion graphs, and characters for their members
 diagrams           ideas drawn step by step (00 to 09)
-widgets            players and experiments for notebooks (00 to 10)
+widgets            players and experiments for notebooks (00 to 16)
 course             the notebooks: checks of exercises, hand-outs, pages
 marking            marks for notebooks handed in, whose code runs sealed
 cli                the command `mocap`
