@@ -149,7 +149,8 @@ def flat_bodies(
     ----------
     motion : a walk along z.
     frames : which frames.
-    view : from the side, z to the right; or from the front, x to the left, as a reader sees a walker come.
+    view : from the side, z to the right; or from the front, x to the right. There the walker comes to the
+        reader, so the left side of the body, which is at +x, is on the right.
     alpha : 1 for solid bodies, less for ghosts.
     ax : flat axes; by default new ones.
 
@@ -171,7 +172,6 @@ def flat_bodies(
         ax.add_collection(LineCollection(list(lines), colors=colours, linewidths=1.8, alpha=alpha))
     ax.autoscale_view()
     ax.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel="y (m)")
-    ax.xaxis.set_inverted(across == 0)
     return ax
 
 

@@ -88,6 +88,12 @@ def test_a_strip_of_one_frame_is_one_picture():
     assert len(film_strip([wave(1)]).axes) == 1
 
 
+def sides(walk):
+    """Give where the left and the right hip of frame 90 are, seen along z."""
+    points = joint_positions(walk)[90]
+    return [points[walk.skeleton.index(name), :2] for name in ("lfemur", "rfemur")]
+
+
 def test_bodies_are_drawn_flat_where_they_are_from_the_side_and_from_the_front():
     walk = sample("walk_straight")
     side, front = (
@@ -101,5 +107,7 @@ def test_bodies_are_drawn_flat_where_they_are_from_the_side_and_from_the_front()
             to_rgba(colour) for colour in COLOURS.values()
         }
     assert side.get_xlabel() == "z (m)" and not side.xaxis_inverted()
-    assert front.get_xlabel() == "x (m)" and front.xaxis_inverted()
+    assert front.get_xlabel() == "x (m)" and not front.xaxis_inverted()
+    left, right = (front.transData.transform(at)[0] for at in sides(walk))
+    assert left > right  # of one who comes to the reader
     plt.close(flat_bodies(walk, [0]).figure)
