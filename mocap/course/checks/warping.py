@@ -30,8 +30,8 @@ def _long_way(quaternion: Array) -> Array:
 offset_curve = Check(
     name="offset_curve",
     asks="the rotations (F, 4): each frame of q, turned in the joint's own frame by its share of the offset",
-    start="b is the rotation vector from q[key] to pose: log(q⁻¹ pose). Each frame gets exp(share b) on its "
-    "right.",
+    start="first find the offset b, at the key only: solve q[key] · exp(b) = pose for exp(b), then take the "
+    "logarithm. Each frame gets its share of b.",
     draw=_turning,
     truth=lambda q, key, pose, share: multiply(q, from_rotvec(share[:, None] * _own(q, key, pose))),
     same=close_rotations,
@@ -114,8 +114,9 @@ def _forward(at: Array, values: Array, tension: float) -> Array:
 
 cardinal_slopes = Check(
     name="cardinal_slopes",
-    asks="the slopes at all keys: (1 - tension) times the chord over both neighbours, and 0 at both ends",
-    start="begin with zeros. The inner keys have two neighbours: values[2:] - values[:-2] over their times.",
+    asks="the slopes at all keys: less than that of the line over both neighbours where there is tension, and "
+    "0 at both ends",
+    start="begin with zeros. For the inner keys, the keys after them are values[2:]; which are before them?",
     draw=_keys,
     truth=_slopes,
     mistakes=[
@@ -136,8 +137,8 @@ cardinal_slopes = Check(
 
 flight_time = Check(
     name="flight_time",
-    asks="how many times as long the flight must last: the square root of the new rise over the old one",
-    start="a body that falls from the height h takes √(2 h / g) seconds, and g is the same in both jumps.",
+    asks="how many times as long the flight must last; 1 where nothing is added",
+    start="a body that falls for t seconds falls by g t² / 2, and g is the same in both jumps. Solve for t.",
     draw=lambda rng: (float(rng.uniform(0.1, 0.6)), float(rng.uniform(0.05, 0.5))),
     truth=lambda rise, more: np.sqrt((rise + more) / rise),
     mistakes=[
