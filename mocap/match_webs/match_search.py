@@ -142,9 +142,9 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> _Found:
         raise MocapError(f"'{motion.name}' has frames 0 to {len(motion) - 1}, got {first}:{last}.")
     start, stop = (round(float(web.number(clip, frame))) for frame in (first, last))
     stop = min(stop, int(web.starts[clip + 1]))
-    if stop - start <= web.shape.least * web.rate:
+    if stop - start < round(web.shape.least * web.rate):
         raise MocapError(
-            f"A query must be longer than {web.shape.least:g} s, the least length of this web's paths; "
+            f"A query must last {web.shape.least:g} s or more, as the paths of this web do; "
             f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s."
         )
     rows = np.arange(start, stop, dtype=float)

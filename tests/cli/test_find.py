@@ -35,6 +35,11 @@ def test_matches_are_listed_and_cut_out_as_files(folder, tmp_path, capsys):
     assert told.err == ""
 
 
+def test_the_shortest_query_lasts_as_long_as_a_path(folder, capsys):
+    assert main(["find", f"{folder / 'walk_straight.bvh'}:240-276", str(folder)]) == 0
+    assert "walk_straight" in capsys.readouterr().out
+
+
 def test_a_query_from_elsewhere_is_not_among_its_matches(folder, capsys):
     query = f"{folder / 'walk_straight.bvh'}:240-370"
     assert main(["find", query, str(folder / "stop_and_go.bvh"), "--steps", "1", "--any-length"]) == 0
@@ -47,7 +52,7 @@ def test_a_query_from_elsewhere_is_not_among_its_matches(folder, capsys):
     [
         ("{folder}/walk_straight.bvh:9-", [], "Write CLIP:FROM-TO, as in walk.amc:120-250"),
         ("{folder}/walk_straight.bvh:a-b", [], "Write CLIP:FROM-TO"),
-        ("{folder}/walk_straight.bvh:240-241", [], "A query must be longer than 0.3 s"),
+        ("{folder}/walk_straight.bvh:240-241", [], "A query must last 0.3 s or more"),
         ("{folder}/walk_straight.bvh:240-99999", [], "has frames 0 to"),
         ("{folder}/nothing.bvh:240-300", [], "nothing.bvh"),
         ("{folder}/walk_straight.bvh:240-300", ["--below", "0"], "--below: '0' is not a number"),

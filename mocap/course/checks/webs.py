@@ -70,8 +70,8 @@ class _Matches:
         self.calls += 1
         if self.calls > MOST:
             raise RecursionError(
-                f"it has asked {MOST} times and does not end: what is found again, at nearly the same frames, "
-                "is not new"
+                f"it has asked {MOST} times and does not end: what is found again, at nearly the same "
+                "frames, is not new"
             )
         return [(cost, 10 * other + off) for cost, other, off in self.links[(match + 5) // 10]]
 
@@ -190,7 +190,7 @@ neighbour_weights = Check(
         *(
             Mistake(
                 lambda distances, hit=hit: _shares(distances, lambda d: 1 / d**2, hit=hit),
-                "that is 1 / d²: the last sample still counts, and around each sample the blend hardly changes.",
+                "that is 1 / d²: the last sample still counts, and near each sample the blend hardly changes.",
             )
             for hit in (True, False)
         ),
