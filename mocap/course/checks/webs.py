@@ -190,7 +190,7 @@ neighbour_weights = Check(
         *(
             Mistake(
                 lambda distances, hit=hit: _shares(distances, lambda d: 1 / d**2, hit=hit),
-                "that is 1 / d²: the last sample still counts, and near each sample the blend hardly changes.",
+                "that is 1 / d²: the last sample still counts, and near a sample the blend hardly moves.",
             )
             for hit in (True, False)
         ),
