@@ -51,7 +51,12 @@ class Grid(NamedTuple):
         progress, executor : as for `build_web`.
         """
         rows, columns = (pieces(self.starts.tolist(), most, overlap) for most in (ROWS, COLUMNS))
-        pairs = [(row, column) for row in rows for column in columns if column.stop > row.start]
+        pairs = [
+            (row, slice(max(row.start, column.start), column.stop))  # nothing lies below the diagonal
+            for row in rows
+            for column in columns
+            if column.stop > row.start
+        ]
         tasks = ((self._piece(i), self._piece(j), self.taper, self.limits) for i, j in progress(pairs))
         found = []
         for cells in run_in_order(paths_between, tasks, executor):
