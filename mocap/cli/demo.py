@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from mocap import body, datasets, files, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder
 from mocap._shared.progress import Progress
-from mocap.cli.options import SEED, add_building, bar, number, window_frames
+from mocap.cli.options import SEED, add_building, bar, number, require_other, window_frames
 from mocap.errors import NoWalk
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ def add_demo(commands: "Commands") -> None:
 def _demo(options: argparse.Namespace) -> int:
     require_folder(options.out)
     if options.clips:
+        require_other(options.out / "walk.bvh", files.find_files(options.clips))
         clips = files.load_all(
             options.clips, skeleton=options.skeleton, scale=options.scale, progress=bar("reading")
         )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from mocap import body, datasets, files, graphs, variants
 from mocap._shared.atomic import require_writable
-from mocap.cli.options import add_building, bar, window_frames
+from mocap.cli.options import add_building, bar, require_other, window_frames
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ def _build(options: argparse.Namespace) -> int:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
     window = window_frames(options.window, options.fps)
     found = files.find_files(options.clips)
+    require_other(options.out, found)
     clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
     origins = [datasets.Origin(file, options.skeleton, options.scale) for file in found]
     if options.mirror:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from mocap import editing, files, quality, variants
 from mocap._shared.atomic import require_writable
-from mocap.cli.options import add_reading, number, require_amc, whole
+from mocap.cli.options import add_reading, number, require_amc, require_other, whole
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
@@ -39,6 +39,7 @@ def add_loop(commands: "Commands") -> None:
 
 def _loop(options: argparse.Namespace) -> int:
     require_amc(options.clip, options.skeleton)
+    require_other(options.out, [options.clip])
     require_writable(options.out)
     motion = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
     found = variants.find_loop(motion, seconds=(options.shortest, options.longest))

@@ -2,7 +2,7 @@
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -116,6 +116,19 @@ def window_frames(seconds: float, fps: float) -> int:
     if not (math.isfinite(frames) and round(frames) >= 2):
         raise MocapError(f"A window needs two frames or more, got {seconds:g} s at {fps:g} Hz.")
     return round(frames)
+
+
+def require_other(target: Path, read: Iterable[Path]) -> None:
+    """Raise where the file to write is one of those to read.
+
+    Examples
+    --------
+    >>> require_other(Path("clips/walk.bvh"), [Path("clips/run.bvh"), Path("./clips/walk.bvh")])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: clips/walk.bvh is one of the files to read: choose another name with -o.
+    """
+    if target.resolve() in (path.resolve() for path in read):
+        raise MocapError(f"{target} is one of the files to read: choose another name with -o.")
 
 
 def require_amc(clip: Path, skeleton: Path | None) -> None:

@@ -1,6 +1,7 @@
 """The command `mocap walk`: a walk through a saved graph, along a path or at random."""
 
 import argparse
+import itertools
 import math
 import re
 from pathlib import Path
@@ -8,12 +9,14 @@ from typing import TYPE_CHECKING
 
 from mocap import body, files, graphs, steering, synthesis, variants
 from mocap._shared.atomic import require_writable
-from mocap.cli.options import LENGTH, SEED, SKELETON, TURN, bar, whole
+from mocap.cli.options import LENGTH, SEED, SKELETON, TURN, bar, require_other, whole
+from mocap.datasets.clip_origins import find_again
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
+    from mocap.graphs.storage import GraphFile
     from mocap.steering.followed import Followed
 
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
@@ -122,9 +125,22 @@ def _label(text: str) -> tuple[float, str]:
         raise MocapError(f"From where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak.") from None
 
 
+def _sources(options: argparse.Namespace, found: "GraphFile") -> list[Path]:
+    """List the files of the graph's clips: those given, or remembered, or of their names beside the graph."""
+    if options.clips:
+        given: list[Path] = files.find_files(options.clips)
+        return given
+    folder, sources = options.graph.parent, list[Path]()
+    for name, text in itertools.zip_longest(found.names, found.origins):
+        origin = find_again(text, folder) if text else None
+        sources.append(origin.path if origin else folder / f"{name}{options.out.suffix}")
+    return [source for source in sources if source.is_file()]
+
+
 def _graph(options: argparse.Namespace) -> "MotionGraph":
     """Read the graph, and the clips that it was built of."""
     found = graphs.read(options.graph)
+    require_other(options.out, _sources(options, found))
     progress = bar("reading")
     if options.clips:
         clips = files.load_all(
