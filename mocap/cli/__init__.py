@@ -12,6 +12,6 @@ Reading order
  8. `view`: play a clip in the browser
  9. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
 10. `editing`: commands that change one clip: `mocap warp`, `mocap bend`, `mocap retarget`
-11. `many_clips`: commands for many clips at once: `mocap find`
+11. `many_clips`: commands for many clips at once: `mocap find`, `mocap crowd`
 12. `main`: all of them under one name
 """

@@ -18,6 +18,7 @@ from mocap.cli.editing.warp import add_warp
 from mocap.cli.files import add_convert, add_data, add_info, add_judge
 from mocap.cli.graph import ACTIONS, add_graph
 from mocap.cli.loop import add_loop
+from mocap.cli.many_clips.crowd import add_crowd
 from mocap.cli.many_clips.find import add_find
 from mocap.cli.view import add_view
 from mocap.cli.walk import add_walk
@@ -51,6 +52,7 @@ def _parser() -> argparse.ArgumentParser:
         add_bend,
         add_loop,
         add_find,
+        add_crowd,
         add_retarget,
         add_data,
         add_view,

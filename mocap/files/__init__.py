@@ -8,7 +8,8 @@ Reading order (notebooks 01, 10)
 1. `load_save`: load and save; the suffix decides
 2. `folders`: which motion files there are
 3. `conversion`: whole folders at once
-4. `path_files`: paths from .csv and .svg
+4. `number_tables`: tables of numbers in .csv files
+5. `path_files`: paths from .csv and .svg
 """
 
 import lazy_loader
@@ -18,6 +19,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "load_save": ["load", "load_skeleton", "read_angles", "save"],
         "folders": ["find_files", "load_all"],
+        "number_tables": ["load_rows"],
         "path_files": ["load_path"],
         "conversion": ["Options", "Outcome", "convert", "plan"],
     },

@@ -11,6 +11,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.errors import FormatError, MocapError, shortened
+from mocap.files.number_tables import load_rows
 from mocap.formats.text import LARGEST, read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
@@ -67,7 +68,7 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
         raise MocapError(f"scale must be a number above 0, got {scale}.")
     match path.suffix.lower():
         case ".csv":
-            return _on_ground(path, (scale or 1.0) * _read_csv(path))
+            return _on_ground(path, (scale or 1.0) * load_rows(path))
         case ".svg":
             return _on_ground(path, 0.0 - (scale or 0.01) * _read_svg(path))  # no -0.0
     raise MocapError(f"Cannot read a path from {path}: give a .csv or .svg file.")
@@ -80,20 +81,6 @@ def _on_ground(path: Path, points: Array) -> GroundPath:
         return GroundPath(points)
     except MocapError as error:
         raise MocapError(f"{path}: {error}") from None
-
-
-def _read_csv(path: Path) -> Array:
-    rows: list[Array] = []
-    expected = "x and z in each line, such as '1.5, 2'"
-    for number, line in enumerate(read_text(path).split("\n"), 1):
-        text = line.partition("#")[0]
-        parts = [part.split() or [""] for part in text.replace(";", ",").split(",")]
-        if not text.strip() or (not rows and not re.search(r"\d", line)):
-            continue
-        rows.append(to_numbers(path, number, [word for part in parts for word in part], expected, 2))
-    if not rows:
-        raise FormatError(path, None, expected, "no numbers")
-    return np.array(rows)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # `GroundPath` refuses what is not finite

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from mocap._shared.arrays import Array, Points, frozen
+from mocap._shared.progress import Progress
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import from_ground, on_ground
@@ -71,13 +72,14 @@ class GroupWalkers:
         )
 
 
-def walk_group(
+def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show it)
     graph: MotionGraph | CompiledGraph,
     flock: Trajectories,
     *,
     bend: bool = True,
     beam: Beam | None = None,
     pool: Executor | None = None,
+    progress: Progress = iter,
 ) -> GroupWalkers:
     """Walk each member's way by a character of a motion graph, in place and in time [LCF05].
 
@@ -93,6 +95,7 @@ def walk_group(
     bend : put each walk exactly onto its member's way.
     beam : how thoroughly to search.
     pool : a `concurrent.futures.ProcessPoolExecutor` for many members.
+    progress : wraps the members, to show a bar.
 
     Returns
     -------
@@ -121,7 +124,7 @@ def walk_group(
         raise MocapError(f"A plan lasts a second or more, got {(len(flock.places) - 1) / RATE:g} s.")
     compiled = _with_plants(graph)
     one = partial(_walk_one, compiled, bend=bend, beam=beam)
-    walked = list((pool.map if pool else map)(one, flock.places.T))
+    walked = list((pool.map if pool else map)(one, progress(list(flock.places.T))))
     motions = tuple(motion for motion, _ in walked)
     kept = float(np.mean([share for _, share in walked]))
     wanted = np.stack([_at_rate(places, compiled.fps) for places in flock.places.T], axis=-1)

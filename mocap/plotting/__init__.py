@@ -54,6 +54,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
         "spread_charts": ["Band", "quartile_band", "walk_rows"],
         "picture": ["Picture", "show"],
+        "many_clips.group_plans": ["draw_group_plan"],
         "many_clips.web_charts": ["match_tree", "pose_grid", "space_image", "web_image"],
         "many_clips.registration_charts": ["WarpPicture", "ground_tracks", "plant_bars", "warp_image"],
     },

@@ -2,7 +2,7 @@
 
 import re
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -10,6 +10,7 @@ from tempfile import TemporaryFile
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d import Axes3D
 from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
@@ -21,18 +22,20 @@ from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError
 from mocap.plotting.axes import filled, ground_axes, look_at, to_picture
 from mocap.plotting.stick_figures import StickFigure
-from mocap.plotting.style import PATH
+from mocap.plotting.style import PATH, SOURCES
 from mocap.widgets.player import play
 
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
 
 
-def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progress: Progress = iter) -> Path:
+def save_animation(
+    motion: Motion | Sequence[Motion], path: str | Path, *, fps: float = 25.0, progress: Progress = iter
+) -> Path:
     """Write a motion as a file to look at: a stick figure on the ground, its path, a camera that follows it.
 
     Parameters
     ----------
-    motion : what to show.
+    motion : what to show; of several, each has a colour, and the camera follows them all.
     path : the file to write; nothing is left behind when writing fails. Its ending decides: .gif or .mp4 is a
         film, .png a strip of poses, .html a page with the player, which needs nothing else.
     fps : frames per second of a film; a GIF counts in hundredths of a second, so 20, 25 and 50 are exact.
@@ -44,7 +47,8 @@ def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progr
 
     Raises
     ------
-    MocapError : for another ending, where the file cannot be written, and for .mp4 without imageio-ffmpeg.
+    MocapError : for another ending, for no motion, where the file cannot be written, and for .mp4 without
+        imageio-ffmpeg.
 
     Examples
     --------
@@ -59,35 +63,48 @@ def save_animation(motion: Motion, path: str | Path, *, fps: float = 25.0, progr
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:
         raise MocapError(f"An animation is written as {', '.join(SUFFIXES[:-1])} or .html, got '{path}'.")
+    motions = [motion] if isinstance(motion, Motion) else list(motion)
+    if not motions:
+        raise MocapError("There is no motion to show.")
     if suffix == ".mp4":
         _require_ffmpeg()
     with replacing(path) as beside:
         if suffix == ".html":
-            beside.write_text(play(motion).page(), "utf-8")
+            beside.write_text(play(*motions).page(), "utf-8")
         elif suffix == ".png":
-            beside.write_bytes(play(motion).picture)
+            beside.write_bytes(play(*motions).picture)
         elif suffix == ".mp4":
-            _write_mp4(_pictures(motion, fps, progress), beside, fps)
+            _write_mp4(_pictures(motions, fps, progress), beside, fps)
         else:
-            _write_gif(_pictures(motion, fps, progress), beside, fps)
+            _write_gif(_pictures(motions, fps, progress), beside, fps)
     return Path(path)
 
 
-def _pictures(motion: Motion, fps: float, progress: Progress) -> Iterator[NDArray[np.uint8]]:
-    """Draw a film, frame by frame, each of shape (500, 500, 3)."""
-    motion = resample(motion, fps)
-    points = joint_positions(motion)
-    centres = gaussian_filter1d(motion.root_positions[:, [0, 2]], fps / 3, axis=0, mode="nearest")
+def _pictures(motions: Sequence[Motion], fps: float, progress: Progress) -> Iterator[NDArray[np.uint8]]:
+    """Draw a film, frame by frame, each of shape (500, 500, 3); who has come to the end stands there."""
+    motions = [resample(motion, fps) for motion in motions]
+    frames = max(map(len, motions))
+    clouds = [joint_positions(motion)[np.minimum(np.arange(frames), len(motion) - 1)] for motion in motions]
+    roots = np.stack([cloud[:, 0, [0, 2]] for cloud in clouds])  # (C, F, 2)
+    centres = gaussian_filter1d(roots.mean(axis=0), fps / 3, axis=0, mode="nearest")
+    reach = 1.0 + float(np.linalg.norm(roots - centres, axis=-1).max()) * (len(motions) > 1)
     figure = Figure(figsize=(5, 5))
     canvas = FigureCanvasAgg(figure)  # whatever pyplot's backend is, this one needs no screen
-    ax = ground_axes(centres[0], ax=filled(figure))
-    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
-    body = StickFigure(motion.skeleton, ax)
-    for frame in progress(range(len(motion))):
-        look_at(ax, centres[frame], 1.0)
-        body.pose(points[frame])
+    ax = ground_axes(centres[0], reach, ax=filled(figure))
+    bodies = [_body(motion, number, len(motions), ax) for number, motion in enumerate(motions)]
+    for frame in progress(range(frames)):
+        look_at(ax, centres[frame], reach)
+        for body, cloud in zip(bodies, clouds, strict=True):
+            body.pose(cloud[frame])
         canvas.draw()
         yield np.array(canvas.buffer_rgba())[..., :3]
+
+
+def _body(motion: Motion, number: int, count: int, ax: Axes3D) -> StickFigure:
+    """Draw a motion's path, and a body to move along it; several have a colour each."""
+    colour = SOURCES[number % len(SOURCES)] if count > 1 else None
+    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=colour or PATH, linewidth=1.5, zorder=1)
+    return StickFigure(motion.skeleton, ax, colour=colour)
 
 
 def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:

@@ -5,9 +5,12 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from PIL import Image
 
+from mocap.body.planar import place
 from mocap.errors import MocapError
+from mocap.plotting.style import SOURCES
 from mocap.widgets import film
 from mocap.widgets.player import play
 from tests.strategies import wave
@@ -94,3 +97,21 @@ def test_what_ffmpeg_complains_of_is_the_error_and_the_old_film_stays(tmp_path, 
         film.save_animation(wave(31), old)
     assert old.read_bytes() == b"an old film"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["ffmpeg", "wave.mp4"]
+
+
+def test_several_characters_are_in_one_film_until_the_last_has_come_to_its_end(tmp_path):
+    far = place(wave(31), 0.0, [3.0, 0.0])
+    path = film.save_animation([wave(16), far], tmp_path / "two.gif", fps=20)
+    with Image.open(path) as gif:
+        assert gif.n_frames == 21
+        gif.seek(20)
+        colours = {tuple(pixel) for pixel in np.asarray(gif.convert("RGB")).reshape(-1, 3)}
+    for colour in SOURCES[:2]:
+        wanted = np.round(255 * np.array(to_rgb(colour)))
+        assert min(np.abs(wanted - pixel).max() for pixel in colours) < 60
+
+
+def test_a_film_of_nobody_is_refused(tmp_path):
+    with pytest.raises(MocapError, match="There is no motion to show"):
+        film.save_animation([], tmp_path / "none.gif")
+    assert list(tmp_path.iterdir()) == []
