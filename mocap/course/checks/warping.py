@@ -114,7 +114,7 @@ def _forward(at: Array, values: Array, tension: float) -> Array:
 
 cardinal_slopes = Check(
     name="cardinal_slopes",
-    asks="the slopes at all keys: less than that of the line over both neighbours where there is tension, and "
+    asks="the slopes at all keys, from the line over both neighbours: less steep where there is tension, and "
     "0 at both ends",
     start="begin with zeros. For the inner keys, the keys after them are values[2:]; which are before them?",
     draw=_keys,
