@@ -20,8 +20,8 @@ MEMBERS = (12, 24, 48, 96)
 HEAD = """# How a group motion graph grows
 
 Written by `python figures/grow_groups.py`; CPU time of one run on one core. Two minutes of a flock are
-simulated, clustered into at most six nodes of 0.5 m, and joined by clips. Then a way is planned over 24 m past two points
-between two obstacles, and played. Covered is the share of the simulation near a node. Of clips, those are
+simulated, clustered into at most six nodes of 0.5 m, and joined by clips. Then a way is planned over 24 m
+past two points between two obstacles, and played. Covered is the share of the simulation near a node. Of clips, those are
 kept that bring nobody nearer than 0.60 m and need at most 2.2 m/s².
 
 """
@@ -39,11 +39,11 @@ COLUMNS = (
 )
 
 TAIL = """
-Simulating and comparing look at all pairs of members. The assignment alone takes {0:.0f} times as long for eight
-times the members: it grows with their power {1:.1f}; its worst case is the cube. Planning and playing hardly notice
-the members: the clips' discs spare most tests, and a clip is played by one product. One assignment of a thousand
-members takes {2:.0f} ms, and clustering two minutes compares 7140 pairs twice. Then a k-d tree (`scipy.spatial.KDTree`)
-would serve the simulation, and an assignment among the nearest alone
+Simulating and comparing look at all pairs of members. The assignment alone takes {0:.0f} times as long for
+eight times the members: it grows with their power {1:.1f}; its worst case is the cube. Planning and playing
+hardly notice the members: the clips' discs spare most tests, and a clip is played by one product. One
+assignment of a thousand members takes {2:.0f} ms, and clustering two minutes compares 7140 pairs twice. Then
+a k-d tree (`scipy.spatial.KDTree`) would serve the simulation, and an assignment among the nearest alone
 (`scipy.sparse.csgraph.min_weight_full_bipartite_matching`) the comparison.
 """
 
