@@ -21,8 +21,8 @@ HEAD = """# How a group motion graph grows
 
 Written by `python figures/grow_groups.py`; CPU time of one run on one core. Two minutes of a flock are
 simulated, clustered into at most six nodes of 0.5 m, and joined by clips. Then a way is planned over 24 m
-past two points between two obstacles, and played. Covered is the share of the simulation near a node. Of clips, those are
-kept that bring nobody nearer than 0.60 m and need at most 2.2 m/s².
+past two points between two obstacles, and played. Covered is the share of the simulation near a node. Of
+clips, those are kept that bring nobody nearer than 0.60 m and need at most 2.2 m/s².
 
 """
 COLUMNS = (
