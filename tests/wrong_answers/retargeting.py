@@ -34,28 +34,28 @@ def other_way_round(hips, ratio, low_s, low_t, centre):
     return [0, low_t - low_s, 0] + middle + (hips - middle) / ratio
 
 
-def stance_forgotten(source, target, laid):
-    return multiply(source, multiply(laid, target))
+def stance_forgotten(source, target, turn):
+    return multiply(source, multiply(turn, target))
 
 
-def on_the_right(source, target, laid):
-    return multiply(multiply(inverse(source), target), laid)
+def on_the_right(source, target, turn):
+    return multiply(multiply(inverse(source), target), turn)
 
 
-def never_laid(source, target, laid):
+def never_laid(source, target, turn):
     return multiply(inverse(source), target)
 
 
-def inverse_last(source, target, laid):
-    return multiply(multiply(laid, target), inverse(source))
+def inverse_last(source, target, turn):
+    return multiply(multiply(turn, target), inverse(source))
 
 
-def from_target_to_source(source, target, laid):
-    return multiply(inverse(target), multiply(inverse(laid), source))
+def from_target_to_source(source, target, turn):
+    return multiply(inverse(target), multiply(inverse(turn), source))
 
 
-def laid_back(source, target, laid):
-    return multiply(inverse(source), multiply(inverse(laid), target))
+def laid_back(source, target, turn):
+    return multiply(inverse(source), multiply(inverse(turn), target))
 
 
 def sixfold(u):

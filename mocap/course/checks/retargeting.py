@@ -76,36 +76,36 @@ _back = rotations.inverse
 bone_turn = Check(
     name="bone_turn",
     asks="the quaternion C with R_source C = A R_target, where both bodies stand",
-    start="where both stand, R_source C must be A R_target: the target's bone, laid on the source's. Solve "
-    "for C.",
+    start="rotations do not commute, so say for each factor on which side of C it stands; to take one away, "
+    "multiply both sides by its inverse, on that side.",
     draw=_quaternions,
-    truth=lambda source, target, laid: _turn(_back(source), laid, target),
+    truth=lambda source, target, turn: _turn(_back(source), turn, target),
     same=close_rotations,
     mistakes=[
         Mistake(
-            lambda source, target, laid: _turn(source, laid, target),
+            lambda source, target, turn: _turn(source, turn, target),
             "the source's stance is not taken off: multiply by its inverse on the left.",
         ),
         Mistake(
-            lambda source, target, laid: _turn(_back(source), target, laid),
+            lambda source, target, turn: _turn(_back(source), target, turn),
             "A stands on the wrong side: it turns the target as it stands in the world, so it stands on the "
             "left of the target's stance.",
         ),
         Mistake(
-            lambda source, target, laid: _turn(_back(source), target),
+            lambda source, target, turn: _turn(_back(source), target),
             "A is missing: the bones of both bodies do not point the same way where they stand.",
         ),
         Mistake(
-            lambda source, target, laid: _turn(laid, target, _back(source)),
+            lambda source, target, turn: _turn(turn, target, _back(source)),
             "the source's inverse stands on the wrong side: R_source C is the source's turn first in the "
             "product, so its inverse stands on the left of C.",
         ),
         Mistake(
-            lambda source, target, laid: _back(_turn(_back(source), laid, target)),
+            lambda source, target, turn: _back(_turn(_back(source), turn, target)),
             "that is the inverse of C: it goes from the target to the source.",
         ),
         Mistake(
-            lambda source, target, laid: _turn(_back(source), _back(laid), target),
+            lambda source, target, turn: _turn(_back(source), _back(turn), target),
             "A goes from the target's bone to the source's already: do not invert it.",
         ),
     ],
@@ -128,7 +128,7 @@ def _bernstein(u: float) -> Array:
 design_row = Check(
     name="design_row",
     asks="the four weights of the cubic B-spline, earliest control point first; they add up to 1",
-    start="the first weight is (1 - u)³ / 6 and the last one u³ / 6. What do all four add up to?",
+    start="backwards in time, u becomes 1 - u, and the earliest control point becomes the latest one.",
     draw=lambda rng: (float(rng.uniform(0, 1)),),
     truth=_weights,
     mistakes=[
