@@ -116,7 +116,7 @@ WRONG = {
     ],
     "ground_step": [
         (grown, "the wrong way"),
-        (without_heading, "*and* by the heading"),
+        (without_heading, "*and* by the φ"),
         (as_captured, "as they were captured"),
         (other_side, "to the wrong side"),
         (first_frame, "of the first frame"),

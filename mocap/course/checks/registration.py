@@ -51,8 +51,8 @@ def _variant(  # noqa: PLR0913 (each argument is one line that a student may get
 next_row = Check(
     name="next_row",
     asks="two rows of sums, shape (2, m): after a diagonal step, and the least of the three ways",
-    start="first the sums after a diagonal step: 2 · costs[j] plus `best` one column to the left, infinite "
-    "in column 0. Then those after a step down, and after a step to the right.",
+    start="first work out the sums after a diagonal step, for a step to the right in the new row needs them. "
+    "Where no path can come from, the sum is infinite.",
     draw=_row,
     truth=_right,
     mistakes=[
@@ -129,20 +129,20 @@ def _same_step(given: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 ground_step = Check(
     name="ground_step",
-    asks="two values: the new heading, and the new place as a complex number",
-    start="the heading falls by the weighted mean of the turns' changes. Each move is turned by "
-    "exp(i · angle) with its clip's own angle, turn plus heading, half-way between the frames.",
+    asks="two values: the new φ, and the new centre as a complex number",
+    start="first solve rule 1 for the new φ: the weighted mean of θ + φ is the same before and after. Then "
+    "work out each clip's angle half-way, and turn its move by it.",
     draw=_moment,
     truth=_step,
     same=_same_step,
     mistakes=[
         Mistake(
             lambda *a: _step(*a, sign=1),
-            "the heading goes the wrong way: if the clips' angles grow, the heading falls by as much.",
+            "φ goes the wrong way: if the clips' angles θ grow, φ must fall by as much.",
         ),
         Mistake(
             lambda *a: _step(*a, halfway=lambda at, turns, heading: turns.mean(axis=0)),
-            "a move is turned by its clip's angle *and* by the heading of the blend.",
+            "a move is turned by its clip's angle θ *and* by the φ of the blend.",
         ),
         Mistake(
             lambda *a: _step(*a, halfway=lambda at, turns, heading: 0 * at),
