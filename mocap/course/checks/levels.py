@@ -30,7 +30,7 @@ def _to_the_middle(p: Array, low: Array, high: Array) -> Array:
 clip_gap = Check(
     name="clip_gap",
     asks="the way from p into the box, axis by axis: 0 where p is between low and high",
-    start="which point of the box is nearest to p? One function of NumPy keeps numbers between two others.",
+    start="draw one axis with a box. From p, which point of the box is nearest, and which way leads there?",
     draw=_box,
     truth=_gap,
     mistakes=[
@@ -76,7 +76,7 @@ def _slope(joint: Array, end: Array, axis: Array, turn: Array) -> Array:
 position_slope = Check(
     name="position_slope",
     asks="how fast the end moves, in metres per radian, when the joint turns about the axis",
-    start="bring the axis into the world's frame by the joint's matrix. A point at r moves along axis × r.",
+    start="bring the axis into the world's frame. Which product of two vectors is at right angles to both?",
     draw=_joint,
     truth=_slope,
     mistakes=[
@@ -139,8 +139,8 @@ def _same(given: Array, wanted: Array) -> bool:
 
 local_fit = Check(
     name="local_fit",
-    asks="the K control points c_i = Σ_j w_ij² β_ij / Σ_j w_ij², and 0 where no datum is near",
-    start="the table of β has the shape of the weights: w times the datum of its row, over the row's Σ w².",
+    asks="the K heights c_i for which the sum is least, and 0 where a hill has no datum",
+    start="the table of β has the shape of the weights. Then set the derivative of the sum by c_i to zero.",
     draw=_data,
     truth=_fit,
     same=_same,
@@ -151,11 +151,11 @@ local_fit = Check(
         ),
         Mistake(
             lambda weights, data: _fit(weights, data, axis=0),
-            "β divides by the sum over the control points of its datum: a row of the weights, not a column.",
+            "β divides by the sum over the hills of its datum: a row of the weights, not a column.",
         ),
         Mistake(
             _unguarded,
-            "where no datum is near, that is 0 divided by 0: give such a control point the value 0.",
+            "where no datum is near, that is 0 divided by 0: give such a hill the height 0.",
         ),
         Mistake(
             _mean_of_data,
@@ -163,7 +163,7 @@ local_fit = Check(
         ),
         Mistake(
             lambda weights, data: np.linalg.lstsq(weights, data, rcond=None)[0],
-            "that is least squares over all control points together; here each one is found by itself.",
+            "that is least squares over all hills together; here each one is found by itself.",
         ),
     ],
 )
