@@ -148,7 +148,7 @@ def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool, beam: Beam | 
     """Walk one member's way, (F,) complex at ten places per second; say which share of plants is kept."""
     wanted, further = _at_rate(places, graph.fps), _carried_on(places)
     path = GroundPath(from_ground(further))
-    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(further)))])
+    along = np.minimum(np.concatenate([[0.0], np.cumsum(np.abs(np.diff(further)))]), path.length)  # rounding
     some = np.arange(0, len(further), round(EVERY * RATE))
     times = [(float(along[k]), float(k / RATE)) for k in some]
     # A walk that is put onto its way need not be searched for so thoroughly.

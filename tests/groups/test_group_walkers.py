@@ -12,7 +12,7 @@ from mocap.files.load_save import load
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from mocap.groups.flocking import RATE, Trajectories, nearest_two
-from mocap.groups.group_graphs import play_group
+from mocap.groups.group_graphs import play_group, random_group_walk
 from mocap.groups.group_walkers import walk_group
 from mocap.groups.planning import Scene, plan_group
 from mocap.quality.blend_measures import ground_slides
@@ -89,3 +89,12 @@ def test_people_keep_to_the_plan_in_time_even_without_bending(real_data):
     assert loose.off.mean() <= 0.12 and np.percentile(loose.off, 95) <= 0.30 and loose.nearest >= 0.75
     bent = walk_group(motion_graph, plan())
     assert bent.off.mean() <= 0.05 and bent.nearest >= 0.75
+
+
+def test_a_way_of_any_length_can_be_walked():
+    """Ways whose length rounds below the sum of their steps: a place to pass lies at the path's very end."""
+    group = graph(6, 6)
+    for seed in range(4):
+        played = play_group(group, random_group_walk(group, 1, seed=seed))
+        one = Trajectories(played.places[:, :1], played.velocities[:, :1])
+        assert walk_group(bundled("walk_circle", "walk_curve_1"), one).off.mean() < 0.1
