@@ -139,8 +139,8 @@ class Skeleton:
         if self is other:
             return
         if missing := set(self.names) ^ set(other.names):
-            names = shorten(", ".join(sorted(missing)), 150)
-            raise SkeletonMismatch(f"The skeletons differ in these joints: {names}.")
+            names = shorten(", ".join(sorted(missing)), 80)
+            raise SkeletonMismatch(f"The skeletons differ in these joints: {names}. Retarget one first.")
         if tuple(self.names) != tuple(other.names) or not np.array_equal(self.parents, other.parents):
             raise SkeletonMismatch("The skeletons have the same joints in another order or tree.")
         gaps = np.linalg.norm(self.offsets - other.offsets, axis=-1)

@@ -25,6 +25,7 @@ def add_blend(commands: "Commands") -> None:
         description="Blend two clips of one kind or more: which of their frames belong together is found "
         "first, so walks of different speed or direction stay in step. With --fade, pass from the first clip "
         "into the second.",
+        epilog="Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh",
     )
     add = blend.add_argument
     add("clips", nargs="+", type=Path, metavar="CLIP", help="an .amc, .bvh or AMASS .npz file")

@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import datasets, files, quality
-from mocap.cli.options import LENGTH, add_reading, bar, require_amc, whole
+from mocap.cli.options import LENGTH, add_reading, as_options, bar, require_amc, whole
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
+    from mocap.body.skeleton import Skeleton
     from mocap.cli.options import Commands
 
 
@@ -22,6 +23,7 @@ def add_info(commands: "Commands") -> None:
         description="Report how long a clip is, how far the body goes and turns, and what is wrong with it.",
     )
     info.add_argument("file", type=Path, help="an .amc, .bvh or .npz file")
+    info.add_argument("--joints", action="store_true", help="list the names of the joints, too")
     add_reading(info)
     info.set_defaults(run=_info)
 
@@ -31,7 +33,17 @@ def _info(options: argparse.Namespace) -> int:
     motion = files.load(options.file, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
     angles = files.read_angles(options.file, skeleton=options.skeleton)
     print(quality.inspect(motion, angles).table())
+    if options.joints:
+        print("\n".join(_tree(motion.skeleton)))
     return 0
+
+
+def _tree(skeleton: "Skeleton") -> list[str]:
+    """List a body's joints, each farther in than the joint above."""
+    depths: list[int] = []
+    for parent in skeleton.parents:
+        depths.append(depths[parent] + 1 if parent >= 0 else 0)
+    return [f"{'  ' * depth}{name}" for depth, name in zip(depths, skeleton.names, strict=True)]
 
 
 def add_judge(commands: "Commands") -> None:
@@ -43,6 +55,7 @@ def add_judge(commands: "Commands") -> None:
         "feet that sink, slide or skate, knees, elbows, joints that turn too fast, and how far from a path. "
         "Each number is a share of its limit; above 1 it stands out beyond what captured people do. "
         "Whether a motion is the one that was wanted, or looks alive, it cannot see.",
+        epilog="Example: mocap judge made.bvh --against clips/ --path line.csv",
     )
     add = judge.add_argument
     add(
@@ -76,7 +89,7 @@ def _judge(options: argparse.Namespace) -> int:
     elif judged:
         print(quality.judgement_table(judged))
     for problem in dict.fromkeys([*(text for one in judged for text in one.left_out), *failed]):
-        print(f"mocap: {problem}", file=sys.stderr)
+        print(f"mocap: {as_options(problem)}", file=sys.stderr)
     return 2 if failed else 0
 
 
@@ -88,6 +101,7 @@ def add_convert(commands: "Commands") -> None:
         description="Convert a clip, or all clips in a folder and the folders inside it. For one clip, the "
         "suffix of OUT is the format. An .amc gets an .asf of its name. Lengths in a .bvh are centimetres. A "
         ".glb is for engines and viewers, and shows a body of capsules.",
+        epilog="Example: mocap convert clips/ out/ --to glb",
     )
     convert.add_argument("source", type=Path, metavar="IN", help="an .amc, .bvh or .npz file, or a folder")
     convert.add_argument("target", type=Path, metavar="OUT", help="the new file, or folder")
@@ -112,7 +126,7 @@ def _convert(options: argparse.Namespace) -> int:
     failed = [outcome for outcome in outcomes if outcome.problem]
     print(f"{'converted':<10} {len(outcomes) - len(failed)} of {len(outcomes)}")
     for outcome in failed:
-        print(f"{'failed':<10} {outcome.problem}")
+        print(f"{'failed':<10} {as_options(outcome.problem)}")
     return 2 if failed else 0
 
 

@@ -1,15 +1,17 @@
 """The command `mocap graph`: build a motion graph and save it, or describe a saved one."""
 
 import argparse
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import body, datasets, files, graphs, variants
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_building, bar, require_other, window_frames
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 
 if TYPE_CHECKING:
+    from mocap.body.motion import Motion
     from mocap.cli.options import Commands
 
 ACTIONS = ("build", "info", "-h", "--help")  # before any other word, `build` may be left out
@@ -24,12 +26,14 @@ def add_graph(commands: "Commands") -> None:
         description="Build the motion graph of some clips, prune it and save it; or describe a saved graph. "
         "The graph remembers where its clips are. "
         "The word `build` may be left out. For a folder of clips that is called info, write ./info.",
+        epilog="Example: mocap graph clips/ --mirror -o graph.npz",
     )
     actions = graph.add_subparsers(prog="mocap graph", title="actions", required=True, metavar="ACTION")
     build = actions.add_parser(
         "build",
         help="build a motion graph, prune it and save it",
         description="Build the motion graph of some clips, prune it and save it.",
+        epilog="Example: mocap graph clips/ --mirror -o graph.npz",
     )
     add = build.add_argument
     add("clips", nargs="+", type=Path, help=".amc, .bvh or AMASS .npz files, or folders of them")
@@ -63,7 +67,7 @@ def _build(options: argparse.Namespace) -> int:
     clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
     origins = [datasets.Origin(file, options.skeleton, options.scale) for file in found]
     if options.mirror:
-        clips += [variants.mirror(clip) for clip in clips]
+        clips += _mirrored(clips)
         origins += [origin._replace(mirrored=True) for origin in origins]
     graph = graphs.build(
         [body.resample(clip, options.fps) for clip in clips],
@@ -80,6 +84,17 @@ def _build(options: argparse.Namespace) -> int:
         graphs.write_graphml(graph, options.graphml)
         print(f"{'wrote':<12} {options.graphml}")
     return 0
+
+
+def _mirrored(clips: "list[Motion]") -> "list[Motion]":
+    """Mirror all clips; where bodies are lopsided, one warning is enough."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", MocapWarning)
+        images = [variants.mirror(clip) for clip in clips]
+    if caught:
+        more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
+        warnings.warn(f"{caught[0].message}{more}", MocapWarning, stacklevel=2)
+    return images
 
 
 def _info(options: argparse.Namespace) -> int:

@@ -20,6 +20,7 @@ from mocap.cli.graph import ACTIONS, add_graph
 from mocap.cli.loop import add_loop
 from mocap.cli.many_clips.crowd import add_crowd
 from mocap.cli.many_clips.find import add_find
+from mocap.cli.options import as_options
 from mocap.cli.view import add_view
 from mocap.cli.walk import add_walk
 from mocap.errors import MocapError, MocapWarning, shortened
@@ -101,19 +102,9 @@ def _with_action(arguments: Sequence[str]) -> list[str]:
 
 
 def _say(message: Warning | str, *_place: object, **_more: object) -> None:
-    """Write an error or a warning as one line, with the names that options have on a command line.
-
-    Examples
-    --------
-    >>> _as_options("choose another name, or set skeleton= to it; widen=True also writes one")
-    'choose another name, or set --skeleton to it; --widen also writes one'
-    """
-    text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), _as_options(str(message)))  # endless names
+    """Write an error or a warning as one line, with the names that options have on a command line."""
+    text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), as_options(str(message)))  # endless names
     print(f"mocap: {text}", file=sys.stderr)
-
-
-def _as_options(message: str) -> str:
-    return re.sub(r"\b(skeleton|scale|fps|widen|clips)=(True)?(?=\W|$)", r"--\1", message)
 
 
 def _options(arguments: Sequence[str]) -> argparse.Namespace:

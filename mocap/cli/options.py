@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import re
 from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
@@ -116,6 +117,17 @@ def window_frames(seconds: float, fps: float) -> int:
     if not (math.isfinite(frames) and round(frames) >= 2):
         raise MocapError(f"A window needs two frames or more, got {seconds:g} s at {fps:g} Hz.")
     return round(frames)
+
+
+def as_options(message: str) -> str:
+    """Give the arguments that a message names the names that they have on a command line.
+
+    Examples
+    --------
+    >>> as_options("choose another name, or set skeleton= to it; widen=True also writes one")
+    'choose another name, or set --skeleton to it; --widen also writes one'
+    """
+    return re.sub(r"\b(skeleton|scale|fps|widen|clips)=(True)?(?=\W|$)", r"--\1", message)
 
 
 def require_other(target: Path, read: Iterable[Path]) -> None:

@@ -4,6 +4,7 @@ import argparse
 import itertools
 import math
 import re
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,9 +12,10 @@ from mocap import body, files, graphs, steering, synthesis, variants
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import LENGTH, SEED, SKELETON, TURN, bar, require_other, whole
 from mocap.datasets.clip_origins import find_again
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 
 if TYPE_CHECKING:
+    from mocap.body.motion import Motion
     from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
     from mocap.graphs.storage import GraphFile
@@ -31,6 +33,7 @@ def add_walk(commands: "Commands") -> None:
         description="Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at "
         "random, and write the motion as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C "
         "while it searches writes the best walk so far.",
+        epilog="Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh",
     )
     add = walk.add_argument
     add("graph", type=Path, help="an .npz file from `mocap graph`")
@@ -141,13 +144,22 @@ def _graph(options: argparse.Namespace) -> "MotionGraph":
     """Read the graph, and the clips that it was built of."""
     found = graphs.read(options.graph)
     require_other(options.out, _sources(options, found))
-    progress = bar("reading")
-    if options.clips:
-        clips = files.load_all(
-            options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
-        )
-        clips += [variants.mirror(c) for c in clips if variants.mirrored_name(c.name) in found.names]
-    else:
-        clips = graphs.find_clips(options.graph, skeleton=options.skeleton, progress=progress)
+    with warnings.catch_warnings():
+        lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
+        warnings.filterwarnings("ignore", lopsided, MocapWarning)
+        clips = _clips(options, found)
     graph: MotionGraph = graphs.load(options.graph, [body.resample(clip, found.fps) for clip in clips])
     return graph
+
+
+def _clips(options: argparse.Namespace, found: "GraphFile") -> "list[Motion]":
+    progress = bar("reading")
+    if not options.clips:
+        remembered: list[Motion] = graphs.find_clips(
+            options.graph, skeleton=options.skeleton, progress=progress
+        )
+        return remembered
+    clips: list[Motion] = files.load_all(
+        options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
+    )
+    return clips + [variants.mirror(c) for c in clips if variants.mirrored_name(c.name) in found.names]

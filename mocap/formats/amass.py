@@ -103,7 +103,9 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
     """
     arrays = _arrays(path)
     poses, trans = _checked(path, arrays, "poses", WIDTH), _checked(path, arrays, "trans", 3)
-    if len(poses) != len(trans) or len(poses) == 0:
+    if len(poses) == 0:
+        raise FormatError(path, None, "one frame or more in 'poses'", "none")
+    if len(poses) != len(trans):
         raise FormatError(path, None, f"as many rows of trans as of poses, {len(poses)}", str(len(trans)))
     betas = arrays.get("betas", np.zeros(1))
     if betas.dtype.kind in "fiu" and np.any(betas):
@@ -158,7 +160,8 @@ def _rate(path: str | Path, arrays: dict[str, NDArray[Any]]) -> float:
         if key in arrays:
             rate = arrays[key]
             if rate.size != 1 or rate.dtype.kind not in "fiu" or not 0 < rate.item() < 1e6:
-                raise FormatError(path, None, f"one number above 0 in '{key}'", f"{rate.dtype}{rate.shape}")
+                got = str(rate.item()) if rate.size == 1 else f"{rate.dtype}{rate.shape}"
+                raise FormatError(path, None, f"one number above 0 in '{key}'", got)
             return float(rate.item())
     raise FormatError(path, None, "'mocap_framerate'", "none: give fps=")
 

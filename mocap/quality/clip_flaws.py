@@ -44,6 +44,9 @@ FLIP = 2.0
 # 16 is 2 cm under the floor, those of the others up to 9 cm.
 UNDER = 0.03
 
+# Metres. Beyond these, a wrong unit of length is likelier than a body so small or so tall.
+SMALLEST, TALLEST = 0.15, 3.5
+
 STILL = 1e-9  # metres, or entries of a quaternion: less than the digits of a file can say
 
 
@@ -84,13 +87,17 @@ class Report:
             ("clip", motion.name),
             ("frames", f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"),
             ("joints", f"{len(motion.skeleton)}"),
-            ("height", f"{self.height:.2f} m"),
+            ("height", f"{self.height:.2f} m{self._doubt()}"),
             ("heading", f"turns {side} by {abs(np.degrees(self.turn)):.0f}° in all"),
             ("path", f"{self.path:.2f} m over the ground"),
             ("flaws", "none found" if not self.flaws else str(self.flaws[0])),
             *(("", str(flaw)) for flaw in self.flaws[1:]),
         ]
         return "\n".join(f"{name:<8} {text}" for name, text in rows)
+
+    def _doubt(self) -> str:
+        """Ask for the unit of length where nobody is so small or so tall."""
+        return "" if SMALLEST < self.height < TALLEST else ": is its scale right?"
 
 
 def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report:

@@ -132,8 +132,9 @@ def _warn(departures: Sequence[Departure], why: str) -> None:
     """Warn where a walk leaves its path, and say why."""
     if departures:
         worst = max(departures, key=lambda d: d.worst)
+        often = "once" if len(departures) == 1 else f"{len(departures)} times"
         warnings.warn(
-            f"The walk leaves the path {len(departures)} times, the furthest by {100 * worst.worst:.0f} cm "
+            f"The walk leaves the path {often}, the furthest by {100 * worst.worst:.0f} cm "
             f"at {worst.start:.1f} to {worst.end:.1f} m: {why}.",
             MocapWarning,
             stacklevel=3,

@@ -66,7 +66,7 @@ def test_weights_are_asked_at_both_times(pair):
         (np.full(9, 1 / 9), {}, r"got an array of shape \(9,\) with the sum 1"),
         (lambda u, t: [0.5, 0.4], {}, r"got \[0.5, 0.4\]"),
         (lambda u, t: [t + 1, -t] if t else [1, 0, 0], {}, r"got \[1.0, 0.0, 0.0\]"),
-        ([-9.0, 10.0], {}, "time would stop"),
+        ([-9.0, 10.0], {}, r"the weights \[-9.0, 10.0\] time would stop"),
         (lambda u, t: [-9.0, 10.0], {}, "time would stop"),
         ([10.0, -9.0], {"pace": "rates"}, "time would stop"),
         ([0.5, 0.5], {"fps": 0.0}, "rate must be above 0, got 0.0"),

@@ -174,7 +174,7 @@ def test_times_are_kept_where_they_can_be():
 
 def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
     zigzag = GroundPath([[0, 0], [0, 4], [0.5, 0], [1, 4], [1, 8]])
-    with pytest.warns(MocapWarning, match=r"leaves the path \d+ times, the furthest by \d+ cm at"):
+    with pytest.warns(MocapWarning, match=r"leaves the path (once|\d+ times), the furthest by \d+ cm at"):
         followed = follow_path(GRAPH, zigzag)
     assert followed.progress == 1.0
     assert followed.departures
@@ -230,3 +230,9 @@ def test_real_walks_stay_on_their_paths(cmu, shape):
     assert followed.off.mean() <= 0.04
     assert followed.off.max() <= 0.15
     assert followed.seams_per_second <= 1.0
+
+
+@pytest.mark.parametrize(("number", "often"), [(1, "once"), (2, "2 times")])
+def test_how_often_a_walk_leaves_its_path_is_said_in_words(number, often):
+    with pytest.warns(MocapWarning, match=f"leaves the path {often}, the furthest by 70 cm at 1.0"):
+        path_following._warn([following.Departure(1.0, 2.0, 0.7)] * number, "why")

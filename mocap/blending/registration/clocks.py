@@ -100,11 +100,15 @@ def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") 
     """
     s, w = np.asarray(slopes, float), np.asarray(weights, float)
     speed = 1 / float(w @ s) if pace == "durations" and w @ s else float(w @ (1 / s))
+    _require_running(speed, w)
+    return speed
+
+
+def _require_running(speed: float, weights: Array) -> None:
     if not speed > 0:
         raise MocapError(
-            f"With the weights {w.round(3).tolist()[:6]} time would stop; take them nearer to 0 … 1."
+            f"With the weights {weights.round(3).tolist()[:6]} time would stop; take them nearer to 0 … 1."
         )
-    return speed
 
 
 def _closed(registration: Registration, weights: Array, fps: float) -> Array:
@@ -122,7 +126,7 @@ def _closed(registration: Registration, weights: Array, fps: float) -> Array:
 
     first, last = registration.span
     points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)
-    clock_speed([slope(points).min()], [1.0])  # raises where the clock stops
+    _require_running(float(slope(points).min()), weights)
     t = elapsed(points)
     wanted = np.arange(int(t[-1] * fps + 1e-6) + 1) / fps
     u = np.interp(wanted, t, points)

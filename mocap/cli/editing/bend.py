@@ -23,13 +23,17 @@ def add_bend(commands: "Commands") -> None:
         description="Lay the walk of a clip on a line drawn on the ground, as far as it goes, and clean up "
         "its feet. Where the line turns too fast, it is rounded; the report says where and by how much. For "
         "a line longer than the clip, see `mocap walk --bend`.",
+        epilog="Example: mocap bend walk.bvh --along line.csv -o bent.bvh",
     )
     add = bend.add_argument
     add("source", type=Path, metavar="IN", help="an .amc or .bvh file of a walk")
     line = "the line: .csv with points x, z in metres, or an .svg picture"
     add("--along", type=Path, required=True, metavar="LINE", help=line)
     add("-o", "--out", type=Path, required=True, metavar="OUT", help="the new .bvh, .glb or .amc file")
-    fastest = "the fastest that the walk is turned, degrees per second (default: %(default)g)"
+    fastest = (
+        "the fastest that the walk is turned, degrees per second; faster only where it turns by itself "
+        "(default: %(default)g)"
+    )
     add("--limit", type=TURN, default=60.0, metavar="DEGREES", help=fastest)
     add("--unit", type=LENGTH, help="metres per unit of length in the line (default: 1; for .svg 0.01)")
     add("--widen", action="store_true", help="for .amc, write an .asf whose bones turn about three axes")

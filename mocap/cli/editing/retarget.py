@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from mocap import editing, files
 from mocap._shared.atomic import make_folder, require_folder
-from mocap.cli.options import LENGTH, add_reading, bar, number, require_amc
+from mocap.cli.options import LENGTH, add_reading, as_options, bar, number, require_amc
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def add_retarget(commands: "Commands") -> None:
         description="Copy clips onto another body, with its feet planted on the floor where the old feet "
         "were planted. Clips of different people then fit into one motion graph. Joints are found by the "
         "names that files use.",
+        epilog="Example: mocap retarget clips/ --to hero.bvh -o worn/",
     )
     add = retarget.add_argument
     add("clips", nargs="+", type=Path, metavar="IN", help="files with clips, or folders of them")
@@ -57,9 +58,9 @@ def _retarget(options: argparse.Namespace) -> int:
         except MocapError as error:
             named = any(str(path) in str(error) for path in (source, target))
             failed.append(str(error) if named else f"{source}: {error}")
-    print(f"{'retargeted':<10} {len(pairs) - len(failed)} of {len(pairs)}")
+    print(f"{'retargeted':<10} {len(pairs) - len(failed)} of {len(pairs)}, in {options.out}")
     for problem in failed:
-        print(f"{'failed':<10} {problem}")
+        print(f"{'failed':<10} {as_options(problem)}")
     return 2 if failed else 0
 
 

@@ -26,8 +26,11 @@ keys, one in each line of FILE; what follows a # is left out:
   at 1s level                 the same, and the change stands still there: at take-off and landing
   at 2s lhand 0 0.5 0 level   a pose may be level, too
   time 2.5 2                  the clip's second 2 is shown at second 2.5; two such lines or more
+`mocap info IN --joints` lists the names of the joints.
 Where FILE does not say it, the motion is as it was --window seconds before the first pose and after
 the last one.
+
+Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
 """
 
 

@@ -24,6 +24,7 @@ def add_find(commands: "Commands") -> None:
         help="find all motions like an example, and cut them out",
         description="Find what is like some frames of a clip, then what is like that, in all clips. "
         "Print the matches as a table, from the nearest on, and with --out write each as a file.",
+        epilog="Example: mocap find punch.bvh:40-90 clips/ -o punches/",
     )
     add = find.add_argument
     frames = "a clip and its frames, as in walk.amc:120-250 (the last one not included)"

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from difflib import SequenceMatcher
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
@@ -220,7 +221,7 @@ def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
             last = f"{len(motion) - 1}, or second {motion.duration:g}"
             raise FormatError(plan.path, wish.line, f"a moment up to frame {last}", f"frame {frame}")
         if wish.move and wish.joint not in motion.skeleton.names:
-            names = ", ".join(motion.skeleton.names)
+            names = ", ".join(_likest_first(wish.joint, motion.skeleton.names))
             raise FormatError(plan.path, wish.line, f"a joint, one of {names}", f"'{wish.joint}'")
         for other in moments.setdefault(frame, []):
             if not (wish.move and other.move) or wish.joint == other.joint:
@@ -276,3 +277,15 @@ def _through(motion: Motion, keys: Sequence[Key], window: float) -> Motion:
     before = [end for end in ends[:1] if end.frame >= 0 and keys[0].pose is not None]
     after = [end for end in ends[1:] if end.frame < len(motion) and keys[-1].pose is not None]
     return displaced(motion, offsets(motion, [*before, *keys, *after]))
+
+
+def _likest_first(name: str, names: Sequence[str]) -> list[str]:
+    """Sort names by how much they are like one that was typed.
+
+    Examples
+    --------
+    >>> _likest_first("lhand", ["Hips", "LeftArm", "LeftHand", "RightHand"])
+    ['LeftHand', 'RightHand', 'LeftArm', 'Hips']
+    """
+    typed = name.lower()[:80]
+    return sorted(names, key=lambda known: SequenceMatcher(None, typed, known.lower()).ratio(), reverse=True)
