@@ -44,11 +44,8 @@ def add_graph(commands: "Commands") -> None:
     add("--mirror", action="store_true", help="add the mirror image of every clip: turns to both sides")
     add("--graphml", type=Path, help="a second file to write, .graphml, for other tools")
     build.set_defaults(run=_build)
-    info = actions.add_parser(
-        "info",
-        help="describe a saved graph",
-        description="List a saved graph's clips and what it can play.",
-    )
+    lists = "List a saved graph's clips and what it can play."
+    info = actions.add_parser("info", help="describe a saved graph", description=lists)
     info.add_argument("file", type=Path, help="an .npz file from `mocap graph`")
     info.set_defaults(run=_info)
 

@@ -41,12 +41,8 @@ def add_walk(commands: "Commands") -> None:
     what.add_argument("--path", type=Path, help="a path: .csv with points x, z in metres, or an .svg picture")
     what.add_argument("--random", metavar="TIME", help="duration of a random walk, such as 60s, 10min or 1h")
     add("-o", "--out", type=Path, default=Path("walk.bvh"), help="file to write (default: %(default)s)")
-    add(
-        "--clips",
-        nargs="+",
-        type=Path,
-        help="the clips of the graph (default: those that it was built of, where it remembers them)",
-    )
+    clips = "the clips of the graph (default: those that it was built of, where it remembers them)"
+    add("--clips", nargs="+", type=Path, help=clips)
     add("--skeleton", type=Path, help=SKELETON)
     add("--scale", type=LENGTH, help="metres per unit of length in the .bvh clips that --clips names")
     add("--unit", type=LENGTH, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
