@@ -127,8 +127,8 @@ def _draw_plant(rng: np.random.Generator) -> tuple[Array, Mask]:
 
 plant_place = Check(
     name="plant_place",
-    asks="one place (3,): where the joint is on average while it is planted",
-    start="keep only the planted frames of the positions; then which one of their places is in the middle?",
+    asks="one place (3,): the squares of its distances from the planted frames' places have the least sum",
+    start="keep only the planted frames. From which point is the sum of squared distances least?",
     draw=_draw_plant,
     truth=lambda positions, planted: positions[planted].mean(axis=0),
     mistakes=[
