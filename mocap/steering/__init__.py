@@ -1,4 +1,4 @@
-"""Steering: walks that follow a wish: along a path, through waypoints, or in a crowd.
+"""Steering: walks that follow a wish: along a path, through waypoints, to a pose, or in a crowd.
 
 The path objective defines what a walk is asked for and what each deviation costs. A beam search finds the
 walk with the lowest cost. `follow_path` joins the two; `waypoints` and `crowd` call it. A new way of steering
@@ -18,6 +18,7 @@ Reading order (notebooks 08, 12)
 8. `paper_search`: the same as in 5 by the paper's branch and bound
 9. `waypoints`: places, labels and times to pass
 10. `crowd`: many characters that keep apart
+11. `arriving`: from one pose to another, at its place and in time; a folder of its own
 
 References
 ----------
@@ -40,5 +41,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "paper_search": ["PathCost", "PathState", "follow_as_2002"],
         "waypoints": ["Arrival", "Waypoint", "WaypointWalk", "through_waypoints"],
         "crowd": ["Crowd", "walk_crowd"],
+        "arriving.end_bending": ["Limits"],
+        "arriving.in_betweens": ["InBetween", "Missed", "in_between"],
+        "arriving.moments": ["Moment"],
     },
 )

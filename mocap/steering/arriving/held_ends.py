@@ -1,0 +1,98 @@
+"""Feet that stand, and that are at both ends of a motion where its poses put them."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask, runs
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import legs_of
+from mocap.body.motion import Motion
+from mocap.editing.pins import Pins
+from mocap.errors import MocapWarning
+from mocap.feet.footplants import least_frames
+from mocap.feet.footskate import clean_up, settled_marks
+
+NEAR = 0.3  # seconds from an end: a plant so near to it stands where it stands at its frame next to the end
+
+
+def stand(motion: Motion) -> tuple[Motion, list[str]]:
+    """Clean up the feet, and change nothing in the first and in the last frames.
+
+    `feet.clean_up` puts a plant where it is on average, and lets what it changes fade over 0.2 s. A pose at
+    an end would change. So plants near an end stand where they stand next to it, and from there to the end
+    both joints of the foot are held on their own way, as if they stood.
+
+    Parameters
+    ----------
+    motion : F frames with contacts, whose feet hardly slide at both ends.
+
+    Returns
+    -------
+    The motion, and the warnings of plants that were let go.
+    """
+    legs = legs_of(motion.skeleton, None)
+    marks = settled_marks(motion, legs)
+    places, joints = joint_positions(motion), [(leg.ankle, leg.ball) for leg in legs]
+    span = least_frames(motion.fps)
+    held = [_held(places[:, pair], own, span, motion.fps) for pair, own in zip(joints, marks, strict=True)]
+    columns = [joint for pair in joints for joint in pair]
+    known = np.concatenate(held, axis=1)  # (F, P, 3), nan where nothing is held
+    names = [motion.skeleton.names[joint] for joint in columns]
+    own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
+    also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
+    free = np.isnan(known)
+    pins = Pins(tuple(columns), np.where(free, -np.inf, known), np.where(free, np.inf, known))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", MocapWarning)
+        found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, pins=pins)
+    contacts = {name: mark & own.get(name, mark) for name, mark in found.contacts.items()}
+    return replace(found, contacts=contacts), [str(warning.message) for warning in caught]
+
+
+def _held(places: Array, marks: Mask, span: int, fps: float) -> Array:
+    """Say where an ankle and its ball (F, 2, 3) are held near both ends; nan where they are not."""
+    length = float(np.linalg.norm(places[0, 0] - places[0, 1]))
+    held = np.full(places.shape, np.nan)
+    near = max(span, round(NEAR * fps))
+    for back in (False, True):  # the end, then the start, which is the end of the motion run backwards
+        way = slice(None, None, -1 if back else None)
+        _hold_end(held[way], places[way], marks[:, way], length, (span, near))
+    return held
+
+
+def _hold_end(held: Array, places: Array, marks: Mask, length: float, spans: tuple[int, int]) -> None:
+    """Fill in where the joints are held at the end of a motion, and in the plant that is near to it."""
+    count, (span, near) = len(places), spans
+    stands = runs(marks[0] | marks[1])
+    begin = count - span - 1
+    if len(stands) and stands[-1][1] > count - near:
+        first, begin = int(stands[-1][0]), int(stands[-1][1])
+        _hold_plant(held, places, marks[:, :begin], length, first)
+    held[begin:] = places[begin:]
+    # Where one joint stands up to the end, the other is where the foot's own turn has it.
+    for kind in (0, 1):
+        alone = np.isnan(held[:, kind, 0]) & ~np.isnan(held[:, 1 - kind, 0])
+        alone[: count - span - 1] = False
+        held[alone, kind] = held[alone, 1 - kind] + (places[:, kind] - places[:, 1 - kind])[alone]
+
+
+def _hold_plant(held: Array, places: Array, marks: Mask, length: float, first: int) -> None:
+    """Hold the last plant: what stands in its last frame is held there, the rest a foot's length away."""
+    last = marks.shape[1] - 1
+    kinds = sorted((0, 1), key=lambda kind: not marks[kind, last])
+    for kind in kinds:
+        for start, stop in runs(marks[kind]):
+            if start < first:
+                continue
+            if stop > last:
+                held[start:stop, kind] = places[last, kind]
+                continue
+            both = np.flatnonzero(np.isfinite(held[start:stop, 1 - kind, 0])) + start
+            if len(both):
+                away = (places[:, kind] - places[:, 1 - kind])[both].mean(axis=0)
+                other = held[both[-1], 1 - kind]
+                held[start:stop, kind] = other + length * away / np.linalg.norm(away)

@@ -1,0 +1,354 @@
+"""From one pose to another, at its place and in time: what is met, what it takes, and what is refused."""
+
+import warnings
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import mocap
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.body.planar import PlanarTransform, heading, on_ground
+from mocap.body.skeleton import Skeleton
+from mocap.datasets import samples
+from mocap.editing.warping.retiming import at_frames
+from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.motion_graph import build, from_transitions
+from mocap.graphs.pruning import prune
+from mocap.matching.transitions import Transition
+from mocap.steering.arriving.end_bending import Limits, bend_to, level_rise, played
+from mocap.steering.arriving.in_betweens import in_between
+from mocap.steering.arriving.moments import Moment, choices
+from mocap.steering.arriving.pose_fading import meet_poses
+from mocap.steering.arriving.two_sided_search import TwoSided
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion, with_plants
+from mocap.synthesis.walks import require_walk
+from tests.bundled import bundled, walking
+from tests.editing.test_path_editing import slide
+
+OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
+
+
+def quietly(*args, **options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)
+        return in_between(*args, **options)
+
+
+def accelerations(motions):
+    parts = [np.diff(joint_positions(motion), 2, axis=0) for motion in motions]
+    return np.percentile(np.linalg.norm(np.concatenate(parts), axis=-1), 99)
+
+
+def require_met(found, seconds):
+    """Hold a motion against every bar, measured on the motion itself."""
+    fps = found.motion.fps
+    assert len(found.motion) == round(seconds * fps) + 1
+    for frame, moment in ((0, found.start), (-1, found.end)):
+        asked, motion = moment.placed(), found.motion
+        assert np.linalg.norm(motion.root_positions[frame] - asked.root_positions[0]) <= 1e-3
+        apart = float(heading(motion.rotations[frame, 0]) - heading(asked.rotations[0, 0]))
+        assert abs(np.degrees((apart + np.pi) % (2 * np.pi) - np.pi)) <= 0.1
+        assert np.degrees(rotations.angle_between(motion.rotations[frame], asked.rotations[0])).max() <= 0.1
+    assert max(missed.place for missed in found.missed) <= 1e-3
+    assert np.abs(found.turned).max() <= np.radians(60)
+    for values in (found.steps, found.pace):
+        assert values.min() >= 0.8 - 1e-6
+        assert values.max() <= 1.25 + 1e-6
+    assert slide(found.motion) <= 1e-4
+    assert found.kept >= 0.9
+
+
+def pair_that_clips_can_give(graph, seed):
+    """Take two frames of a random walk: what is asked is what the clips give."""
+    rng = np.random.default_rng(seed)
+    seconds = rng.uniform(2.0, 6.0)
+    walk = to_motion(graph, random_walk(graph, seconds=seconds + 1, seed=seed), clean=True)
+    first, frames = int(rng.integers(5, 20)), round(seconds * graph.fps)
+    return Moment(walk, first), Moment(walk, first + frames), frames / graph.fps
+
+
+def require_pairs(graph, seeds):
+    compiled, plants = compile_graph(graph), with_plants(graph)
+    for seed in seeds:
+        start, end, seconds = pair_that_clips_can_give(plants, seed)
+        found = quietly(compiled, start, end, seconds)
+        require_met(found, seconds)
+        # Clips differ, and a motion plays some of them: so it is measured against what it plays.
+        assert accelerations([found.motion]) <= 1.3 * accelerations([to_motion(plants, found.walk)])
+
+
+def test_what_the_clips_can_give_is_met():
+    require_pairs(bundled(*OWN), range(20))
+
+
+@pytest.mark.exhaustive
+def test_what_cmu_16_can_give_is_met(real_data):
+    folder = real_data / "cmu" / "16"
+    clips = [resample(mocap.load(folder / f"16_{n}.amc"), 30) for n in (*range(11, 35), 47, 58)]
+    require_pairs(prune(build(clips, window=10, threshold=0.04)), range(20))
+
+
+def asked_anywhere(graph, seed):
+    """Ask for two frames of the clips at places that no walk was seen to join."""
+    rng = np.random.default_rng(seed)
+    one, other = (graph.source.clips[n] for n in rng.integers(len(graph.source.clips), size=2))
+    seconds, way = float(rng.uniform(2.5, 6)), rng.uniform(-0.8, 0.8)
+    metres = seconds * rng.uniform(0.55, 0.85)
+    start = Moment(one, int(rng.integers(5, len(one) - 40)), (0, 0), 0.0)
+    place = (metres * np.sin(way), metres * np.cos(way))
+    end = Moment(other, int(rng.integers(40, len(other) - 5)), place, 2 * way + rng.uniform(-0.5, 0.5))
+    return start, end, seconds
+
+
+def test_what_no_walk_gives_is_bent_and_still_met():
+    graph = walking()
+    for seed in range(8):
+        start, end, seconds = asked_anywhere(graph, seed)
+        require_met(quietly(graph, start, end, seconds), seconds)
+
+
+def test_without_bending_the_best_walk_misses_by_decimetres():
+    """The naive way: play what the search found as it is."""
+    graph, lacks = walking(), []
+    for seed in range(8):
+        start, end, seconds = asked_anywhere(graph, seed)
+        near = [choices(graph, moment, way=way, most=6) for moment, way in ((start, 1), (end, -1))]
+        frames = round(seconds * graph.fps)
+        best = TwoSided(graph, (near[0], near[1]), frames, Limits()).best(1)[0]
+        place = PlanarTransform.from_complex(best.turn, best.move)
+        walk = to_motion(graph.source, [graph.edges[edge] for edge in best.edges], place=place)
+        last = walk[: best.first + best.frames + 1].root_positions[-1]
+        lacks.append(np.linalg.norm((last - end.placed().root_positions[0])[[0, 2]]))
+    assert np.median(lacks) > 0.3
+
+
+def test_a_straight_fade_from_pose_to_pose_slides():
+    """The other naive way: interpolate the two poses. The feet slide all the way."""
+    graph = walking()
+    start, end, seconds = asked_anywhere(graph, 1)
+    found = quietly(graph, start, end, seconds)
+    both = mocap.body.concatenate([start.placed(), end.placed()])
+    faded = at_frames(both, np.linspace(0, 1, len(found.motion)), smooth=False)
+    assert slide(replace(faded, contacts=found.motion.contacts)) > 0.1
+    assert slide(found.motion) < 1e-4
+
+
+def test_its_report_says_what_was_met_and_what_it_took():
+    graph = walking()
+    found = quietly(graph, *asked_anywhere(graph, 1))
+    report = found.report()
+    for words in (
+        "seams",
+        "missed by 0.0 mm",
+        "° per second",
+        "times as long",
+        "times as fast",
+        "plants kept",
+    ):
+        assert words in report
+    require_walk(graph.source, found.walk)
+    assert found.graph is graph.source
+
+
+@pytest.mark.parametrize("fps", [120.0, 30.0])
+def test_poses_of_a_clip_that_is_not_in_the_graph_are_met(fps):
+    clip = resample(samples.sample("walk_straight"), fps)
+    frames = [round(seconds * fps) for seconds in (1.0, 5.0)]
+    start, end = (Moment(clip, frame) for frame in frames)
+    # It walks faster than the graph's clips, and straight on where they turn: they need a second more.
+    require_met(quietly(walking(), start, end, 5.0), 5.0)
+    # Poses alone, which do not say how fast they move.
+    start, end = (Moment(clip[frame : frame + 1]) for frame in frames)
+    require_met(quietly(walking(), start, end, 5.0), 5.0)
+
+
+def test_the_end_may_come_on_the_same_stretch_of_clip():
+    clip = walking().source.clips[0]
+    found = quietly(walking(), Moment(clip, 300), Moment(clip, 307), 7 / 30)
+    require_met(found, 7 / 30)
+    assert found.seams == 0
+    np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[300:308], atol=2e-3)
+
+
+def test_a_clip_is_its_own_in_between():
+    clip = walking().source.clips[1]
+    found = quietly(walking(), Moment(clip, 200), Moment(clip, 320), 4.0)
+    assert found.seams == 0
+    assert np.degrees(np.abs(found.turned).max()) < 1
+    np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[200:321], atol=5e-3)
+
+
+# ---------------------------------------------------------------------------------------------- refusals
+@pytest.mark.parametrize(
+    ("place", "direction", "seconds", "sentence"),
+    [
+        ((0, 30), 0.0, 2.0, r"walks end 2\d\.\d m from the place that is 30.0 m away: give about \d+\.\d s"),
+        ((0, -1.5), 0.0, 1.0, "give about|another time"),
+        ((0, 0.1), np.pi, 1.0, "give about|another time"),
+    ],
+)
+def test_too_little_time_is_refused_with_what_would_help(place, direction, seconds, sentence):
+    clip = walking().source.clips[0]
+    with pytest.raises(NoWalk, match=sentence) as refused:
+        in_between(walking(), Moment(clip, 40, (0, 0), 0.0), Moment(clip, 200, place, direction), seconds)
+    assert len(str(refused.value)) <= 200
+
+
+def test_the_time_that_would_help_does_help():
+    graph = walking()
+    start, end = (
+        Moment(graph.source.clips[0], 40, (0, 0), 0.0),
+        Moment(graph.source.clips[0], 200, (0, 9), 0.0),
+    )
+    with pytest.raises(NoWalk, match=r"give about (\d+\.\d) s") as refused:
+        in_between(graph, start, end, 5.0)
+    seconds = float(str(refused.value).split("about ")[1].split(" s")[0])
+    require_met(quietly(graph, start, end, seconds + 1), seconds + 1)
+
+
+def test_a_pose_unlike_all_clips_is_refused():
+    clip = walking().source.clips[0]
+    fallen = clip.rotations.copy()
+    fallen[:, 0] = rotations.multiply(fallen[:, 0], rotations.from_rotvec([np.pi / 2, 0, 0]))
+    with pytest.raises(NoWalk, match=r"Frame 7 of .* m off the nearest pose of the clips, and 0\.1 m"):
+        in_between(walking(), Moment(replace(clip, rotations=fallen), 7), Moment(clip, 90), 3.0)
+
+
+def test_a_graph_without_a_way_is_refused():
+    clips = [resample(samples.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    graph = from_transitions(clips, [], window=10)
+    with pytest.raises(NoWalk, match=r"No walk leads from one pose to the other in 4\.0 s"):
+        in_between(graph, Moment(clips[0], 700), Moment(clips[0], 30), 4.0)
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, np.nan, np.inf, 1e9])
+def test_a_time_that_is_none_is_refused(seconds):
+    clip = walking().source.clips[0]
+    with pytest.raises(MocapError, match=r"A motion lasts from 0\.07 to 120 s, got"):
+        in_between(walking(), Moment(clip, 3), Moment(clip, 90), seconds)
+
+
+def test_moments_that_make_no_sense_are_refused():
+    clip = walking().source.clips[0]
+    with pytest.raises(MocapError, match="has 1178 frames; there is no frame 1178"):
+        Moment(clip, 1178)
+    with pytest.raises(MocapError, match="A place is a finite direction and position"):
+        Moment(clip, 3, (np.nan, 0))
+    dot = Motion(Skeleton(["root"], [-1], [[0, 0, 0]]), [[0, 0, 0]], [[[1, 0, 0, 0]]], 30.0)
+    with pytest.raises(SkeletonMismatch):
+        in_between(walking(), Moment(dot), Moment(clip, 90), 3.0)
+    assert Moment(clip, -1).frame == len(clip) - 1
+
+
+@pytest.mark.parametrize(("name", "value"), [("turn", 0.0), ("steps", 0.9), ("pace", np.inf), ("pose", -1.0)])
+def test_limits_that_make_no_sense_are_refused(name, value):
+    with pytest.raises(MocapError, match=f"The limit '{name}' must be finite and at least"):
+        Limits(**{name: value})
+
+
+# ---------------------------------------------------------------------------------------------- parts
+def tiny():
+    """Make a graph so small that all its walks can be listed."""
+    clip = resample(samples.sample("walk_circle"), 30)[:200]
+    moves = [(40, 90), (60, 150), (100, 30), (120, 60), (140, 110)]
+    found = [
+        Transition(0, i, 0, j - 10, 0.02, PlanarTransform(0.2 * n, 0.1 * n, 0.3))
+        for n, (i, j) in enumerate(moves)
+    ]
+    return compile_graph(from_transitions([clip], found, window=10))
+
+
+@cache
+def every_walk(frames):
+    """List the walks of the tiny graph from frame 20 to frame 160 in so many frames, slowly and clearly."""
+    graph, found = tiny(), []
+
+    def go(edges, length):
+        node, goal = graph.edges[edges[-1]][1], (0, 160)
+        for number, (start, end, _) in enumerate(graph.edges):
+            if start != node or length > 1.25 * frames:
+                continue
+            if not graph.blended[number] and start[1] <= goal[1] < end[1]:
+                found.append(([*edges, number], length + goal[1] - start[1]))
+            go([*edges, number], length + int(graph.frames[number]))
+
+    first = next(n for n, (a, b, _) in enumerate(graph.edges) if a[1] <= 20 < b[1] and not graph.blended[n])
+    go([first], graph.edges[first][1][1] - 20)
+    return found
+
+
+@pytest.mark.parametrize("frames", [100, 140, 200])
+def test_the_search_finds_the_walks_that_a_full_search_finds(frames):
+    graph = tiny()
+    clip = graph.source.clips[0]
+    near = tuple(choices(graph, Moment(clip, at), way=way, most=1) for at, way in ((20, 1), (160, -1)))
+    found = TwoSided(graph, near, frames, Limits()).best(1000)
+    most = 1.25**0.85
+    expected = {tuple(edges) for edges, length in every_walk(frames) if 1 / most <= length / frames <= most}
+    walks = {tuple(joined.edges.tolist()) for joined in found}
+    assert walks <= expected
+    # Of walks that share their first half the best one is kept.
+    assert len(walks) >= 1
+    for joined in found:
+        require_walk(graph.source, [graph.edges[edge] for edge in joined.edges])
+        assert joined.frames == {tuple(e): n for e, n in every_walk(frames)}[tuple(joined.edges.tolist())]
+
+
+@settings(max_examples=15)
+@given(x=st.floats(-0.8, 0.8), z=st.floats(-0.4, 0.4), turn=st.floats(-0.8, 0.8))
+@example(x=0.0, z=0.0, turn=0.0)
+def test_a_walk_is_bent_to_any_end_near_its_own(x, z, turn):
+    walk = samples.sample("walk_straight")[:481:4]
+    bent = bend_to(walk, on_ground(walk.root_positions[-1]) + z + 1j * x, turn, Limits())
+    assert bent.lack < 1e-4
+    assert abs(bent.turned.sum() / walk.fps - turn) < 1e-6
+    assert np.abs(bent.turned[[0, -1]]).max() < 0.05  # radians per second: level at both ends
+    assert np.abs(bent.steps[[0, -1]] - 1).max() < 0.02
+    np.testing.assert_allclose(bent.motion.root_positions[0], walk.root_positions[0], atol=1e-9)
+    if x == z == turn == 0:
+        np.testing.assert_allclose(bent.motion.root_positions, walk.root_positions, atol=1e-6)
+
+
+def test_turning_is_held_to_its_limit_where_there_is_a_way():
+    walk = samples.sample("walk_straight")[:481:4]
+    end = on_ground(walk.root_positions[-1]) + 1.2j
+    free = bend_to(walk, end, 0.0, Limits(turn=10.0))
+    limit = 0.9 * np.abs(free.turned).max()
+    held = bend_to(walk, end, 0.0, Limits(turn=limit))
+    assert held.lack < 1e-3
+    assert np.abs(held.turned).max() <= limit
+
+
+@settings(max_examples=10)
+@given(st.integers(3, 300))
+def test_a_level_rise_rises_from_0_to_1(count):
+    rise = level_rise(count)
+    assert rise[0] == 0
+    assert abs(rise[-1] - 1) < 1e-12
+    assert (np.diff(rise) >= 0).all()
+
+
+def test_played_in_as_many_frames_a_motion_is_itself():
+    walk = samples.sample("walk_straight")[:101]
+    same, pace = played(walk, 101)
+    assert same is walk
+    assert (pace == 1).all()
+
+
+def test_poses_fade_within_half_a_second_and_are_exact():
+    clip = walking().source.clips[0]
+    walk, start, end = clip[200:291], Moment(clip, 201), Moment(clip, 288)
+    met, added = meet_poses(walk, start, end)
+    for frame, moment in ((0, start), (-1, end)):
+        gaps = rotations.angle_between(met.rotations[frame], moment.placed().rotations[0])
+        assert gaps.max() < 1e-6
+    assert np.abs(added.turns[15:-15]).max() == 0
+    assert np.abs(added.root[15:-15]).max() == 0
