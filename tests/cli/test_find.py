@@ -76,3 +76,13 @@ def test_a_query_that_finds_nothing_says_so(folder, capsys):
     told = capsys.readouterr()
     assert told.out.splitlines()[-1] == "found        0 in 0 clips"
     assert "only itself" in told.err
+
+
+@pytest.mark.parametrize("below", ["6", "12"])
+def test_a_stricter_limit_still_finds_the_near_ones(real_data, tmp_path, capsys, below):
+    clip = tmp_path / "punches.bvh"
+    files.save(datasets.cmu("02_05"), clip)
+    assert main(["find", f"{clip}:614-704", str(clip), "--below", below]) == 0
+    _, *rows, _ = capsys.readouterr().out.splitlines()
+    assert rows[0].split()[1] == "796-876" and float(rows[0].split()[3]) < 4
+    assert len(rows) >= 2 and rows[1].split()[1].startswith("97")
