@@ -23,7 +23,7 @@ from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import GlobalPoses, forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.ankle_targets import FootTarget, HeldJoints, foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.knee_smoothing import smooth_knees
@@ -184,10 +184,13 @@ def _warn_of_plants_let_go(motion: Motion, asked: Mapping[str, Mask], held: Mapp
     names = [name for name in motion.contacts if name in asked]
     gone = [f"{name} {a}-{b - 1}" for name in names for a, b in runs(asked[name] & ~held[name])]
     if gone:
+        name = shortened(motion.name, 40)
+        fit = [n for n in range(1, 5) if n == 1 or len(", ".join(gone[:n])) <= 73 - len(name)]
+        more = len(gone) - fit[-1]
         warnings.warn(
-            f"'{motion.name}': to hold these plants would move the root by more than {100 * MOST:.0f} cm, "
-            f"stretch a leg or jolt a knee, so they are let go: {', '.join(gone[:4])}"
-            + (f" and {len(gone) - 4} more." if len(gone) > 4 else "."),
+            f"'{name}': to hold these plants would move the root by more than {100 * MOST:.0f} cm, "
+            f"stretch a leg or jolt a knee, so they are let go: {', '.join(gone[: fit[-1]])}"
+            + (f" and {more} more." if more > 0 else "."),
             MocapWarning,
             stacklevel=3,
         )

@@ -1,6 +1,7 @@
 """After a clean-up planted feet stand still, nothing pops, and a clean clip is left alone."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError, MocapWarning
+from mocap.feet import footskate
 from mocap.feet.footplants import mark_plants, settle
 from mocap.feet.footskate import Excess, clean_up, let_go
 from mocap.files.load_save import load
@@ -287,3 +289,12 @@ def test_the_plant_nearest_to_the_worst_frame_is_let_go_around_it():
     fewer = let_go(marks, [Excess(slice(None), amount)], 3)
     assert runs(fewer[0, 0]).tolist() == [[2, 10]]
     assert runs(fewer[0, 1]).tolist() == [[24, 36]]
+
+
+@pytest.mark.parametrize("name", ["16_15", "AV_8Walk_Meredith_HVHA_Rep1", "n" * 300])
+def test_the_sentence_of_plants_let_go_stays_short(name):
+    marks = np.arange(900) % 90 < 30
+    walk = SimpleNamespace(name=name, contacts={"LeftToeBase": marks})
+    with pytest.warns(MocapWarning, match=r"LeftToeBase 0-29.* and \d more\.$") as told:
+        footskate._warn_of_plants_let_go(walk, walk.contacts, {"LeftToeBase": ~marks & marks})
+    assert len(str(told[0].message)) <= 200
