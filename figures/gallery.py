@@ -503,7 +503,7 @@ def draw_match_webs() -> Figure:
     costs = grid - 0.12 + np.where(match_webs.minima_1d(grid), 0, 0.06)
     paths = match_webs.apart(match_webs.local_paths(costs, least=9), near=3)
     plotting.web_image(grid, paths=paths, ax=left)
-    left.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of like frames")
+    left.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="paths of similar frames")
     web = match_webs.build_web(walks, below=0.08)
     start, stop = feet.runs(walks[4].contacts["lfoot"])[1:3, 0].tolist()
     found = match_webs.search(web, 4, slice(start, stop), lengths=(0.6, 1.6))

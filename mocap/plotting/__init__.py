@@ -55,7 +55,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "spread_charts": ["Band", "quartile_band", "walk_rows"],
         "picture": ["Picture", "show"],
         "many_clips.group_plans": ["draw_group_plan"],
-        "many_clips.web_charts": ["match_tree", "pose_grid", "space_image", "web_image"],
+        "many_clips.web_charts": ["match_tree", "space_image", "target_poses", "web_image"],
         "many_clips.registration_charts": ["WarpPicture", "ground_tracks", "plant_bars", "warp_image"],
     },
 )

@@ -6,8 +6,8 @@ from matplotlib.colors import to_rgba
 
 from mocap import datasets
 from mocap.match_webs import Match, minima_1d
-from mocap.plotting import match_tree, pose_grid, space_image, web_image
-from mocap.plotting.style import ASTRAY, SOURCES
+from mocap.plotting import match_tree, space_image, target_poses, web_image
+from mocap.plotting.style import ASTRAY, COLOURS, SOURCES
 
 AT = np.arange(3.0)
 FOUND = [
@@ -43,6 +43,11 @@ def test_each_match_stands_at_its_step_linked_with_what_found_it():
     assert [tuple(c) for c in drawn.matches.get_facecolors()[[0, 2]]] == [to_rgba(c) for c in SOURCES[:2]]
 
 
+def test_a_kind_keeps_its_colour_when_another_is_missing():
+    few = match_tree(FOUND[:2], ["run", "run"], order=["walk", "run"])
+    assert tuple(few.matches.get_facecolors()[0]) == to_rgba(SOURCES[1])
+
+
 def test_a_query_alone_is_a_tree():
     assert len(match_tree(FOUND[:1], ["walk"]).links.get_segments()) == 0
 
@@ -56,7 +61,19 @@ def test_arrows_go_from_wishes_to_what_was_got():
 
 def test_poses_stand_in_rows_with_their_targets():
     walk = datasets.sample("walk_straight")
-    axes = pose_grid([walk] * 3, [0, 60, 120], targets=[[0, 1], [0.1, 1], [0.2, 1]], columns=2)
+    axes = target_poses([walk] * 3, [0, 60, 120], targets=[[0, 1], [0.1, 1], [0.2, 1]], columns=2)
     assert [ax.get_lines()[0].get_xydata()[0].tolist() for ax in axes[:3]] == [[0, 1], [0.1, 1], [0.2, 1]]
     assert all(len(ax.collections) == 1 for ax in axes[:3])
     assert axes[0].xaxis_inverted()
+
+
+def test_the_body_is_seen_from_behind_with_its_left_at_the_left():
+    walk = datasets.sample("walk_straight")
+    [ax] = target_poses([walk], [0], targets=[[0, 1]], columns=1)
+    lines = ax.collections[0]
+    left = [
+        line[:, 0].mean()
+        for line, colour in zip(lines.get_segments(), lines.get_colors(), strict=True)
+        if tuple(colour) == to_rgba(COLOURS["left"])
+    ]
+    assert np.mean(left) > 0

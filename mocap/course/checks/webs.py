@@ -167,8 +167,8 @@ def _undivided(distances: Array, *, hit: bool) -> Array:
 
 neighbour_weights = Check(
     name="neighbour_weights",
-    asks="weights 1 / d - 1 / d_k, divided by their sum; a sample at distance 0 gets all the weight",
-    start="d_k is distances[-1], the last one. What happens where distances[0] is 0?",
+    asks="weights that grow like 1 / d, are 0 for the last sample, and add up to one; a hit (d = 0) gets all",
+    start="subtract from 1 / distances what makes the last one 0. And what if distances[0] is 0?",
     draw=_draw_distances,
     truth=lambda distances: _shares(distances, lambda d: 1 / d - 1 / d[-1]),
     same=lambda given, wanted: (

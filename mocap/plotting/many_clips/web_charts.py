@@ -61,7 +61,7 @@ def web_image(
         100 * np.asarray(grid, np.float32), cmap="cividis", extent=extent, interpolation="nearest"
     )
     rows, columns = np.nonzero(np.zeros(grid.shape, bool) if marks is None else np.asarray(marks))
-    (cells,) = ax.plot((columns + 0.5) / rate, (rows + 0.5) / rate, ",", color="#FFFFFF", alpha=0.7)
+    (cells,) = ax.plot((columns + 0.5) / rate, (rows + 0.5) / rate, ".", ms=2, mew=0, color="#FFFFFF")
     lines = [(np.asarray(path)[:, ::-1] + 0.5) / rate for path in paths]
     drawn = LineCollection(lines, colors=PATH, linewidths=2)
     ax.add_collection(drawn)
@@ -83,6 +83,7 @@ def match_tree(
     kinds: Sequence[str],
     *,
     wrong: Sequence[bool] | None = None,
+    order: Sequence[str] = (),
     ax: Axes | None = None,
 ) -> MatchTree:
     """Draw a search step by step: the query at the left, and each match right of the one that found it.
@@ -92,6 +93,7 @@ def match_tree(
     matches : as from `search`.
     kinds : what each match is; each kind has its own colour.
     wrong : which matches are not what was asked for; they get a cross.
+    order : all kinds that may come, so that each keeps its colour from picture to picture.
     ax : axes; new ones by default.
 
     Examples
@@ -105,7 +107,7 @@ def match_tree(
     """
     ax = ax or plt.figure(figsize=(7, 4), layout="constrained").add_subplot()
     places = _tree_places(matches)
-    colours = source_colours(list(kinds))
+    colours = source_colours([*order, *kinds])
     links = [(places[match.via], places[n]) for n, match in enumerate(matches) if match.via >= 0]
     lines = LineCollection(links, colors=QUIET, linewidths=0.8, zorder=0)
     ax.add_collection(lines)
@@ -180,23 +182,23 @@ def space_image(
     return SpacePicture(dots, large, crosses, arrows)
 
 
-def pose_grid(
+def target_poses(
     motions: Sequence[Motion], frames: Sequence[int], *, targets: ArrayLike, columns: int
 ) -> list[Axes]:
-    """Draw one pose of each motion from the front, row by row, each with the place that was asked for.
+    """Draw one pose of each motion from behind, row by row, each with the place that was asked for.
 
     Parameters
     ----------
     motions : each standing over the origin and facing +z at its start.
     frames : which frame of each.
-    targets : (x, y) of each, metres.
+    targets : (x, y) of each, metres; x grows to the left of the body, which is the left of the picture.
     columns : of the grid.
 
     Examples
     --------
     >>> from mocap import datasets
     >>> walk = datasets.sample("walk_straight")
-    >>> len(pose_grid([walk, walk], [0, 60], targets=[[0, 1], [0, 1]], columns=2))
+    >>> len(target_poses([walk, walk], [0, 60], targets=[[0, 1], [0, 1]], columns=2))
     2
 
     Notebook: 16-match-webs
@@ -212,4 +214,6 @@ def pose_grid(
         ax.add_collection(LineCollection(lines, colors=colours, linewidths=1.6))
         ax.plot(*target, "+", color=ASKED, markersize=11, markeredgewidth=1.8)
         ax.set(aspect="equal", xlim=(1.0, -1.0), ylim=(0, 1.95))
+    figure.supxlabel("to the left (m)")
+    figure.supylabel("up (m)")
     return axes
