@@ -19,7 +19,7 @@ from mocap.feet.footskate import clean_up, settled_marks
 NEAR = 0.3  # seconds from an end: a plant so near to it stands where it stands at its frame next to the end
 
 
-def stand(motion: Motion) -> tuple[Motion, list[str]]:
+def stand(motion: Motion) -> Motion:
     """Clean up the feet, and change nothing in the first and in the last frames.
 
     `feet.clean_up` puts a plant where it is on average, and lets what it changes fade over 0.2 s. A pose at
@@ -32,7 +32,7 @@ def stand(motion: Motion) -> tuple[Motion, list[str]]:
 
     Returns
     -------
-    The motion, and the warnings of plants that were let go.
+    The motion; plants that were let go are no longer marked.
     """
     legs = legs_of(motion.skeleton, None)
     marks = settled_marks(motion, legs)
@@ -46,11 +46,11 @@ def stand(motion: Motion) -> tuple[Motion, list[str]]:
     also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
     free = np.isnan(known)
     pins = Pins(tuple(columns), np.where(free, -np.inf, known), np.where(free, np.inf, known))
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", MocapWarning)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # which would also list the frames that are held here
         found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, pins=pins)
     contacts = {name: mark & own.get(name, mark) for name, mark in found.contacts.items()}
-    return replace(found, contacts=contacts), [str(warning.message) for warning in caught]
+    return replace(found, contacts=contacts)
 
 
 def _held(places: Array, marks: Mask, span: int, fps: float) -> Array:
@@ -73,10 +73,11 @@ def _hold_end(held: Array, places: Array, marks: Mask, length: float, spans: tup
         first, begin = int(stands[-1][0]), int(stands[-1][1])
         _hold_plant(held, places, marks[:, :begin], length, first)
     held[begin:] = places[begin:]
-    # Where one joint stands up to the end, the other is where the foot's own turn has it.
+    # Where one joint stands up to the end, the other is where the foot's own turn has it; also in the gaps so
+    # short that a clean-up closes them.
     for kind in (0, 1):
         alone = np.isnan(held[:, kind, 0]) & ~np.isnan(held[:, 1 - kind, 0])
-        alone[: count - span - 1] = False
+        alone[: min(begin, count - 1) - span] = False
         held[alone, kind] = held[alone, 1 - kind] + (places[:, kind] - places[:, 1 - kind])[alone]
 
 
