@@ -223,10 +223,11 @@ def _least(found: list[_Changed], limits: Limits, search: TwoSided) -> _Changed:
             f"{most:.0f}°: give about {seconds * turn / most:.1f} s, or let the end face another way."
         )
     lack = min(walk.arrived.lack for walk in found)
-    far = apart / max(apart - lack, 0.1)
+    reach = apart - lack
+    too_far = reach > search.speed * seconds / 2  # else it is the way to turn that takes the time
     raise NoWalk(
         f"In {seconds:.1f} s walks end {lack:.1f} m from the place that is {apart:.1f} m away: give "
-        + (f"about {seconds * far:.1f} s." if lack < apart else "another time.")
+        + (f"about {seconds * apart / reach:.1f} s." if too_far else "another time, or another way to face.")
     )
 
 
