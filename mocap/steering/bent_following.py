@@ -23,10 +23,8 @@ from mocap.steering.own_turning import OwnTurning, bending_on, own_ride, turning
 from mocap.steering.path_objective import Route, Wishes, make_route
 from mocap.synthesis.walk_to_motion import to_motion
 
-FURTHER = (
-    0.5,
-    0.02,
-)  # metres, and a share of the line: the search goes on so far beyond its end; the rest is cut
+# Metres, and a share of the line: how far the search goes on beyond its end; the rest is cut.
+FURTHER = (0.5, 0.02)
 WALKING = 0.3  # metres per second: slower frames do not count for the pace of clips
 SEAMS = 0.7  # transitions per second, at most, for a walk that is laid on its path
 
