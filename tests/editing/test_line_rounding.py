@@ -120,9 +120,8 @@ def test_it_goes_where_the_line_goes(place, degrees):
     moved = GroundPath(from_ground(place.turn * on_ground(asked.points) + place.move))
     here, there = (round_line(path, straight(), FPS, LIMIT) for path in (asked, moved))
     expected = place.turn * on_ground(here.path.at(np.linspace(0, here.path.length, 50))) + place.move
-    assert (
-        cKDTree(there.path.resampled(0.005).points).query(from_ground(expected))[0].max() < 0.1
-    )  # a reach grows in steps
+    apart = cKDTree(there.path.resampled(0.005).points).query(from_ground(expected))[0].max()
+    assert apart < 0.02 + 0.3 * here.moved.max()  # a reach grows in steps of 15 %, and may take one more
 
 
 @settings(max_examples=60)
