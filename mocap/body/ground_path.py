@@ -13,6 +13,7 @@ from mocap.errors import MocapError
 
 FINE = 0.02  # metres between the points of a curve
 CLOSEST = 1e-9  # metres; nearer points count as one
+ROUNDING = 1e-12  # of a length: 12.000000000000002 m take as many pieces as 12 m, wherever a path lies
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +64,8 @@ class GroundPath:
         """Space the points evenly, at most `spacing` metres apart; sharp corners are cut by as much."""
         if not (np.isfinite(spacing) and spacing > 0):
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
-        return GroundPath(self.at(np.linspace(0, self.length, int(np.ceil(self.length / spacing)) + 1)))
+        pieces = int(np.ceil(self.length / spacing * (1 - ROUNDING)))
+        return GroundPath(self.at(np.linspace(0, self.length, max(pieces, 1) + 1)))
 
 
 @dataclass(frozen=True, eq=False)

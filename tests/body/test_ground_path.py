@@ -100,3 +100,14 @@ def test_points_that_repeat_count_once():
 def test_what_is_no_path_is_refused(kind, points, message):
     with pytest.raises(MocapError, match=message):
         kind(points)
+
+
+@pytest.mark.parametrize("angle", [2.085495351331207, *np.linspace(0, 6, 20)])
+def test_a_path_that_is_turned_takes_as_many_pieces(angle):
+    """Turned, 12 m are 12.000000000000002 m: one piece more, and no point would lie at the corner."""
+    turn = np.exp(1j * angle)
+    corner = np.array([[0, 0], [0, 6], [6 * np.sin(1.9), 6 + 6 * np.cos(1.9)]])
+    turned = turn * (corner[:, 1] + 1j * corner[:, 0])
+    path = GroundPath(np.stack([turned.imag, turned.real], axis=1)).resampled(0.05)
+    assert len(path.points) == 241
+    np.testing.assert_allclose(path.points[120], [turned[1].imag, turned[1].real], atol=1e-9)
