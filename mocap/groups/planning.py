@@ -84,6 +84,7 @@ class _State:
     clip: int
 
     def walk(self) -> list[int]:
+        """List the numbers of the clips that led here."""
         clips: list[int] = []
         state: _State | None = self
         while state is not None and state.before is not None:

@@ -33,15 +33,19 @@ class ContactMatch(NamedTuple):
 
 
 class _Plant(NamedTuple):
+    """A plant on the common clock: its start and stop in seconds, and whose it is."""
+
     start: float
     stop: float
     clip: int
 
     def part(self, low: float, high: float) -> "_Plant":
+        """Cut away what lies before `low` and after `high`."""
         return _Plant(max(self.start, low), min(self.stop, high), self.clip)
 
     @property
     def lasts(self) -> bool:
+        """Whether it is long enough to be a plant."""
         return self.stop - self.start >= SHORTEST
 
 
