@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices
 from mocap.errors import MocapError
+from mocap.match_webs.spaces.wishes import neighbour_weights
 from mocap.parametric_graphs.strides import Strides, mixed_way
 
 PARAMETERS = ("turn", "speed")
@@ -87,11 +88,7 @@ def neighbours(asked: Array, among: Array, scale: Array, count: int | None = Non
         raise MocapError(f"{count} neighbours are taken, but there are {len(among)} samples.")
     gaps = np.linalg.norm((asked[:, None] - among) / scale, axis=-1)
     near = np.argsort(gaps, axis=1, kind="stable")[:, :count]
-    inverse = 1 / np.maximum(np.take_along_axis(gaps, near, 1), 1e-9)
-    shares = inverse - inverse[:, -1:]
-    total = shares.sum(axis=1, keepdims=True)
-    even = np.full_like(shares, 1 / count)  # all gaps equal
-    return near, np.where(total > 0, shares / np.where(total > 0, total, 1), even)
+    return near, neighbour_weights(np.take_along_axis(gaps, near, 1))
 
 
 def bell_weights(values: Array, asked: Array, width: Array) -> Array:

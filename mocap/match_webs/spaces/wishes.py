@@ -79,7 +79,7 @@ def neighbour_weights(distances: ArrayLike) -> Array:
 
     Parameters
     ----------
-    distances : shape (k,), from the nearest on.
+    distances : shape (..., k), each row from the nearest on.
 
     Examples
     --------
@@ -89,10 +89,11 @@ def neighbour_weights(distances: ArrayLike) -> Array:
     Notebook: 16-match-webs
     """
     d = np.asarray(distances, float)
-    if d[0] <= 1e-12 * d[-1] or d[0] == d[-1]:
-        return np.asarray(np.eye(len(d))[0])
-    raw = d[0] / d - d[0] / d[-1]
-    return np.asarray(raw / raw.sum())
+    near, far = d[..., :1], d[..., -1:]
+    only = (near <= 1e-12 * far) | (near == far)
+    d = np.where(only, 1.0, d)
+    raw = np.where(only, np.eye(d.shape[-1])[0], near / d - near / d[..., -1:])
+    return np.asarray(raw / raw.sum(axis=-1, keepdims=True))
 
 
 def _convex_weights(offsets: Array, distances: Array) -> Array:
