@@ -42,6 +42,7 @@ diagrams           ideas drawn step by step (00 to 09)
 widgets            players and experiments for notebooks (00 to 16)
 course             the notebooks: checks of exercises, hand-outs, pages
 marking            marks for notebooks handed in, whose code runs sealed
+lab                what students wrote is used, and what they thought is kept
 cli                the command `mocap`
 
 Below them are `mocap.errors`, all errors that the package raises on purpose, and small helpers in `_shared`.
@@ -77,6 +78,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "formats",
         "graphs",
         "groups",
+        "lab",
         "marking",
         "match_webs",
         "matching",

@@ -1,0 +1,17 @@
+"""The notebooks as a laboratory: what a student wrote is used, and what a student thought is kept.
+
+Reading order
+-------------
+1. `adopting`: a student's function drives the course from the exercise on; the package's stands in before
+2. `own`: a motion graph made of these functions alone, from clips to a walk along a path
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules=["own"],
+    submod_attrs={
+        "adopting": ["mine"],
+    },
+)
