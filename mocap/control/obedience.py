@@ -16,7 +16,8 @@ class Delay(NamedTuple):
 
     `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms. Two mean
     parts of the delay are `waiting`, until the character can make its next choice, and `blending`, in
-    transitions after it. The rest is spent in clips that turn.
+    transitions after it. The rest is spent in clips that turn. `never` is the number of
+    turns that took longer than 8 s.
     """
 
     mean: float
@@ -25,6 +26,7 @@ class Delay(NamedTuple):
     worst: float
     waiting: float
     blending: float
+    never: int
 
 
 def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, seed: int = 0) -> Delay:
@@ -59,7 +61,7 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
         raise MocapError(f"A delay is measured on one turn or more, got turns={turns}.")
     random, fps = np.random.default_rng(seed), character.fps
     heading, back = 0.0, round(fps / 3)
-    track, costs, delays = [0j] * back, [], []
+    track, costs, delays, never = [0j] * back, [], [], 0
     for _ in range(turns):
         heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
         wait, frames, blends = character.frames_left, 0, 0
@@ -73,8 +75,9 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
             way = (track[-1] - track[-1 - back]) * np.exp(-1j * heading)
             obeys, frames = frames >= back and abs(np.angle(way)) < np.pi / 9, frames + 1
         delays.append((frames, min(wait, frames), blends))
+        never += not obeys
     took, waited, blended = np.transpose(delays) / fps
     slowest, cost = float(np.percentile(took, 95)), 1e3 * np.array(costs)
     # The first step looks ahead from the start without any frame to do so before; games do it while loading.
     worst, parts = float(cost[1:].max()), (float(waited.mean()), float(blended.mean()))
-    return Delay(float(took.mean()), slowest, float(cost[1:].mean()), worst, *parts)
+    return Delay(float(took.mean()), slowest, float(cost[1:].mean()), worst, *parts, never)

@@ -58,7 +58,9 @@ class Deaf(Turner):
 
 
 def test_a_turn_that_never_comes_counts_as_eight_seconds():
-    assert measure_delay(Deaf(), turns=1).mean == 8
+    delay = measure_delay(Deaf(), turns=1)
+    assert delay.mean == 8 and delay.never == 1
+    assert measure_delay(Turner(), turns=3).never == 0
 
 
 def test_no_turns_are_refused():

@@ -1,0 +1,22 @@
+"""Clips of people, for tests that are run on request and where these clips are at hand."""
+
+from functools import cache
+from pathlib import Path
+
+from mocap.body.motion import Motion, resample
+from mocap.files.load_save import load
+
+HOMEWORK, WALKER, ALL = "homework", "CMU 16, walks", "CMU 16, all"
+TRIALS = (*range(11, 35), 47, 58)  # the walks among subject 16's trials
+
+
+@cache
+def captured(data: Path, name: str) -> tuple[Motion, ...]:
+    """Load a set of clips at 30 Hz."""
+    folder = data / "cmu" / "16"
+    files = {
+        HOMEWORK: sorted((data / "hw3").glob("*.AMC")),
+        WALKER: [folder / f"16_{number:02}.amc" for number in TRIALS],
+        ALL: sorted(folder.glob("*.amc")),
+    }
+    return tuple(resample(load(file), 30) for file in files[name])
