@@ -4,6 +4,7 @@ Reading order
 -------------
 1. `adopting`: a student's function drives the course from the exercise on; the package's stands in before
 2. `own`: a motion graph made of these functions alone, from clips to a walk along a path
+3. `questions`: quizzes that mark themselves, and bets that are kept
 """
 
 import lazy_loader
@@ -13,5 +14,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submodules=["own"],
     submod_attrs={
         "adopting": ["mine"],
+        "questions.quizzes": ["quiz"],
+        "questions.kept_bets": ["bet", "bets"],
     },
 )

@@ -94,17 +94,21 @@ def test_words_are_plain(page):
 
 
 def minutes(name):
-    """Work out how long a notebook takes: 180 words and seven lines of code per minute, then the tasks."""
-    words = lines = exercises = experiments = 0
+    """Work out how long a notebook takes: 180 words and seven lines of code per minute, then the tasks.
+
+    A quiz counts half a minute; a bet is part of its experiment, as the prediction was.
+    """
+    words = lines = exercises = experiments = quizzes = 0
     for cell in read(name).cells:
         if cell.cell_type == "markdown":
             words += len(re.sub(r"```.*?```|<!--.*?-->|<[^>]*>", "", cell.source, flags=re.DOTALL).split())
         else:
             lines += sum(bool(line.strip()) for line in cell.source.splitlines())
+            quizzes += cell.source.count("lab.quiz(")
             tags = cell.metadata.get("tags", ())
             exercises += any(tag.startswith("exercise:") for tag in tags)
             experiments += any(tag.startswith("experiment:") for tag in tags)
-    return words / 180 + lines * 8 / 60 + 8 * exercises + 4 * experiments
+    return words / 180 + lines * 8 / 60 + 8 * exercises + 4 * experiments + quizzes / 2
 
 
 @every_notebook
