@@ -11,7 +11,7 @@ from mocap.motion_matching.frame_features import AHEAD, FUTURE, ahead_columns
 from mocap.motion_matching.pose_database import PoseDatabase
 from mocap.motion_matching.springs import spring, spring_way
 
-TREE_FROM = 5000  # frames from which a k-d tree is quicker than one product
+TREE_FROM = 20_000  # frames from which a k-d tree is quicker than one product, whose numbers have 32 bits
 
 
 class Wants(NamedTuple):
@@ -55,7 +55,7 @@ class FrameSearch:
     ----------
     database : T frames.
     future : multiplies the features of the future.
-    tree : search by a k-d tree; by default from 5000 frames on, where it is quicker.
+    tree : search by a k-d tree; by default from 20 000 frames on, where it is quicker.
     among : shape (T,), which frames may be found; by default those that are usable.
 
     Raises
