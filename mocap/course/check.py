@@ -123,7 +123,11 @@ class Check:
         print(self.verdict(answer))
 
     def verdict(self, answer: Answer) -> Verdict:
-        """Try a function on random input, and say what is wrong with it, if anything is."""
+        """Try a function on random input, and say what is wrong with it, if anything is.
+
+        Of a place that a student's function was put into, it judges what the student has written.
+        """
+        answer = getattr(answer, "written", answer)
         rng = np.random.default_rng(0)
         tried: list[Trial] = []
         try:

@@ -68,6 +68,7 @@ class Student:
     def call(self, name: str, arguments: tuple[Any, ...]) -> dict[str, Any]:
         """Call a function, and return its answer, and which arrays it changed."""
         function = self.shell.user_ns.get(name, lambda *_: ...)
+        function = getattr(function, "written", function)  # not what stands in for it in the notebook
         before = copy.deepcopy(arguments)
         try:
             given = pack(function(*arguments))

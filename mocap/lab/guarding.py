@@ -1,0 +1,167 @@
+"""The place of an exercise in the course, and the guard around what a student put there.
+
+A student's function that passed its check may still fail on other input. So each call is guarded: where the
+function raises an error, gives another form of answer than the package's (a NaN, say), or takes longer than
+`SECONDS`, one sentence says so, and the package's stands in from then on.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from mocap.course.check import Check
+
+SECONDS = 30.0  # of one call; what the course asks for takes a thousandth of it
+SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,), "short_way": (4,)}
+"""The answers of functions that are called thousands of times; others are compared with the package's."""
+
+
+class Overdue(Exception):
+    """A function has taken longer than `SECONDS`."""
+
+
+class Slot:
+    """The place of an exercise in the course; call it like the function that the exercise asks for.
+
+    Parameters
+    ----------
+    check : the exercise's check, whose oracle stands in for a function that is missing.
+
+    Attributes
+    ----------
+    own : the student's function, once it has passed the check; else None.
+    written : what the student wrote last, right or wrong: this is what a check judges.
+    kept : whether the file beside the notebooks holds it.
+    stopped : why the package's stands in again, or "".
+    calls, seconds : how often it was called, and for how long altogether.
+
+    Examples
+    --------
+    >>> from mocap.course import checks
+    >>> slot = Slot(checks.hamilton)
+    >>> slot
+    hamilton: the package's
+    >>> slot(np.array([0.0, 1, 0, 0]), np.array([0.0, 0, 1, 0]))
+    array([0., 0., 0., 1.])
+    """
+
+    def __init__(self, check: Check) -> None:
+        self.name, self.stand_in = check.name, check.truth
+        self.own: Callable[..., Any] | None = None
+        self.written: Callable[..., Any] = check.truth
+        self.kept, self.stopped = False, ""
+        self.calls, self.seconds = 0, 0.0
+
+    @property
+    def yours(self) -> bool:
+        """Whether the student's function runs here."""
+        return self.own is not None and not self.stopped
+
+    def __repr__(self) -> str:
+        return f"{self.name}: " + ("yours" if self.yours else "the package's")
+
+    def __call__(self, *arguments: Any) -> Any:  # noqa: ANN401 (as the exercise asks)
+        """Give the student's answer, or the package's where there is none or it will not do."""
+        begun = time.perf_counter()
+        self.calls += 1
+        given = self._guarded(arguments) if self.yours else self.stand_in(*arguments)
+        self.seconds += time.perf_counter() - begun
+        return given
+
+    def _guarded(self, arguments: tuple[Any, ...]) -> Any:  # noqa: ANN401
+        try:
+            with time_limit(SECONDS):
+                given = self.own(*arguments)  # type: ignore[misc] # `yours` says that there is one
+        except Overdue:
+            return self._give_up(f"did not end within {SECONDS:g} s", arguments)
+        except (Exception, SystemExit) as error:  # a student's function may raise anything
+            said = f": {error}" if str(error) else ""
+            return self._give_up(f"raised {type(error).__name__}{said}"[:110], arguments)
+        if (shape := SHAPES.get(self.name)) is not None:
+            fits = same_form(given, np.zeros(shape))
+        else:
+            fits = same_form(given, self.stand_in(*arguments))
+        return given if fits else self._give_up(f"gave {_seen(given)}", arguments)
+
+    def _give_up(self, why: str, arguments: tuple[Any, ...]) -> Any:  # noqa: ANN401
+        self.stopped = why
+        print(f"{self.name}: yours {why}; the package's stands in from here on.")
+        return self.stand_in(*arguments)
+
+
+def same_form(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Check whether an answer has the form of another: the same shape, and numbers where it has numbers.
+
+    Examples
+    --------
+    >>> same_form([1.0, 2.0], (3, 4)), same_form([1.0], (3, 4)), same_form(np.nan, 1.0), same_form(..., 1.0)
+    (True, False, False, False)
+    >>> same_form([{1, 2}, {3}], [{1}, {2}]), same_form([(1, [2.0])], [(4, [np.inf])])
+    (True, True)
+    """
+    if isinstance(wanted, set | frozenset | dict | str) or wanted is None:
+        kinds = (set, frozenset) if isinstance(wanted, set | frozenset) else (type(wanted),)
+        return isinstance(given, kinds)
+    try:
+        there = np.asarray(wanted, complex)
+    except (TypeError, ValueError):  # items of different kinds
+        return (
+            isinstance(given, list | tuple | np.ndarray)
+            and len(given) == len(wanted)
+            and all(map(same_form, given, wanted))
+        )
+    try:
+        here = np.asarray(given, complex)
+    except (TypeError, ValueError):
+        return False
+    return here.shape == there.shape and not bool((np.isnan(here) & ~np.isnan(there)).any())
+
+
+def _seen(given: Any) -> str:  # noqa: ANN401
+    """Describe an answer that will not do."""
+    try:
+        array = np.asarray(given, complex)
+    except (TypeError, ValueError):
+        return f"an answer of the type {type(given).__name__} that does not fit"
+    if np.isnan(array).any():
+        return "NaN"
+    return f"an answer of the shape {array.shape}"
+
+
+@contextmanager
+def time_limit(seconds: float) -> Iterator[None]:
+    """Raise `Overdue` in the code inside after some seconds.
+
+    It takes the alarm of Linux and macOS, in the main thread, where notebooks run their cells. Elsewhere, and
+    inside another limit, there is none.
+
+    Examples
+    --------
+    >>> with time_limit(0.05):
+    ...     while True:
+    ...         pass
+    Traceback (most recent call last):
+    mocap.lab.guarding.Overdue
+    """
+    main = threading.current_thread() is threading.main_thread()
+    if not (main and hasattr(signal, "setitimer")) or signal.getitimer(signal.ITIMER_REAL)[0]:
+        yield
+        return
+
+    def overdue(*_: object) -> None:
+        raise Overdue
+
+    before = signal.signal(signal.SIGALRM, overdue)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
