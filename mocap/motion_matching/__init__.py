@@ -1,8 +1,8 @@
-"""Motion matching: no graph; in each moment the frame of all clips that fits what is asked for [Cla16].
+"""Motion matching: compare with all frames while one walks; the room `matching` compares beforehand [Cla16].
 
-The room `matching` compares moments of clips with one another, once and beforehand, so that a graph can be
-built. Here a character compares its own pose and the future asked for with all frames, every 0.1 s, while it
-walks. It needs no transitions and no pruning, and obeys sooner; it knows nothing of what comes later.
+There is no graph. Every 0.1 s a character compares its own pose, and the future that is asked for, with all
+frames of all clips, and plays on from the frame that fits best. It needs no transitions and no pruning, and
+obeys sooner; it knows nothing of what comes later.
 
 Reading order
 -------------
