@@ -40,7 +40,7 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
 
     Raises
     ------
-    MocapError : for less than one node, a reach or a step not above 0, and a group that stands.
+    MocapError : for no frames, less than one node, a reach or a step not above 0, and a group that stands.
 
     Warns
     -----
@@ -53,6 +53,8 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
     >>> len(found.nodes), found.covered > 0.8
     (4, True)
     """
+    if not len(flock.places):
+        raise MocapError("There is no frame to take nodes from.")
     if nodes < 1 or not reach > 0 or not every > 0:
         raise MocapError(
             f"Clusters take a node or more, a reach and a step above 0; got {nodes}, {reach} m, {every} s."

@@ -50,6 +50,12 @@ class Flock(NamedTuple):
     accelerate: float = 1.5
     whim: float = 0.5
 
+    def check(self) -> None:
+        """Raise MocapError for a figure that is below 0 or not finite."""
+        for name, figure in self._asdict().items():
+            if not 0 <= figure < np.inf:
+                raise MocapError(f"The figures of a flock are finite and not below 0; {name} is {figure}.")
+
 
 class Trajectories(NamedTuple):
     """Where N members are in each of F frames, and how they move: `places` and `velocities`, (F, N) complex.
@@ -163,7 +169,7 @@ def simulate(
 
     Raises
     ------
-    MocapError : for fewer than two members, and a time that is not above 0.
+    MocapError : for fewer than two members, a time that is not above 0, and figures below 0.
 
     Examples
     --------
@@ -171,11 +177,14 @@ def simulate(
     >>> flock.places.shape, bool(nearest_two(flock.places).min() > APART)
     ((300, 6), True)
     """
-    if count < 2:
+    if count < 2 or count != int(count):
         raise MocapError(f"A group has two members or more, got {count}.")
-    if not (np.isfinite(seconds) and seconds > 0):
-        raise MocapError(f"A flock is simulated for more than 0 seconds, got {seconds}.")
+    if not (0.5 / RATE < seconds < np.inf and 0 <= settle < np.inf):
+        raise MocapError(
+            f"A flock settles and is then simulated for more than 0 seconds; got {settle} s and {seconds} s."
+        )
     rules, random = rules or Flock(), np.random.default_rng(seed)
+    rules.check()
     start = random.normal(0, 1.5, (2, count))
     now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
     whims, heading, bend, frames = Whims((count,), rules, random), 0.0, 0.0, []

@@ -40,6 +40,13 @@ class GroupGraph:
         """List the numbers of the clips that leave a node."""
         return [number for number, clip in enumerate(self.clips) if clip.start == node]
 
+    def check(self, start: "Placed") -> None:
+        """Raise MocapError for a start at no node, nowhere, or by something else than a turn."""
+        if not 0 <= start.node < len(self.nodes):
+            raise MocapError(f"There is no node {start.node}: this graph has {len(self.nodes)}.")
+        if not (np.isfinite(start.move) and abs(abs(start.turn) - 1) < 1e-6):
+            raise MocapError(f"A group starts at a finite place, by a turn of length 1; got {start[1:]}.")
+
 
 class Placed(NamedTuple):
     """Where a group stands before its next clip: its node, and how the node lies on the ground.
@@ -79,13 +86,20 @@ def make_clips(
 
     Raises
     ------
-    MocapError : where no clip is kept, with how many collide and how many are too hard.
+    MocapError : for no nodes, bends or seeds; where no clip is kept, with how many collide and how many are
+        too hard.
 
     Warns
     -----
     MocapWarning : for pairs of nodes that no clip joins.
     """
+    if not (len(nodes) and len(bends) and np.isfinite(bends).all() and seeds >= 1):
+        raise MocapError(
+            "Clips take a node, a bend and a seed or more, and finite bends; got "
+            f"{len(nodes)} nodes, bends {list(bends)} and {seeds} seeds."[:140]
+        )
     rules, random = rules or Flock(), np.random.default_rng(seed)
+    rules.check()
     members = nodes[0].places.shape[-1]
     made = [
         one
@@ -176,7 +190,8 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
 
     Raises
     ------
-    MocapError : for no clips, a number that no clip has, and clips that do not follow one another.
+    MocapError : for no clips, a number that no clip has, clips that do not follow one another, and a start
+        that makes no sense.
 
     Examples
     --------
@@ -192,7 +207,10 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
     for before, after in pairwise(clips):
         if before.end != after.start:
             raise MocapError(f"A clip to node {before.end} is followed by one that leaves {after.start}.")
-    _, turn, move = start or Placed(clips[0].start)
+    node, turn, move = start = start or Placed(clips[0].start)
+    graph.check(start)
+    if node != clips[0].start:
+        raise MocapError(f"A walk from node {node} starts with a clip that leaves {clips[0].start}.")
     order, places, velocities = np.arange(graph.members), [], []
     for clip in clips:
         places.append((turn * clip.places + move)[:, order])

@@ -6,6 +6,7 @@ On open ground this is all one needs. In a pocket of obstacles it stays for ever
 import numpy as np
 
 from mocap._shared.arrays import Array
+from mocap.errors import MocapError
 from mocap.groups.configurations import Configuration
 from mocap.groups.flocking import RATE, Flock, Trajectories, Whims, advance
 from mocap.groups.planning import Scene
@@ -41,6 +42,9 @@ def steer_group(
     """
     scene.check(complex(start.places.mean()))
     rules = rules or Flock()
+    rules.check()
+    if not limit > 0:
+        raise MocapError(f"A flock is steered for more than 0 seconds, got {limit}.")
     now, goal = Trajectories(*start), 0
     whims, frames = Whims(start.places.shape, rules, np.random.default_rng(seed)), [now]
     while goal < len(scene.points) and len(frames) <= limit * RATE:

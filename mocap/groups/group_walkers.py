@@ -120,6 +120,8 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     >>> len(walkers.motions), bool(walkers.nearest > 1.2)
     (2, True)
     """
+    if not flock.places.shape[-1]:
+        raise MocapError("A plan has one member or more, got none.")
     if len(flock.places) <= RATE:
         raise MocapError(f"A plan lasts a second or more, got {(len(flock.places) - 1) / RATE:g} s.")
     compiled = _with_plants(graph)

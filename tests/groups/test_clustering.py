@@ -45,6 +45,11 @@ def test_it_ends_where_all_are_covered():
         assert len(cluster(flock(6, 60.0), nodes=50, reach=2.0).nodes) < 50
 
 
+def test_no_frames_have_no_nodes():
+    with pytest.raises(MocapError, match="There is no frame to take nodes from"):
+        cluster(Trajectories(*np.zeros((2, 0, 3), complex)))
+
+
 @pytest.mark.parametrize("wrong", [{"nodes": 0}, {"reach": 0.0}, {"every": -1.0}, {"reach": np.nan}])
 def test_what_makes_no_sense_is_refused(wrong):
     with pytest.raises(MocapError, match="a node or more, a reach and a step above 0"):

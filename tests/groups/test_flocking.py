@@ -108,6 +108,11 @@ def test_two_are_pushed_just_apart(gap):
         ({"count": 1}, "two members or more, got 1"),
         ({"seconds": 0.0}, "more than 0 seconds"),
         ({"seconds": np.nan}, "more than 0 seconds"),
+        ({"seconds": 1e-9}, "more than 0 seconds"),
+        ({"count": 2.5}, "two members or more, got 2.5"),
+        ({"settle": -1.0}, "got -1.0 s and 5.0 s"),
+        ({"rules": Flock(space=-1.0)}, "not below 0; space is -1.0"),
+        ({"rules": Flock(pace=np.nan)}, "finite and not below 0; pace is nan"),
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, sentence):

@@ -80,6 +80,22 @@ def test_clips_that_do_not_follow_one_another_are_refused():
         play_group(group, [to_one, from_two])
 
 
+def test_a_walk_from_another_node_than_its_first_clip_s_is_refused():
+    group = graph(6, 6)
+    with pytest.raises(MocapError, match="A walk from node 1 starts with a clip that leaves 0"):
+        play_group(group, [0], Placed(1))
+    with pytest.raises(MocapError, match="starts at a finite place"):
+        play_group(group, [0], Placed(0, 1 + 0j, complex(np.inf)))
+
+
+@pytest.mark.parametrize(
+    ("nodes", "wrong"), [(0, {}), (1, {"bends": []}), (1, {"bends": [np.nan]}), (1, {"seeds": 0})]
+)
+def test_what_makes_no_clips_is_refused(nodes, wrong):
+    with pytest.raises(MocapError, match=r"Clips take a node, .* got \d nodes, bends"):
+        make_clips(graph(6, 6).nodes[:nodes], **wrong)
+
+
 def test_bends_that_are_too_sharp_leave_no_clip_and_it_says_why():
     nodes = graph(6, 6).nodes
     close = Configuration(nodes[0].places * 0.1, nodes[0].velocities)

@@ -72,6 +72,11 @@ def test_a_plan_of_less_than_a_second_is_refused():
         walk_group(bundled("walk_curve_1"), Trajectories(plan().places[:5], plan().velocities[:5]))
 
 
+def test_a_plan_for_nobody_is_refused():
+    with pytest.raises(MocapError, match="one member or more, got none"):
+        walk_group(bundled("walk_curve_1"), Trajectories(plan().places[:, :0], plan().velocities[:, :0]))
+
+
 def test_who_stands_at_the_end_is_carried_on_all_the_same():
     places = plan().places.copy()
     places[-15:] = places[-15]

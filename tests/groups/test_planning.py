@@ -113,6 +113,10 @@ def test_where_no_way_is_found_it_says_how_far_it_came():
         (Scene((9j,), ((5j, 0.0),)), "a radius above 0"),
         (Scene((9j,), ((complex(np.inf), 1.0),)), "An obstacle has a centre"),
         (Scene((9j,), ((0.2 + 0.1j, 1.0),)), "starts inside the obstacle at x=0.1, z=0.2"),
+        (Scene((9j,), near=0.0), "passed within more than 0 m .* got 0.0 m and 0.3 m"),
+        (Scene((9j,), body=np.nan), "got 1.0 m and nan m"),
+        (Scene((9j,), others=(np.zeros(5, complex),)), "Other groups are finite places in a table"),
+        (Scene((9j,), others=(np.full((5, 2), np.nan + 0j),)), "Other groups are finite places"),
     ],
 )
 def test_scenes_that_make_no_sense_are_refused(scene, sentence):
@@ -122,6 +126,38 @@ def test_scenes_that_make_no_sense_are_refused(scene, sentence):
         steer_group(graph().nodes[0], scene)
 
 
-def test_a_start_that_is_no_node_is_refused():
-    with pytest.raises(MocapError, match="There is no node 99"):
-        plan_group(graph(), Scene((9 + 0j,)), start=Placed(99))
+def test_steering_takes_some_time():
+    with pytest.raises(MocapError, match="more than 0 seconds, got nan"):
+        steer_group(graph().nodes[0], Scene((9 + 0j,)), limit=np.nan)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        ({"start": Placed(99)}, "There is no node 99"),
+        ({"start": Placed(0, 1 + 0j, complex(np.nan))}, "starts at a finite place"),
+        ({"start": Placed(0, 2j)}, "a turn of length 1"),
+        ({"weight": np.nan}, "weighs what is left by 0 or more, got nan"),
+    ],
+)
+def test_starts_and_weights_that_make_no_sense_are_refused(wrong, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        plan_group(graph(), Scene((9 + 0j,)), **wrong)
+
+
+def test_a_member_that_starts_on_a_disc_is_named():
+    spot = complex(graph().nodes[0].places[3])
+    with pytest.raises(NoWalk, match=r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least"):
+        plan_group(graph(), Scene((9 + 0j,), ((spot, 0.2),)))
+
+
+def test_a_clip_for_a_clip_the_search_is_the_slow_one():
+    """Seen from the group all clips are tested at once; here each is laid on the ground by itself."""
+    scene, found = course(5), plan_group(graph(), course(5))
+    at, node = Placed(0), 0
+    for number in found.clips:
+        clip = graph().clips[number]
+        assert clip.start == node
+        places = at.turn * clip.places + at.move
+        assert all((np.abs(places - spot) >= size + scene.body).all() for spot, size in scene.discs)
+        node, at = clip.end, Placed(clip.end, at.turn * clip.turn, at.turn * clip.move + at.move)
