@@ -18,6 +18,7 @@ from mocap.lab.questions.kept_bets import asked_before, summed_up
 from mocap.lab.questions.page import to_html, to_text
 from mocap.lab.questions.quizzes import asked
 from mocap.lab.questions.reading import TEXTS, Choice, Order, file_of, read_questions
+from tests.course.test_prose import PER, UNUSUAL
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 FILES = sorted(TEXTS.glob("*.toml"))
@@ -261,6 +262,7 @@ def test_a_file_is_whole_and_belongs_to_a_notebook(file):
     assert found.quizzes or found.bets
     assert (FOLDER / f"{file.stem}.ipynb").exists()
     assert file_of(file.stem.partition("-")[0]) == file
+    assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words
 
 
 def calls(source):

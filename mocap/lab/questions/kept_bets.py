@@ -111,7 +111,7 @@ def summed_up(bets: Mapping[str, Bet], names: Mapping[str, object]) -> Shown:
         f'<tr><th scope="row">{row["ask"]}</th><td>–</td><td>{to_html(row["written"])}</td><td>–</td></tr>'
         for row in rows
     )
-    inside = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    inside = f'<table class="table"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
     text = [f"{to_text(bet.ask)}: {row['written']}" for bet, row in zip(bets.values(), rows, strict=True)]
     return shown("What you thought, and what came out", inside, {"kind": "summary", "rows": rows}, text)
 

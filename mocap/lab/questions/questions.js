@@ -133,7 +133,7 @@
       return [make("span", { class: "row" }, input, one.unit), () => number(input.value)];
     }
     let moved = NaN;
-    const out = make("output", {}, "move it"), set = { min: one.low, max: one.high, step: one.step, "aria-label": name };
+    const out = make("span", {}, "move it"), set = { min: one.low, max: one.high, step: one.step, "aria-label": name };
     const slider = make("input", { type: "range", ...set, value: (one.low + one.high) / 2 });
     const take = () => {
       moved = Number(slider.value);

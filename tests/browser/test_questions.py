@@ -1,0 +1,162 @@
+"""Quizzes and bets as readers meet them: in JupyterLab, and on the site, which has no Python."""
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+
+from mocap.course.site import PAGES, build_site
+from tests.browser.conftest import run_notebook, wait_until, watched_page
+
+START = """
+from mocap.lab.questions.kept_bets import asked_before, summed_up
+from mocap.lab.questions.quizzes import asked
+from mocap.lab.questions.reading import Bet, Choice, Number, Order
+
+share = Bet("Share of the walks", "100 * died", unit="%", low=0, high=100)
+more = Bet("How many", "twice", choices=["as many", "twice"])
+off = Bet("Off the path", "3.25", unit="cm", step=0.1)
+died = 0.6
+high = Number("How high?", 12, 0.5, "Higher.", "Lower.", "So it is.", "cm", [[0.12, "In cm."]])
+"""
+ANSWER = "<details><summary>Answer</summary>\n\n{}\n\n</details>"
+CELLS = [
+    "# Questions",
+    START,
+    "**Predict.** Which share dies, and how many turn?",
+    "asked_before({'99-share': share, '99-more': more}, {})",
+    ANSWER.format("Most of them do."),
+    ANSWER.format("No bet guards this one."),
+    "asked_before({'99-off': off}, {})",
+    ANSWER.format("A little."),
+    "asked('99-c', Choice('Which?', 'the *right* one', {'another': 'Look at its name.'}, 'As it says.'), {})",
+    "asked('99-n', high, {})",
+    "asked('99-o', Order('In order?', ['one', 'two', 'three'], ['1 or 2?', '2 or 3?'], 'Yes.'), {})",
+    "summed_up({'99-share': share, '99-more': more, '99-off': off}, {'died': died})",
+]
+
+
+def is_code(text):
+    return not text.startswith(("#", "*", "<"))
+
+
+def in_jupyterlab(page, lab, tmp_path):
+    cells = [(new_code_cell if is_code(text) else new_markdown_cell)(text) for text in CELLS]
+    kernel = {"name": "python3", "display_name": "Python 3"}
+    notebook = new_notebook(cells=cells, metadata={"kernelspec": kernel})
+    run_notebook(lab(), page, nbformat.writes(notebook), "questions.ipynb")
+
+
+def on_the_site(page, lab, tmp_path):
+    if not (tmp_path / "out").exists():
+        space, cells = {}, []
+        exec(START, space)
+        for text in CELLS:
+            outputs = []
+            if text.startswith(("asked", "summed")):
+                outputs = [new_output("execute_result", eval(text, space)._repr_mimebundle_())]
+            cells.append(new_code_cell(text, outputs=outputs) if is_code(text) else new_markdown_cell(text))
+        nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
+        for name in PAGES:
+            (tmp_path / f"{name}.md").write_text("# A page\n")
+        build_site(tmp_path, tmp_path / "out")
+    page.goto((tmp_path / "out" / "00-one.html").as_uri())
+
+
+@pytest.fixture(scope="module", params=[in_jupyterlab, on_the_site])
+def opened(request, browser, tmp_path_factory, artefacts):
+    """Yield the page, a function that opens it anew, and a question by its number."""
+    folder = tmp_path_factory.mktemp("questions")
+    with watched_page(browser) as (page, faults):
+
+        def again():
+            request.param(page, lambda: request.getfixturevalue("lab"), folder)
+            wait_until(lambda: page.locator(".mocap-question[data-awake]").count() == 6)
+
+        again()
+        yield page, again, lambda number: page.locator(".mocap-question").nth(number)
+        page.screenshot(path=artefacts / f"questions-{request.param.__name__}.png", full_page=True)
+    assert faults == []
+
+
+def test_an_answer_opens_when_a_bet_is_kept_and_the_page_remembers(opened):
+    page, again, question = opened
+    bet, summary = question(0), question(5)
+    answers = page.locator("details")
+    is_open = [lambda n=n: answers.nth(n).get_attribute("open") is not None for n in range(3)]
+    answers.nth(0).locator("summary").click()
+    assert "opens when you have kept a bet" in bet.get_by_role("status").inner_text()
+    assert not is_open[0]()
+    answers.nth(1).locator("summary").click()
+    wait_until(is_open[1])  # no bet guards it
+    bet.get_by_role("button", name="Keep my bet").click()
+    assert bet.get_by_role("status").inner_text() == "Something is not entered yet."
+    slider = bet.get_by_role("slider", name="Share of the walks")
+    slider.focus()
+    slider.press("Home")
+    slider.press("ArrowRight")
+    assert slider.get_attribute("aria-valuetext") == "1 %"
+    bet.get_by_role("button", name="twice").press("Enter")
+    bet.get_by_role("button", name="Keep my bet").press("Enter")
+    wait_until(is_open[0])
+    assert "Share of the walks: 1 %" in bet.inner_text()
+    field = question(1).get_by_role("textbox", name="Off the path, in cm")
+    field.fill("2,5 cm")
+    field.press("Enter")
+    wait_until(is_open[2])
+    again()
+    assert "Share of the walks: 1 %" in bet.inner_text()
+    rows = [row.inner_text().split("\t") for row in summary.locator("tbody tr").all()]
+    assert rows == [
+        ["Share of the walks", "1 %", "60 %", "59 %"],
+        ["How many", "twice", "twice", "✓ right"],
+        ["Off the path", "2.5 cm", "3.2 cm", "0.8 cm"],
+    ]
+    assert "You have kept 3 of 3 bets." in summary.inner_text()
+    summary.get_by_role("button", name="Remove these bets").click()
+    assert bet.get_by_role("button", name="Keep my bet").is_visible()
+    bet.get_by_role("button", name="no bet").click()
+    wait_until(is_open[0])
+    assert "Share of the walks: no bet" in bet.inner_text()
+
+
+def test_quizzes_mark_themselves(opened):
+    _, _, question = opened
+    choice, number, order = (question(n) for n in (2, 3, 4))
+    said = [part.get_by_role("status").inner_text for part in (choice, number, order)]
+    choice.get_by_role("button", name="another").click()
+    assert said[0]() == "✗ Not yet. Look at its name."
+    choice.get_by_role("button", name="the right one").press("Enter")
+    assert said[0]() == "✓ Right. As it says."
+    assert choice.get_by_role("button", name="the right one").get_attribute("aria-pressed") == "true"
+    field = number.get_by_role("textbox", name="your answer, in cm")
+    for typed, reply in [
+        ("0.12", "✗ Not yet. In cm."),
+        ("−3", "✗ Not yet. Higher."),
+        ("1e3", "✗ Not yet. Lower."),
+        ("much", "Please write a number, such as 3.5."),
+        ("12,4 cm", "✓ Right. So it is."),
+    ]:
+        field.fill(typed)
+        field.press("Enter")
+        assert said[1]() == reply
+    for _ in range(2):  # the first step to the top, the last one to the end
+        order.get_by_role("button", name="move up: one").press("Enter")
+        order.get_by_role("button", name="move down: three").press("Enter")
+    order.get_by_role("button", name="Check").click()
+    assert said[2]() == "✓ Right. Yes."
+    order.get_by_role("button", name="move up: three").press("Enter")
+    assert said[2]() == "Now step 2 of 3."
+    order.get_by_role("button", name="Check").click()
+    assert said[2]() == "✗ Not yet. 2 or 3?"
+
+
+def test_without_a_script_only_what_is_asked_is_seen(browser, tmp_path):
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    on_the_site(page, None, tmp_path)
+    text = " ".join(page.locator(".mocap-question, details").all_inner_texts())
+    assert "How many: as many / twice" in text
+    assert "the right one" in text
+    for hidden in ("As it says", "Look at its name", "So it is", "Most of them do."):
+        assert hidden not in text
+    context.close()
