@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -52,7 +53,8 @@ def add_judge(commands: "Commands") -> None:
         "judge",
         help="measure motions, whatever made them, and rank them",
         description="Measure motions, whatever program made them, and list the best first: jolts, trembling, "
-        "feet that sink, slide or skate, knees, elbows, joints that turn too fast, and how far from a path. "
+        "feet that sink, slide or skate, joints that bend or turn too far, bones that change their length, "
+        "a body of another size than people's, and how far from a path. "
         "Each number is a share of its limit; above 1 it stands out beyond what captured people do. "
         "Whether a motion is the one that was wanted, or looks alive, it cannot see.",
         epilog="Example: mocap judge made.bvh --against clips/ --path line.csv",
@@ -63,7 +65,7 @@ def add_judge(commands: "Commands") -> None:
         nargs="+",
         type=Path,
         metavar="FILE",
-        help=".amc, .bvh or AMASS .npz files, or folders of them",
+        help=".amc, .bvh or AMASS .npz files, or folders of them, and the folders inside",
     )
     add_reading(judge)
     add("--against", nargs="+", type=Path, default=[], metavar="CLIP", help="the clips that they are made of")
@@ -79,9 +81,11 @@ def _judge(options: argparse.Namespace) -> int:
     clips = [files.load(path, **reading) for path in files.find_files(options.against)]
     path = files.load_path(options.path, scale=options.unit) if options.path else None
     judged, failed = [], []
-    for file in bar("judging")(files.find_files(options.files)):
+    for file in bar("judging")(files.find_files(options.files, deep=True)):
         try:
-            judged.append(quality.judge(files.load(file, **reading), against=clips, path=path))
+            motion = files.load(file, stretch=math.inf, **reading)
+            stretch = files.bone_stretch(file, scale=options.scale)
+            judged.append(quality.judge(motion, against=clips, path=path, stretch=stretch))
         except MocapError as error:
             failed.append(str(error))
     if options.json:

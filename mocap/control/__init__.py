@@ -33,6 +33,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "steered_motion": ["Steered", "as_motion", "steer"],
         "obedience": ["Delay", "measure_delay"],
         "pursuit": ["Pursued", "pursue", "walk_to"],
-        "judged_control": ["ControlReport", "command_headings", "judge_control", "plant_slides"],
+        "judged_control": ["ControlReport", "command_headings", "judge_control"],
     },
 )

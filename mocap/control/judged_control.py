@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, runs
-from mocap.body.kinematics import joint_positions
+from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.control.characters import Character
 from mocap.control.obedience import Delay, measure_delay
@@ -15,6 +14,7 @@ from mocap.control.steered_motion import steer
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
 from mocap.quality.seam_measures import USUAL, Spread, jumps
+from mocap.quality.standing_feet import plant_slides
 
 TURNS = np.radians([30, 120])  # of a command
 EVERY = 2.0  # seconds
@@ -98,31 +98,18 @@ def judge_control(
     limit = np.percentile(usual.within(1)[0], USUAL)
     return ControlReport(
         delay,
-        float(plant_slides(motion).mean()),
-        float(plant_slides(cleaned).mean()),
+        _mean_slide(motion),
+        _mean_slide(cleaned),
         planted[1] / planted[0],
         float((jumps(motion)[0] > limit).mean()),
         _wags(motion, headings),
     )
 
 
-def plant_slides(motion: Motion) -> Array:
-    """Measure how far each planted joint strays from its mean place on the ground, cm, once per plant.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> bool(plant_slides(sample("walk_straight")).max() < 1e-6)
-    True
-    """
-    places, strays = joint_positions(motion)[..., [0, 2]], []
-    for name, mark in motion.contacts.items():
-        joint = motion.skeleton.index(name)
-        for first, stop in runs(mark):
-            if stop - first > 2:
-                way = places[first:stop, joint]
-                strays.append(100 * np.linalg.norm(way - way.mean(axis=0), axis=-1).max())
-    return np.array(strays or [0.0])
+def _mean_slide(motion: Motion) -> float:
+    """Average the slides of plants, cm; two frames are too few to slide."""
+    slides = [slide.far for slide in plant_slides(motion) if slide.stop - slide.start > 2]
+    return float(np.mean(slides or [0.0]))
 
 
 def _wags(motion: Motion, headings: Array) -> float:

@@ -17,7 +17,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "load_save": ["load", "load_skeleton", "read_angles", "save"],
+        "load_save": ["bone_stretch", "load", "load_skeleton", "read_angles", "save"],
         "folders": ["find_files", "load_all"],
         "number_tables": ["load_rows"],
         "path_files": ["load_path"],

@@ -24,12 +24,13 @@ def is_clip(path: Path) -> bool:
     return suffix in FORMATS and (suffix != ".npz" or is_amass(path))
 
 
-def find_files(paths: Sequence[Path]) -> list[Path]:
+def find_files(paths: Sequence[Path], *, deep: bool = False) -> list[Path]:
     """List files, and every motion file of folders.
 
     Parameters
     ----------
     paths : files and folders.
+    deep : whether to look into the folders inside the folders, too.
 
     Raises
     ------
@@ -43,7 +44,8 @@ def find_files(paths: Sequence[Path]) -> list[Path]:
     found: list[Path] = []
     for path in paths:
         try:
-            inside = sorted(p for p in path.iterdir() if is_clip(p)) if path.is_dir() else [path]
+            within = path.rglob("*") if deep else path.iterdir()
+            inside = sorted(p for p in within if p.is_file() and is_clip(p)) if path.is_dir() else [path]
         except OSError as error:
             raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:

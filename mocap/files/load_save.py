@@ -12,6 +12,7 @@ from mocap.errors import FormatError, MocapError
 from mocap.formats import acclaim, amass, amc, bvh, gltf
 from mocap.formats.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
 from mocap.formats.asf import read_skeleton
+from mocap.formats.rigid_bones import STRETCH
 from mocap.formats.text import read_text
 
 READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".amc (with .asf), .bvh, .glb and AMASS .npz"
@@ -23,6 +24,7 @@ def load(
     skeleton: str | Path | None = None,
     fps: float | None = None,
     scale: float | None = None,
+    stretch: float = STRETCH,
 ) -> Motion:
     """Read a motion from an `.amc` or `.bvh` file, or an `.npz` of AMASS.
 
@@ -35,6 +37,8 @@ def load(
         by default it has 120, as most of the CMU database.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
         An `.npz` is in metres.
+    stretch : metres by which bones of a `.bvh` file may change their lengths, by default 0.02. Up to this
+        they are fitted to rigid ones, with a warning that says how far joints move; `math.inf` fits any.
 
     Returns
     -------
@@ -56,12 +60,14 @@ def load(
     path = Path(path)
     _check("fps", fps)
     _check("scale", scale)
+    if not stretch >= 0:
+        raise MocapError(f"stretch must be 0 or more metres, got {stretch}.")
     match path.suffix.lower():
         case ".amc":
             asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
             return acclaim.read_amc(path, read_skeleton(asf, scale=scale), fps=fps)
         case ".bvh":
-            return bvh.read(path, scale=scale or 0.01, fps=fps)
+            return bvh.read(path, scale=scale or 0.01, fps=fps, stretch=stretch)
         case ".npz":
             _require_metres(".npz", scale)
             return amass.read(path, fps=fps)
@@ -128,6 +134,28 @@ def read_angles(path: str | Path, *, skeleton: str | Path | None = None) -> dict
             return {}  # it has rotation vectors
     asf = _skeleton_for(path) if skeleton is None else Path(skeleton)
     return acclaim.read_angles(path, read_skeleton(asf))
+
+
+def bone_stretch(path: str | Path, *, scale: float | None = None) -> dict[str, float]:
+    """Measure by how much each bone of a file changes its length: the longest less the shortest, metres.
+
+    Only a `.bvh` file can have such bones; for the other formats the answer is empty.
+
+    Parameters
+    ----------
+    path, scale : as for `load`.
+
+    Returns
+    -------
+    Metres by joint; the bone is that from its parent to it.
+
+    Examples
+    --------
+    >>> bone_stretch("walk.amc")
+    {}
+    """
+    _check("scale", scale)
+    return bvh.bone_stretch(path, scale=scale or 0.01) if Path(path).suffix.lower() == ".bvh" else {}
 
 
 class Form(TypedDict, total=False):

@@ -43,11 +43,13 @@ class Channels(NamedTuple):
     fps: float
 
 
-def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> Motion:
+def read(
+    path: str | Path, *, scale: float = 0.01, fps: float | None = None, stretch: float = STRETCH
+) -> Motion:
     """Read a BVH file.
 
     Position channels below the root are allowed. Where they move, and no bone's length changes by more than
-    2 cm, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
+    `stretch`, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
     child moves (some files have a reference point above the hips), both become one joint, named as the child.
 
     Parameters
@@ -55,6 +57,7 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
     path : the file.
     scale : metres in one unit of the file.
     fps : frames per second; by default from the frame time, a whole number where its digits allow it.
+    stretch : metres by which a bone's length may change.
 
     Returns
     -------
@@ -68,14 +71,27 @@ def read(path: str | Path, *, scale: float = 0.01, fps: float | None = None) -> 
     -----
     MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved.
     """
+    joints, places, local, rate = _read_poses(path, scale, fps)
+    offsets, local = _rigid(path, joints, (places, local), stretch)
+    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
+    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
+    return Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
+
+
+def bone_stretch(path: str | Path, *, scale: float = 0.01) -> dict[str, float]:
+    """Measure by how much each joint's bone, from its parent to it, changes its length, metres."""
+    joints, places, *_ = _read_poses(path, scale, 1.0)
+    changes = np.ptp(np.linalg.norm(places[:, 1:], axis=-1), axis=0)
+    return {joint.name: float(change) for joint, change in zip(joints[1:], changes, strict=True)}
+
+
+def _read_poses(path: str | Path, scale: float, fps: float | None) -> tuple[list[Joint], Array, Array, float]:
+    """Read joints, their places below their parents (F, J, 3), metres, rotations (F, J, 4), and the rate."""
     joints, values, rate = read_channels(path, fps=fps)
     places, local = _poses(joints, values)
     if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
         joints, places, local = _without_reference(joints, places, local)
-    offsets, local = _rigid(path, joints, scale * places, local)
-    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
-    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
-    return Motion(skeleton, scale * places[:, 0], local, rate, Path(path).stem)
+    return joints, scale * places, local, rate
 
 
 def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
@@ -176,18 +192,20 @@ def _turns(joint: Joint) -> str:
     return "".join(channel[0] for channel in joint.channels if channel in ROTATIONS)
 
 
-def _rigid(path: str | Path, joints: list[Joint], places: Array, local: Array) -> tuple[Array, Array]:
-    """Give the offsets of rigid bones (J, 3), and the rotations (F, J, 4); `places` in metres."""
+def _rigid(
+    path: str | Path, joints: list[Joint], poses: tuple[Array, Array], most: float
+) -> tuple[Array, Array]:
+    """Give the offsets of rigid bones (J, 3) and rotations (F, J, 4); bones may stretch by `most` metres."""
+    places, local = poses
     moving = [j for j in range(1, len(joints)) if _moves(places[:, j], 1.0)]
     if not moving:
         return np.vstack([np.zeros((1, 3)), places[0, 1:]]), local
     rigid = fit(np.array([joint.parent for joint in joints]), places, local)
     worst = int(rigid.stretch.argmax())
-    if not rigid.close:
-        most = max(moving, key=lambda j: float(np.ptp(places[:, j], axis=0).max()))
-        got = f"one that moves by {np.ptp(places[:, most], axis=0).max():.2g} m"
-        expected = f"'{joints[most].name}' in one place below its parent, but for {STRETCH:g} m"
-        raise FormatError(path, joints[most].line, expected, got)
+    if not rigid.close(most):
+        far, mover = max((float(np.ptp(places[:, j], axis=0).max()), j) for j in moving)
+        expected = f"'{joints[mover].name}' in one place below its parent, but for {most:g} m"
+        raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
     warnings.warn(
         f"{path}: bones change length by up to {1000 * rigid.stretch[worst]:.2g} mm "
         f"({shortened(joints[worst].name, 40)}); fitted to rigid bones, joints lie up to "

@@ -15,7 +15,7 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 
 STRETCH = 0.02  # metres: a bone whose length changes by more is no bone
-APART = 0.05  # metres: how far a joint may come to lie from its place in the file
+APART = 2.5  # times as far a joint may come to lie from its place in the file
 KEPT = 1e-3  # of the bones' square lengths: how much a joint's own turn counts, so that it keeps its twist
 
 
@@ -31,10 +31,12 @@ class Rigid(NamedTuple):
     stretch: Array
     apart: Array
 
-    @property
-    def close(self) -> bool:
-        """Whether all bones stay within `STRETCH`, and all joints within `APART`."""
-        return bool(self.stretch.max() <= STRETCH and self.apart.max() <= APART)
+    def close(self, stretch: float = STRETCH) -> bool:
+        """Check whether no bone changes by more than `stretch`, and no joint lies further off than allowed.
+
+        A joint may come to lie 2.5 times as far from its place as a bone may change its length.
+        """
+        return bool(self.stretch.max() <= stretch and self.apart.max() <= APART * stretch)
 
 
 def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
@@ -57,7 +59,7 @@ def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
 
     >>> moving = np.array([[[0, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 0]]], float)
     >>> rigid = fit(np.array([-1, 0]), moving, np.tile(rotations.IDENTITY, (2, 2, 1)))
-    >>> rigid.close, rigid.offsets[1].round(2)
+    >>> rigid.close(), rigid.offsets[1].round(2)
     (True, array([0.71, 0.71, 0.  ]))
     """
     lengths = np.linalg.norm(places, axis=-1)

@@ -7,13 +7,17 @@ one of a blend beside its two clips into `blend_measures`, and one of something 
 Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
 1. `clip_flaws`: a clip's length, its path and its flaws
-2. `seam_measures`: a seam in five numbers
-3. `blend_measures`: what the blend itself adds, sliding feet, turning knees
-4. `falling`: the centre of mass, and the gravity that a flight shows
-5. `judging`: any motion in nine numbers, each over its limit
+2. `standing_feet`: how far planted feet slide
+3. `seam_measures`: a seam in five numbers
+4. `blend_measures`: what the blend itself adds, sliding feet, turning knees
+5. `falling`: the centre of mass, and the gravity that a flight shows
+6. `joint_limits`: joints that bend beyond what people's do
+7. `judgements`: what is said of a motion, and a table of many
+8. `judging`: any motion in a few numbers, each over its limit
 
 References
 ----------
+.. [AAOS65] American Academy of Orthopaedic Surgeons, *Joint Motion: Method of Measuring and Recording*, 1965.
 .. [Winter09] D. A. Winter, *Biomechanics and Motor Control of Human Movement*, 4th ed., Wiley 2009.
 """
 
@@ -25,7 +29,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "blend_measures": ["BlendJolts", "added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
         "clip_flaws": ["Flaw", "Report", "inspect"],
         "falling": ["SEGMENTS", "Segment", "centre_of_mass", "gravity"],
-        "judging": ["Judgement", "Measure", "judge", "judgement_table"],
+        "joint_limits": ["Bend", "joint_bends"],
+        "judgements": ["Judgement", "Measure", "judgement_table"],
+        "judging": ["judge"],
+        "standing_feet": ["PlantSlide", "plant_slides"],
         "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
     },
 )

@@ -6,12 +6,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from mocap._shared.arrays import Array, runs
+from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
+from mocap.quality.standing_feet import plant_slides
 
 # Percent of the clips' own windows: all but one window in a thousand.
 USUAL = 99.9
@@ -200,7 +201,7 @@ def seam_quality(
     return SeamQuality(
         velocity,
         acceleration,
-        100 * _slide(motion, seam, positions, feet),
+        _slide(motion, seam, positions, feet),
         100 * float(depth),
         100 * float(np.linalg.norm(path - old, axis=-1).max()),
     )
@@ -230,13 +231,6 @@ def _check_seam(motion: Motion, seam: tuple[int, int], before: Motion) -> None:
 
 
 def _slide(motion: Motion, seam: tuple[int, int], positions: Array, feet: Sequence[int]) -> float:
-    """Average a joint's largest distance from its mean place, metres, over the plants that touch a seam."""
-    slides = []
-    for joint in feet:
-        if (name := motion.skeleton.names[joint]) not in motion.contacts:
-            raise MocapError(f"'{motion.name}' does not say when '{name}' stands; mark_plants finds out.")
-        for start, stop in runs(motion.contacts[name]):
-            if start < seam[1] and seam[0] < stop:
-                places = positions[start:stop, joint][:, [0, 2]]
-                slides.append(np.linalg.norm(places - places.mean(axis=0), axis=-1).max())
+    """Average a joint's largest distance from its mean place, cm, over the plants that touch a seam."""
+    slides = [one.far for one in plant_slides(motion, feet, positions=positions) if one.touches(seam)]
     return float(np.mean(slides)) if slides else 0.0

@@ -154,8 +154,8 @@ def test_judge_ranks_files_and_names_what_it_could_not(clips, tmp_path, capsys):
     names = [str(tmp_path / f"{name}.bvh") for name in ("glides", "cut", "good")]
     assert main(["judge", *names, "--path", str(tmp_path / "path.csv")]) == 0
     head, *rows = capsys.readouterr().out.splitlines()
-    assert head.split()[:3] == ["name", "score", "jolt"]
-    assert "path" in head
+    assert head.split()[:4] == ["name", "score", "height", "jolt"]
+    assert {"path", "bones", "size"} <= set(head.split())
     assert rows[0].split()[:2] == ["good", "0.0"]
     assert {row.split()[0] for row in rows[1:]} == {"glides", "cut"}
     assert main(["judge", *names, str(clips / "a.bvh"), str(tmp_path / "broken.bvh"), "--json"]) == 2

@@ -49,7 +49,7 @@ def test_rigid_bones_stay_as_they_are():
 def test_the_fit_is_closer_than_dropping_what_moves(seed):
     places = stretched(0.006, seed)
     rigid = rigid_bones.fit(WALK.skeleton.parents, places, WALK.rotations)
-    assert rigid.close
+    assert rigid.close()
     fitted = apart(rigid.offsets, rigid.rotations, places)
     for offsets in (places[0], places.mean(axis=0)):  # of the first frame, as some readers do; or the mean
         dropped = apart(np.vstack([np.zeros((1, 3)), offsets[1:]]), WALK.rotations, places)
@@ -119,4 +119,4 @@ def test_children_that_part_are_refused_even_if_their_bones_keep_their_lengths()
     places[:, 2] = [0, -1, 0]
     rigid = rigid_bones.fit(np.array([-1, 0, 0]), places, np.tile(rotations.IDENTITY, (30, 3, 1)))
     assert rigid.stretch.max() < 1e-12
-    assert not rigid.close
+    assert not rigid.close()

@@ -1,0 +1,68 @@
+"""How far does a foot that stands slide over the ground? One measure for seams, motions and characters."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, runs
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.errors import MocapError
+
+
+class PlantSlide(NamedTuple):
+    """How far a joint is from its mean place over the ground in one plant, at most, in centimetres.
+
+    The plant is from frame `start` to just before frame `stop`.
+
+    Examples
+    --------
+    >>> PlantSlide("lfoot", 3, 9, 1.5).touches((8, 20)), PlantSlide("lfoot", 3, 9, 1.5).touches((9, 20))
+    (True, False)
+    """
+
+    joint: str
+    start: int
+    stop: int
+    far: float
+
+    def touches(self, frames: tuple[int, int]) -> bool:
+        """Whether the plant has a frame from the first one given to just before the second."""
+        return self.start < frames[1] and frames[0] < self.stop
+
+
+def plant_slides(
+    motion: Motion, joints: Sequence[int] | None = None, *, positions: Array | None = None
+) -> list[PlantSlide]:
+    """Measure how far each planted joint strays from its mean place on the ground, once per plant.
+
+    Parameters
+    ----------
+    motion : F frames, with contacts for the joints.
+    joints : which joints; by default all that have contacts.
+    positions : those of all joints, shape (F, J, 3), metres, if they are known already.
+
+    Raises
+    ------
+    MocapError : for a joint of which the motion does not say when it stands.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> slides = plant_slides(sample("walk_straight"))
+    >>> len(slides) > 20, max(slide.far for slide in slides) < 1e-6
+    (True, True)
+    """
+    names = motion.skeleton.names
+    planted = list(motion.contacts) if joints is None else [names[joint] for joint in joints]
+    if missing := [name for name in planted if name not in motion.contacts]:
+        raise MocapError(f"'{motion.name}' does not say when '{missing[0]}' stands; mark_plants finds out.")
+    places = (joint_positions(motion) if positions is None else positions)[..., [0, 2]]
+    slides = []
+    for name in planted:
+        for start, stop in runs(motion.contacts[name]):
+            stood = places[start:stop, motion.skeleton.index(name)]
+            far = np.linalg.norm(stood - stood.mean(axis=0), axis=-1).max()
+            slides.append(PlantSlide(name, start, stop, 100 * float(far)))
+    return slides
