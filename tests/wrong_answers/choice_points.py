@@ -70,6 +70,56 @@ def place(thresholds, frames, keep):
     return np.flatnonzero(frames / frames.max() >= keep)[0]
 
 
+def joined(points, transitions, window, leaves=0, enters=None):
+    following = {(clip, frame): [] for clip, frames in enumerate(points) for frame in frames}
+    for clip, frames in enumerate(points):
+        for n in range(len(frames) - 1):
+            following[clip, frames[n]] += [(clip, frames[n + 1])]
+    enters = window if enters is None else enters
+    for source, leave, target, enter in transitions:
+        following.setdefault((source, leave + leaves), []).append((target, enter + enters))
+    return following
+
+
+def enters_at_the_window(points, transitions, window):
+    return joined(points, transitions, window, enters=0)
+
+
+def leaves_after_the_window(points, transitions, window):
+    return joined(points, transitions, window, leaves=window)
+
+
+def one_long_clip(points, transitions, window):
+    following = joined(points, transitions, window)
+    for clip in range(len(points) - 1):
+        following[clip, points[clip][-1]] += [(clip + 1, points[clip + 1][0])]
+    return following
+
+
+def everything_later(points, transitions, window):
+    following = joined(points, transitions, window)
+    for clip, frames in enumerate(points):
+        for n, frame in enumerate(frames):
+            following[clip, frame] += [(clip, later) for later in frames[n + 2 :]]
+    return following
+
+
+def never_across(points, transitions, window):
+    return joined(points, [], window)
+
+
+def ends_forgotten(points, transitions, window):
+    following = joined(points, transitions, window)
+    return {node: following[node] for node in following if following[node]}
+
+
+def both_ways(points, transitions, window):
+    following = joined(points, transitions, window)
+    for source, leave, target, enter in transitions:
+        following[target, enter + window] += [(source, leave)]
+    return following
+
+
 WRONG = {
     "turning_point": [
         (divided_by_zero, "give None for angle 0"),
@@ -92,5 +142,14 @@ WRONG = {
         (share_as_number, "of what?"),
         (kept_frames, "those are frames"),
         (place, "that is an index"),
+    ],
+    "successors_of": [
+        (enters_at_the_window, "not at enter"),
+        (leaves_after_the_window, "not at leave + window"),
+        (one_long_clip, "to the start of the next clip"),
+        (everything_later, "the next choice point"),
+        (never_across, "transitions are missing"),
+        (ends_forgotten, "empty list"),
+        (both_ways, "leads one way"),
     ],
 }

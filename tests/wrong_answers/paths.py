@@ -94,6 +94,26 @@ def by_number(stand, costs, width):
     return sorted(one_each(stand, costs, np.argsort(costs))[:width])
 
 
+def longer(walk, edges, path, least, wrong=""):
+    turn, move, along, cost = walk
+    found = []
+    for end, track, edge_turn, edge_move, price in edges:
+        placed = track if wrong == "unplaced" else track * turn + move
+        rows = np.column_stack(
+            [placed.real, placed.imag] if wrong == "swapped" else [placed.imag, placed.real]
+        )
+        more, s = summed(rows, path, 0.0 if wrong == "start" else along, lambda step: max(step, least))
+        new_turn = turn if wrong == "turn" else edge_turn * turn
+        new_move = move + edge_move if wrong == "move" else edge_move * turn + move
+        total = more + (wrong != "alone") * cost + (wrong != "free") * price
+        found.append((end, new_turn, new_move, s - along if wrong == "difference" else s, total))
+    return found
+
+
+def wrongly(how):
+    return lambda walk, edges, path, least: longer(walk, edges, path, least, how)
+
+
 WRONG = {
     "point_at": [
         (evenly, "evenly spaced"),
@@ -116,5 +136,15 @@ WRONG = {
         (whoever_came_first, "the first in the list"),
         (never_mind_the_heading, "turned differently"),
         (by_number, "the cheapest first"),
+    ],
+    "lengthen": [
+        (wrongly("unplaced"), "in the coordinates of its clip"),
+        (wrongly("swapped"), "x and z are swapped"),
+        (wrongly("move"), "add turn · move"),
+        (wrongly("turn"), "the turn stays as it was"),
+        (wrongly("alone"), "the edge alone"),
+        (wrongly("free"), "price of the edge"),
+        (wrongly("start"), "not at its beginning"),
+        (wrongly("difference"), "not the difference"),
     ],
 }

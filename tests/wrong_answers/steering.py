@@ -99,6 +99,47 @@ def rooted(track, other, apart):
     return too_near(track, other, apart, lambda missing: max(missing, 0) ** 2) ** 0.5
 
 
+def chosen(turn, tracks, wanted, fps, frames=-1):
+    def miss(track):
+        return abs(turn * (track[-1] - track[0]) * fps / (len(track) + frames) - wanted)
+
+    return min(range(len(tracks)), key=lambda n: miss(tracks[n]))
+
+
+def command(heading, speed):
+    return complex(speed * math.cos(heading), speed * math.sin(heading))
+
+
+def as_captured(turn, tracks, heading, speed, fps):
+    return chosen(1, tracks, command(heading, speed), fps)
+
+
+def turned_back(turn, tracks, heading, speed, fps):
+    return chosen(turn.conjugate(), tracks, command(heading, speed), fps)
+
+
+def from_x_axis(turn, tracks, heading, speed, fps):
+    return chosen(turn, tracks, complex(speed * math.sin(heading), speed * math.cos(heading)), fps)
+
+
+def in_metres(turn, tracks, heading, speed, fps):
+    away = [abs(turn * (t[-1] - t[0]) - command(heading, speed)) for t in tracks]
+    return away.index(min(away))
+
+
+def per_frame(turn, tracks, heading, speed, fps):
+    return chosen(turn, tracks, command(heading, speed), 1)
+
+
+def fence_posts(turn, tracks, heading, speed, fps):
+    return chosen(turn, tracks, command(heading, speed), fps, 0)
+
+
+def at_any_speed(turn, tracks, heading, speed, fps):
+    ways = [turn * (t[-1] - t[0]) for t in tracks]
+    return int(np.argmin([abs(w / abs(w) - command(heading, 1)) for w in ways]))
+
+
 WRONG = {
     "time_cost": [
         (for_ever, "leave them out"),
@@ -121,5 +162,14 @@ WRONG = {
         (far_costs_too, "never below 0"),
         (metres, "sum their squares"),
         (rooted, "no square root"),
+    ],
+    "next_edge": [
+        (as_captured, "multiply by `turn`"),
+        (turned_back, "you turn the track back"),
+        (from_x_axis, "a heading of 0 is +z"),
+        (in_metres, "compare metres with metres per second"),
+        (per_frame, "multiply by fps"),
+        (fence_posts, "n frames apart"),
+        (at_any_speed, "the directions alone"),
     ],
 }

@@ -1,5 +1,6 @@
 """Checks of notebook 05b."""
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -153,6 +154,104 @@ suggested_threshold = Check(
         Mistake(
             lambda thresholds, frames, keep: np.argmax(frames >= keep * frames.max()),
             "that is an index; return the threshold at that index.",
+        ),
+    ],
+)
+
+
+Places = list[tuple[int, int]]
+Following = dict[tuple[int, int], Places]
+Links = list[tuple[int, int, int, int]]
+
+
+def _clips(rng: np.random.Generator) -> tuple[list[list[int]], Links, int]:
+    """Draw the choice points of two or three clips, the transitions between them, and their window."""
+    window, lengths = int(rng.integers(3, 9)), rng.integers(60, 120, rng.integers(2, 4))
+    points = [{0, int(length)} for length in lengths]
+    links = []
+    for _ in range(rng.integers(3, 8)):
+        source, target = rng.integers(len(lengths), size=2).tolist()
+        leave, enter = (int(rng.integers(1, lengths[clip] - window)) for clip in (source, target))
+        points[source].add(leave)
+        points[target].add(enter + window)
+        links.append((source, leave, target, enter))
+    return [sorted(frames) for frames in points], links, window
+
+
+def _follow(points: list[list[int]], links: Links, window: int) -> Following:
+    """Join each choice point to the next of its clip, and the two ends of each transition."""
+    following: Following = {(clip, frame): [] for clip, frames in enumerate(points) for frame in frames}
+    for clip, frames in enumerate(points):
+        for here, there in pairwise(frames):
+            following[clip, here].append((clip, there))
+    for source, leave, target, enter in links:
+        following.setdefault((source, leave), []).append((target, enter + window))
+    return following
+
+
+def _with_chain(points: list[list[int]], links: Links, window: int) -> Following:
+    """Join the end of each clip to the start of the next one as well."""
+    following = _follow(points, links, window)
+    for clip, (here, _) in enumerate(pairwise(points)):
+        following[clip, here[-1]].append((clip + 1, 0))
+    return following
+
+
+def _with_all_later(points: list[list[int]], links: Links, window: int) -> Following:
+    following = _follow([[]] * len(points), links, window)
+    for clip, frames in enumerate(points):
+        for here in frames:
+            later = [(clip, there) for there in frames if there > here]
+            following[clip, here] = [*later, *following.get((clip, here), [])]
+    return following
+
+
+def _same_following(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Compare what follows each node, in any order."""
+    return {node: sorted(ends) for node, ends in given.items()} == {
+        node: sorted(ends) for node, ends in wanted.items()
+    }
+
+
+successors_of = Check(
+    name="successors_of",
+    asks="a dictionary from each node (clip, frame) to the list of the nodes that its edges lead to",
+    start="begin with an empty list for each node; pairwise(points[clip]) gives the stretches of a clip.",
+    draw=_clips,
+    truth=_follow,
+    same=_same_following,
+    mistakes=[
+        Mistake(
+            lambda points, links, window: _follow(
+                points, [(s, i, t, j - window) for s, i, t, j in links], window
+            ),
+            "a transition ends after its window: at the node enter + window, not at enter.",
+        ),
+        Mistake(
+            lambda points, links, window: _follow(
+                points, [(s, i + window, t, j) for s, i, t, j in links], window
+            ),
+            "a transition begins where its window starts: at the node leave, not at leave + window.",
+        ),
+        Mistake(_with_chain, "no edge leads from the end of a clip to the start of the next clip."),
+        Mistake(_with_all_later, "a stretch of clip ends at the next choice point, not at every later one."),
+        Mistake(
+            lambda points, links, window: _follow(points, [], window),
+            "these are the stretches of clip; the transitions are missing.",
+        ),
+        Mistake(
+            lambda points, links, window: {
+                node: ends for node, ends in _follow(points, links, window).items() if ends
+            },
+            "the last node of a clip may lead nowhere, but it is a node: give it an empty list.",
+        ),
+        Mistake(
+            lambda points, links, window: _follow(
+                points,
+                [*links, *((t, j + window, s, i - window) for s, i, t, j in links)],
+                window,
+            ),
+            "a transition leads one way; the way back has a window of its own, and is in the list.",
         ),
     ],
 )

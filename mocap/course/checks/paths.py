@@ -1,10 +1,11 @@
 """Checks of notebook 08."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.course.check import Check, Mistake
 
@@ -164,6 +165,102 @@ survivors = Check(
         Mistake(
             lambda stand, costs, width: np.sort(_survivors(stand, costs, width)),
             "these are the right walks; put the cheapest first.",
+        ),
+    ],
+)
+
+
+Walk = tuple[complex, complex, float, float]
+Edge = tuple[int, Points, complex, complex, float]
+Longer = list[tuple[int, complex, complex, float, float]]
+
+
+def _draw_walk(rng: np.random.Generator) -> tuple[Walk, list[Edge], Line, float]:
+    """Draw where a walk is, the edges that leave its node, a path, and the least progress per frame."""
+    line = GroundPath(_polyline(rng))
+    (x, z), along = line.at(0.4 * line.length), 0.4 * line.length
+    walk = (complex(_turn(rng)), complex(z, x), along, float(rng.uniform(0.1, 2)))
+    edges = []
+    for end in rng.permutation(9)[: rng.integers(2, 5)].tolist():
+        track = (rng.normal(scale=0.05, size=(rng.integers(3, 9), 2)) @ [1, 1j]).cumsum()
+        move = complex(*rng.normal(size=2))
+        edges.append((end, track, complex(_turn(rng)), move, float(rng.choice([0.0, 0.3]))))
+    return walk, edges, line.at, 0.01
+
+
+def _turn(rng: np.random.Generator) -> complex:
+    return complex(np.exp(1j * rng.uniform(-3, 3)))
+
+
+def _lengthen(
+    walk: Walk, edges: list[Edge], path: Line, least: float, place: Callable[..., Points] | None = None
+) -> Longer:
+    """Lengthen a walk by each edge; `place` lays the edge's track on the ground, right by default."""
+    turn, move, along, cost = walk
+    longer = []
+    for end, track, edge_turn, edge_move, price in edges:
+        placed = place(turn, track, move) if place else turn * track + move
+        steps = np.maximum(np.abs(np.diff(placed)), least)
+        more, reached = _cost(np.stack([placed.imag, placed.real], axis=1), path, along, steps)
+        longer.append((end, turn * edge_turn, move + turn * edge_move, reached, cost + more + price))
+    return longer
+
+
+def _changed(change: Callable[[Walk, Edge, tuple[Any, ...]], tuple[Any, ...]]) -> Callable[..., Longer]:
+    """Make the wrong answer in which each longer walk is changed."""
+
+    def wrong(walk: Walk, edges: list[Edge], path: Line, least: float) -> Longer:
+        right = _lengthen(walk, edges, path, least)
+        return [change(walk, edge, one) for edge, one in zip(edges, right, strict=True)]  # type: ignore[misc]
+
+    return wrong
+
+
+def _same_walks(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Compare longer walks as complex numbers; their ends are numbers of nodes here."""
+    here, there = np.asarray(given, complex), np.asarray(wanted, complex)
+    return here.shape == there.shape and bool(np.allclose(here, there, rtol=1e-8, atol=1e-9))
+
+
+lengthen = Check(
+    name="lengthen",
+    asks="for each edge a tuple (end, turn, move, along, cost) of the longer walk",
+    start="place the edge's track by p ↦ turn · p + move, and give it to edge_cost as rows (x, z).",
+    draw=_draw_walk,
+    truth=_lengthen,
+    same=_same_walks,
+    mistakes=[
+        Mistake(
+            lambda *of: _lengthen(*of, place=lambda turn, track, move: track),
+            "an edge's track is in the coordinates of its clip: place it by turn · track + move first.",
+        ),
+        Mistake(
+            lambda *of: _lengthen(*of, place=lambda turn, track, move: 1j * np.conj(turn * track + move)),
+            "x and z are swapped: a point is z + ix, so its x is the imaginary part.",
+        ),
+        Mistake(
+            _changed(lambda walk, edge, one: (*one[:2], walk[1] + edge[3], *one[3:])),
+            "the edge's shift is seen from its clip, which is turned: add turn · move of the edge.",
+        ),
+        Mistake(
+            _changed(lambda walk, edge, one: (one[0], walk[0], *one[2:])),
+            "the turn stays as it was: after a transition the next clip is turned by the edge's turn as well.",
+        ),
+        Mistake(
+            _changed(lambda walk, edge, one: (*one[:4], one[4] - walk[3])),
+            "that is the cost of the edge alone; a walk costs what it has cost so far, and the edge's cost.",
+        ),
+        Mistake(
+            _changed(lambda walk, edge, one: (*one[:4], one[4] - edge[4])),
+            "the price of the edge is missing: a seam costs something wherever it lies.",
+        ),
+        Mistake(
+            lambda walk, edges, path, least: _lengthen((*walk[:2], 0.0, walk[3]), edges, path, least),
+            "the edge starts at `along`, where the walk is on the path, not at its beginning.",
+        ),
+        Mistake(
+            _changed(lambda walk, edge, one: (*one[:3], one[3] - walk[2], one[4])),
+            "`along` is measured from the path's beginning: edge_cost gives the new one, not the difference.",
         ),
     ],
 )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Points
 from mocap.course.check import Check, Mistake
 
 
@@ -185,5 +185,82 @@ crowding_cost = Check(
             lambda track, other, apart: np.sqrt(_crowding(track, other, apart)),
             "no square root: the sum of squares itself is the cost.",
         ),
+    ],
+)
+
+
+def _nearest(turn: complex, velocities: list[complex], wanted: complex) -> int:
+    return int(np.argmin([abs(turn * velocity - wanted) for velocity in velocities]))
+
+
+def _mean_velocities(tracks: list[Points], fps: float, frames: int = -1) -> list[complex]:
+    """Give the mean velocity along each track of n + 1 points, which are n frames apart."""
+    return [complex(track[-1] - track[0]) / (len(track) + frames) * fps for track in tracks]
+
+
+def _draw_choice(rng: np.random.Generator) -> tuple[complex, list[Points], float, float, float]:
+    """Draw tracks whose velocities are near the one asked for, and near those that mistakes ask for."""
+    turn, heading, speed = np.exp(1j * rng.uniform(-3, 3)), rng.uniform(-3, 3), rng.uniform(0.4, 2.0)
+    wanted, fps = speed * np.exp(1j * heading), float(rng.choice([30, 60]))
+    tracks = []
+    for aim in (wanted / turn, wanted, 1j * np.conj(wanted) / turn, 3 * wanted / turn, wanted / turn):
+        count = int(rng.integers(3, 20))
+        velocity = aim * np.exp(rng.normal(scale=0.3) + 1j * rng.normal(scale=0.3))
+        sway = 0.02 * rng.normal(size=(count, 2)) @ [1, 1j]
+        tracks.append(velocity * np.arange(count) / fps + sway)
+    return complex(turn), tracks, float(heading), float(speed), fps
+
+
+def _by_direction(turn: complex, tracks: list[Points], heading: float, speed: float, fps: float) -> int:
+    ways = [velocity / abs(velocity) for velocity in _mean_velocities(tracks, fps)]
+    return _nearest(turn, ways, complex(np.exp(1j * heading)))
+
+
+next_edge = Check(
+    name="next_edge",
+    asks="the number of the track whose mean velocity, placed on the ground, is nearest to the command",
+    start="the command is the velocity speed · exp(i · heading); what is the velocity of one track?",
+    draw=_draw_choice,
+    truth=lambda turn, tracks, heading, speed, fps: _nearest(
+        turn, _mean_velocities(tracks, fps), speed * np.exp(1j * heading)
+    ),
+    mistakes=[
+        Mistake(
+            lambda turn, tracks, heading, speed, fps: _nearest(
+                1, _mean_velocities(tracks, fps), speed * np.exp(1j * heading)
+            ),
+            "a track is in the coordinates of its clip, and the clip is turned: multiply by `turn`.",
+        ),
+        Mistake(
+            lambda turn, tracks, heading, speed, fps: _nearest(
+                1 / turn, _mean_velocities(tracks, fps), speed * np.exp(1j * heading)
+            ),
+            "you turn the track back; `turn` is how its clip is turned on the ground.",
+        ),
+        Mistake(
+            lambda turn, tracks, heading, speed, fps: _nearest(
+                turn, _mean_velocities(tracks, fps), 1j * speed * np.exp(-1j * heading)
+            ),
+            "a heading of 0 is +z, and points are z + ix: the command is speed · exp(i · heading).",
+        ),
+        Mistake(
+            lambda turn, tracks, heading, speed, fps: _nearest(
+                turn, [track[-1] - track[0] for track in tracks], speed * np.exp(1j * heading)
+            ),
+            "you compare metres with metres per second: divide by the time that the track takes.",
+        ),
+        Mistake(
+            lambda turn, tracks, heading, speed, fps: _nearest(
+                turn, _mean_velocities(tracks, 1.0), speed * np.exp(1j * heading)
+            ),
+            "that is a velocity per frame: multiply by fps.",
+        ),
+        Mistake(
+            lambda turn, tracks, heading, speed, fps: _nearest(
+                turn, _mean_velocities(tracks, fps, 0), speed * np.exp(1j * heading)
+            ),
+            "n + 1 points are n frames apart, so the first and the last are n / fps seconds apart.",
+        ),
+        Mistake(_by_direction, "you compare the directions alone; the command is also a speed."),
     ],
 )
