@@ -211,7 +211,7 @@ def _changed(change: Callable[[Walk, Edge, tuple[Any, ...]], tuple[Any, ...]]) -
 
     def wrong(walk: Walk, edges: list[Edge], path: Line, least: float) -> Longer:
         right = _lengthen(walk, edges, path, least)
-        return [change(walk, edge, one) for edge, one in zip(edges, right, strict=True)]  # type: ignore[misc]
+        return [change(walk, edge, one) for edge, one in zip(edges, right, strict=True)]
 
     return wrong
 
@@ -231,11 +231,15 @@ lengthen = Check(
     same=_same_walks,
     mistakes=[
         Mistake(
-            lambda *of: _lengthen(*of, place=lambda turn, track, move: track),
+            lambda walk, edges, path, least: _lengthen(
+                walk, edges, path, least, lambda turn, track, move: track
+            ),
             "an edge's track is in the coordinates of its clip: place it by turn · track + move first.",
         ),
         Mistake(
-            lambda *of: _lengthen(*of, place=lambda turn, track, move: 1j * np.conj(turn * track + move)),
+            lambda walk, edges, path, least: _lengthen(
+                walk, edges, path, least, lambda turn, track, move: 1j * np.conj(turn * track + move)
+            ),
             "x and z are swapped: a point is z + ix, so its x is the imaginary part.",
         ),
         Mistake(
@@ -244,7 +248,7 @@ lengthen = Check(
         ),
         Mistake(
             _changed(lambda walk, edge, one: (one[0], walk[0], *one[2:])),
-            "the turn stays as it was: after a transition the next clip is turned by the edge's turn as well.",
+            "the turn stays as it was: a transition turns the clip that it leads to, by the edge's turn.",
         ),
         Mistake(
             _changed(lambda walk, edge, one: (*one[:4], one[4] - walk[3])),
