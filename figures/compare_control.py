@@ -62,9 +62,12 @@ def strides(
     raise refusal
 
 
-def ways(name: str, clips: list[mocap.Motion]) -> dict[str, tuple[Callable[[], control.Character], float]]:
-    """Prepare every way of control: how to make its character, and what the preparation took, s."""
+def ways(
+    name: str, clips: list[mocap.Motion]
+) -> tuple[dict[str, tuple[Callable[[], control.Character], float]], dict[str, str]]:
+    """Prepare every way of control: how to make its character, what that took, s; and why some cannot be."""
     made: dict[str, tuple[Callable[[], control.Character], float]] = {}
+    refused: dict[str, str] = {}
 
     def add(
         label: str, prepare: Callable[[], object], *characters: tuple[str, Callable[[object], object]]
@@ -73,7 +76,7 @@ def ways(name: str, clips: list[mocap.Motion]) -> dict[str, tuple[Callable[[], c
         try:
             ready = prepare()
         except MocapError as error:
-            print(f"{name}, {label}: {error}")
+            refused[label] = str(error)
             return
         took = time.process_time() - begun
         for more, character in characters:
@@ -98,7 +101,7 @@ def ways(name: str, clips: list[mocap.Motion]) -> dict[str, tuple[Callable[[], c
         ("", parametric_graphs.ParametricController),
     )
     add("matching", lambda: motion_matching.tabulate(clips), *map(_matcher, (1.0, 0.25)))
-    return made
+    return made, refused
 
 
 def _matcher(future: float) -> tuple[str, Callable[[object], object]]:
@@ -137,7 +140,8 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
         [COLUMNS, "|---" * 11 + "|"],
         [f"| way | {' | '.join(SHAPES)} |", "|---" * (len(SHAPES) + 1) + "|"],
     )
-    for label, (make, took) in ways(name, clips).items():
+    made, refused = ways(name, clips)
+    for label, (make, took) in made.items():
         gc.collect()
         gc.freeze()
         judged = control.judge_control(make, usual, speed=speed)
@@ -153,7 +157,10 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
             cells.append(f"{along.off.mean():.2f}, {along.off.max():.2f}{part}")
         led.append(f"| {label} | {' | '.join(cells)} |")
         print(rows[-1])
-    return [*rows, "", *led]
+    reasons = [
+        line for label, reason in refused.items() for line in ("", f"No {label} from these clips: {reason}")
+    ]
+    return [*rows, *reasons, "", *led]
 
 
 if __name__ == "__main__":
