@@ -14,6 +14,7 @@ Reading order (notebooks 00 to 16)
 7. `reopening`: live while Python runs, a picture when the notebook is opened again
 8. `recording`: positions of an experiment, as pictures for pages without Python
 9. `film`: a motion as a film, a strip of poses or a page
+10. `live_steering`: characters side by side that obey one command of the reader
 
 References
 ----------
@@ -33,5 +34,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "pointing": ["Pointed", "pointer"],
         "dragging": ["Dragged", "handles"],
         "film": ["save_animation"],
+        "live_steering.steered_widget": ["steered"],
     },
 )

@@ -1,0 +1,99 @@
+"""Characters that step together: each on its own time, and one that fails does not stop the others."""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body.kinematics import joint_positions
+from mocap.control import as_motion
+from mocap.errors import MocapError, MocapWarning
+from mocap.widgets.live_steering.company import Company, Order
+from tests.widgets.steerable import Dot
+
+
+@given(st.lists(st.floats(0, 0.5), min_size=1, max_size=9))
+def test_frames_are_counted_by_seconds_however_they_are_asked_for(pieces):
+    company = Company({"slow": Dot(fps=30.0), "fast": Dot(fps=120.0)})
+    walked = [company.walk(Order(), seconds) for seconds in pieces]
+    for member, frames in zip(company.members, zip(*walked, strict=True), strict=True):
+        assert sum(len(one.steps) for one in frames) == member.steps - 1
+        assert member.steps == 1 + round(sum(pieces) * member.character.fps)
+        firsts = np.cumsum([1, *(len(one.steps) for one in frames)])[:-1]
+        assert [one.first for one in frames] == firsts.tolist()
+
+
+def test_places_are_the_joints_at_which_bones_end():
+    company = Company({"dot": Dot()})
+    (walked,) = company.walk(Order(1.0), 0.3)
+    motion = as_motion(company.members[0].character, [step.pose for step in walked.steps])
+    drawn = company.members[0].limbs
+    np.testing.assert_allclose(walked.places, joint_positions(motion)[:, drawn.joints], atol=1e-12)
+    assert drawn.joints[0] == 0 and max(max(line[:2]) for line in drawn.lines) < len(drawn.joints)
+
+
+class Stumbling(Dot):
+    def step(self, heading, speed, label=""):
+        if label == "fly":
+            raise MocapError("No clip flies.")
+        if heading > 1:
+            return super().step(math.nan, speed)
+        return super().step(heading, speed, label)
+
+
+def test_who_fails_stands_still_until_the_order_changes_and_says_why():
+    company = Company({"sure": Dot(), "stumbling": Stumbling()})
+    for order, why in [(Order(0, 1, "fly"), "MocapError: No clip flies."), (Order(2.0), "not finite")]:
+        sure, stumbling = company.walk(order, 0.5)
+        assert why in stumbling.fault and len(stumbling.fault) <= 200
+        assert np.ptp(stumbling.places, axis=0).max() == 0
+        assert (sure.fault, len(sure.steps)) == ("", len(stumbling.steps))
+        assert np.ptp(sure.places, axis=0).max() > 0.3
+
+
+def test_a_stumble_is_forgotten_when_the_order_changes():
+    company = Company({"stumbling": Stumbling()})
+    company.walk(Order(0, 1, "fly"), 0.2)
+    (walked,) = company.walk(Order(), 0.2)
+    assert walked.fault == "" and np.ptp(walked.places, axis=0).max() > 0.1
+
+
+def test_an_error_at_the_first_step_is_raised():
+    class Broken(Dot):
+        def step(self, heading, speed, label=""):
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        Company({"broken": Broken()})
+
+
+def test_warnings_are_kept_once_each():
+    class Warning_(Dot):
+        def step(self, heading, speed, label=""):
+            warnings.warn("5 m/s is too fast.", MocapWarning, stacklevel=1)
+            return super().step(heading, speed)
+
+    company = Company({"warning": Warning_()})
+    company.walk(Order(speed=5), 0.2)
+    assert company.notes == ["5 m/s is too fast."] and company.cost > 0
+
+
+@pytest.mark.parametrize("count", [0, 5])
+def test_one_to_four_walk_side_by_side(count):
+    with pytest.raises(MocapError, match=f"One to 4 characters walk side by side, got {count}"):
+        Company({str(number): Dot() for number in range(count)})
+
+
+def test_one_character_does_not_walk_twice():
+    dot = Dot()
+    with pytest.raises(MocapError, match="two names"):
+        Company({"a": dot, "b": dot})
+
+
+@pytest.mark.parametrize("order", [Order(math.nan), Order(0, math.inf), Order(0, -1)])
+def test_an_order_is_finite(order):
+    with pytest.raises(MocapError, match="A command is a finite heading and a speed from 0 on"):
+        order.checked()
