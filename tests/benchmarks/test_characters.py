@@ -4,6 +4,7 @@ Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks
 """
 
 import gc
+from functools import partial
 
 import numpy as np
 import pytest
@@ -102,7 +103,7 @@ def test_to_prepare_matching_is_cheap_beside_a_graph():
     assert tabled <= 0.8 * built
 
 
-@pytest.mark.parametrize(("count", "nodes"), [(6, 6), (12, 8)])
+@pytest.mark.parametrize(("count", "nodes"), [(6, 6), (12, 8), (24, 6)])
 def test_a_group_is_played_at_a_fiftieth_of_its_simulation(count, nodes):
     group = graph(count, nodes)
     walk = groups.random_group_walk(group, 30)
@@ -120,12 +121,24 @@ def test_bounds_make_a_search_twice_as_quick():
         lambda: groups.plan_group(group, scene),
         turns=3,
     )
-    seconds = groups.plan_group(group, scene).seconds
-    (simulated,) = fastest(lambda: groups.simulate(12, seconds, settle=0), turns=3)
-    print(
-        f"\nwith bounds {slow / quick:.1f} × as quick; the search takes {quick / simulated:.1f} × simulating"
-    )
+    print(f"\nwith bounds {slow / quick:.1f} × as quick")
     assert slow >= 2 * quick
+
+
+def test_a_search_takes_at_most_four_times_as_long_as_simulating():
+    """On average over the courses among eight discs that are found; seed 0 is closed from the start."""
+    group, times = graph(), []
+    for seed in range(1, 12):
+        scene = course(seed)
+        seconds = groups.plan_group(group, scene).seconds
+        searched, simulated = fastest(
+            partial(groups.plan_group, group, scene),
+            partial(groups.simulate, 12, seconds, settle=0),
+            turns=2,
+        )
+        times.append(searched / simulated)
+    print(f"\na search takes {np.mean(times):.1f} × simulating, {np.median(times):.1f} in the middle")
+    assert np.mean(times) <= 4
 
 
 def test_twelve_characters_for_a_minute_take_a_fifth_of_it():

@@ -10,7 +10,7 @@ from mocap.cli.main import main
 from mocap.files import load_save
 from tests.strategies import wave
 
-COMMANDS = ["graph", "walk", "blend", "judge", "convert", "warp", "bend", "loop", "find", "retarget"]
+COMMANDS = ["graph", "walk", "blend", "judge", "convert", "warp", "bend", "loop", "find", "retarget", "crowd"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -70,6 +70,31 @@ def test_three_turns_do_nearly_as_well_as_72():
     assert (one_turn < 1.01).mean() < (ratio < 1.01).mean()
 
 
+def test_eight_turns_around_the_circle_are_too_far_apart():
+    """45 degrees are coarser than half a radian about where the velocities point."""
+    first, second = drawn(12, 120)
+    exact = compare(first, second, starts=ALL_AROUND).rms
+    near, around = (
+        (compare(first, second, starts=starts).rms < 1.01 * exact).mean()
+        for starts in ((0.0, 0.5, -0.5), ALL_AROUND[::9])
+    )
+    assert near > around
+
+
+def test_sorted_distances_and_speeds_bound_it_too_loosely_to_spare_anything():
+    """An idea that failed: the bound is true, and less than half of the distance."""
+    first, second = drawn(12, 60)
+
+    def sorts(group):
+        middle = group.places.mean(axis=1, keepdims=True)
+        return np.sort(np.abs(group.places - middle)), np.sort(np.abs(group.velocities))
+
+    (radii, speeds), (others, paces) = sorts(first), sorts(second)
+    bound = np.sqrt(((radii - others) ** 2 + SECONDS**2 * (speeds - paces) ** 2).mean(axis=1))
+    exact = compare(first, second).rms
+    assert (bound <= exact).all() and (bound / exact).mean() < 0.5
+
+
 def test_the_same_numbers_and_greedy_pairs_are_far_from_the_best():
     first, second = drawn(12, 60)
     best = by_frames(first, second, lambda costs: [greedy_best(cost) for cost in costs])

@@ -7,7 +7,7 @@ from mocap.errors import MocapError, NoWalk
 from mocap.groups.flocking import APART, RATE, Trajectories, nearest_two
 from mocap.groups.group_graphs import Placed, play_group
 from mocap.groups.group_steering import clearances, steer_group
-from mocap.groups.planning import Scene, plan_group
+from mocap.groups.planning import Scene, _Course, _Exits, _Obstacles, _State, plan_group
 from tests.groups.built import course, graph, pocket
 
 
@@ -54,6 +54,30 @@ def test_bounds_spare_most_tests_and_change_nothing(seed):
     assert quick.clips == slow.clips and slow.spared == 0
     assert quick.spared >= 0.7 * (quick.spared + quick.tested)
     assert quick.spared + quick.tested >= slow.tested
+
+
+def beam_of(width, scene, clips=25):
+    """Keep the most promising states after each clip: what one might do instead."""
+    group, course, obstacles = graph(), _Course.of(scene, 2.0), _Obstacles(scene, bounds=True)
+    exits = [_Exits(group, node) for node in range(len(group.nodes))]
+    states = [_State(Placed(0), 0, 0, 0.0, None, -1)]
+    for _ in range(clips):
+        onward = []
+        for state in states:
+            leaving = exits[state.at.node]
+            onward += course.go_on(leaving, obstacles.free(leaving, state), state)
+        states = [state for _, state in sorted(onward, key=lambda one: one[0])[:width]]
+        if any(state.goal == len(scene.points) for state in states):
+            return True
+    return False
+
+
+@pytest.mark.exhaustive
+def test_a_beam_runs_into_obstacles_with_all_its_walks_and_no_weight_finds_nothing():
+    found = [seed for seed in range(1, 12) if beam_of(40, course(seed))]
+    assert len(found) <= 8
+    with pytest.raises(NoWalk, match="the limit of 4000 states"):
+        plan_group(graph(), course(1), weight=1.0)
 
 
 @pytest.mark.parametrize("depth", [4.5, 7.0])

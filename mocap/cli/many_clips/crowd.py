@@ -26,6 +26,7 @@ def add_crowd(commands: "Commands") -> None:
         description="Plan how a group walks past points and around obstacles, and let a character of a "
         "motion graph walk each member's way, in place and in time. Writes a motion for each member, "
         "plan.png and crowd.gif.",
+        epilog="Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/",
     )
     add = crowd.add_argument
     add("--members", type=whole(2, 48), default=6, help="how many walk (default: %(default)s)")

@@ -21,6 +21,8 @@ def draw_group_plan(
 ) -> Figure:
     """Draw where the members of a group go, seen from above; x to the left as for somebody who looks along z.
 
+    White dots are where they start, black ones where they are at five moments, evenly spread until the end.
+
     Parameters
     ----------
     places : shape (F, N), complex z + ix, metres.
@@ -41,7 +43,8 @@ def draw_group_plan(
         colour = SOURCES[number % len(SOURCES)]
         ax.plot(way.imag, way.real, color=colour, linewidth=1.2)
     for frame in np.linspace(0, len(places) - 1, 6).round().astype(int):
-        ax.scatter(places[frame].imag, places[frame].real, s=14, color="black", zorder=3)
+        inside = "black" if frame else "white"
+        ax.scatter(places[frame].imag, places[frame].real, s=14, color=inside, edgecolors="black", zorder=3)
     for centre, radius in discs:
         ax.add_patch(Circle((centre.imag, centre.real), radius, color=QUIET, zorder=2))
     for number, point in enumerate(points, 1):
