@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.control import Controller, command_headings, measure_delay, plant_slides, steer
+from mocap.control import Controller, command_headings, measure_delay, steer
 from mocap.feet.footplants import mark_plants
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import build
@@ -15,6 +15,7 @@ from mocap.motion_matching.matching_control import MotionMatcher
 from mocap.motion_matching.nearest_frames import Wants
 from mocap.motion_matching.pose_database import WEIGHTS, tabulate
 from mocap.quality.seam_measures import jumps, spread
+from mocap.quality.standing_feet import plant_slides
 from tests.motion_matching.matched import WALKS, clips, walks
 from tests.motion_matching.people import ALL, WALKER, captured
 
@@ -29,7 +30,7 @@ class Walked:
         frames = command_headings(60, character.fps)
         self.motion = steer(character, frames.tolist(), speed).motion
         self.cuts = len(character.cuts) / 60
-        self.slide = plant_slides(self.motion).mean() if self.motion.contacts else np.nan
+        self.slide = np.mean([slide.far for slide in plant_slides(self.motion)])
         steps = np.abs(np.diff(self.motion.root_positions[:, [0, 2]] @ [1j, 1]))
         self.speed = steps.mean() * self.motion.fps
 
