@@ -24,7 +24,9 @@ FOLDER = Path(__file__).parents[2] / "notebooks"
 FILES = sorted(TEXTS.glob("*.toml"))
 
 # The notebooks that have their questions: five to eight quizzes, and a bet before each experiment.
-WITH_QUESTIONS = []
+WITH_QUESTIONS = [
+    path.stem for path in sorted(FOLDER.glob("*.ipynb")) if "lab.quiz(" in path.read_text("utf-8")
+]
 
 GOOD = """
 [quiz.more]
