@@ -135,8 +135,9 @@ def _convert(options: argparse.Namespace) -> int:
 
 
 def add_data(commands: "Commands") -> None:
-    """Add `mocap data list` and `mocap data sets`."""
-    data = commands.add_parser("data", help="list clips to download", description="List clips to download.")
+    """Add `mocap data list`, `mocap data sets` and `mocap data fetch`."""
+    what = "list clips to download, and download whole sets"
+    data = commands.add_parser("data", help=what, description=f"{what.capitalize()}.")
     actions = data.add_subparsers(title="actions", required=True, metavar="ACTION")
     listing = actions.add_parser(
         "list",
@@ -148,6 +149,11 @@ def add_data(commands: "Commands") -> None:
     listing.set_defaults(run=_list)
     what = "list the named sets that datasets.from_set reads, with their licences and joints"
     actions.add_parser("sets", help=what, description=f"{what.capitalize()}.").set_defaults(run=_sets)
+    what = "download all clips of a named set, once"
+    fetch = actions.add_parser("fetch", help=what, description=f"{what.capitalize()}.")
+    fetch.add_argument("set", choices=list(datasets.SETS), help="its name")
+    fetch.add_argument("--accept", action="store_true", help="accept the licence that the set is under")
+    fetch.set_defaults(run=_fetch)
 
 
 def _list(options: argparse.Namespace) -> int:
@@ -159,10 +165,19 @@ def _list(options: argparse.Namespace) -> int:
     return 0
 
 
+def _fetch(options: argparse.Namespace) -> int:
+    known = datasets.SETS[options.set]
+    if not options.accept:
+        raise MocapError(f"{known.terms()} If you accept that, add --accept ({known.size()} to download).")
+    print(f"{len(datasets.fetch_set(options.set, bar('fetching')))} clips are at hand")
+    return 0
+
+
 def _sets(_: argparse.Namespace) -> int:
     for name, known in datasets.SETS.items():
         print(f"{name:<12} {known.title}")
-        rows = [("licence", known.licence), ("address", known.address), ("rate", f"{known.fps:g} Hz")]
+        rows = [("licence", known.licence), ("allows", known.allows), ("address", known.address)]
+        rows += [("download", known.size()), ("rate", f"{known.fps:g} Hz")]
         rows += [("hips", known.hips), ("left leg", ", ".join(known.legs))]
         rows += [("at hand", f"{len(datasets.list_set(name))} clips")]
         print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows))

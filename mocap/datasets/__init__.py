@@ -7,7 +7,7 @@ Reading order (notebooks 01, 10, 11)
 --------------------------------
  1. `samples`: the bundled clips by name
  2. `cmu_database`: trials of the CMU database, fetched once
- 3. `named_sets`: sets of other labs, from a copy of your own
+ 3. `named_sets`: sets of other labs, fetched or from a copy of your own
  4. `clip_origins`: where clips were read from, to read them again
  5. `generated`: walks generated from tables of figures
  6. `gait`: what a body does in one cycle, as tables
@@ -23,7 +23,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "samples": ["SAMPLES", "sample"],
-        "named_sets": ["SETS", "NamedSet", "from_set", "list_set"],
+        "named_sets.known_sets": ["SETS", "NamedSet"],
+        "named_sets.set_clips": ["fetch_set", "from_set", "list_set"],
         "clip_origins": ["Origin"],
         "cmu_database": ["TERMS", "Trial", "cmu", "trials"],
         "generated": ["generate", "generate_walk"],

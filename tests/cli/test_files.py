@@ -169,3 +169,36 @@ def test_judge_ranks_files_and_names_what_it_could_not(clips, tmp_path, capsys):
     assert "jolt" in capsys.readouterr().out.splitlines()[1].split("0.0")[-1]
     assert main(["judge", str(tmp_path / "broken.bvh")]) == 2
     assert capsys.readouterr().out == ""
+
+
+STRETCHING = """HIERARCHY
+ROOT Hips
+{ OFFSET 0 0 0 CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT Leg { OFFSET 0 -90 0 CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 0 10 } }
+  JOINT Spine { OFFSET 0 50 0 CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+    End Site { OFFSET 0 30 0 } } }
+MOTION
+Frames: 30
+Frame Time: 0.0333333
+"""
+
+
+def test_judge_shows_bones_that_stretch_and_looks_into_folders(tmp_path, capsys):
+    """A file whose bones stretch beyond what `load` fits is judged all the same, and says so."""
+    path = tmp_path / "deep" / "stretched.bvh"
+    path.parent.mkdir()
+    rows = [f"0 90 {frame} 0 0 0 0 0 0 0 {50 + frame / 5} 0 0 0 0\n" for frame in range(30)]
+    path.write_text(STRETCHING + "".join(rows))
+    with pytest.raises(MocapError, match=r"'Spine' in one place below its parent, but for 0.02 m"):
+        load_save.load(path)
+    assert main(["judge", str(tmp_path), "--json"]) == 0
+    said = capsys.readouterr()
+    (judged,) = json.loads(said.out)
+    (bones,) = (row for row in judged["measures"] if row["name"] == "bones")
+    assert bones["value"] == pytest.approx(58) and bones["where"] == "'Spine'"
+    assert judged["score"] > 3 and judged["height"] == pytest.approx(1.729, abs=1e-3)
+    assert judged["bones"]["Leg"] == pytest.approx(0.9)
+    assert "bones change length by up to 58 mm" in said.err
+    assert load_save.bone_stretch(path)["Leg"] == 0
+    with pytest.raises(MocapError, match="stretch must be 0 or more metres, got nan"):
+        load_save.load(path, stretch=float("nan"))

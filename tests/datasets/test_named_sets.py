@@ -1,6 +1,11 @@
-"""Named sets are read from a copy of one's own; each says whose it is, and which joints its legs are."""
+"""Named sets: a copy of one's own, or fetched from a server that does all the things servers do."""
 
 import hashlib
+import io
+import re
+import threading
+import zipfile
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
@@ -9,33 +14,101 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.cli.main import main
-from mocap.datasets import named_sets
-from mocap.datasets.named_sets import SETS, from_set, list_set
+from mocap.datasets import fetch_set, from_set, list_set
+from mocap.datasets.named_sets import known_sets, resumed_downloads, set_clips
+from mocap.datasets.named_sets.known_sets import HASHES, SETS, Archive
 from mocap.errors import MocapError
 from mocap.files import load_save
 
 
 def body_of(known):
     """Return a body with the joints that a set's legs and hips are said to have."""
-    right = [named_sets._right(name) for name in known.legs]
+    right = [known_sets._right(name) for name in known.legs]
     parents = [-1, 0, 1, 2, 3, 0, 5, 6, 7]
     offsets = [[0, 0, 0], *[[x, -0.4, 0.1] for x in (0.1, 0, 0, 0, -0.1, 0, 0, 0)]]
     return Skeleton([known.hips, *known.legs, *right], parents, offsets)
 
 
+def still(known, at=1.0):
+    return Motion(body_of(known), at * np.ones((3, 3)), np.tile([1.0, 0, 0, 0], (3, 9, 1)), known.fps)
+
+
 @pytest.fixture
 def data(tmp_path, monkeypatch):
-    monkeypatch.setenv("MOCAP_DATA", str(tmp_path))
-    named_sets._show.cache_clear()
-    return tmp_path
+    monkeypatch.setenv("MOCAP_DATA", str(tmp_path / "data"))
+    set_clips._show.cache_clear()
+    return tmp_path / "data"
+
+
+def bvh(tmp_path, name, at=1.0):
+    load_save.save(still(SETS[name], at), tmp_path / "one.bvh")
+    return (tmp_path / "one.bvh").read_bytes()
+
+
+def packed(clips):
+    """Zip clips as archives do, with folders, other files, and what macOS adds."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, content in clips.items():
+            archive.writestr(f"lafan1/deep/{name}.bvh", content)
+        archive.writestr("__MACOSX/lafan1/._walk.bvh", b"rubbish")
+        archive.writestr("lafan1/README.txt", b"read me")
+    return file.getvalue()
+
+
+class Handler(BaseHTTPRequestHandler):
+    def do_GET(self):
+        server, start = self.server, 0
+        server.asked.append((self.path, self.headers.get("Range")))
+        how = server.how.pop(0) if server.how else "good"
+        body = server.files.get(self.path)
+        if body is None or how in ("404", "503"):
+            return self.send_error(503 if how == "503" else 404)
+        if (asked := self.headers.get("Range")) and how != "no ranges":
+            start = int(re.fullmatch(r"bytes=(\d+)-", asked)[1])
+            if start >= len(body):
+                return self.send_error(416)
+        rest = body[start:]
+        self.send_response(206 if start else 200)
+        self.send_header("Content-Length", str(len(rest)))
+        self.end_headers()
+        self.wfile.write(rest[: len(rest) // 2] if how == "breaks off" else rest)
+        return None
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def server(monkeypatch, tmp_path, data):
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    clips = {
+        f"{name}{number}": bvh(tmp_path, "lafan1", number) for name in ("walk", "run") for number in (1, 2)
+    }
+    server.files, server.asked, server.how = {"/set.zip": packed(clips)}, [], []
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+    thread.start()
+    home = f"http://127.0.0.1:{server.server_port}"
+    digest = hashlib.sha256(server.files["/set.zip"]).hexdigest()
+    lafan1 = SETS["lafan1"]._replace(archive=Archive(f"{home}/set.zip", 1, digest))
+    bandai = SETS["bandai_namco"]._replace(
+        archive=Archive(f"{home}/set.zip"), clip_url=home + "/{part}/{clip}.bvh"
+    )
+    monkeypatch.setitem(SETS, "lafan1", lafan1)
+    monkeypatch.setitem(SETS, "bandai_namco", bandai)
+    monkeypatch.setattr(resumed_downloads, "PIECE", 100)
+    monkeypatch.setattr(resumed_downloads.time, "sleep", lambda seconds: None)
+    yield server
+    server.shutdown()
+    server.server_close()
+    thread.join()
 
 
 @pytest.mark.parametrize("name", SETS)
 def test_a_clip_is_read_wherever_it_lies_in_the_set(data, capsys, name):
-    known, skeleton = SETS[name], body_of(SETS[name])
-    still = Motion(skeleton, np.ones((3, 3)), np.tile([1.0, 0, 0, 0], (3, 9, 1)), known.fps)
+    known = SETS[name]
     (data / name / "deep").mkdir(parents=True)
-    load_save.save(still, data / name / "deep" / "walk.bvh")
+    load_save.save(still(known), data / name / "deep" / "walk.bvh")
     assert list_set(name) == ["walk"]
     clip = from_set(name, "walk")
     assert clip.fps == known.fps
@@ -46,37 +119,155 @@ def test_a_clip_is_read_wherever_it_lies_in_the_set(data, capsys, name):
 
 
 def test_a_clip_that_is_not_there_and_a_set_that_is_not_known_are_refused(data):
-    with pytest.raises(MocapError, match=r"No clip 'x' in .*100style: get the set at zenodo.*CC BY 4.0"):
+    with pytest.raises(
+        MocapError, match=r"No clip 'x' in .*100style: `mocap data fetch 100style` gets the set"
+    ):
         from_set("100style", "x")
+    with pytest.raises(MocapError, match=r"No clip '\.\./x' in"):
+        from_set("bandai_namco", "../x")
     with pytest.raises(MocapError, match="No set 'x' is known; there are: bandai_namco, lafan1, 100style"):
         list_set("x")
     assert list_set("lafan1") == []
 
 
 def test_a_file_that_is_not_the_one_listed_is_refused(data, monkeypatch):
-    (data / "lafan1").mkdir()
+    (data / "lafan1").mkdir(parents=True)
     (data / "lafan1" / "walk.bvh").write_text("HIERARCHY")
-    monkeypatch.setitem(named_sets.HASHES, "walk", hashlib.sha256(b"another").hexdigest())
+    monkeypatch.setitem(HASHES, "walk", hashlib.sha256(b"another").hexdigest())
     with pytest.raises(MocapError, match=r"walk\.bvh is not the file listed: its checksum differs"):
         from_set("lafan1", "walk")
 
 
 def test_without_a_folder_of_ones_own_the_cache_is_taken(monkeypatch):
     monkeypatch.delenv("MOCAP_DATA", raising=False)
-    assert named_sets.folder_of("lafan1").parent.name == "mocap"
+    assert set_clips.folder_of("lafan1").parent.name == "mocap"
+
+
+def test_a_set_is_fetched_once_with_its_terms(server, data, capsys):
+    assert fetch_set("lafan1") == ["walk1", "walk2", "run1", "run2"]
+    assert "CC BY-NC-ND 4.0: free with the authors' names, but not for" in capsys.readouterr().err
+    files = {path.name for path in (data / "lafan1").iterdir()}
+    assert files == {"walk1.bvh", "walk2.bvh", "run1.bvh", "run2.bvh", "SHA256SUMS", "TERMS.txt"}
+    assert sorted(fetch_set("lafan1")) == list_set("lafan1")
+    assert len(server.asked) == 1
+    assert from_set("lafan1", "run2").root_positions[0, 0] == pytest.approx(2)
+    (data / "lafan1" / "run2.bvh").unlink()
+    assert len(fetch_set("lafan1")) == 4 and len(server.asked) == 2
+
+
+def test_a_download_that_breaks_off_goes_on_from_there(server, data):
+    whole = len(server.files["/set.zip"])
+    server.how[:] = ["breaks off", "503", "breaks off"]
+    with pytest.raises(
+        MocapError, match=r"127\.0\.0\.1:\d+/\.\.\./set\.zip breaks off or does not answer: try"
+    ):
+        fetch_set("lafan1")
+    assert {path.name for path in (data / "lafan1").iterdir()} == {"lafan1.zip.part"}
+    assert len(fetch_set("lafan1")) == 4
+    starts = [int(asked[len("bytes=") : -1]) if asked else 0 for _, asked in server.asked]
+    assert starts[0] == 0 and starts[1] == starts[2] < starts[3] < whole
+    assert whole / 2 - 100 <= starts[1] <= whole / 2
+
+
+def test_a_server_that_cannot_go_on_starts_anew(server, data):
+    server.how[:] = ["breaks off", "no ranges"]
+    assert len(fetch_set("lafan1")) == 4
+
+
+def test_a_part_that_is_whole_already_is_taken(server, data):
+    (data / "lafan1").mkdir(parents=True)
+    (data / "lafan1" / "lafan1.zip.part").write_bytes(server.files["/set.zip"])
+    assert len(fetch_set("lafan1")) == 4
+
+
+def test_another_archive_a_damaged_one_and_an_empty_one_are_refused(server, data):
+    server.files["/set.zip"] = b"a page that says sorry"
+    with pytest.raises(MocapError, match=r"set\.zip is not the file listed: its checksum differs"):
+        fetch_set("lafan1")
+    assert list((data / "lafan1").iterdir()) == []
+    with pytest.raises(MocapError, match=r"bandai_namco\.zip is damaged, or no \.zip file: delete it"):
+        fetch_set("bandai_namco")
+    (data / "bandai_namco" / "bandai_namco.zip").unlink()
+    server.files["/set.zip"] = packed({})
+    with pytest.raises(MocapError, match=r"bandai_namco\.zip holds no \.bvh file"):
+        fetch_set("bandai_namco")
+    assert list_set("bandai_namco") == []
+
+
+def test_a_clip_that_changes_at_its_source_or_here_is_refused(server, data, tmp_path):
+    name = "dataset-2_walk_shy_001"
+    server.files[f"/2/{name}.bvh"] = bvh(tmp_path, "bandai_namco", 1.0)
+    assert len(from_set("bandai_namco", name)) == 3
+    from_set("bandai_namco", name)
+    assert len(server.asked) == 1
+    kept = data / "bandai_namco" / f"{name}.bvh"
+    kept.write_bytes(kept.read_bytes() + b"\n")
+    with pytest.raises(
+        MocapError, match="is not the file fetched first, by SHA256SUMS: its checksum differs"
+    ):
+        from_set("bandai_namco", name)
+    kept.unlink()
+    server.files[f"/2/{name}.bvh"] = bvh(tmp_path, "bandai_namco", 2.0)
+    with pytest.raises(MocapError, match="is not the file fetched first, by SHA256SUMS"):
+        from_set("bandai_namco", name)
+    assert [path.name for path in (data / "bandai_namco").iterdir()] == ["SHA256SUMS"]
+    with pytest.raises(MocapError, match=r"walk_shy_001\.bvh is not the file fetched first"):
+        server.files["/set.zip"] = packed({name: bvh(tmp_path, "bandai_namco", 2.0)})
+        fetch_set("bandai_namco")
+
+
+def test_a_clip_listed_by_its_checksum_is_not_taken_from_elsewhere(server, data, tmp_path):
+    name = next(iter(HASHES))
+    server.files[f"/1/{name}.bvh"] = bvh(tmp_path, "bandai_namco")
+    with pytest.raises(MocapError, match=r"is not the file listed: its checksum differs"):
+        from_set("bandai_namco", name)
+    assert list_set("bandai_namco") == []
+
+
+def test_offline_there_is_one_sentence(server, data, monkeypatch, capsys):
+    nowhere = SETS["lafan1"]._replace(archive=Archive("http://127.0.0.1:9/set.zip", 1, "0"))
+    monkeypatch.setitem(SETS, "lafan1", nowhere)
+    assert main(["data", "fetch", "lafan1", "--accept"]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert said.startswith("mocap: 127.0.0.1:9/.../set.zip breaks off or does not answer") and len(said) < 200
+    server.files.clear()
+    with pytest.raises(MocapError, match=r"dataset-1_x_001\.bvh answers 404"):
+        from_set("bandai_namco", "dataset-1_x_001")
+    assert len(server.asked) == 1
+
+
+def test_a_folder_that_cannot_be_written_is_one_sentence(server, data):
+    data.mkdir()
+    (data / "lafan1").write_text("a file")
+    with pytest.raises(MocapError, match=r"Cannot make the folder .*lafan1"):
+        fetch_set("lafan1")
+    (data / "bandai_namco" / "bandai_namco.zip.part").mkdir(parents=True)
+    with pytest.raises(MocapError, match=r"Cannot keep .*bandai_namco\.zip"):
+        fetch_set("bandai_namco")
+
+
+def test_the_command_shows_the_licence_before_it_fetches(server, data, capsys):
+    assert main(["data", "fetch", "lafan1"]) == 2
+    said = capsys.readouterr().err
+    assert "under CC BY-NC-ND 4.0" in said and "If you accept that, add --accept (1 MB to download)" in said
+    assert server.asked == []
+    assert main(["data", "fetch", "lafan1", "--accept"]) == 0
+    assert "4 clips are at hand" in capsys.readouterr().out
 
 
 def test_the_sets_are_listed_with_their_licences(data, capsys):
     assert main(["data", "sets"]) == 0
     told = capsys.readouterr().out
-    assert all(known.licence in told and known.address in told for known in SETS.values())
+    for known in SETS.values():
+        shown = (known.licence, known.allows, known.address, known.size(), known.hips, ", ".join(known.legs))
+        assert all(text in told for text in shown)
     assert "at hand  0 clips" in told
 
 
 def test_a_real_copy(real_data, monkeypatch):
     monkeypatch.setenv("MOCAP_DATA", str(real_data / "bvh"))
     clips = list_set("bandai_namco")
-    assert set(clips) == set(named_sets.HASHES)
+    assert set(clips) == set(HASHES)
     for name in clips:
         clip = from_set("bandai_namco", name)
         assert clip.fps == SETS["bandai_namco"].fps
