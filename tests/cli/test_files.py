@@ -173,10 +173,28 @@ def test_judge_ranks_files_and_names_what_it_could_not(clips, tmp_path, capsys):
 
 STRETCHING = """HIERARCHY
 ROOT Hips
-{ OFFSET 0 0 0 CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-  JOINT Leg { OFFSET 0 -90 0 CHANNELS 3 Zrotation Xrotation Yrotation End Site { OFFSET 0 0 10 } }
-  JOINT Spine { OFFSET 0 50 0 CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
-    End Site { OFFSET 0 30 0 } } }
+{
+OFFSET 0 0 0
+CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+JOINT Leg
+{
+OFFSET 0 -90 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 0 10
+}
+}
+JOINT Spine
+{
+OFFSET 0 50 0
+CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 30 0
+}
+}
+}
 MOTION
 Frames: 30
 Frame Time: 0.0333333
