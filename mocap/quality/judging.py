@@ -1,9 +1,9 @@
 """Judge a motion, whatever made it: what stands out beyond what captured people do.
 
 Each measure is divided by a limit; up to 1 nothing stands out. The limits are ours, but for those of joints,
-which `joint_limits` explains. Of 30 captured files from nine sources 16 keep all of them. In six, of one
-source, an elbow bends backwards; in six others joints snap from one frame to the next, as after an Euler
-flip; one is a smoothed copy, whose feet skate; and in one the body is half in the floor.
+which `joint_limits` explains. Of 30 captured files from nine sources 11 keep all of them. In six, of one
+source, an elbow bends backwards; in ten joints snap from one frame to the next, as after an Euler flip; two
+are in inches, and of these one lies with the hands in the floor; one is a smoothed copy, whose feet skate.
 
 What this cannot see: whether a motion is the one that was wanted, whether it looks alive, and in which style
 it is; hands and faces; a body that walks through itself or through things; balance. Of the limits of joints
