@@ -1,6 +1,6 @@
 """Make turns that were held out, and compare them with the real ones.
 
-`python figures/turns_held_out.py FOLDER` writes the table `parametric.md` beside this script. The folder holds the
+`python figures/turns_held_out.py FOLDER` writes the table `parametric.md` beside it. The folder holds the
 walker's six `.bvh` clips: straight on, and turns by 45, 90 and 180 degrees. A turn by 90 degrees takes the
 walker more than one stride, so that its strides turn by about 70.
 """

@@ -10,7 +10,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.parametric_graphs.nearest_windows import HALF
-from mocap.parametric_graphs.stride_spaces import StrideSpace
+from mocap.parametric_graphs.stride_spaces import StrideSpace, neighbours
 from mocap.parametric_graphs.strides import mixed_way
 
 
@@ -24,6 +24,7 @@ class MadeStride:
     phases : shape (F,).
     ground, heading : shape (F,), where the root is and how the body faces.
     joints : those that windows are compared by.
+    values : shape (2,), the turn in radians and the speed in m/s that it comes to.
     """
 
     motion: Motion
@@ -31,21 +32,29 @@ class MadeStride:
     ground: Points
     heading: Array
     joints: list[int]
+    values: Array
 
     def frame(self, phase: float) -> int:
         """Give the frame nearest to a phase."""
         return int(np.abs(self.phases - phase).argmin())
-
-    def window(self, centre: int) -> Array:
-        """Give the points (K, 3) of the frames about a centre, to align with another stride's."""
-        some = slice(centre - HALF, centre + HALF + 1)
-        return np.asarray(joint_positions(self.motion[some])[:, self.joints].reshape(-1, 3))
 
     def placed(self, frames: slice, place: PlanarTransform) -> tuple[Array, Array]:
         """Place some frames: root positions (n, 3) and rotations (n, J, 4)."""
         turns = self.motion.rotations[frames].copy()
         turns[:, 0] = place.apply_orientations(turns[:, 0])
         return place.apply_points(self.motion.root_positions[frames]), turns
+
+
+def facing_windows(one: MadeStride, centre: int, other: MadeStride, into: int) -> tuple[Array, Array]:
+    """Give the points (K, 3) of two strides' frames about their centres, to align one with the other."""
+    parts = [
+        (stride.motion, slice(at - HALF, at + HALF + 1)) for stride, at in ((one, centre), (other, into))
+    ]
+    roots = np.concatenate([motion.root_positions[some] for motion, some in parts])
+    turns = np.concatenate([motion.rotations[some] for motion, some in parts])
+    both = Motion(one.motion.skeleton, roots, turns, one.motion.fps)
+    points = joint_positions(both)[:, one.joints].reshape(2, -1, 3)
+    return points[0], points[1]
 
 
 def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
@@ -72,14 +81,17 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     strides, grid = space.strides, space.strides.grid
     weights = space.weights(asked)
     (ground,), (facing,) = mixed_way(strides, weights)
-    weights = weights[0]
+    weights, (zero, one) = weights[0], strides.ends
     seconds, heights = weights @ strides.seconds, weights @ strides.heights
+    speed = np.abs(np.diff(ground[zero : one + 1])).sum() / seconds[one]
+    values = np.array([facing[one] - facing[zero] - strides.sway, speed])
     frames = np.arange(np.ceil(seconds[0] * strides.fps), np.floor(seconds[-1] * strides.fps) + 1)
     phases = np.interp(frames / strides.fps, seconds, grid)
     place = (phases - grid[0]) / (grid[1] - grid[0])
     low = np.clip(place.astype(int), 0, len(grid) - 2)
     share, used = place - low, np.flatnonzero(weights)
-    poses = np.tensordot(weights[used], strides.poses[used], 1)
+    near, parts = neighbours(np.atleast_2d(asked), space.values, space.scale)
+    poses = np.tensordot(parts[0], space.sampled_poses[near[0]], 1)
     turns = poses[low] * (1 - share)[:, None, None] + poses[low + 1] * share[:, None, None]
     turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
     ground, facing, heights = (
@@ -90,4 +102,4 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     roots = np.stack([ground.imag, heights, ground.real], axis=-1)
     marks = dict(zip(strides.contact_names, contacts.T, strict=True))
     motion = Motion(strides.skeleton, roots, turns, strides.fps, "stride", contacts=marks)
-    return MadeStride(motion, phases, ground, facing, strides.joints)
+    return MadeStride(motion, phases, ground, facing, strides.joints, values)

@@ -13,6 +13,7 @@ from mocap._shared.arrays import Array, Points
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.errors import MocapError
 from mocap.parametric_graphs.stride_spaces import StrideSpace
 from mocap.parametric_graphs.strides import mixed_way
 
@@ -60,6 +61,7 @@ def near_strike(space: StrideSpace, asked: Array, phase: float) -> NearStrike:
     reach, rate = HALF + SPAN, strides.fps
     centre = np.array([round(np.interp(phase, strides.grid, clock) * rate) for clock in seconds])
     times = (centre[:, None] + np.arange(-reach, reach + 1)) / rate
+    _check_margins(times, seconds, rate)
     phases = np.array([np.interp(t, clock, strides.grid) for t, clock in zip(times, seconds, strict=True)])
     place = (phases - strides.grid[0]) / (strides.grid[1] - strides.grid[0])
     low = np.clip(place.astype(int), 0, len(strides.grid) - 2)
@@ -73,6 +75,18 @@ def near_strike(space: StrideSpace, asked: Array, phase: float) -> NearStrike:
     motion = Motion(strides.skeleton, roots, turns.reshape(-1, *turns.shape[2:]), rate)
     points = joint_positions(motion)[:, strides.joints]
     return NearStrike(points.reshape(*low.shape, -1, 3), phases)
+
+
+def _check_margins(times: Array, seconds: Array, fps: float) -> None:
+    """Refuse windows that run off the margins by more than a frame; they would hold the last frame there."""
+    off = np.maximum(seconds[:, 0] - times[:, 0], times[:, -1] - seconds[:, -1])
+    worst = int(off.argmax())
+    if off[worst] > 1 / fps:
+        whole = np.ptp(seconds[worst])
+        raise MocapError(
+            f"A window runs {off[worst]:.2f} s off a stride of {whole:.2f} s, margins and all: "
+            "cut strides with a larger margin, or leave quick ones out."
+        )
 
 
 def _mixed_poses(space: StrideSpace, weights: Array, low: Array, share: Array) -> Array:

@@ -13,7 +13,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.control.characters import Pose
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.parametric_graphs.made_strides import MadeStride, make_stride
+from mocap.parametric_graphs.made_strides import MadeStride, facing_windows, make_stride
 from mocap.parametric_graphs.nearest_windows import HALF, WINDOW
 from mocap.parametric_graphs.parametric_edges import Way
 from mocap.parametric_graphs.parametric_motion_graphs import ParametricGraph
@@ -21,17 +21,20 @@ from mocap.parametric_graphs.stride_spaces import StrideSpace
 
 
 class Chosen(NamedTuple):
-    """A decision: the node, what was wished of it, what its box allows, and the seam's RMS distance, m.
+    """A decision: the node, what was wished of it, what its box allows, what it came to, the seam's cost, m.
+
+    Asked by turn and speed, a box has corners that no clip fills; there `got` differs from `taken`.
 
     Examples
     --------
-    >>> Chosen("walk", np.array([1.2]), np.array([0.8]), 0.02).node
+    >>> Chosen("walk", np.array([1.2]), np.array([0.8]), np.array([0.8]), 0.02).node
     'walk'
     """
 
     node: str
     wished: Array
     taken: Array
+    got: Array
     cost: float
 
 
@@ -78,6 +81,8 @@ class ParametricController:
         if self.node not in graph.graph:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph.graph)}.")
         space = graph.space(self.node)
+        for name in graph.graph:  # now, not at the first stride of each
+            _ = graph.space(name).sampled_poses
         straight = np.array([0.0, np.median(space.strides.values[:, 1])])[space.columns]
         self.parameters = space.clipped(straight)
         self.chosen: list[Chosen] = []
@@ -156,12 +161,12 @@ class ParametricController:
         taken = np.clip(wished, np.minimum(way.low, way.high), np.maximum(way.low, way.high))
         made, centre = make_stride(space, taken), self._at + HALF
         into = made.frame(way.enter)
-        window, other = self.stride.window(centre), made.window(into)
+        window, other = facing_windows(self.stride, centre, made, into)
         lay = align(window, other)
         cost = float(np.sqrt(((window - lay.apply_points(other)) ** 2).sum(axis=-1).mean()))
         place = self.place @ lay
         blended = _blend(_Playing(self.stride, self.place, self._at), _Playing(made, place, into - HALF))
-        self.chosen.append(Chosen(node, wished, taken, cost))
+        self.chosen.append(Chosen(node, wished, taken, made.values[space.columns], cost))
         self.node, self.parameters, self.stride, self.place = node, taken, made, place
         self._play(blended, into + HALF + 1)
 

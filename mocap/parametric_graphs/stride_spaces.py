@@ -1,18 +1,21 @@
 """A space of strides: ask for a turn and a speed, and get the weights of a blend that has them [KG04]."""
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 from mocap.match_webs.spaces.wishes import neighbour_weights
 from mocap.parametric_graphs.strides import Strides, mixed_way
 
 PARAMETERS = ("turn", "speed")
 SMALLEST = 1e-3  # a bell's weight below this share of the largest counts as 0
+FEWEST = 5  # strides within two widths of each part of a range
 NEIGHBOURS = 2  # more than the parameters: with one more, as in [HG07, 4], boxes jump
 
 
@@ -50,6 +53,13 @@ class StrideSpace:
         """Mix the mixes of the nearest samples: parameters (M, d) give weights (M, N)."""
         near, shares = neighbours(np.atleast_2d(asked), self.values, self.scale)
         return np.asarray(np.einsum("mk,mkn->mn", shares, self.mixes[near]))
+
+    @cached_property
+    def sampled_poses(self) -> NDArray[np.float32]:
+        """The poses of all sampled mixes, (S, G, J, 4), made once: a stride is then a mix of a few."""
+        poses = self.strides.poses
+        mixed = self.mixes.astype(np.float32) @ poses.reshape(len(poses), -1).astype(np.float32)
+        return mixed.reshape(-1, *poses.shape[1:])
 
     def clipped(self, asked: ArrayLike) -> Array:
         """Bring parameters (..., d) into the range."""
@@ -152,8 +162,12 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
 
     Raises
     ------
-    MocapError : for unknown parameters, a range that is none or lies outside what the samples come to, and a
-        width that is not above 0.
+    MocapError : for unknown parameters, a range that is none or lies outside what the samples come to, a
+        width that is not above 0, fewer strides than d + 2, and strides that do not vary.
+
+    Warns
+    -----
+    MocapWarning : where fewer than five strides are within two widths of some part of the range.
 
     Examples
     --------
@@ -171,6 +185,7 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     columns, count = [PARAMETERS.index(name) for name in names], len(names)
     samples = samples or (120 if count == 1 else 400)
     values = strides.values[:, columns]
+    _check_strides(names, values, width)
     if count == 1:
         asked = np.linspace(lowest - width, highest + width, samples)
     else:
@@ -186,7 +201,48 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
             f"These strides come to a {names[number]} of {come[:, number].min():.2f} to "
             f"{come[:, number].max():.2f}, outside the range asked for."
         )
+    _warn_of_gaps(names, values, width, (lowest, highest))
     return StrideSpace(strides, names, come, mixes, lowest, highest)
+
+
+def _check_strides(names: tuple[str, ...], values: Array, width: Array) -> None:
+    """Refuse strides that are too few, or hardly differ in what they shall be asked by."""
+    if len(values) < len(names) + NEIGHBOURS:
+        raise MocapError(
+            f"A space asked by {' and '.join(names)} takes {len(names) + NEIGHBOURS} strides or more, "
+            f"got {len(values)}: add clips, or longer ones, for a stride needs room at its ends."
+        )
+    spans = np.ptp(values, axis=0)
+    if (spans < width / 2).any():
+        number = int((spans / width).argmin())
+        low, high = (
+            _said(names[number], values[:, number].min()),
+            _said(names[number], values[:, number].max()),
+        )
+        raise MocapError(
+            f"{len(values)} strides hardly vary in {names[number]}, from {low} to {high}: "
+            f"ask by something else, or add clips that vary."
+        )
+
+
+def _warn_of_gaps(names: tuple[str, ...], values: Array, width: Array, ends: tuple[Array, Array]) -> None:
+    """Warn of parts of a range with hardly any stride; of two parameters the samples are the range."""
+    if len(names) > 1:
+        return
+    parts = np.linspace(*ends, 25)[:, 0]
+    near = (np.abs(parts[:, None] - values[:, 0]) <= 2 * width[0]).sum(axis=1)
+    if near.min() < FEWEST:
+        warnings.warn(
+            f"Only {near.min()} of {len(values)} strides are near a {names[0]} of "
+            f"{_said(names[0], parts[near.argmin()])}: blends there hardly differ; narrow the range, or add "
+            "clips.",
+            MocapWarning,
+            stacklevel=3,
+        )
+
+
+def _said(name: str, value: float) -> str:
+    return f"{np.degrees(value):.0f}°" if name == "turn" else f"{value:.2f} m/s"
 
 
 def _check(names: tuple[str, ...], width: Array, low: Array, high: Array) -> None:

@@ -26,7 +26,7 @@ from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import distinct_joints
 
 STRIDE, LEFT_STEP, RIGHT_STEP = "lrl", "lr", "rl"
-MARGIN = 0.38  # of a stride, before the first and after the last strike
+MARGIN, WIDEST = 0.38, 0.5  # of a stride, before the first and after the last strike
 FINE = 60  # phases per stride
 STEP_LASTS = (0.23, 1.0)  # seconds, from strike to strike; others are no steps of a walk or run
 STRAIGHT = np.radians(20)  # a stride that turns by less
@@ -97,7 +97,14 @@ class _Found(NamedTuple):
     around: Array
 
 
-def cut_strides(clips: Sequence[Motion], *, feet: str = STRIDE, by: str = "strikes") -> Strides:
+def cut_strides(
+    clips: Sequence[Motion],
+    *,
+    feet: str = STRIDE,
+    by: str = "strikes",
+    label: str = "",
+    margin: float = MARGIN,
+) -> Strides:
     """Cut clips at the strikes of their feet, and put all examples on one grid of phases [HG07, after KG04].
 
     Parameters
@@ -106,15 +113,16 @@ def cut_strides(clips: Sequence[Motion], *, feet: str = STRIDE, by: str = "strik
     feet : which strikes an example runs over: "lrl" for strides, "lr" and "rl" for steps.
     by : "strikes" makes time even between strikes [ours]; "curves" registers all examples with the one of
         median turn by registration curves [KG03], as the paper does.
+    label : keep examples of which every frame has this label; "" for all.
+    margin : of a stride, kept at both ends for the windows of transitions; quick strides need 0.5, the most.
 
     Returns
     -------
-    The examples. Left out are those with other strikes between, steps shorter than 0.23 s or longer than 1 s,
-    and those whose margin runs off their clip.
+    The examples, but those with other strikes between, steps outside 0.23 to 1 s, or too near a clip's end.
 
     Raises
     ------
-    MocapError : for no clips, feet that are none of the three, and where no example is found.
+    MocapError : for no clips, settings that are none of these, and where no example is found.
 
     Examples
     --------
@@ -127,32 +135,33 @@ def cut_strides(clips: Sequence[Motion], *, feet: str = STRIDE, by: str = "strik
         raise MocapError(f"Examples run over the strikes 'lrl', 'lr' or 'rl', got '{feet}'.")
     if by not in ("strikes", "curves"):
         raise MocapError(f"Examples are put on one clock by 'strikes' or by 'curves', got '{by}'.")
+    if not 0 < margin <= WIDEST:
+        raise MocapError(f"A margin is above 0 and at most {WIDEST} of a stride, got {margin}.")
     if not clips:
         raise MocapError("Strides are cut out of one clip or more, got none.")
     require_alike(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
-    grid = _grid(feet)
+    grid = _grid(feet, margin)
     found, dropped = [], 0
     for clip in clips:
-        for stretch in _stretches(clip, feet):
+        for stretch in _stretches(clip, feet, label):
             frames = None if stretch is None else np.interp(grid, *_phases(stretch))
             if stretch is None or frames is None or frames[0] < 0 or frames[-1] > len(stretch.clip) - 1:
                 dropped += 1
             else:
                 found.append((stretch, frames))
     if not found:
-        raise MocapError(f"No example of '{feet}' in {len(clips)} clips; {dropped} were left out.")
+        what = f"'{feet}' labelled '{label}'" if label else f"'{feet}'"
+        raise MocapError(f"No example of {what} in {len(clips)} clips; {dropped} were left out.")
     if by == "curves":
         found = _registered(found, grid)
     return _tabled(found, grid, feet, dropped)
 
 
-def _grid(feet: str) -> Array:
+def _grid(feet: str, margin: float) -> Array:
     """Space phases evenly, `FINE` per stride, with a margin at both ends."""
-    share = 2 / (len(feet) - 1)  # strides per example, inverted
-    step = share / FINE
-    margin = round(MARGIN * share / step)
-    return np.asarray(np.arange(-margin, round(1 / step) + margin + 1) * step, float)
+    step, beyond = 2 / (len(feet) - 1) / FINE, round(margin * FINE)
+    return np.asarray(np.arange(-beyond, round(1 / step) + beyond + 1) * step, float)
 
 
 def _strikes(clip: Motion) -> list[tuple[int, str]]:
@@ -167,13 +176,14 @@ def _strikes(clip: Motion) -> list[tuple[int, str]]:
     return sorted(event for event in events if event[0] > 0)
 
 
-def _stretches(clip: Motion, feet: str) -> Iterator[_Found | None]:
-    """Find stretches with the strikes asked for; None for one that begins right and cannot be used."""
+def _stretches(clip: Motion, feet: str, label: str) -> Iterator[_Found | None]:
+    """Find stretches with the strikes and label asked for; None for one that begins right and is no use."""
     events, count = _strikes(clip), len(feet)
     low, high = (seconds * clip.fps for seconds in STEP_LASTS)
     for first in range(len(events) - count + 1):
         some = events[first : first + count]
-        if some[0][1] != feet[0]:
+        named = clip.labels[label] if label in clip.labels else np.full(len(clip), not label)
+        if some[0][1] != feet[0] or not named[some[0][0] : some[-1][0] + 1].all():
             continue
         at = np.array([frame for frame, _ in some], float)
         gaps = np.diff(at)
@@ -196,9 +206,7 @@ def _phases(stretch: _Found) -> tuple[Array, Array]:
 
 def _registered(found: list[tuple[_Found, Array]], grid: Array) -> list[tuple[_Found, Array]]:
     """Put the frames of all examples on the clock of the one whose turn is the median [KG03]."""
-    clips = []
-    for stretch, frames in found:
-        clips.append(stretch.clip[int(frames[0]) : int(np.ceil(frames[-1])) + 1])
+    clips = [stretch.clip[int(frames[0]) : int(np.ceil(frames[-1])) + 1] for stretch, frames in found]
     turns = [float(np.ptp(np.unwrap(heading(clip.rotations[:, 0])))) for clip in clips]
     middle = int(np.argsort(turns)[len(turns) // 2])
     registration = register(clips, reference=middle, slack=0.0)
@@ -243,7 +251,7 @@ def _calibrated(strides: Strides, *, steps: bool) -> Strides:
         sway = float(np.median(values[calm, 0]))
         values[:, 0] -= sway
     straight = np.abs(values[:, 0]) < STRAIGHT
-    straight = straight if straight.any() else np.ones(len(values), bool)
+    straight |= not straight.any()
     ground, _ = mixed_way(strides, np.eye(len(values))[straight])
     zero, one = strides.ends
     offset = float(np.median(np.angle(ground[:, one] - ground[:, zero])))

@@ -4,8 +4,9 @@ import numpy as np
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.planar import PlanarTransform
-from mocap.parametric_graphs.made_strides import make_stride
+from mocap.parametric_graphs.made_strides import facing_windows, make_stride
 from mocap.parametric_graphs.nearest_windows import WINDOW
+from mocap.parametric_graphs.stride_spaces import measure_mixes
 from tests.parametric_graphs.built import space
 
 
@@ -33,8 +34,23 @@ def test_feet_hardly_slide_while_they_are_planted():
 
 def test_it_can_be_placed_and_windowed():
     made = make_stride(space(), np.array([0.0]))
-    assert made.window(made.frame(0.5)).shape == (WINDOW * len(made.joints), 3)
+    window, other = facing_windows(made, made.frame(0.5), made, made.frame(0.6))
+    assert window.shape == other.shape == (WINDOW * len(made.joints), 3)
     roots, turns = made.placed(slice(3, 9), PlanarTransform(np.pi / 2, 1.0, 2.0))
     assert roots.shape == (6, 3) and turns.shape == (6, 38, 4)
     here = made.motion.root_positions[3]
     np.testing.assert_allclose(roots[0], [here[2] + 1, here[1], -here[0] + 2], atol=1e-9)
+
+
+def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
+    """Mixes of sampled mixes, kept in single precision, against the weights of all strides."""
+    tested, asked = space(), np.array([0.4])
+    strides, made = tested.strides, make_stride(tested, asked)
+    weights = tested.weights(asked)
+    np.testing.assert_allclose(made.values, measure_mixes(strides, weights)[0], atol=1e-12)
+    poses = np.tensordot(weights[0], strides.poses, 1)
+    poses /= np.linalg.norm(poses, axis=-1, keepdims=True)
+    frame = made.frame(0.0)
+    at = int(np.abs(strides.grid - made.phases[frame]).argmin())
+    near = np.abs(made.motion.rotations[frame, 1:] - poses[at - 1 : at + 2, 1:]).min(axis=0)
+    assert near.max() < 0.02

@@ -3,9 +3,14 @@
 import numpy as np
 import pytest
 
+from mocap.body.motion import resample
+from mocap.datasets.generated import generate_walk
+from mocap.errors import MocapError
 from mocap.matching.distance_grids import distance_grid
-from mocap.parametric_graphs.made_strides import make_stride
+from mocap.parametric_graphs.made_strides import facing_windows, make_stride
 from mocap.parametric_graphs.nearest_windows import HALF, SPAN, WINDOW, near_strike, optimal_transitions
+from mocap.parametric_graphs.stride_spaces import make_space
+from mocap.parametric_graphs.strides import cut_strides
 from tests.parametric_graphs.built import space
 
 
@@ -40,5 +45,16 @@ def test_only_the_frames_near_a_strike_are_made():
     frames = 2 * (HALF + SPAN) + 1
     assert near.points.shape[:2] == near.phases.shape == (1, frames)
     middle = made.frame(near.phases[0, HALF + SPAN])
-    window = made.window(middle).reshape(WINDOW, -1, 3)
+    window = facing_windows(made, middle, made, middle)[0].reshape(WINDOW, -1, 3)
     np.testing.assert_allclose(near.points[0, SPAN:-SPAN], window, atol=2e-3)
+
+
+def test_windows_that_run_off_the_margins_of_quick_strides_are_refused():
+    """A quiet `np.interp` would hold the last frame; with half a stride beyond its strikes a jog has room."""
+    jogs = [
+        resample(generate_walk([[0, 0], [side, 6], [5 * side, 12]], style="jog"), 30) for side in (-2, 0, 2)
+    ]
+    tight, wide = (make_space(cut_strides(jogs, margin=m), 0.2, -0.3, 0.3) for m in (0.3, 0.5))
+    with pytest.raises(MocapError, match=r"A window runs 0.\d+ s off a stride of 1.\d+ s, margins and all"):
+        near_strike(tight, np.zeros((1, 1)), 1.0)
+    assert np.ptp(near_strike(wide, np.zeros((1, 1)), 1.0).phases) > 0.6

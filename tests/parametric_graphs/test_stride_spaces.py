@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
+from mocap.parametric_graphs.nearest_windows import near_strike
 from mocap.parametric_graphs.stride_spaces import (
     StrideSpace,
     bell_weights,
@@ -14,7 +15,8 @@ from mocap.parametric_graphs.stride_spaces import (
     measure_mixes,
     neighbours,
 )
-from tests.parametric_graphs.built import space, strides
+from mocap.parametric_graphs.strides import cut_strides
+from tests.parametric_graphs.built import clips, space, strides
 
 
 def asked_and_got(tested, goals):
@@ -116,3 +118,64 @@ def test_what_makes_no_sense_is_refused(settings, sentence):
 def test_more_neighbours_than_samples_are_refused():
     with pytest.raises(MocapError, match="3 neighbours are taken, but there are 2 samples"):
         neighbours(np.zeros((1, 1)), np.ones((2, 1)), np.ones(1))
+
+
+def some(count, spread=1.0):
+    """Strides evenly spread over the turns, as many as asked for."""
+    turns = strides().values[:, 0]
+    wanted = np.linspace(-spread, spread, count)
+    return strides().take(np.isin(np.arange(len(turns)), np.abs(turns - wanted[:, None]).argmin(axis=1)))
+
+
+def test_too_few_strides_are_refused_with_what_helps():
+    with pytest.raises(
+        MocapError, match=r"asked by turn takes 3 strides or more, got 2: add clips, or longer"
+    ):
+        make_space(some(2), 0.2, -0.5, 0.5)
+    with pytest.raises(MocapError, match="asked by turn and speed takes 4 strides or more, got 3"):
+        make_space(some(3), [0.2, 0.1], [-0.5, 0.7], [0.5, 0.9], parameters=("turn", "speed"))
+
+
+def test_strides_that_do_not_vary_are_refused():
+    straight = cut_strides([clips()[3]])
+    with pytest.raises(MocapError, match=r"hardly vary in turn, from -1° to 1°: ask by something else"):
+        make_space(straight, np.radians(14), -0.5, 0.5)
+    with pytest.warns(MocapWarning, match="of 7 strides are near a speed of 1"):
+        by_speed = make_space(straight, 0.02, 1.0, 1.2, parameters=("speed",))
+    assert by_speed.high[0] > 1.1
+
+
+def test_a_range_with_gaps_is_said():
+    with pytest.warns(MocapWarning, match=r"Only \d of \d+ strides are near a turn of -?\d+°: blends there"):
+        make_space(some(8, 1.2), 0.1, -1.2, 1.2)
+
+
+def test_weights_never_reach_beyond_the_outermost_samples():
+    tested = space()
+    far = tested.weights([[-9.0], [9.0]])
+    np.testing.assert_allclose(far.sum(axis=1), 1)
+    ends = measure_mixes(tested.strides, far)[:, 0]
+    assert tested.values.min() - 0.02 <= ends[0] < ends[1] <= tested.values.max() + 0.02
+
+
+def test_corners_of_a_box_of_two_parameters_hold_strides_that_no_clip_has():
+    """Asked for anything in the box, degrees are off; drawn among the samples, a tenth of that."""
+    both = make_space(strides(), [0.2, 0.1], [-1.2, 0.6], [1.2, 1.1], parameters=("turn", "speed"))
+    random = np.random.default_rng(2)
+    anywhere = random.uniform(both.low, both.high, (200, 2))
+    among = draw_parameters(both, 200, random)
+    off = [np.abs(measure_mixes(both.strides, both.weights(a)) - a)[:, 0] for a in (anywhere, among)]
+    assert np.degrees(off[0].max()) > 10 and off[0].mean() > 4 * off[1].mean()
+
+
+def test_a_change_of_two_degrees_changes_the_clip_by_millimetres():
+    """Where windows are compared: a bell's space, a narrow bell's, and raw strides, the nearest few."""
+    smooth, changes = space(), []
+    raw = StrideSpace(
+        smooth.strides, ("turn",), smooth.strides.values[:, :1], np.eye(98), smooth.low, smooth.high
+    )
+    asked = np.linspace(-1.1, 1.1, 60)[:, None]
+    for tested in (smooth, raw):
+        one, other = (near_strike(tested, a, 0.0).points for a in (asked, asked + np.radians(2)))
+        changes.append(100 * np.median(np.sqrt(((one - other) ** 2).sum(axis=-1).mean(axis=(1, 2)))))
+    assert changes[0] < 0.4 and changes[1] > 1.2 > 4 * changes[0]

@@ -118,6 +118,8 @@ def test_feet_that_are_not_marked_are_marked():
         (lambda c: cut_strides([]), "one clip or more, got none"),
         (lambda c: cut_strides([c], feet="ll"), "'lrl', 'lr' or 'rl', got 'll'"),
         (lambda c: cut_strides([c], by="ear"), "by 'strikes' or by 'curves', got 'ear'"),
+        (lambda c: cut_strides([c], margin=0.7), "above 0 and at most 0.5 of a stride, got 0.7"),
+        (lambda c: cut_strides([c], label="jog"), "No example of 'lrl' labelled 'jog' in 1 clips; 0 were"),
         (lambda c: cut_strides([c[:40]]), r"No example of 'lrl' in 1 clips; \d were left out"),
         (
             lambda c: cut_strides([replace(c, contacts={"head": np.ones(len(c), bool)})]),
@@ -143,3 +145,11 @@ def test_some_of_the_examples_can_be_taken():
     np.testing.assert_array_equal(some.poses, cut.poses[:5])
     joined = concatenate([resample(generate_walk([[0, 0], [0, 5]]), 30)])
     assert len(cut_strides([joined])) > 1
+
+
+def test_only_strides_with_a_label_are_cut():
+    clip = resample(sample("sneak"), 30)
+    sneaks, all_ = cut_strides([clip], label="sneak"), cut_strides([clip])
+    assert 3 < len(sneaks) < len(all_) / 2
+    assert sneaks.values[:, 1].max() < 0.62 < all_.values[:, 1].max()
+    assert len(cut_strides([clip], margin=0.2)) >= len(all_)

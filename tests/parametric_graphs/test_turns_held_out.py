@@ -5,6 +5,7 @@ import pytest
 import turns_held_out
 from turns_held_out import CASES, WAYS
 
+pytestmark = pytest.mark.exhaustive
 CURVES, STRIKES, PLAIN, ANYWHERE = WAYS
 
 
@@ -29,4 +30,4 @@ def test_sharper_turns_have_the_knees_and_hips_of_real_ones(strides, case):
     """Not the stride's length: at 100 to 125 degrees two strides, both slow, are all that is sharper."""
     found = turns_held_out.compare(strides, case)
     assert np.abs(found.off(CURVES)[[0, 1, 3]]).max() <= 2
-    assert np.abs(found.off(CURVES)).max() <= 3 < np.abs(found.off(ANYWHERE)).max() + 0.5
+    assert np.abs(found.off(CURVES)).max() <= 3 and found.off(ANYWHERE)[0] < -2
