@@ -57,12 +57,18 @@ def said(text):
 
 
 def printed(name):
-    """Join all that the cells of a notebook print or show as text, pictures' sentences too."""
+    """Join all that the cells of a notebook print or show as text, pictures' sentences too.
+
+    What a quiz or a bet asks is prose; what came out of a bet is a result.
+    """
     parts = []
     for cell in read(name).cells:
         for output in cell.get("outputs", ()):
-            parts.append(output.get("text", ""))
-            parts += [text for kind, text in output.get("data", {}).items() if kind == "text/plain"]
+            text = output.get("data", {}).get("text/plain", "")
+            if cell.source.startswith("lab.bets("):
+                text = "\n".join(line.rpartition(": ")[2] for line in text.splitlines())
+            if not cell.source.startswith(("lab.quiz(", "lab.bet(")):
+                parts += [output.get("text", ""), text]
     return "\n".join(parts)
 
 
