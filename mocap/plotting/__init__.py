@@ -52,7 +52,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "charts": ["asked_and_walked", "distance_image", "footprints", "joint_curve", "path_from_above"],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
-        "spread_charts": ["Band", "quartile_band", "walk_rows"],
+        "spread_charts": ["Band", "quartile_band", "seen_beside_measured", "walk_rows"],
         "picture": ["Picture", "show"],
         "many_clips.group_plans": ["draw_group_plan"],
         "many_clips.web_charts": ["match_tree", "space_image", "target_poses", "web_image"],

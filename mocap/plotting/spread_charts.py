@@ -1,4 +1,4 @@
-"""Charts of samples: medians with their quartiles, and random walks as rows of steps."""
+"""Charts of samples: medians with their quartiles, what people see, and random walks as rows of steps."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
@@ -87,3 +88,39 @@ def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> Ax
     image = ax.imshow(taken, cmap=SEAMS, vmin=0, vmax=highest, aspect="auto", interpolation="nearest")
     ax.set(xlabel="step of the walk", ylabel="walk")
     return image
+
+
+def seen_beside_measured(
+    seen: ArrayLike, x: ArrayLike, measured: ArrayLike, labels: tuple[str, str]
+) -> tuple[Axes, Axes]:
+    """Draw how well people see seams above a measure of the same seams.
+
+    Parameters
+    ----------
+    seen : shape (n, 4), rows (x, d′, low, high); a limit may be infinite.
+    x, measured : shapes (m,) and (m, k), k measurements at each x, as for `quartile_band`.
+    labels : of the x axis and of the measure, with units.
+
+    Returns
+    -------
+    The upper axes and the lower ones, of a new figure that pyplot does not know.
+
+    Examples
+    --------
+    >>> points = [[2, 2.8, 1.4, np.inf], [10, 0.9, 0.0, 1.9]]
+    >>> upper, _ = seen_beside_measured(points, [2, 10], [[3, 4], [1, 2]], ("window (frames)", "jolt"))
+    >>> upper.lines[1].get_ydata().tolist()
+    [2.8, 0.9]
+
+    Notebook: 09b-blend-window
+    """
+    upper, lower = Figure(figsize=(6, 5), layout="constrained").subplots(2, 1, sharex=True)
+    at, value, low, high = np.atleast_2d(np.asarray(seen, float)).T
+    upper.axhline(0, color=QUIET, linestyle=":", label="guessing")
+    upper.plot(at, value, "o-", color=CURVES[0], markersize=5, label="d′ with its 95 % interval")
+    upper.vlines(at, np.maximum(low, -9), np.minimum(high, 9), color=CURVES[0], linewidth=1.5)
+    upper.set(ylabel="seen: d′", ylim=(-1.5, 4))
+    upper.legend(frameon=False)
+    quartile_band(x, measured, colour=CURVES[0], ax=lower)
+    lower.set(xlabel=labels[0], ylabel=f"measured: {labels[1]}")
+    return upper, lower

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.plotting.spread_charts import quartile_band, walk_rows
+from mocap.plotting.spread_charts import quartile_band, seen_beside_measured, walk_rows
 
 
 def test_a_band_reaches_from_quartile_to_quartile_about_the_median():
@@ -34,3 +34,16 @@ def test_rows_show_transitions_by_cost_and_nothing_after_the_end():
     assert image.get_array().compressed().tolist() == [150.0, 300.0]
     assert image.get_clim() == (0, 400.0)
     assert image.axes.get_xlabel() == "step of the walk"
+
+
+def test_what_is_seen_stands_above_what_is_measured():
+    points = [[10, 0.9, 0.0, 1.9], [20, -0.2, -1.1, 0.8], [30, 2.8, 1.4, np.inf]]
+    upper, lower = seen_beside_measured(points, [10, 20], [[3, 4], [1, 2]], ("window (frames)", "jolt (m/s)"))
+    guessing, curve = upper.lines
+    assert not np.any(guessing.get_ydata())
+    assert curve.get_ydata().tolist() == [0.9, -0.2, 2.8]
+    ends = [segment[:, 1].tolist() for segment in upper.collections[0].get_segments()]
+    assert ends == [[0.0, 1.9], [-1.1, 0.8], [1.4, 9.0]]  # without an upper limit the line leaves the picture
+    assert upper.get_ylim()[1] < 9
+    assert (lower.get_xlabel(), lower.get_ylabel()) == ("window (frames)", "measured: jolt (m/s)")
+    assert lower.lines[0].get_ydata().tolist() == [3.5, 1.5]

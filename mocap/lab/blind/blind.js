@@ -1,0 +1,113 @@
+// The blind test: pairs of films side by side, of which the reader chooses the one with the seam. The player's scripts,
+// which stand before this one, draw the bodies.
+
+const PAPER = { ink: "#333333", asked: "#000000", line: "#bbbbbb", shadow: "#000000" };
+const PAUSE = 0.5; // seconds of empty canvas between two showings
+const SOONEST = 0.4; // seconds into a pair from which on answers count, so that no key counts twice
+
+function part(name, set = {}, ...inside) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(set)) {
+    if (key.startsWith("on")) made.addEventListener(key.slice(2), value); else made.setAttribute(key, value);
+  }
+  if (/^(button|input)$/.test(name)) made.dataset.lmSuppressShortcuts = "true"; // JupyterLab leaves their keys alone
+  made.append(...inside);
+  return made;
+}
+
+class BlindTest {
+  constructor(root) {
+    this.root = root;
+    this.spec = JSON.parse(atob(root.dataset.spec));
+    this.count = this.spec.onLeft.length;
+    this.answers = [];
+    this.status = part("p", { role: "status" });
+    this.stage = part("div", {}, part("button", { type: "button", onclick: () => this.start() }, "Start the test"));
+    root.append(this.stage, this.status);
+  }
+
+  async start() {
+    const bytes = await inflated(this.root.dataset.films);
+    this.films = this.spec.films.map((film) => Object.assign(new Character({ ...this.spec.body, ...film }, bytes, {}), { trail: [] }));
+    for (const still of this.root.querySelectorAll(":scope > :is(img, p:first-child)")) still.hidden = true;
+    const sides = [["left", "←"], ["right", "→"]];
+    this.buttons = sides.map(([side, arrow]) => part("button", { type: "button", onclick: () => this.answer(side) }, `${arrow} the ${side} one`));
+    this.pictures = sides.map(([side]) => {
+      const camera = new Camera();
+      camera.reset(0.2);
+      camera.yaw = 1;
+      return new Picture(part("canvas", { role: "img", "aria-label": `the ${side} film` }), camera);
+    });
+    const pair = part("div", { class: "pair" }, ...this.pictures.map((picture, at) => part("div", {}, picture.canvas, this.buttons[at])));
+    this.stage.replaceChildren(part("p", {}, "Which of the two has the seam? If you cannot see it, guess."), pair);
+    this.root.addEventListener("keydown", (event) => {
+      const side = { ArrowLeft: "left", ArrowRight: "right" }[event.key];
+      if (!side || this.done()) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.answer(side);
+    });
+    this.buttons[0].focus();
+    this.next();
+    requestAnimationFrame((now) => this.draw(now));
+  }
+
+  done() { return this.answers.length === this.count; }
+
+  next() {
+    this.since = null;
+    const at = this.answers.length, films = [this.films[2 * at], this.films[2 * at + 1]]; // the seam comes first
+    this.shown = this.spec.onLeft[at] ? films : films.reverse();
+    this.status.textContent = `Pair ${at + 1} of ${this.count}`;
+  }
+
+  draw(now) {
+    if (this.done() || !this.root.isConnected) return;
+    this.since ??= now;
+    const time = ((now - this.since) / 1000) % (this.shown[0].seconds + PAUSE);
+    this.pictures.forEach((picture, at) => {
+      const film = this.shown[at];
+      if (time > film.seconds) return picture.clear();
+      picture.draw({ characters: [film], time, asked: [], drawn: [], pen: null, sides: this.spec.sides, marks: {},
+        palette: PAPER, ghosts: false, target: this.target(film, time), distance: 3.8, reach: 6 });
+    });
+    requestAnimationFrame((later) => this.draw(later));
+  }
+
+  // The camera follows the root, averaged over a second, so that it hides no jerk by moving along.
+  target(film, time) {
+    const places = [-0.5, -0.25, 0, 0.25, 0.5].map((later) => film.pose(Math.min(Math.max(time + later, 0), film.seconds)));
+    const mean = (k) => places.reduce((sum, pose) => sum + pose[k], 0) / places.length;
+    return [mean(0), 0.85, mean(2)];
+  }
+
+  answer(side) {
+    if (this.done() || this.since === null || (performance.now() - this.since) / 1000 < SOONEST) return;
+    const right = (side === "left") === this.spec.onLeft[this.answers.length];
+    this.answers.push({ side, right, seconds: (performance.now() - this.since) / 1000 });
+    if (this.done()) this.end(); else this.next();
+  }
+
+  end() {
+    const right = this.answers.filter((answer) => answer.right).length;
+    const left = this.answers.filter((answer) => answer.side === "left").length;
+    this.status.textContent = `${this.spec.sentences[right]} You chose the left film ${left} times.`;
+    const name = part("input", { autocomplete: "off", "aria-label": "a name or number for the file", value: `viewer-${Math.floor(Math.random() * 1e6)}` });
+    const save = part("button", { type: "button", onclick: () => this.save(name.value) }, "Save my answers");
+    this.stage.replaceChildren(part("p", {}, "A name or number for the file: ", name, " ", save));
+    save.focus();
+  }
+
+  save(name) {
+    const observer = name.replace(/[^\p{L}\p{N}_-]+/gu, "-") || "viewer", { below_cm, window, seed } = this.spec.plan;
+    const rows = this.answers.map(({ right, side, seconds }, at) => [observer, below_cm, window, seed, at + 1, Number(right), side, seconds.toFixed(1)]);
+    const text = ["observer,below_cm,window,seed,pair,right,chosen,seconds", ...rows.map((row) => row.join(","))].join("\n") + "\n";
+    const link = part("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })), download: `blind-${observer}-${below_cm}cm-${window}.csv` });
+    link.click();
+  }
+}
+
+for (const root of document.querySelectorAll(".mocap-blind:not([data-awake])")) {
+  root.dataset.awake = "";
+  root.test = new BlindTest(root);
+}
