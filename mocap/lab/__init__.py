@@ -17,6 +17,7 @@ References
    the Binomial*, Biometrika 26(4), 1934, doi 10.1093/biomet/26.4.404.
 .. [Hau95] M. J. Hautus, *Corrections for Extreme Proportions and Their Biasing Effects on Estimated Values of
    d′*, Behavior Research Methods, Instruments, & Computers 27(1), 1995, doi 10.3758/BF03203619.
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
 .. [MC05] N. A. Macmillan, C. D. Creelman, *Detection Theory: A User's Guide*, 2nd edition, Lawrence Erlbaum
    2005, chapter 7.
 """

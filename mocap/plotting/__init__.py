@@ -13,8 +13,9 @@ Reading order (notebooks 00 to 16)
 6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
 7. `search_tree`: the walks that a search expands and cuts off
 8. `spread_charts`: medians with quartiles, and random walks as rows
-9. `picture`: a figure as a picture in a notebook
-10. `many_clips`: clips on one clock
+9. `storyboards`: a transition in four panels
+10. `picture`: a figure as a picture in a notebook
+11. `many_clips`: clips on one clock
 
 References
 ----------
@@ -53,6 +54,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
         "spread_charts": ["Band", "quartile_band", "seen_beside_measured", "walk_rows"],
+        "storyboards": ["Shot", "storyboard"],
         "picture": ["Picture", "show"],
         "many_clips.group_plans": ["draw_group_plan"],
         "many_clips.web_charts": ["match_tree", "space_image", "target_poses", "web_image"],

@@ -1,0 +1,119 @@
+"""Clips as small blocks of bytes, which `inspector_maths.js` reads.
+
+A clip is sent as its root's places and its joints' rotations, so that the page can blend them. All numbers
+are multiples of 1e-5 (metres, or parts of a quaternion), as second differences over time: these are small.
+Their bytes go in four planes, the lowest bytes first; the upper planes are almost empty, and compress well.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask
+from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
+from mocap.matching.point_clouds import distinct_joints
+from mocap.plotting.stick_figures import bones
+
+STEP = 1e-5  # what a unit of a number means; quantised so, positions err by less than a tenth of a millimetre
+SIDES = ("middle", "left", "right")  # the scripts know a side by its number
+
+
+def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, Any], bytes]:
+    """Pack a clip.
+
+    Parameters
+    ----------
+    motion : F frames.
+    offset : where its bytes will start.
+    needed : shape (F,), the frames that count; the others repeat the last one that does, and take no room.
+
+    Returns
+    -------
+    What the numbers mean, and the numbers: 3 + 4 J of each frame, 4 bytes each.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> about, block = packed_clip(sample("walk_straight")[:60], 0, np.ones(60, bool))
+    >>> about["frames"], about["channels"], len(block) == 4 * 60 * about["channels"]
+    (60, 155, True)
+    """
+    origin = motion.root_positions[0, [0, 2]]
+    places = motion.root_positions - [origin[0], 0, origin[1]]
+    turns = _continuous(motion.rotations).reshape(len(motion), -1)
+    numbers = np.round(np.concatenate([places, turns], axis=1) / STEP).astype("<i4")
+    numbers = numbers[np.maximum.accumulate(np.where(needed, np.arange(len(needed)), 0))]
+    changes = np.diff(numbers, 2, axis=0, prepend=np.zeros_like(numbers, shape=(2, numbers.shape[1])))
+    planes = np.ascontiguousarray(changes.T).view(np.uint8).reshape(-1, 4).T
+    about = {
+        "name": motion.name,
+        "frames": len(motion),
+        "channels": numbers.shape[1],
+        "origin": origin.tolist(),
+        "offset": offset,
+        "plants": plants(motion),
+    }
+    return about, planes.tobytes()
+
+
+def _continuous(turns: Array) -> Array:
+    """Give each quaternion the sign of the one before it: q and -q are one rotation."""
+    against = (turns[1:] * turns[:-1]).sum(axis=-1) < 0
+    signs = np.cumprod(np.where(against, -1.0, 1.0), axis=0)
+    return np.concatenate([turns[:1], turns[1:] * signs[..., None]])
+
+
+def plants(motion: Motion) -> str:
+    """Write which feet stand, a digit per frame: 2 the left, 4 the right, 6 both, 0 none.
+
+    Feet that are not marked are marked by `feet.mark_plants`; a body without legs has none.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> sorted(set(plants(sample("walk_straight"))))
+    ['0', '2', '4']
+    """
+    if not motion.contacts:
+        try:
+            motion = mark_plants(motion)
+        except MocapError:
+            return "0" * len(motion)
+    standing = np.zeros((len(SIDES), len(motion)), bool)
+    for name, marks in motion.contacts.items():
+        standing[SIDES.index(motion.skeleton.side(motion.skeleton.index(name)))] |= marks
+    return "".join(map(str, 2 * standing[1] + 4 * standing[2]))
+
+
+def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
+    """List what draws and measures a body: parents, offsets, points, bones, head and balls of the feet.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import SKELETON
+    >>> body = packed_skeleton(SKELETON)
+    >>> [(SKELETON.names[joint], SIDES[side]) for joint, side in body["feet"]]
+    [('ltoes', 'left'), ('rtoes', 'right')]
+    """
+    starts, ends, sides = bones(skeleton)
+    heads = [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
+    try:
+        balls = [leg.ball for leg in find_legs(skeleton)]
+    except MocapError:
+        balls = []
+    return {
+        "parents": skeleton.parents.tolist(),
+        "offsets": skeleton.offsets.tolist(),
+        "points": list(map(int, distinct_joints(skeleton))),
+        "bones": [
+            [int(a), int(b), SIDES.index(side)] for a, b, side in zip(starts, ends, sides, strict=True)
+        ],
+        "head": heads[-1] if heads else None,
+        "feet": [[int(ball), SIDES.index(skeleton.side(ball))] for ball in balls],
+    }
