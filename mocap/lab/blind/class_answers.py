@@ -56,7 +56,7 @@ def read_answers(files: Iterable[str | Path]) -> list[Answer]:
     Traceback (most recent call last):
     mocap.errors.MocapError: There are no files of answers.
 
-    Notebook: 09b-blend-window
+    Notebooks: 09-discussion, 09b-blend-window
     """
     answers: dict[tuple[object, ...], Answer] = {}
     paths = [Path(file) for file in files]
@@ -120,7 +120,7 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     >>> class_curve(answers, "below_cm")
     [ClassPoint(setting=4.0, people=1, right=15, of=20, seen=DPrime(...))]
 
-    Notebook: 09b-blend-window
+    Notebooks: 09-discussion, 09b-blend-window
     """
     other = "window" if over == "below_cm" else "below_cm"
     held = sorted({getattr(answer, other) for answer in answers})

@@ -47,6 +47,8 @@ def d_prime(right: int, of: int, confidence: float = 0.95) -> DPrime:
     [0.9, 0.03, 1.93]
     >>> round(d_prime(20, 20).value, 2), d_prime(20, 20).high  # the most that 20 answers can show
     (2.8, inf)
+
+    Notebooks: 09-discussion, 09b-blend-window
     """
     if not (0 <= right <= of and of > 0 and 0 < confidence < 1):
         raise MocapError(f"No d′ for {right} right answers of {of} at a confidence of {confidence}.")
