@@ -44,6 +44,7 @@ from mocap import (
     graphs,
     match_webs,
     matching,
+    motion_matching,
     plotting,
     resample,
     save,
@@ -520,6 +521,58 @@ def draw_match_webs() -> Figure:
     return figure
 
 
+def draw_motion_matching() -> Figure:
+    """Draw the futures of the frames that fit best, and a walk in the colours of its clips, with its cuts."""
+    names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+    clips = [resample(datasets.sample(name), 30) for name in names]
+    table = motion_matching.tabulate(clips)
+    clip_of = np.repeat(np.arange(len(clips)), [len(clip) for clip in clips])
+    figure, (ahead, ground) = plt.subplots(
+        1, 2, figsize=(9, 3.6), width_ratios=(1, 1.8), layout="constrained"
+    )
+    _draw_futures(ahead, table, clip_of)
+    headings = np.repeat([-1.6, -0.5, -2.6, -0.6, -2.0], 75)
+    character, frames = motion_matching.MotionMatcher(table), []
+    for heading in headings:
+        pose = character.step(heading, 0.8)
+        frames.append((*pose.root_position[[0, 2]], character.frame))
+    x, z, played = np.array(frames).T
+    for number, name in enumerate(names):
+        of = clip_of[played.astype(int)] == number
+        ground.plot(
+            np.where(of, x, np.nan), np.where(of, z, np.nan), color=SOURCES[number], linewidth=3, label=name
+        )
+    ground.plot(x[character.cuts], z[character.cuts], "D", color=MARK, markersize=4, label="cuts")
+    for frame in range(0, len(headings), 75):
+        tip = (x[frame] + 0.8 * np.sin(headings[frame]), z[frame] + 0.8 * np.cos(headings[frame]))
+        arrow = {"color": ASKED, "width": 1.5, "headwidth": 8}
+        ground.annotate("", tip, (x[frame], z[frame]), arrowprops=arrow)
+    ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
+    ground.xaxis.set_inverted(True)
+    ground.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.5), ncols=3)
+    return figure
+
+
+def _draw_futures(ax: Axes, table: motion_matching.PoseDatabase, clip_of: Array) -> None:
+    """Draw the future asked for, a turn to the left, and those of the five frames that fit best."""
+    now, future = 600, slice(15, 27)
+    query = table.values[now].copy()
+    query[future] = motion_matching.foresee(table, now, 0.8 * np.exp(1j * np.pi / 3), 0.27)
+    costs = np.where(table.usable, ((table.values - query) ** 2).sum(axis=1), np.inf)
+    rows = [(now, plotting.QUIET, "--")]
+    costs[now - 5 : now + 6] = np.inf
+    for _ in range(5):
+        best = int(costs.argmin())
+        rows.append((best, SOURCES[clip_of[best]], "o-"))
+        costs[max(best - 5, 0) : best + 6] = np.inf
+    for row, colour, style in rows:
+        places = (table.values[row] * table.scale + table.mean)[15:21].reshape(3, 2)
+        ax.plot(*np.vstack([[0, 0], places]).T, style, color=colour, markersize=4)
+    ax.plot(*((query * table.scale + table.mean)[15:21].reshape(3, 2)).T, "o", color=ASKED, label="asked for")
+    ax.set(aspect="equal", xlabel="to the left (m)", ylabel="ahead (m)", xlim=(0.7, -0.5), ylim=(-0.1, 0.95))
+    ax.legend(frameon=False, fontsize=8)
+
+
 def draw_warping() -> Figure:
     """Draw a hand that reaches for a post by one key, and a jump that is 20 cm higher."""
     walk, jump = datasets.sample("walk_straight")[:480], datasets.sample("jump")
@@ -609,6 +662,7 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "levels": draw_levels,
     "registration": draw_registration,
     "match_webs": draw_match_webs,
+    "motion_matching": draw_motion_matching,
 }
 
 
