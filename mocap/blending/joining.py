@@ -12,7 +12,7 @@ from mocap.body.motion import Motion
 def join(  # noqa: PLR0913 (two moments, and how to pass from one to the other)
     a: Motion, i: int, b: Motion, j: int, window: int, *, weights: Callable[[int], Array] = cubic_weights
 ) -> Motion:
-    """Pass from one motion into another by blending two windows [KGP02, 3.3].
+    """Pass from one motion into another by blending two windows [KGP02, 3.3], [WP95, joining].
 
     Frames a[:i] as they are; then a[i : i+k] mixed with b[j : j+k]; then b[j+k :]. b is first laid on a by
     the planar transform under which the two windows' points agree best. (The paper counts b's window

@@ -21,7 +21,7 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 
 
 class Controller:
-    """A character on a motion graph; each `step` takes a command and gives the next pose.
+    """A character on a motion graph; each `step` takes a command and gives the next pose [KGP02, 5.3].
 
     While it plays one hop, it looks ahead from the end of this hop: in each frame all walks ahead grow by one
     round, so that no step takes long. At the end of the hop it takes the first hop of the best walk. The cost

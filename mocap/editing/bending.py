@@ -100,7 +100,7 @@ class Bent:
 
 
 def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride | None = None) -> Bent:
-    """Lay a walk on a line, and clean up its feet.
+    """Lay a walk on a line, and clean up its feet [Gle01, 5].
 
     Its own path is taken off and the line put in its place [Gle01]. That the line is rounded where it turns
     too fast is ours. The walk starts where the line starts, keeps its speed, and ends where the line does.

@@ -70,7 +70,7 @@ def difference(motion: Motion, base: Motion) -> Displacement:
 
 
 def displaced(base: Motion, change: Displacement) -> Motion:
-    """Add a displacement, m₀ ⊕ d: p = p₀ + d_root, q = q₀ exp(d).
+    """Add a displacement, m₀ ⊕ d: p = p₀ + d_root, q = q₀ exp(d) [LS99, displacement map].
 
     ⊕ does not commute: (m₀ ⊕ a) ⊕ b is m₀ ⊕ (a + b) only where the axes of a and b agree. So several
     displacements are added one after the other. The turn stands on the right, in the joint's own frame;
@@ -113,6 +113,8 @@ def displaced(base: Motion, change: Displacement) -> Motion:
 
 def spline_basis(frames: int, spacing: float) -> sparse.csr_array:
     """Build uniform cubic B-splines over frames 0 … F - 1, with knots about `spacing` frames apart.
+
+    In the paper: [Gle98, smooth change].
 
     With n = max(1, round((F - 1) / spacing)) spans, frame f lies at u = f n / (F - 1), and the knots lie at
     -3 … n + 3. A curve is B c, where c holds a control point for each of the n + 3 splines.

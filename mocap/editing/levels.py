@@ -45,7 +45,7 @@ class Level(NamedTuple):
 
 
 def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
-    """Fit control points to data at some frames, each control point by itself [LWS97].
+    """Fit control points to data at some frames, each by itself [LWS97], as [LS99, scattered data].
 
     Alone, a datum u_j with the weights w_ij = B_i(t_j) would ask for β_ij = w_ij u_j / Σ_i w_ij² of control
     point i: the least change that meets it. A control point takes the mean of what its data ask for,
@@ -117,7 +117,7 @@ def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why
     tolerance: float = 1e-3,
     listen: bool = True,
 ) -> tuple[Motion, list[Level]]:
-    """Bring joints to their pins level by level, and end when the pins are met [LS99].
+    """Bring joints to their pins level by level, and end when the pins are met [LS99, levels].
 
     A number listens to a frame only if a joint that it moves is pinned there: a foot that stands says nothing
     about the arm. This is ours, and needed: else a hand that is asked for in three frames stays 28 cm off.

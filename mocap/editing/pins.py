@@ -25,7 +25,7 @@ Rows = slice | Sequence[int] | NDArray[np.intp] | Mask
 
 @dataclass(frozen=True, eq=False)
 class Pins:
-    """Boxes for P joints in F frames.
+    """Boxes for P joints in F frames [Gle98, constraints].
 
     Parameters
     ----------
@@ -215,6 +215,8 @@ def join_pins(*several: Pins) -> Pins:
 
 def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None) -> Pins:
     """Hold each planted ankle and ball at one place for as long as it stands: where it is on average.
+
+    In the paper: [Gle98, constraints].
 
     The places are those of `feet.place_plants`. [Gle98] and [LS99] also let the place of a plant be unknown;
     in our trials that moved the places by 5 mm and saved 0.4 % of the cost.

@@ -55,6 +55,8 @@ def reach(
 ) -> Solved:
     """Bring joints to their pins, each frame by itself: the least xᵀ M x + w² Σ ‖gap‖².
 
+    In the paper: [LS99, inverse kinematics].
+
     Steps of Levenberg and Marquardt, in all frames at once, each frame with its own damping. [LS99] solve the
     trunk by numbers, and limbs in closed form; here numbers do both.
 

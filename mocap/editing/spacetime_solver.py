@@ -48,7 +48,7 @@ WEIGHT = 300.0
 def spacetime(
     base: Motion, pins: Pins, body: Body | None = None, *, knots: float = KNOTS, weight: float = WEIGHT
 ) -> Solved:
-    """Bring joints to their pins by the smallest smooth change of the whole motion [Gle98].
+    """Bring joints to their pins by the smallest smooth change of the whole motion [Gle98, objective].
 
     Steps of Levenberg and Marquardt on the control points c of x = B c; the least of
     Σ_f x_fᵀ M x_f + w² Σ ‖gap‖². The time grows with the frames.
@@ -100,7 +100,7 @@ def refined(
     knots: Sequence[float] = (0.5, 0.25, 0.125),
     weight: float = WEIGHT,
 ) -> Motion:
-    """Solve with few knots first, then from there with more: the last of [Gle98]'s steps.
+    """Solve with few knots first, then from there with more: the paper's last step [Gle98, finer knots].
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ class HeldJoints(Protocol):
 
 
 def foot_target(track: LegTrack, marks: Mask, pins: HeldJoints | None = None) -> FootTarget:
-    """Place a foot's plants, and carry its ankle from one to the next.
+    """Place a foot's plants, and carry its ankle from one to the next [KSG02, step 2].
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:
 
 
 def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
-    """Fill in the frames that are not known with the curve that bends least and stays near 0.
+    """Fill in the frames that are not known with the curve that bends least and stays near 0 [KSG02, step 5].
 
     It minimises Σ |c_{f-1} - 2 c_f + c_{f+1}|² + κ⁴ Σ |c_f|² with the known frames held. Value and slope are
     continuous at both ends of a plant, and die away within `FADE` = 1 / (κ · fps) where the next plant is

@@ -47,6 +47,8 @@ class Excess(NamedTuple):
 def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoints | None = None) -> Motion:
     """Make planted feet stand still, at the cost of small changes to the legs and to the root's height.
 
+    In the paper: [KSG02, all steps].
+
     Parameters
     ----------
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.

@@ -32,7 +32,7 @@ def bend_and_swing(track: LegTrack, wanted: Array) -> tuple[Array, Array]:
 
 
 def pose_leg(track: LegTrack, ankle: Array, turn: ArrayLike) -> Array:
-    """Pose a leg so that its ankle is where it must be, and its foot turned.
+    """Pose a leg so that its ankle is where it must be, and its foot turned [KSG02, step 4].
 
     Parameters
     ----------

@@ -26,6 +26,8 @@ HEAVY = 3.0
 def root_rise(tracks: Sequence[LegTrack], targets: Sequence[FootTarget]) -> Array:
     """Raise or lower the root so that the knees change little and both legs reach their targets.
 
+    In the paper: [KSG02, step 3].
+
     A rise h makes the leg from a hip to its target d + g h long, where g is the upright share of its
     direction. A knee bent by φ turns by as much as the length changes, over sin φ. Least squares over the
     legs and the rise itself, Σ ((d + g h - d_before) / sin φ)² + 3 h², has the solution below.

@@ -74,6 +74,8 @@ def build(
 ) -> MotionGraph:
     """Build the motion graph of some clips: find the transitions, and cut the clips where they touch.
 
+    In the paper: [KGP02, 3].
+
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate, with different names.

@@ -39,6 +39,8 @@ from mocap.graphs.motion_graph import MotionGraph
 def prune(motion_graph: MotionGraph, *, by_labels: bool = False, least_frames: int = 1) -> MotionGraph:
     """Keep the largest strongly connected component: from each of its nodes a walk can go on for ever.
 
+    In the paper: [KGP02, 3.4].
+
     The largest component is the one that plays most frames of clip [KGP02, 3.4]. Dead ends are removed, and
     sinks that a walk could never leave. `graphs.prune_graph` also gives a reason for each removed edge.
 
@@ -152,7 +154,7 @@ def notes_example() -> nx.MultiDiGraph:
 
 @uncollected()
 def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames: int = 1) -> Pruning:
-    """Keep the largest strongly connected component, of all edges or of each label set.
+    """Keep the largest strongly connected component, of all edges or of each label set [KGP02, 3.4].
 
     The largest component is the one whose stretches of clip have most frames. The time is linear in the
     edges; by labels, in the edges times the label sets that stay.

@@ -26,7 +26,7 @@ class Clusters(NamedTuple):
 
 
 def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: float = 1.0) -> Clusters:
-    """Choose configurations that come again [ours; LCF05 clusters, how is not known to us].
+    """Choose configurations that come again [LCF05, nodes]; how is ours.
 
     Each time the one with the most others within `reach` that no node has yet. Comparing is O(S² N³) for S
     frames of N members: this is the longest part of building a graph.

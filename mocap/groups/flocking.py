@@ -158,7 +158,7 @@ def push_apart(places: Points, apart: float) -> Points:
 def simulate(
     count: int, seconds: float, *, rules: Flock | None = None, seed: int = 0, settle: float = 20.0
 ) -> Trajectories:
-    """Let a flock wander over open ground.
+    """Let a flock wander over open ground [LCF05, simulation].
 
     Parameters
     ----------

@@ -26,6 +26,8 @@ STILL = 2  # frames at either end that no push moves
 class GroupClip:
     """A way of N members from one node to another, F + 1 frames, seen from the start's configuration.
 
+    In the paper: [LCF05, bounds].
+
     Parameters
     ----------
     start, end : numbers of the nodes.
@@ -160,7 +162,7 @@ def accelerations(paths: Points) -> Array:
 def clips_from(
     start: int, nodes: Sequence[Configuration], runs: Trajectories
 ) -> list[tuple[GroupClip, tuple[float, bool, bool, float]]]:
-    """Make a clip to each node out of the run that ends most like it.
+    """Make a clip to each node out of the run that ends most like it [LCF05, clips].
 
     Parameters
     ----------

@@ -131,7 +131,7 @@ def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which ru
     rules: Flock | None = None,
     seed: int = 0,
 ) -> GroupGraph:
-    """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05].
+    """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05, graph].
 
     Parameters
     ----------

@@ -168,7 +168,7 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
     most: int = MOST,
     bounds: bool = True,
 ) -> GroupWalk:
-    """Find clips that lead a group past all points and clear of all obstacles.
+    """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
 
     Weighted A*: first goes the state with the fewest seconds so far plus `weight` times those still expected:
     the metres to the next point and on from there, over 1.05 m/s, and 1.3 s for each radian still to turn. Of

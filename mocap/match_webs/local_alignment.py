@@ -20,7 +20,7 @@ from mocap.matching.time_paths import PathSums, origins, path_sums, trace
 
 
 def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator[Indices]:
-    """Find paths of low cost that may begin and end anywhere in a grid.
+    """Find paths of low cost that may begin and end anywhere in a grid [KG04, chains and bridges].
 
     [KG04] takes three passes: chains of one-dimensional minima, those that are long enough, and bridges
     between their ends. One pass of local alignment in their place is ours.

@@ -64,7 +64,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     steps: int | None = None,
     still: float = 0.05,
 ) -> list[Match]:
-    """Find what is like a query, then what is like that, until nothing new turns up.
+    """Find what is like a query, then what is like that, until nothing new turns up [KG04, search in steps].
 
     One step finds the nearest matches alone: motions that are the same to us differ by more than motions that
     are not. But between two that differ there are others [KG04]. The bound on lengths is ours: a wrong match

@@ -10,6 +10,8 @@ from mocap.errors import MocapError
 def minima_1d(grid: ArrayLike) -> Mask:
     """Mark the cells of a grid that are no higher than both neighbours in their row, or in their column.
 
+    In the paper: [KG04, minima].
+
     Where two clips move alike at any pace, the grid has a valley. Its floor consists of such minima [KG04];
     of local minima in two dimensions a valley has only a few.
 

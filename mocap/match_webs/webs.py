@@ -115,7 +115,7 @@ def build_web(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     progress: Progress = iter,
     executor: Executor | None = None,
 ) -> MatchWeb:
-    """Find all long paths of frames that are alike in a set of clips: the match web of [KG04].
+    """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
     The distance is that of `find_transitions`. How paths are found, see `local_paths`: a cell that is no
     one-dimensional minimum costs more, so that paths follow the floors of valleys. All pairs are measured: at

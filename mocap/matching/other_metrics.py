@@ -172,7 +172,7 @@ def _angle_gaps(a: Array, b: Array) -> Array:
 def pose_grid(
     a: Motion, b: Motion, *, window: int, form: str = "quaternion", velocities: float = 0.0
 ) -> Array:
-    """Measure the norm of the difference of pose vectors, which 3.1 of [KGP02] discusses and rejects.
+    """Measure the norm of the difference of pose vectors, which the paper discusses and rejects [KGP02, 3.1].
 
     It is the mean over the window of √(Σ over joints of ‖Δq‖² + (velocities · ‖Δω‖)²), without the root.
 

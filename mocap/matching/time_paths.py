@@ -179,6 +179,8 @@ def trace(sums: PathSums, end: tuple[int, int]) -> Indices:
 def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
     """Find the path through a grid whose mean is least, from its first corner to its last or nearly so.
 
+    In the paper: [KG03, time path].
+
     It begins in the first row or column and ends in the last one, each at most `slack` from the corner. Of
     all such paths it is the one of the least mean Σ c a / Σ a, where a counts the frames that a cell advances
     (as in `path_mean`). The least *sum* would prefer short paths that cut the corners. The least mean is

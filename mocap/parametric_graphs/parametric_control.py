@@ -48,7 +48,7 @@ class _Buffer(NamedTuple):
 
 
 class ParametricController:
-    """A character on a parametric motion graph; it fits `control.Character`.
+    """A character on a parametric motion graph; it fits `control.Character` [HG07, 5].
 
     Five frames before a stride is left, it reads which box of targets may follow, takes the parameters in it
     that are nearest to the command, makes that stride, and blends over 11 frames. All frames until the next

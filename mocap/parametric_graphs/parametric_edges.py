@@ -17,6 +17,8 @@ EPSILON = 0.005  # of half a range, by which a box keeps off bad targets
 class Sampling(NamedTuple):
     """How finely an edge is sampled: how many sources and targets are drawn, and the seed [HG07: 50, 1000].
 
+    In the paper: [HG07, 4].
+
     Examples
     --------
     >>> Sampling(targets=200)

@@ -63,7 +63,7 @@ def build_parametric(
     bad: float | None = None,
     sampling: Sampling | None = None,
 ) -> ParametricGraph:
-    """Build a parametric motion graph [HG07]: an author names the spaces, and which may follow which.
+    """Build a parametric motion graph [HG07, graph]: an author names the spaces, and which may follow which.
 
     Parameters
     ----------

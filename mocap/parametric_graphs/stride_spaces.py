@@ -146,7 +146,7 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     samples: int | None = None,
     seed: int = 0,
 ) -> StrideSpace:
-    """Sample mixes all over the range, measure what each comes to, and keep both [KG04].
+    """Sample mixes all over the range, measure what each comes to, and keep both [KG04], for [HG07, nodes].
 
     A bell's mix does not come to what was asked, by 4° on average. Looked up among what the samples come to,
     it does to 0.2°.

@@ -105,7 +105,7 @@ def cut_strides(
     label: str = "",
     margin: float = MARGIN,
 ) -> Strides:
-    """Cut clips at the strikes of their feet, and put all examples on one grid of phases [HG07, after KG04].
+    """Cut clips at the strikes of their feet, and put all examples on one grid of phases [HG07, examples].
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ def walk_crowd(  # noqa: PLR0913 (where, how far apart, and how to search)
     pool: Executor | None = None,
     bend: float = 0.0,
 ) -> Crowd:
-    """Find a walk along each path, so that the characters keep apart.
+    """Find a walk along each path, so that the characters keep apart [KGP02, 5.3].
 
     First each walk is found as if alone; these searches run in parallel in a `pool`. Then the characters are
     visited in order. One that comes too near to an earlier one searches again, with a price on each frame too

@@ -33,7 +33,7 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     tries: int = 3,
     bend: float = 0.0,
 ) -> Followed:
-    """Find a walk whose root, seen from above, follows a path.
+    """Find a walk whose root, seen from above, follows a path [KGP02, 5.1].
 
     The search is a beam search; its time is linear in the path's length. No single price of a seam suits all
     paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the search

@@ -58,7 +58,7 @@ def through_waypoints(
     prices: Prices | None = None,
     bend: float = 0.0,
 ) -> WaypointWalk:
-    """Find a walk through waypoints, with their labels and at their times.
+    """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
 
     The path between them is a spline. Where the clips are too slow or too fast for a time, the walk comes as
     near to it as it can, and `arrivals` gives the delay.

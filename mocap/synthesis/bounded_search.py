@@ -121,7 +121,7 @@ def branch_and_bound(
     horizon: float = math.inf,
     budget: Budget | None = None,
 ) -> SearchResult:
-    """Find the cheapest walk that is complete, or at least `horizon` frames long.
+    """Find the cheapest walk that is complete, or at least `horizon` frames long [KGP02, Eq. 8].
 
     Parameters
     ----------

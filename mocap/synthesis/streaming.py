@@ -88,6 +88,8 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
 ) -> int:
     """Write a random walk to a `.bvh` file while it is made; an hour needs no more memory than a minute.
 
+    In the paper: [KGP02, 5.3].
+
     A `.glb` is made in memory, so it may last an hour at most.
 
     Parameters

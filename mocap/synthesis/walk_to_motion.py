@@ -26,6 +26,8 @@ def to_motion(
 ) -> Motion:
     """Play a walk: copy the stretches of clip, blend the transitions, and place each where the last one ends.
 
+    In the paper: [KGP02, 4.1].
+
     Every frame is moved by the product of the transforms of all transitions before it [KGP02, 4.1]. All
     frames are gathered, placed and blended at once, so the time is linear in the walk's length. A walk
     without transitions repeats its clip bit for bit.

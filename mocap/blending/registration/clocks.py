@@ -82,7 +82,7 @@ def checked(weights: ArrayLike, count: int) -> Array:
 
 
 def clock_speed(slopes: ArrayLike, weights: ArrayLike, pace: str = "durations") -> float:
-    """Say how fast the common clock goes, du/dt, where the clips' curves have these slopes.
+    """Say how fast the common clock goes, du/dt, where the clips' curves have these slopes [KG03, clock].
 
     Parameters
     ----------

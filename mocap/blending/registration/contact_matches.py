@@ -54,6 +54,8 @@ def match_contacts(
 ) -> tuple[ContactMatch, ...]:
     """Match the plants of registered clips: in each match one of every clip, all at about the same time.
 
+    In the paper: [KG03, constraint matches].
+
     Plants that overlap, or hang together by others that do, make a group. A group that lacks a clip is
     dropped. One with exactly one plant of each clip is a match. Any other is cut where the clip with the most
     plants pauses, each part by itself. [KG03] has matches of one interval for each clip, with intervals

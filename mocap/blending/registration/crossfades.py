@@ -15,6 +15,8 @@ from mocap.errors import MocapError
 def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | None = None) -> Motion:
     """Pass from the reference to the other clip, from the first frame of the one to the last of the other.
 
+    In the paper: [KG03, transition].
+
     A transition by registration curves [KG03]: while `mix` plays, the weight of the other clip rises as
     3 s² - 2 s³ [KGP02, Eq. 7]. `join` mixes frame i with frame i, which is right for a third of a second
     around two moments that match. Here both clips stay in step and on one course, so the fade may be long and

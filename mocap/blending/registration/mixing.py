@@ -38,7 +38,7 @@ def mix(
     pace: str = "durations",
     rounds: int = 1,
 ) -> Motion:
-    """Blend registered clips by constant weights, or by weights that move [KG03].
+    """Blend registered clips by constant weights, or by weights that move [KG03, blend].
 
     With φ for how the blend is turned against the reference and c for a clip's centroid, from one frame to
     the next φ falls by Σ w Δθ and the blend's centroid moves by Σ w R(θ + φ) Δc, with w, θ and φ half-way
@@ -101,6 +101,8 @@ def ground_course(
     turns: Array, centres: Points, shares: Array, start: tuple[float, complex] | None = None
 ) -> Course:
     """Go over the ground with the mean of the clips' velocities, each as its clip lies on the blend.
+
+    In the paper: [KG03, blend].
 
     Parameters
     ----------

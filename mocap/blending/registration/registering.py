@@ -96,7 +96,7 @@ class Registration:
 def register(
     clips: Sequence[Motion], *, reference: int = 0, slack: float = 1.2, warp: Warp | None = None
 ) -> Registration:
-    """Find which frames of several clips belong together, and how they lie on one another [KG03].
+    """Find which frames of several clips belong together, and how they lie on one another [KG03, alignment].
 
     Each clip is registered with the reference. The path of least mean through the grid of their distances,
     √D of [KGP02, Eq. 1], says which windows belong together (`matching.time_path`). A curve S through the

@@ -83,7 +83,7 @@ class Curve(NamedTuple):
 def fit_curve(
     times: ArrayLike, values: ArrayLike, *, spacing: float, least: float = -np.inf, most: float = np.inf
 ) -> Curve:
-    """Fit a curve to points by least squares, with slopes from `least` to `most` everywhere.
+    """Fit a curve to points by least squares, with slopes from `least` to `most` everywhere [KG03, timewarp].
 
     Written as its first control point and their differences, the curve is linear in numbers that have simple
     bounds: a bounded linear problem, which `scipy.optimize.lsq_linear` solves exactly. (This is ours: that

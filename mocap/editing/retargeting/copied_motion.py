@@ -41,7 +41,7 @@ SMALL = 1e-9
 
 
 def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | None = None) -> Motion:
-    """Copy a motion onto another body: its turns, and the way of its hips, scaled.
+    """Copy a motion onto another body: its turns, and the way of its hips, scaled [Gle98, scaled start].
 
     R_t(f) = R_s(f) C with C = R_s(stance)⁻¹ A R_t(stance). A is the smallest turn that lays the target's
     bones at that joint on the source's, both as they stand; hands go with their forearms, and there is none

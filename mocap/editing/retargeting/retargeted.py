@@ -47,6 +47,8 @@ def retarget(
 ) -> Motion:
     """Let another body wear a motion, with its feet planted on the floor where the old feet were planted.
 
+    In the paper: [Gle98, method].
+
     The motion is copied; pins say where its feet must be; the smallest smooth change over all frames at once
     brings them there [Gle98], and `feet.clean_up` closes what is left (`edit`, where there are more pins).
     Copied angle by angle, feet would slide, float and sink, and bodies with other rest poses would fold.

@@ -49,7 +49,7 @@ def cardinal(
     tension: float = 0.0,
     flat: Sequence[int] = (),
 ) -> Array:
-    """Run a cardinal spline through keys: smooth, constant outside [WP95].
+    """Run a cardinal spline through keys: smooth, constant outside [WP95, splines].
 
     A cubic Hermite spline whose slope at key i is (1 - c)(v_{i+1} - v_{i-1}) / (t_{i+1} - t_{i-1}). Ours: it
     is level at both ends, so that it joins the constants outside smoothly, and at the keys in `flat`.
@@ -136,6 +136,8 @@ def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_
 
 def offsets(motion: Motion, keys: Sequence[Key], *, tension: float = 0.0) -> Displacement:
     """Warp by offsets: the displacement that meets every key's pose, and is smooth between them [WP95].
+
+    In the paper: [WP95, offset].
 
     At key i, b_i = pose ⊖ motion: the root's gap, and log(q⁻¹ q_i) for each joint. The curves through the b_i
     are `cardinal`; outside the keys they are constant. `displaced(motion, offsets(motion, keys))` is the

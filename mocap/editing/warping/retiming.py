@@ -52,7 +52,7 @@ def old_seconds(keys: TimeKeys, seconds: ArrayLike) -> Array:
 
 
 def retime(motion: Motion, keys: TimeKeys, *, smooth: bool = True) -> Motion:
-    """Let a motion's moments happen at other times [WP95].
+    """Let a motion's moments happen at other times [WP95, time warp].
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ LEAST = np.radians(5.0)  # a joint nearer than this to its reference gives no ga
 
 
 def gains(motion: Motion, joint: str | int, keys: Sequence[Key], *, about: ArrayLike | None = None) -> Array:
-    """Warp by scale: the gain a(t) of one joint that comes nearest to every key's pose [WP95].
+    """Warp by scale: the gain a(t) of one joint that comes nearest to every key's pose [WP95, scale].
 
     At key i the paper's a_i = θ_i / θ(t_i); of rotation vectors v = log(r⁻¹ q) and v_i the nearest gain is
     a_i = v·v_i / v·v [ours]. A key without a pose has gain 1. Where the joint is near its reference, a tiny θ
@@ -65,7 +65,7 @@ def gains(motion: Motion, joint: str | int, keys: Sequence[Key], *, about: Array
 
 
 def scaled(motion: Motion, joint: str | int, gain: ArrayLike, *, about: ArrayLike | None = None) -> Motion:
-    """Scale how far a joint turns from a reference: q' = r exp(a log(r⁻¹ q)) [WP95].
+    """Scale how far a joint turns from a reference: q' = r exp(a log(r⁻¹ q)) [WP95, scale].
 
     The paper scales an angle about its zero, which a file puts anywhere; here it is a rotation vector about a
     reference [ours]. Noise is scaled as well.

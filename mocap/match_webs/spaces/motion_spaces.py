@@ -63,7 +63,7 @@ def sample_space(  # noqa: PLR0913 (what to measure, and how to sample)
     fps: float = 30.0,
     progress: Progress = iter,
 ) -> MotionSpace:
-    """Blend examples at random, and measure each blend: samples of a space of motions [KG04].
+    """Blend examples at random, and measure each blend: samples of a space of motions [KG04, sampling].
 
     What a blend does is no simple function of its weights: the hand of half of two punches is not half-way
     between their targets. So blends are made and measured. Where the samples are is what can be reached.

@@ -13,6 +13,8 @@ def random_weights(
 ) -> Array:
     """Draw the weights of random blends of d + 1 examples each, for a measure of d numbers.
 
+    In the paper: [KG04, accessible region].
+
     One example is drawn at random, and d of those nearest to it. Their weights are even on the simplex, which
     is then stretched about its middle: w = (1 + (d + 1) δ) Dirichlet(1, …, 1) - δ. So they add up to one, and
     none is below -δ; a draw with one above 1 + δ is drawn again [KG04 samples so too, as far as recalled; the

@@ -15,7 +15,7 @@ SUM, RIDGE = 100.0, 5e-4  # weight of the row that asks for a sum of one; prefer
 def weights_for(
     space: MotionSpace, wish: ArrayLike, *, k: int | None = None, method: str = "convex"
 ) -> Array:
-    """Find weights whose blend does what is asked.
+    """Find weights whose blend does what is asked [KG04, request].
 
     "neighbours" mixes the weights of the k nearest samples by v ∝ 1 / d - 1 / d_k, with d for their distances
     from the wish [HG07, Eqs. 1-2, after ACP02]. "convex" (ours) takes the mix v ≥ 0, Σ v = 1 of the k nearest
