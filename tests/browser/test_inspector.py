@@ -133,6 +133,10 @@ def test_the_turn_is_dragged_and_comes_back(shown):
     page.keyboard.press("Home")
     wait_until(lambda: "θ = −180°" in page.locator(".now").inner_text())
     assert np.any(pixels(page, ".bodies") != before)
+    page.locator(".chart").click(position={"x": 46, "y": 50})  # the left end of its axis
+    wait_until(lambda: "θ = −180°" in page.locator(".now").inner_text())
+    page.locator(".chart").click(position={"x": 120, "y": 50})
+    wait_until(lambda: "θ = −180°" not in page.locator(".now").inner_text())
     page.get_by_role("button", name="best turn").click()
     wait_until(lambda: page.locator(".now").inner_text().startswith("θ = 81°: 1.9 cm"))
 

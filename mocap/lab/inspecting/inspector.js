@@ -35,7 +35,7 @@ class Inspector {
     const { scene, root } = this, find = (what) => root.querySelector(what);
     this.clips = scene.clips.map((clip) => new Clip(clip, scene.skeleton, bytes));
     this.stage = new Stage(this.canvas, this.camera);
-    this.chart = new Chart(find(".chart"));
+    this.chart = new Chart(find(".chart"), (value) => this.drag(value));
     this.maps = {};
     for (const [kind, Kind] of [["walk", PathMap], ["graph", GraphMap], ["grid", GridMap]]) {
       const canvas = find(`.${kind}`);
@@ -62,17 +62,26 @@ class Inspector {
     this.play.onclick = () => this.toggle();
     this.weights.onchange = () => { this.kind = this.weights.value; this.compute(); this.update(); };
     this.root.querySelector(".best").onclick = () => { this.theta = null; this.compute(); this.controls(); this.update(); };
-    this.scrub.oninput = () => {
-      this.toggle(false);
-      if (this.tab === "turn") { this.theta = (Number(this.scrub.value) * Math.PI) / 180; this.compute(); } else this.time = Number(this.scrub.value) / this.fps;
-      this.update();
-    };
+    this.scrub.oninput = () => this.move(Number(this.scrub.value));
     this.resized = new ResizeObserver(() => this.update());
     for (const canvas of this.root.querySelectorAll("canvas")) this.resized.observe(canvas);
     this.seen = new IntersectionObserver(([entry]) => { this.visible = entry.isIntersecting; this.update(); });
     this.seen.observe(this.root);
     this.orbit = this.hand.orbit.bind(this.hand);
     this.hand.orbit = (...angles) => { this.turned = true; this.orbit(...angles); };
+  }
+
+  // The slider's value: an angle in degrees, or a frame.
+  move(value) {
+    this.toggle(false);
+    if (this.tab === "turn") { this.theta = (value * Math.PI) / 180; this.compute(); } else this.seek(value / this.fps);
+    this.update();
+  }
+
+  // A finger on the chart, in the units of its axis: degrees, frames from 1, or seconds from the start of the window.
+  drag(value) {
+    const slid = { turn: value, seam: this.before + value * this.fps }[this.tab] ?? value - 1;
+    this.move(Math.round(Math.min(Math.max(slid, this.scrub.min), this.scrub.max)));
   }
 
   // ---- what is looked at ----

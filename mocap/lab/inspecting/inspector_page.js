@@ -19,7 +19,7 @@ const INSPECTOR_STYLE = `
 .mocap-inspector .maps canvas { cursor: crosshair; margin-bottom: 6px; }
 .mocap-inspector .grid { height: 290px; touch-action: none; } .mocap-inspector .walk { height: 220px; } .mocap-inspector .graph { height: 180px; }
 .mocap-inspector .bodies { height: 300px; border: 1px solid #8884; cursor: grab; touch-action: pan-y; }
-.mocap-inspector .chart { height: 130px; margin-top: 4px; pointer-events: none; }
+.mocap-inspector .chart { height: 130px; margin-top: 4px; touch-action: none; cursor: ew-resize; }
 .mocap-inspector .bar { display: flex; flex-wrap: wrap; gap: 4px 8px; align-items: center; padding: 4px 0; }
 .mocap-inspector button, .mocap-inspector select { font: inherit; min-width: 36px; min-height: 32px; padding: 0 8px; color: inherit;
   background: #8882; border: 1px solid #8888; border-radius: 4px; cursor: pointer; }

@@ -34,11 +34,18 @@ class Stage extends Picture {
   }
 }
 
-// A chart: curves over one axis, with a mark where the reader is.
+// A chart: curves over one axis, with a mark where the reader is; a finger on it moves the mark.
 class Chart {
-  constructor(canvas) { this.canvas = canvas; }
+  constructor(canvas, move) {
+    this.canvas = canvas;
+    canvas.onpointerdown = canvas.onpointermove = (event) => {
+      if (event.type === "pointerdown") canvas.setPointerCapture(event.pointerId);
+      if (event.buttons && this.span) move(this.span[0] + ((event.offsetX - 46) / (canvas.clientWidth - 60)) * (this.span[1] - this.span[0]));
+    };
+  }
 
   draw({ curves, at, across, up, span, bands = [], bars = [] }, palette) {
+    this.span = span;
     const { pen, wide, high } = sheet(this.canvas), left = 46, bottom = high - 32, top = 12;
     const highest = Math.max(1e-9, ...curves.flatMap(({ points }) => points.map(([, y]) => y ?? 0))) * 1.08;
     const x = (v) => left + ((wide - left - 14) * (v - span[0])) / (span[1] - span[0] || 1), y = (v) => bottom - ((bottom - top) * v) / highest;

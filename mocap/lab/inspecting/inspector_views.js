@@ -118,7 +118,7 @@ Object.assign(Inspector.prototype, {
     this.now.textContent = said;
     this.key.textContent = this.tab === "seam" ? SEAM_KEY : this.scene.key;
     const value = this.tab === "turn" ? degrees(this.angle) : this.frame();
-    if (document.activeElement !== this.scrub || this.playing || this.theta === null) this.scrub.value = value;
+    if (Number(this.scrub.value) !== value) this.scrub.value = value;
     this.scrub.setAttribute("aria-valuetext", said);
     Object.assign(this.root.dataset, { shows: this.tab, playing: Boolean(this.playing) });
     this.pictures++;

@@ -21,7 +21,7 @@ from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.lab.inspecting.choices import EACH, MOST, Choices, of_clips, of_graph, of_walk
 from mocap.lab.inspecting.scenes import TABS, scene
-from mocap.plotting.picture import small_png
+from mocap.plotting.picture import Picture, small_png
 from mocap.plotting.storyboards import Shot, storyboard
 from mocap.steering.followed import Followed
 from mocap.synthesis.walk_to_motion import to_motion
@@ -149,6 +149,10 @@ class Inspector:
     def picture(self) -> bytes:
         """Four panels as a PNG, for places where no script runs."""
         return small_png(storyboard(self.shot, self.show))
+
+    def still(self) -> Picture:
+        """Return the picture alone, for captured clips, which a notebook must not hold."""
+        return Picture(self.picture, self.alt)
 
     def html(self) -> str:
         """Return the inspector as part of a page; where no script runs, its picture stays."""

@@ -37,6 +37,8 @@ def test_each_depth_has_a_picture_a_sentence_and_a_page(depth):
     assert metadata["image/png"]["alt"] == bundle["text/plain"] == shown.alt
     assert ("θ" in shown.alt) == (depth > 1)
     assert Image.open(io.BytesIO(shown.picture)).width > 900
+    still, _ = shown.still()._repr_mimebundle_()
+    assert still["image/png"] == bundle["image/png"] and "script" not in still["text/html"]
     assert shown.scene["tabs"] == list(TABS[:depth])
     without = re.sub(r"base64,[^\"]*", "", bundle["text/html"])
     assert not re.search(r"https?://(?!www\.w3\.org)", without)
