@@ -100,9 +100,9 @@ def _bone_surfaces(bones: Array, surface: Surface) -> Array:
 
 
 def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None) -> PlanarTransform:
-    """Find the planar transform that lays `others` on `points` best, in closed form.
+    """Find the planar transform that lays `others` on `points` best, in closed form [KGP02, Eqs. 2-4].
 
-    It minimises Σ w ‖p - T p'‖² [KGP02, Eqs. 2-4]; with bars for sums Σ w ·, and Σ w = 1,
+    It minimises Σ w ‖p - T p'‖²; with bars for sums Σ w ·, and Σ w = 1,
     θ = atan2(Σ w (x z' - x' z) - (x̄ z̄' - x̄' z̄), Σ w (x x' + z z') - (x̄ x̄' + z̄ z̄')),
     x₀ = x̄ - x̄' cos θ - z̄' sin θ and z₀ = z̄ + x̄' sin θ - z̄' cos θ.
 

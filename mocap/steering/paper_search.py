@@ -57,7 +57,7 @@ def follow_as_2002(
     look: tuple[int, int] = (90, 28),
     budget: Budget | None = None,
 ) -> Followed:
-    """Follow a path by the paper's branch and bound, to compare with `steering.follow_path`.
+    """Follow a path by the paper's branch and bound, to compare with `follow_path` [KGP02, Eq. 9].
 
     Parameters
     ----------

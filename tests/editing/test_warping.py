@@ -33,6 +33,7 @@ def moved(motion, frame, *, joint="lhumerus", turn=(0.0, 0.0, 1.0), up=0.0):
 
 # ------------------------------------------------------------------------------------------- the curve
 def test_the_curve_through_unevenly_spaced_keys():
+    """As in [WP95, splines]."""
     at, values = [0, 10, 30], [0, 1, -1]
     assert cardinal(at, values, [5, 15, 20]) == pytest.approx([0.541667, 0.59375, -1 / 12], abs=1e-6)
     assert cardinal(at, values, [5, 15, 20], tension=1.0) == pytest.approx([0.5, 0.6875, 0.0])
@@ -75,6 +76,7 @@ def test_a_curve_that_cannot_be(at, values, tension, message):
 
 # ------------------------------------------------------------------------------------------ offsets
 def test_a_key_is_met_and_nothing_changes_outside():
+    """As in [WP95, offset]."""
     pose = moved(WALK, 120, up=0.05)
     change = offsets(WALK, keys_around(WALK, 120, pose))
     warped = displaced(WALK, change)
@@ -245,6 +247,7 @@ def test_scales_that_cannot_be(call, message):
 
 # ------------------------------------------------------------------------------------- Euler angles
 def test_angles_scaled_one_by_one_jump_where_rotation_vectors_do_not(real_data):
+    """As in [WP95, offset]."""
     path = real_data / "cmu" / "02" / "02_07.amc"
     motion, angles = load_save.load(path), load_save.read_angles(path)["root"]
     around = slice(2040, 2070)

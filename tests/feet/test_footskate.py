@@ -71,6 +71,7 @@ def test_a_clean_clip_is_left_alone(name):
 
 @pytest.mark.parametrize("way", [join, inertialize])
 def test_after_a_seam_planted_feet_stand_still_and_nothing_pops(way):
+    """As in [KSG02, all steps]."""
     skating = JOINED[way]
     cleaned = clean_up(skating)
     assert slides(skating).max() > 0.01
@@ -84,6 +85,7 @@ def test_after_a_seam_planted_feet_stand_still_and_nothing_pops(way):
 
 
 def test_no_bone_is_stretched_and_knees_bend_forwards():
+    """As in [KSG02, step 4]."""
     cleaned = clean_up(JOINED[join])
     positions = joint_positions(cleaned)
     left = rotations.rotate(cleaned.rotations[:, 0], [1, 0, 0])
@@ -130,6 +132,7 @@ RUNS = (35, 38, 42, 45, 52, 56)
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 @pytest.mark.parametrize(("trials", "least"), [(WALKS, 0.97), (RUNS, 0.9)])
 def test_captured_feet_drift_and_afterwards_stand(real_data, trials, least, fps):
+    """As in [KSG02, all steps]."""
     held, asked = 0, 0
     for trial in trials:
         clip = mark_plants(resample(load(real_data / "cmu" / "16" / f"16_{trial}.amc"), fps))

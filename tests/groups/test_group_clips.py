@@ -18,6 +18,7 @@ every_graph = pytest.mark.parametrize(("count", "nodes"), [(12, 8), (6, 6)])
 
 @every_graph
 def test_a_clip_starts_and_ends_exactly_on_its_nodes(count, nodes):
+    """As in [LCF05, clips]."""
     group = graph(count, nodes)
     for clip in group.clips:
         start, end = group.nodes[clip.start], group.nodes[clip.end]
@@ -40,6 +41,7 @@ def test_nobody_comes_nearer_than_60_cm_and_nobody_is_jerked(count, nodes):
 
 @every_graph
 def test_the_bounds_hold_every_member_in_every_frame(count, nodes):
+    """As in [LCF05, bounds]."""
     for clip in graph(count, nodes).clips:
         centre, radius = clip.disc
         assert np.abs(clip.places - centre).max() <= radius + 1e-12

@@ -20,6 +20,7 @@ def test_the_web_finds_the_cycles_of_all_turns_and_speeds():
 
 
 def test_examples_are_samples_and_all_samples_are_what_their_blends_do():
+    """As in [KG04, sampling]."""
     made = space(100)
     count = len(made.registration.clips)
     assert np.array_equal(made.weights[:count], np.eye(count))

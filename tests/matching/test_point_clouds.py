@@ -29,6 +29,7 @@ from tests.strategies import planar, random_motion, seeds, wave
 @settings(max_examples=25)
 @given(seeds)
 def test_no_optimiser_finds_a_better_alignment(seed):
+    """As in [KGP02, Eqs. 2-4]."""
     random = np.random.default_rng(seed)
     points, others = random.normal(size=(2, 12, 3))
     weights = random.random(12)

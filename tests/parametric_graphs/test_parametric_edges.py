@@ -29,6 +29,7 @@ def fresh(source, target, edge, bad, seed=99):
 
 
 def test_boxes_hold_next_to_no_bad_target():
+    """As in [HG07, 4]."""
     graph, steps = walking(), stepping()
     edges = [(graph, "walk", "walk"), (steps, "left", "right"), (steps, "right", "left")]
     for built, a, b in edges:
@@ -46,7 +47,7 @@ def test_without_bad_targets_boxes_hold_more_of_them():
 
 
 def test_with_d_plus_1_neighbours_boxes_jump():
-    """The paper's k gives the nearest sample and nothing else; one more neighbour makes boxes continuous."""
+    """The paper's k gives the nearest sample and nothing else; one more neighbour makes boxes continuous [HG07, Eqs. 1-2]."""
     edge = walking().edge("walk", "walk")
     fine = np.linspace(-1.2, 1.2, 1201)[:, None]
     sides = {k: np.array([edge.look_up(asked, k).low[0] for asked in fine]) for k in (2, 3, 4)}
@@ -62,6 +63,7 @@ def test_a_box_reaches_further_to_the_side_one_turns_to():
 
 
 def test_costs_at_the_looked_up_phases_are_nearly_the_best():
+    """As in [HG07, Eq. 3]."""
     source = space()
     edge, random = walking().edge("walk", "walk"), np.random.default_rng(3)
     at = draw_parameters(source, 30, random)

@@ -26,6 +26,7 @@ def asked_and_got(tested, goals):
 
 @pytest.mark.parametrize("feet", ["lrl", "lr", "rl"])
 def test_what_is_asked_is_got(feet):
+    """As in [HG07, nodes]."""
     tested = space(feet)
     off = asked_and_got(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
     assert off.max() <= 1.0 and off.mean() <= 0.3
@@ -57,6 +58,7 @@ def test_weights_of_neighbours_add_up_to_one_and_the_farthest_has_none(gaps):
 
 
 def test_the_formula_of_the_paper():
+    """Hold [HG07, Eqs. 1-2]."""
     _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2], [4]]), np.ones(1), 3)
     np.testing.assert_allclose(weights, [[0.75, 0.25, 0]])
     _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2]]), np.ones(1), 2)
@@ -71,7 +73,7 @@ def test_equal_gaps_and_a_hit_are_no_division_by_zero():
 
 
 def test_raw_strides_are_rough_and_the_bell_is_smooth():
-    """A change of 2 degrees in what is asked: how far do the mean poses go?"""
+    """A change of 2 degrees in what is asked: how far do the mean poses go? [HG07, nodes]"""
     smooth = space()
     raw = StrideSpace(
         smooth.strides,
