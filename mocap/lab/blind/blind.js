@@ -94,6 +94,7 @@ class BlindTest {
     this.status.textContent = `${this.spec.sentences[right]} You chose the left film ${left} times.`;
     const name = part("input", { autocomplete: "off", "aria-label": "a name or number for the file", value: `viewer-${Math.floor(Math.random() * 1e6)}` });
     const save = part("button", { type: "button", onclick: () => this.save(name.value) }, "Save my answers");
+    this.root.append(this.stage); // below the result
     this.stage.replaceChildren(part("p", {}, "A name or number for the file: ", name, " ", save));
     save.focus();
   }
