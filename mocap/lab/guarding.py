@@ -86,6 +86,10 @@ class Slot:
             return self._give_up(f"raised {type(error).__name__}{said}"[:110], arguments)
         if (shape := SHAPES.get(self.name)) is not None:
             fits = same_form(given, np.zeros(shape))
+        elif self.name == "inner_minima":  # where neighbours are exactly equal, there may be one more or less
+            fits = isinstance(given, list | tuple | np.ndarray) and all(
+                same_form(one, (0, 0)) for one in given
+            )
         else:
             fits = same_form(given, self.stand_in(*arguments))
         return given if fits else self._give_up(f"gave {_seen(given)}", arguments)

@@ -34,7 +34,7 @@ def plain_source(function: FunctionType, known: Collection[str] = ()) -> Plain:
     Examples
     --------
     >>> sorted(plain_source(textwrap.shorten).imports)
-    ['from textwrap import TextWrapper', 'from textwrap import fill']
+    ['from textwrap import TextWrapper']
     """
     imports: set[str] = set()
     helpers: dict[str, str] = {}
@@ -49,11 +49,11 @@ def _gather(function: FunctionType, known: set[str], imports: set[str], helpers:
             continue
         known.add(name)
         value = function.__globals__[name]
-        if line := _import(name, value):
-            imports.add(line)
-        elif isinstance(value, FunctionType) and value.__module__ == function.__module__:
+        if isinstance(value, FunctionType) and value.__globals__ is function.__globals__:
             _gather(value, known, imports, helpers)
             helpers[name] = _source(value)
+        elif line := _import(name, value):
+            imports.add(line)
         elif _is_plain(value):
             helpers[name] = f"{name} = {value!r}\n"
         else:

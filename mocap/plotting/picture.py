@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import html
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -50,6 +50,30 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
         return Picture(small_png(figure), alt)
     finally:
         plt.close(figure)
+
+
+def stack(figures: Sequence[Figure], alt: str) -> Picture:
+    """Show figures as one picture, one below the other.
+
+    Parameters
+    ----------
+    figures : from `bodies_along`, say, which draws figures that nobody has to close.
+    alt : a sentence that says what they show.
+
+    Examples
+    --------
+    >>> one, two = (Figure(figsize=(2, height)) for height in (1, 2))
+    >>> picture = stack([one, two], alt="Two empty figures, one below the other.")
+    >>> Image.open(io.BytesIO(picture.picture)).size
+    (220, 330)
+    """
+    parts = [Image.open(io.BytesIO(small_png(figure))).convert("RGB") for figure in figures]
+    whole = Image.new("RGB", (max(part.width for part in parts), sum(part.height for part in parts)), "white")
+    top = 0
+    for part in parts:
+        whole.paste(part, (0, top))
+        top += part.height
+    return Picture(few_colours(whole), alt)
 
 
 @dataclass(frozen=True)

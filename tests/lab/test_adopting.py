@@ -1,7 +1,127 @@
+import numpy as np
+import pytest
+
 from mocap import lab
+from mocap.course import checks
+from mocap.errors import MocapError
+from tests.lab.conftest import new_kernel
+from tests.lab.students import solutions, written
+
+X, Y, Z = np.eye(4)[1:]
 
 
-def test_before_an_exercise_is_solved_the_packages_function_stands_in(capsys):
+def test_before_an_exercise_is_solved_the_packages_function_stands_in(capsys, fresh):
     hamilton = lab.mine("hamilton")
-    assert hamilton([0, 1, 0, 0], [0, 0, 1, 0]).tolist() == [0, 0, 0, 1]
+    assert hamilton(X, Y).tolist() == Z.tolist()
     assert capsys.readouterr().out == "hamilton: the package's stands in until yours passes its check.\n"
+    assert not fresh.exists()
+
+
+def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file(capsys, fresh):
+    own = written("hamilton")
+    hamilton = lab.mine(own)
+    assert capsys.readouterr().out == "hamilton: yours, kept in my_graph.py.\n"
+    assert hamilton.own is own
+    assert lab.mine("hamilton") is hamilton
+    assert hamilton(X, Y).tolist() == Z.tolist()
+    text = fresh.read_text()
+    assert "import numpy as np\n" in text
+    assert f"# ---- hamilton (notebook 01) ----\n\n{solutions()['hamilton'][1]}" in text
+    assert lab.whose("hamilton", "climb") == "hamilton: yours · climb: the package's"
+
+
+def test_it_survives_a_restart_and_goes_when_it_is_deleted(capsys, fresh):
+    lab.mine(written("hamilton"))
+    lab.mine(written("short_way"))
+    new_kernel()
+    assert lab.mine("hamilton").yours
+    assert lab.mine("short_way").yours
+    head, _, rest = fresh.read_text().partition("# ---- hamilton")
+    fresh.write_text(head + "# ----" + rest.split("# ----", 1)[1])
+    assert not lab.mine("hamilton").yours
+    assert lab.mine("short_way").yours
+    fresh.unlink()
+    assert not lab.mine("short_way").yours
+
+
+def test_a_wrong_function_leaves_the_place_as_it_was(capsys, fresh):
+    lab.mine(written("hamilton"))
+    wrong = written("hamilton", "def hamilton(a, b):\n    return a * b\n")
+    assert lab.mine(wrong).own is not wrong
+    assert lab.mine("hamilton").yours
+    assert "a * b" not in fresh.read_text()
+
+
+def test_the_check_judges_what_was_written_when_its_cell_runs_again(capsys):
+    hamilton = lab.mine(written("hamilton", "def hamilton(a, b):\n    return a * b\n"))
+    assert "multiplies number by number" in checks.hamilton.verdict(hamilton).message
+    assert not lab.mine(hamilton).yours
+    assert checks.hamilton.verdict(lab.mine("climb")).right is False
+
+
+def test_a_function_uses_the_other_exercises_by_their_names(fresh):
+    short_way = lab.mine(written("short_way"))
+    source = """
+def mix(a, b, alpha):
+    pairs = zip(b.rotations, a.rotations, alpha)
+    turns = [[short_way(q, r, t) for q, r in zip(qs, rs)] for qs, rs, t in pairs]
+    roots = [t * p + (1 - t) * q for p, q, t in zip(a.root_positions, b.root_positions, alpha)]
+    return np.array(roots), np.array(turns)
+"""
+    lab.mine(written("mix", source, {"short_way": short_way}))
+    new_kernel()
+    assert lab.mine("mix").yours
+    arguments = checks.mix.draw(np.random.default_rng(1))
+    lab.mine("mix")(*arguments)
+    assert lab.mine("short_way").calls > 0
+    assert "short_way" not in fresh.read_text().partition("# ----")[0]
+
+
+def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
+    lab.mine(written("hamilton"))
+    kept = fresh.read_text()
+    monkeypatch.setenv("MOCAP_MINE", "")
+    new_kernel()
+    assert not lab.mine("hamilton").yours
+    lab.mine(written("short_way"))
+    assert capsys.readouterr().out.endswith("short_way: yours.\n")
+    assert fresh.read_text() == kept
+
+
+def test_a_name_that_no_exercise_has_is_refused():
+    with pytest.raises(MocapError, match=r"no exercise 'hamiltion'\.$"):
+        lab.mine("hamiltion")
+    with pytest.raises(MocapError, match="no exercise '<lambda>'"):
+        lab.mine(lambda a, b: a)
+
+
+def test_what_cannot_be_kept_is_used_until_the_kernel_ends(capsys, fresh):
+    source = "def hamilton(a, b):\n    return table['product'](a, b)\n"
+    own = written("hamilton", source, {"table": {"product": written("hamilton")}})
+    assert lab.mine(own).yours
+    said = capsys.readouterr().out
+    assert "not kept. It uses `table`, a dict that no short text can make.\n" in said
+    assert not fresh.exists()
+
+
+def test_a_file_that_cannot_be_written_is_no_obstacle(monkeypatch, capsys, tmp_path):
+    monkeypatch.setenv("MOCAP_MINE", str(tmp_path / "nowhere" / "my_graph.py"))
+    assert lab.mine(written("hamilton")).yours
+    assert "adopted until this kernel ends, but not kept." in capsys.readouterr().out
+
+
+def test_a_function_in_the_file_that_no_longer_passes_is_not_used(capsys, fresh):
+    lab.mine(written("hamilton"))
+    unknown = "# ---- hmilton ----\n\ndef hmilton(): ...\n"
+    fresh.write_text(fresh.read_text().replace("- a[1:]", "+ a[1:]") + unknown)
+    new_kernel()
+    assert not lab.mine("hamilton").yours
+    said = capsys.readouterr().out
+    assert "my_graph.py: hamilton does not pass its check any more, so the package's stands in.\n" in said
+    assert "my_graph.py: the course has no exercise 'hmilton'; it is not used.\n" in said
+
+
+def test_a_folder_in_place_of_the_file_is_said(capsys, fresh):
+    fresh.mkdir()
+    assert not lab.mine("hamilton").yours
+    assert "my_graph.py: cannot be read" in capsys.readouterr().out
