@@ -81,7 +81,7 @@ def test_root_grid_adds_metres_and_radians():
 
 
 def test_root_grid_is_misled_by_where_a_clip_was_captured():
-    """The paper's point: the same motion elsewhere is far in the root metric, and at 0 in the right one [KGP02, 3.1]."""
+    """The paper's point: a motion elsewhere is far in the root metric, at 0 in the right one [KGP02, 3.1]."""
     a = wave(20)
     b = PlanarTransform(2.0, 3.0, 0.0).apply_motion(a)
     assert root_grid(a, b, window=3).diagonal().min() > 2

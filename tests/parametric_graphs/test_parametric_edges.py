@@ -47,7 +47,7 @@ def test_without_bad_targets_boxes_hold_more_of_them():
 
 
 def test_with_d_plus_1_neighbours_boxes_jump():
-    """The paper's k gives the nearest sample and nothing else; one more neighbour makes boxes continuous [HG07, Eqs. 1-2]."""
+    """The paper's k gives the nearest sample alone; one more makes boxes continuous [HG07, Eqs. 1-2]."""
     edge = walking().edge("walk", "walk")
     fine = np.linspace(-1.2, 1.2, 1201)[:, None]
     sides = {k: np.array([edge.look_up(asked, k).low[0] for asked in fine]) for k in (2, 3, 4)}

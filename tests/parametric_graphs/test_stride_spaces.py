@@ -58,7 +58,7 @@ def test_weights_of_neighbours_add_up_to_one_and_the_farthest_has_none(gaps):
 
 
 def test_the_formula_of_the_paper():
-    """Hold [HG07, Eqs. 1-2]."""
+    """As in [HG07, Eqs. 1-2]."""
     _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2], [4]]), np.ones(1), 3)
     np.testing.assert_allclose(weights, [[0.75, 0.25, 0]])
     _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2]]), np.ones(1), 2)
