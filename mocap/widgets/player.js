@@ -6,6 +6,8 @@
 // `render`. Its `model` shares with Python: `scene`, with a number; `move`, which Python sets, and `at`, which the
 // player sets: the number of a scene and a frame; and `path`.
 
+const FOLLOWED = 15; // metres of ground around a character that the camera follows
+
 class Player {
   constructor(root, scene, model) {
     this.root = root; this.model = model; this.camera = new Camera();
@@ -183,7 +185,8 @@ class Player {
     const distance = this.follow.checked ? 4.2 : reach, ghosts = this.ghosts.checked, dark = isDark();
     this.root.classList.toggle("dark", dark);
     const palette = dark ? DARK : LIGHT, drawn = hand.drawn, pen = hand.pen ? drawn.at(-1) : null;
-    this.picture.draw({ characters, time, asked, drawn, pen, sides, marks, palette, ghosts, target, distance, reach });
+    const ground = this.follow.checked ? Math.min(reach, FOLLOWED) : reach;
+    this.picture.draw({ characters, time, asked, drawn, pen, sides, marks, palette, ghosts, target, distance, reach: ground });
     this.showState();
   }
 

@@ -1,5 +1,8 @@
 // The picture of a scene on a canvas: ground, paths, footprints, ghosts, and bodies with their shadows.
 
+const NEAR = 0.1; // metres before the camera, from where on something is drawn
+const APART = 3; // pixels between points of a line; nearer ones would cost time, and nobody would see them
+const GAPS = [1, 2, 5, 10, 20, 50]; // metres between lines of the ground
 const GHOSTS = 6, GHOST_GAP = 0.25; // how many earlier poses, and the seconds between them
 
 class Picture {
@@ -34,25 +37,35 @@ class Picture {
     return size;
   }
 
-  // Lines one metre apart, which stay where they are in the world and fade with distance.
+  // Lines which stay where they are in the world and fade with distance, one metre apart. Where so many would be grey
+  // together, they are further apart, and a word says so.
   drawGround([x, , z], reach) {
-    const lines = Math.max(6, Math.ceil(1.3 * reach / Math.min(1, this.camera.zoom)));
-    const x0 = Math.round(x), z0 = Math.round(z);
-    for (let i = -lines; i <= lines; i++) {
-      const fade = 1 - Math.abs(i) / (lines + 1);
-      const along = [[x0 + i, 0, z0 - lines], [x0 + i, 0, z0 + lines]];
-      const across = [[x0 - lines, 0, z0 + i], [x0 + lines, 0, z0 + i]];
-      this.stroke([along, across], this.palette.line, 1, fade);
+    const wide = 1.3 * reach / Math.min(1, this.camera.zoom), gap = GAPS.find((metres) => wide <= 30 * metres) ?? GAPS.at(-1);
+    const lines = Math.max(6, Math.ceil(wide / gap)), x0 = gap * Math.round(x / gap), z0 = gap * Math.round(z / gap), end = lines * gap;
+    for (let i = 0; i <= lines; i++) {
+      const both = [i * gap, -i * gap].slice(0, i ? 2 : 1);
+      const along = both.map((off) => [[x0 + off, 0, z0 - end], [x0 + off, 0, z0 + end]]);
+      const across = both.map((off) => [[x0 - end, 0, z0 + off], [x0 + end, 0, z0 + off]]);
+      this.stroke([...along, ...across], this.palette.line, 1, 1 - i / (lines + 1));
     }
+    if (gap > 1) this.write(`lines ${gap} m apart`);
+  }
+
+  // A few words in the lower left corner.
+  write(text) {
+    this.pen.font = "12px system-ui, sans-serif"; this.pen.fillStyle = this.palette.ink;
+    this.pen.fillText(text, 8, this.canvas.clientHeight - 8);
   }
 
   // The root's path, its seams, and footprints: strong while the foot stands, pale afterwards.
   drawTrail(character) {
     for (const { colour, line } of character.trail) this.stroke([line], colour, 2.5);
-    for (const place of character.diamonds) this.disc(place, 0.07, this.marks.seam, 1, true);
-    for (const [start, end, px, pz, side] of character.prints) {
-      if (this.time >= start) this.disc([px, 0.005, pz], 0.055, this.sides[side], this.time < end ? 0.95 : 0.25, true);
+    this.discs(character.diamonds, 0.07, this.marks.seam, 1, true);
+    const strong = this.sides.map(() => []), pale = this.sides.map(() => []);
+    for (const [start, end, x, z, side] of character.prints) {
+      if (this.time >= start) (this.time < end ? strong : pale)[side].push([x, 0.005, z]);
     }
+    this.sides.forEach((colour, side) => { this.discs(pale[side], 0.055, colour, 0.25, true); this.discs(strong[side], 0.055, colour, 0.95, true); });
   }
 
   drawGhosts() {
@@ -60,10 +73,9 @@ class Picture {
       const time = this.time - k * GHOST_GAP;
       if (time < 0) continue;
       for (const character of this.characters) {
-        const bones = this.bones(character, time), lines = bones.map((bone) => bone.ends);
-        const colour = this.ink(character.colourAt(time)), alpha = 0.5 * (1 - k / (GHOSTS + 1));
-        this.stroke(lines, colour, 0.03, alpha, true);
-        if (bones.head) this.disc(bones.head, 0.095, colour, alpha, false);
+        const pose = character.pose(time), colour = this.ink(character.colourAt(time)), alpha = 0.5 * (1 - k / (GHOSTS + 1));
+        this.strokeBones(pose, character.bones, colour, 0.03, alpha);
+        if (character.head !== null) this.disc(placeOf(pose, character.head), 0.095, colour, alpha, false);
       }
     }
   }
@@ -71,61 +83,116 @@ class Picture {
   // The colour of the middle of a body is dark on light, and light on dark.
   ink(colour) { return colour === "#333333" ? this.palette.ink : colour; }
 
-  bones(character, time) {
-    const pose = character.pose(time), place = (joint) => Array.from(pose.subarray(3 * joint, 3 * joint + 3));
-    const bones = character.bones.map(([from, to, side]) => ({ ends: [place(from), place(to)], side }));
-    bones.head = character.head === null ? null : place(character.head);
-    return bones;
+  // Shadows first, then all bodies, the farthest first: of each the sides and the head, the farthest first. One stroke
+  // for all bones of a side: with a stroke for each bone, twelve bodies would take three times as long.
+  drawBodies() {
+    const { camera } = this, bodies = this.characters.map((character) => ({ character, pose: character.pose(this.time) }));
+    for (const { character, pose } of bodies) this.strokeBones(pose, character.bones, this.palette.shadow, 0.05, 0.15, true);
+    for (const body of bodies) { camera.project(body.pose[0], body.pose[1], body.pose[2]); body.far = camera.far; }
+    for (const { character, pose } of bodies.sort((a, b) => b.far - a.far)) this.drawBody(character, pose);
   }
 
-  // Shadows first, then all bones of all bodies, the farthest first.
-  drawBodies() {
-    const parts = [];
-    for (const character of this.characters) {
-      const bones = this.bones(character, this.time), own = this.ink(character.colourAt(this.time));
-      this.stroke(bones.map(({ ends }) => ends.map(([x, , z]) => [x, 0, z])), this.palette.shadow, 0.05, 0.15, true);
-      for (const { ends, side } of bones) {
-        const far = this.camera.see(...ends[0])[2] + this.camera.see(...ends[1])[2];
-        parts.push({ far: far / 2, paint: () => this.stroke([ends], side ? this.sides[side] : own, 0.04, 1, true) });
-      }
-      if (bones.head) parts.push({ far: this.camera.see(...bones.head)[2], paint: () => this.disc(bones.head, 0.095, own, 1, false) });
+  drawBody(character, pose) {
+    const own = this.ink(character.colourAt(this.time)), parts = [];
+    this.sides.forEach((colour, side) => {
+      const bones = sideOf(character, side);
+      if (bones.length) parts.push({ far: this.distance(pose, bones), paint: () => this.strokeBones(pose, bones, side ? colour : own, 0.04) });
+    });
+    if (character.head !== null) {
+      const place = placeOf(pose, character.head);
+      parts.push({ far: this.camera.see(...place)[2], paint: () => this.disc(place, 0.095, own, 1, false) });
     }
     for (const part of parts.sort((a, b) => b.far - a.far)) part.paint();
   }
 
+  // How far away the ends of bones are, on average.
+  distance(pose, bones) {
+    let sum = 0;
+    for (const [, to] of bones) { this.camera.project(pose[3 * to], pose[3 * to + 1], pose[3 * to + 2]); sum += this.camera.far; }
+    return sum / bones.length;
+  }
+
+  // Bones of a pose in one stroke, or what falls of them on the ground; `width` is in metres.
+  strokeBones(pose, bones, colour, width, alpha = 1, flat = false) {
+    const { camera, pen } = this, up = flat ? 0 : 1;
+    let far = 0, count = 0;
+    pen.beginPath();
+    for (const [from, to] of bones) {
+      camera.project(pose[3 * from], up * pose[3 * from + 1], pose[3 * from + 2]);
+      const { across, down } = camera, near = camera.far;
+      camera.project(pose[3 * to], up * pose[3 * to + 1], pose[3 * to + 2]);
+      if (near < NEAR || camera.far < NEAR) continue; // a bone is short: it is left out where it passes the camera
+      pen.moveTo(across, down); pen.lineTo(camera.across, camera.down);
+      far += near; count++;
+    }
+    if (count) this.paintStroke(colour, Math.max(1, (width * camera.focus * count) / far), alpha);
+  }
+
   // Lines through points of the world, in one stroke, so that they are not darker where they meet. Parts behind the
-  // camera are cut off. `width` is in pixels, or in metres.
+  // camera are cut off; points that fall beside the last one are left out. `width` is in pixels, or in metres.
   stroke(lines, colour, width, alpha = 1, metres = false) {
-    const { camera, pen } = this, near = 0.1;
+    const { camera, pen } = this;
     let far = 0;
     pen.beginPath();
     for (const line of lines) {
-      const seen = line.map((point) => camera.see(...point));
-      for (let i = 1; i < seen.length; i++) {
-        let [a, b] = [seen[i - 1], seen[i]];
-        if (a[2] < near && b[2] < near) continue;
-        const cut = (p, q) => p.map((v, k) => v + (q[k] - v) * (near - p[2]) / (q[2] - p[2]));
-        if (a[2] < near) a = cut(a, b); else if (b[2] < near) b = cut(b, a);
-        far = (a[2] + b[2]) / 2;
-        pen.moveTo(...camera.pixel(a)); pen.lineTo(...camera.pixel(b));
+      let before = false, x = 0, y = 0; // whether the last point was seen, and where the pen is
+      for (let i = 0; i < line.length; i++) {
+        const [px, py, pz] = line[i];
+        camera.project(px, py, pz);
+        const seen = camera.far > NEAR;
+        if (i && seen !== before) this.passNear(line[i - 1], line[i], before);
+        before = seen;
+        if (!seen) continue;
+        const { across, down } = camera, last = i === line.length - 1;
+        if (i && !last && Math.abs(across - x) + Math.abs(down - y) < APART) continue;
+        if (i) pen.lineTo(across, down); else pen.moveTo(across, down);
+        x = across; y = down; far = camera.far;
       }
     }
-    if (!far) return;
-    pen.globalAlpha = alpha; pen.strokeStyle = colour;
-    pen.lineWidth = metres ? Math.max(1, (width * camera.focus) / far) : width;
+    if (far) this.paintStroke(colour, metres ? Math.max(1, (width * camera.focus) / far) : width, alpha);
+  }
+
+  // Where a line from a to b comes before the camera or leaves it; afterwards b is projected again.
+  passNear(a, b, leaves) {
+    const { camera, pen } = this, there = camera.see(...b)[2], share = (NEAR - there) / (camera.see(...a)[2] - there);
+    camera.project(b[0] + share * (a[0] - b[0]), b[1] + share * (a[1] - b[1]), b[2] + share * (a[2] - b[2]));
+    if (leaves) pen.lineTo(camera.across, camera.down); else pen.moveTo(camera.across, camera.down);
+    camera.project(b[0], b[1], b[2]);
+  }
+
+  paintStroke(colour, width, alpha) {
+    const { pen } = this;
+    pen.globalAlpha = alpha; pen.strokeStyle = colour; pen.lineWidth = width;
     pen.stroke();
     pen.globalAlpha = 1;
   }
 
   // A ball, or, where `flat`, a disc on the ground.
-  disc(place, radius, colour, alpha, flat) {
-    const { camera, pen } = this, seen = camera.see(...place);
-    if (seen[2] < 0.1) return;
-    const r = (radius * camera.focus) / seen[2];
+  disc(place, radius, colour, alpha, flat) { this.discs([place], radius, colour, alpha, flat); }
+
+  // Many of them at once, which is much quicker than one after the other.
+  discs(places, radius, colour, alpha, flat) {
+    if (!places.length) return;
+    const { camera, pen } = this;
     pen.globalAlpha = alpha; pen.fillStyle = colour;
     pen.beginPath();
-    pen.ellipse(...camera.pixel(seen), r, flat ? r * Math.sin(camera.pitch) + 0.5 : r, 0, 0, 2 * Math.PI);
+    for (const [x, y, z] of places) {
+      camera.project(x, y, z);
+      if (camera.far < NEAR) continue;
+      const r = (radius * camera.focus) / camera.far;
+      if (r < 1) { pen.rect(camera.across - r, camera.down - r, 2 * r, 2 * r); continue; }
+      pen.moveTo(camera.across + r, camera.down);
+      pen.ellipse(camera.across, camera.down, r, flat ? r * Math.sin(camera.pitch) + 0.5 : r, 0, 0, 2 * Math.PI);
+    }
     pen.fill();
     pen.globalAlpha = 1;
   }
+}
+
+function placeOf(pose, joint) { return [pose[3 * joint], pose[3 * joint + 1], pose[3 * joint + 2]]; }
+
+// The bones of one side of a character; they are looked for once.
+function sideOf(character, side) {
+  character.bySide ??= [0, 1, 2].map((wanted) => character.bones.filter((bone) => bone[2] === wanted));
+  return character.bySide[side];
 }

@@ -30,6 +30,15 @@ class Camera {
     return [this.middle[0] + right * scale, this.middle[1] - up * scale];
   }
 
+  // The same without an array for each of thousands of points: sets `across`, `down` (pixels) and `far` (metres ahead).
+  project(x, y, z) {
+    const a = x - this.eye[0], b = y - this.eye[1], c = z - this.eye[2], { right, up, ahead } = this;
+    this.far = a * ahead[0] + b * ahead[1] + c * ahead[2];
+    const scale = this.focus / this.far;
+    this.across = this.middle[0] + (a * right[0] + b * right[1] + c * right[2]) * scale;
+    this.down = this.middle[1] - (a * up[0] + b * up[1] + c * up[2]) * scale;
+  }
+
   // The point of the ground under a pixel, or null above the horizon.
   ground(px, py) {
     const r = (px - this.middle[0]) / this.focus, u = (this.middle[1] - py) / this.focus;
