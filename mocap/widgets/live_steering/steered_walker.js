@@ -6,14 +6,13 @@ class Walker {
   constructor(packed) {
     Object.assign(this, packed, { path_colour: packed.colour, diamonds: [], prints: [], fault: "", delays: [] });
     this.frames = []; this.first = 0; // the number of the first frame that is kept
-    this.places = new Float32Array(3 * packed.joints); // one array for all poses that `pose` gives
     this.centre = null;
   }
 
   // Take frames from Python: what is said of each, and the numbers of all.
   add({ first, waited, obeyed, blending, fault, delays }, numbers) {
     if (first !== this.first + this.frames.length) { this.frames = []; this.first = first; }
-    const size = this.places.length;
+    const size = 3 * this.joints;
     for (let k = 0; k < waited.length; k++) {
       this.frames.push({ places: numbers.subarray(k * size, (k + 1) * size), waited: waited[k], obeyed: obeyed[k], blending: blending[k] });
     }
@@ -34,8 +33,7 @@ class Walker {
   pose(time) {
     const at = Math.min(Math.max(time * this.fps - this.first, 0), this.frames.length - 1), k = Math.floor(at), share = at - k;
     const a = this.frames[k].places, b = this.frames[Math.min(k + 1, this.frames.length - 1)].places;
-    for (let i = 0; i < this.places.length; i++) this.places[i] = a[i] + share * (b[i] - a[i]);
-    return this.places;
+    return a.map((from, i) => from + share * (b[i] - from));
   }
 
   // Metres per second on the ground, over the last half second.

@@ -6,7 +6,7 @@
 
 const PIECE = 0.04; // seconds of walking per question, at least
 const GENTLE = 0.04; // with fewer seconds left than this, time runs slower
-const SILENT = 1000; // milliseconds without an answer until the page says so
+const SILENT = 1000, LOST = 15000; // milliseconds without an answer until the page says that Python is busy, or may have ended
 const DIRECTIONS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0], w: [0, 1], s: [0, -1], a: [-1, 0], d: [1, 0] };
 
 class Steering {
@@ -90,12 +90,12 @@ class Steering {
 
   order(change) {
     const { heading, speed, label } = { ...this.command, ...change }, [low, high] = this.scene.speeds;
-    this.model.set("command", [heading, Math.min(high, Math.max(low, speed)), label]);
+    this.model.set("command", [heading, Math.round(20 * Math.min(high, Math.max(low, speed))) / 20, label]);
     if (!this.playing && !this.gone) this.toggle(true);
   }
 
-  // A new command is under way from now on, until the first frames that know it are seen.
-  commanded() { this.under ??= { since: performance.now(), number: null, start: null }; }
+  // A new command is under way from now on, until the first frames that know it are seen; what was said of the last one goes.
+  commanded() { this.warned = true; this.under ??= { since: performance.now(), number: null, start: null }; }
 
   // The heading of a direction on the picture: [to the right, up], where up is away from the reader.
   heading([right, up]) {
@@ -175,8 +175,8 @@ class Steering {
     if (own) this.timeTrip(content);
     content.members.forEach((member, k) => this.panels[k].walker.add(member, numbersOf(buffers[k])));
     if (content.notes.length) this.say(content.notes.join("\n"));
-    else if (own && this.late) this.say("");
-    if (own) this.late = false;
+    else if (this.late || this.warned) this.say("");
+    this.late = false; this.warned = false;
     this.cost = content.cost;
     const start = Math.min(...this.panels.map(({ walker }) => walker.end));
     this.time ??= start;
@@ -216,10 +216,10 @@ class Steering {
       this.ways = [...this.ways.slice(-8), performance.now() - this.under.since];
       this.under = null;
     }
-    if (this.asked !== null && performance.now() - this.asked > SILENT && !this.late) {
-      this.late = true;
-      this.say("Python is busy: the figures wait until it answers.");
-    }
+    const silent = this.asked === null ? 0 : performance.now() - this.asked;
+    if (silent > LOST) this.say("Python does not answer. Has it ended? Then run the cell again.", true);
+    else if (silent > SILENT) this.say("Python is busy: the figures wait until it answers.");
+    this.late = silent > SILENT;
   }
 
   draw(seconds) {

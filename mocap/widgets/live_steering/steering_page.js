@@ -21,7 +21,9 @@ const STEERING_STYLE = `
 .mocap-steering .under { color: inherit; opacity: 0.85; padding: 0 2px; min-height: 1.4em; font-variant-numeric: tabular-nums; }
 .mocap-steering output { display: inline-block; min-width: 5em; font-variant-numeric: tabular-nums; }
 @media (max-width: 600px) {
-  .mocap-steering figure { flex-basis: 100%; display: flex; gap: 6px; } .mocap-steering figure canvas { height: 160px; flex: 1 1 60%; min-width: 0; }
+  .mocap-steering figure { flex-basis: 100%; display: flex; gap: 6px; }
+  .mocap-steering figure canvas { height: clamp(110px, 18svh, 160px); flex: 1 1 60%; min-width: 0; }
+  .mocap-steering .beside { flex-basis: 120px; } .mocap-steering .speed { width: 80px; }
   .mocap-steering figcaption { flex: 1 1 35%; align-self: center; }
 }`;
 

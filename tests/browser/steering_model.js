@@ -1,0 +1,32 @@
+// Stands for Python where steered characters are tested: all walk at the speed of the command, and turn at once.
+
+class Model {
+  constructor(state) { Object.assign(this, { state, heard: {}, questions: [], delay: 10, silent: false, said: {}, frames: 1, places: [] }); }
+  get(name) { return this.state[name]; }
+  set(name, value) {
+    const same = JSON.stringify(value) === JSON.stringify(this.state[name]);
+    this.state[name] = value;
+    if (!same) this.tell(`change:${name}`);
+  }
+  on(name, call) { (this.heard[name] ??= []).push(call); }
+  off(name, call) { this.heard[name] = this.heard[name].filter((other) => other !== call); }
+  tell(name, ...what) { (this.heard[name] ?? []).forEach((call) => call(...what)); }
+  save_changes() {}
+  send(question) { this.questions.push(question); if (!this.silent) setTimeout(() => this.answer(question), this.delay); }
+  speak() { this.silent = false; this.answer(this.questions.at(-1)); }
+
+  answer({ view, number, seconds, command: [heading, speed] }) {
+    const count = Math.max(1, Math.round(30 * seconds)), first = this.frames, all = (value) => Array(count).fill(value);
+    this.frames += count;
+    const buffers = this.state.scene.members.map(({ joints }, k) => {
+      const place = (this.places[k] ??= [0, 0]), numbers = new Float32Array(count * joints * 3);
+      for (let f = 0; f < count; f++) {
+        place[0] += (speed * Math.sin(heading)) / 30; place[1] += (speed * Math.cos(heading)) / 30;
+        for (let j = 0; j < joints; j++) numbers.set([place[0], (1.8 * j) / joints, place[1]], 3 * (f * joints + j));
+      }
+      return new DataView(numbers.buffer);
+    });
+    const members = this.places.map(() => ({ first, waited: all(0.4), obeyed: all(false), blending: all(false), fault: "", delays: [1, 2], ...this.said.member }));
+    this.tell("msg:custom", { kind: "walked", view, number, cost: 1, notes: [], ...this.said, members }, buffers);
+  }
+}
