@@ -21,6 +21,7 @@ class BlindTest {
     this.spec = JSON.parse(atob(root.dataset.spec));
     this.count = this.spec.onLeft.length;
     this.answers = [];
+    root.querySelector(".still").remove();
     this.status = part("p", { role: "status" });
     this.stage = part("div", {}, part("button", { type: "button", onclick: () => this.start() }, "Start the test"));
     root.append(this.stage, this.status);

@@ -24,6 +24,7 @@ from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS
 from mocap.widgets import player
 
+STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
 DRAWING = ("player_scene.js", "player_picture.js")  # the player's scripts that draw bodies
 
 
@@ -58,7 +59,7 @@ def blind_test(
     >>> from mocap import datasets, matching
     >>> clips = [datasets.sample("walk_circle")[:2400:4]]
     >>> blind_test(clips, matching.find_transitions(clips, window=10, below=0.04))
-    Blind test: 20 pairs of films, seams below 4.0 cm, blends of 10 frames, seed 0. ...
+    Blind test: 20 pairs of films, seams below 4.0 cm, blends of 10 frames, seed 0.
 
     Notebooks: 09-discussion, 09b-blend-window
     """
@@ -76,8 +77,7 @@ class BlindTest:
     def __repr__(self) -> str:
         return (
             f"Blind test: {len(self.pairs)} pairs of films, seams below {100 * self.plan.below:.1f} cm, "
-            f"blends of {self.plan.window} frames, seed {self.plan.seed}. "
-            "It runs where the page's script runs, such as in JupyterLab and on the course's site."
+            f"blends of {self.plan.window} frames, seed {self.plan.seed}."
         )
 
     @property
@@ -120,6 +120,7 @@ class BlindTest:
         picture, text = base64.b64encode(self.picture).decode(), html.escape(repr(self))
         return (
             f'<div class="mocap-blind" data-spec="{hidden}" data-films="{data}"><p>{text}</p>'
+            f'<p class="still">{STILL}</p>'
             f'<img alt="{html.escape(self.alt)}" src="data:image/png;base64,{picture}"></div>\n'
             f'<style>{(here / "blind.css").read_text("utf-8")}</style>\n<script type="module">\n'
             + "\n".join(script.read_text("utf-8") for script in scripts)
@@ -128,5 +129,5 @@ class BlindTest:
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
         picture = base64.b64encode(self.picture).decode()
-        bundle = {"text/html": self.html, "image/png": picture, "text/plain": repr(self)}
+        bundle = {"text/html": self.html, "image/png": picture, "text/plain": f"{self!r} {STILL}"}
         return bundle, {"image/png": {"alt": self.alt}}
