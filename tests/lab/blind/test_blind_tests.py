@@ -20,7 +20,7 @@ from mocap.plotting import bones
 
 @pytest.fixture(scope="module")
 def material():
-    clips = [datasets.sample(name)[::4] for name in ("walk_circle", "walk_curve_1")]
+    clips = [datasets.sample(name)[:2400:4] for name in ("walk_circle", "walk_curve_1")]
     return clips, find_transitions(clips, window=10, below=0.06)
 
 
