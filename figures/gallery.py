@@ -42,9 +42,11 @@ from mocap import (
     editing,
     feet,
     graphs,
+    groups,
     match_webs,
     matching,
     motion_matching,
+    parametric_graphs,
     plotting,
     resample,
     save,
@@ -521,6 +523,33 @@ def draw_match_webs() -> Figure:
     return figure
 
 
+def draw_parametric_graph() -> Figure:
+    """Draw the costs of one stride after another, the boxes, and what may follow a straight stride."""
+    names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+    strides = parametric_graphs.cut_strides([resample(datasets.sample(name), 30) for name in names])
+    space = parametric_graphs.make_space(strides, np.radians(14), -np.radians(75), np.radians(75))
+    edge = parametric_graphs.build_edge(space, space, good=0.03)
+    turns = np.radians(np.linspace(-75, 75, 61))[:, None]
+    costs = 100 * parametric_graphs.optimal_transitions(space, space, turns, turns).cost
+    ways = [edge.look_up(turn) for turn in turns]
+    boxes = np.degrees([(way.low[0], way.high[0]) for way in ways])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
+    plotting.boxes_image(costs, (-75, 75), boxes, ax=left)
+    left.set(xlabel="turn of a stride (degrees)", ylabel="turn of the next one (degrees)")
+    straight = edge.look_up(np.zeros(1))
+    first, last = strides.ends
+    follow = np.linspace(straight.low[0], straight.high[0], 7)[:, None]
+    ground, _ = parametric_graphs.mixed_way(strides, space.weights(np.concatenate([[[0.0]], follow])))
+    ground = ground[:, first : last + 1]
+    right.plot(-ground[0].imag, ground[0].real, color=ASKED, linewidth=3, label="a straight stride")
+    for number, way in enumerate(ground[1:] + ground[0, -1]):
+        label = "strides that may follow" if not number else None
+        right.plot(-way.imag, way.real, color=CURVES[0], linewidth=2, label=label)
+    right.set(aspect="equal", xlabel="to the right (m)", ylabel="ahead (m)", xlim=(-1.3, 1.1))
+    right.legend(frameon=False, fontsize=8, loc="center left")
+    return figure
+
+
 def draw_motion_matching() -> Figure:
     """Draw the futures of the frames that fit best, and a walk in the colours of its clips, with its cuts."""
     names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
@@ -571,6 +600,32 @@ def _draw_futures(ax: Axes, table: motion_matching.PoseDatabase, clip_of: Array)
     ax.plot(*((query * table.scale + table.mean)[15:21].reshape(3, 2)).T, "o", color=ASKED, label="asked for")
     ax.set(aspect="equal", xlabel="to the left (m)", ylabel="ahead (m)", xlim=(0.7, -0.5), ylim=(-0.1, 0.95))
     ax.legend(frameon=False, fontsize=8)
+
+
+def draw_groups() -> Figure:
+    """Draw who stands for whom in two groups; and a group that was planned beside one that is steered."""
+    figure, (match, plan, steered) = plt.subplots(1, 3, figsize=(10, 4.4), width_ratios=(1.2, 1, 1))
+    figure.set_layout_engine("constrained")
+    graph = groups.build_group(12)
+    one, other = (graph.nodes[node].places[:7] for node in (0, 3))
+    order = groups.compare(*(groups.Configuration(some, np.ones(7, complex)) for some in (one, other))).order
+    for a, b in zip(one, other[order], strict=True):
+        match.plot([a.imag, b.imag], [a.real, b.real], color=SOURCES[0], linewidth=2, zorder=1)
+    match.plot(one.imag, one.real, "o", color=SOURCES[0], markersize=10)
+    match.plot(other.imag, other.real, "o", color=ASKED, markerfacecolor="white", markersize=10)
+    rocks = [(rock, 1.3) for rock in (12 - 2.5j, 12, 12 + 2.5j, 9.5 - 3.6j, 9.5 + 3.6j)]
+    scene = groups.Scene((20 + 0j,), tuple(rocks))
+    found = groups.plan_group(graph, scene)
+    way = groups.play_group(graph, found.clips).places[: round(found.seconds * groups.RATE) + 1]
+    stays = groups.steer_group(graph.nodes[0], scene, limit=60)[0].places
+    for ax, places in ((plan, way), (steered, stays)):
+        plotting.draw_group_plan(places, scene.points, scene.discs, ax=ax)
+        ax.set(xlim=(10, -10), ylim=(-3, 23), ylabel="")
+    match.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", title="who stands for whom?")
+    match.xaxis.set_inverted(True)
+    plan.set_title("planned")
+    steered.set_title("steered")
+    return figure
 
 
 def draw_warping() -> Figure:
@@ -662,6 +717,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "levels": draw_levels,
     "registration": draw_registration,
     "match_webs": draw_match_webs,
+    "groups": draw_groups,
+    "parametric_graph": draw_parametric_graph,
     "motion_matching": draw_motion_matching,
 }
 

@@ -33,13 +33,13 @@ graphs             motion graphs: build, prune, choose a threshold, save (05, 06
 match_webs         all motions like an example, and spaces of blends between them (16)
 synthesis          walks through a graph, at random or by search, and their motions (07)
 steering           walks that follow a wish: paths, waypoints, crowds (08, 12)
-control            characters that get a new command in any frame (08, 12)
-plotting           pictures, by matplotlib (00 to 16)
-parametric_graphs  graphs of whole spaces of strides, and characters that need no search
-motion_matching    characters without a graph: the frame that fits best, searched again and again
-groups             a crowd that was planned: group motion graphs, and characters for their members
+control            characters that get a new command in any frame (08, 12, 17, 18)
+plotting           pictures, by matplotlib (00 to 19)
+parametric_graphs  graphs of whole spaces of strides, and characters that need no search (17)
+motion_matching    characters without a graph: the frame that fits best, searched again and again (18)
+groups             a crowd that was planned: group graphs, and characters for their members (19)
 diagrams           ideas drawn step by step (00 to 09)
-widgets            players and experiments for notebooks (00 to 16)
+widgets            players and experiments for notebooks (00 to 19)
 course             the notebooks: checks of exercises, hand-outs, pages
 marking            marks for notebooks handed in, whose code runs sealed
 lab                what students wrote is used, and what they thought is kept

@@ -11,8 +11,8 @@ whose paths are given and cross.
 Only the abstract of [LCF05] could be had. From it are: nodes by clustering, clips that join them by
 constrained simulation, and a search that known bounds make easy. All else is ours.
 
-Reading order
--------------
+Reading order (notebook 19)
+---------------------------
 1. `flocking`: walking people simulated by three rules
 2. `configurations`: when do two groups stand and move alike?
 3. `clustering`: configurations that come again

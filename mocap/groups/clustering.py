@@ -52,6 +52,8 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
     >>> found = cluster(simulate(4, 60), nodes=4, reach=0.4, every=2.0)
     >>> len(found.nodes), found.covered > 0.8
     (4, True)
+
+    Notebook: 19-group-graphs
     """
     if not len(flock.places):
         raise MocapError("There is no frame to take nodes from.")

@@ -63,6 +63,8 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
     >>> own, turn, move = seen_from_itself(group)
     >>> own.places.real.round(6), move
     (array([-1.,  1.]), np.complex128(6j))
+
+    Notebook: 19-group-graphs
     """
     middle, way = group.places.mean(axis=-1), group.velocities.mean(axis=-1)
     if (np.abs(way) < SLOWEST).any():
@@ -104,6 +106,8 @@ def compare(
     >>> match = compare(group, other)
     >>> float(match.rms) < 1e-9, match.order
     (True, array([2, 1, 0]))
+
+    Notebook: 19-group-graphs
     """
     pairs, shape = _pairs(first, second)
     best: Match | None = None

@@ -176,6 +176,8 @@ def simulate(
     >>> flock = simulate(6, 30)
     >>> flock.places.shape, bool(nearest_two(flock.places).min() > APART)
     ((300, 6), True)
+
+    Notebook: 19-group-graphs
     """
     if count < 2 or count != int(count):
         raise MocapError(f"A group has two members or more, got {count}.")
@@ -204,6 +206,8 @@ def nearest_two(places: Points) -> Array:
     --------
     >>> nearest_two(np.array([[0j, 3 + 4j, 1j]]))
     array([1.])
+
+    Notebook: 19-group-graphs
     """
     gap = np.abs(places[..., :, None] - places[..., None, :])
     return np.asarray((gap + 1e9 * np.eye(places.shape[-1])).min(axis=(-2, -1)))

@@ -109,6 +109,8 @@ def bend_to(run: Trajectories, goal: Configuration) -> Points:
     >>> run = Trajectories(places, np.ones((11, 1), complex))
     >>> bend_to(run, Configuration(np.array([1 + 1j]), np.array([1 + 0j])))[[0, 10], 0]
     array([0.+0.j, 1.+1.j])
+
+    Notebook: 19-group-graphs
     """
     frames = len(run.places) - 1
     share = np.linspace(0, 1, frames + 1)[:, None]

@@ -92,6 +92,8 @@ def make_clips(
     Warns
     -----
     MocapWarning : for pairs of nodes that no clip joins.
+
+    Notebook: 19-group-graphs
     """
     if not (len(nodes) and len(bends) and np.isfinite(bends).all() and seeds >= 1):
         raise MocapError(
@@ -166,6 +168,8 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
     >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
     >>> len(random_group_walk(graph, 5))
     5
+
+    Notebook: 19-group-graphs
     """
     random, node, walk = np.random.default_rng(seed), start, []
     for _ in range(clips):
@@ -198,6 +202,8 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
     >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
     >>> play_group(graph, random_group_walk(graph, 5)).places.shape
     (201, 3)
+
+    Notebook: 19-group-graphs
     """
     if not len(walk):
         raise MocapError("A walk of a group has one clip or more, got none.")

@@ -39,6 +39,8 @@ def steer_group(
     >>> flock, passed = steer_group(start, Scene((5 + 0j,)), limit=20.0)
     >>> passed
     1
+
+    Notebook: 19-group-graphs
     """
     scene.check(complex(start.places.mean()))
     rules = rules or Flock()
@@ -62,5 +64,7 @@ def clearances(flock: Trajectories, scene: Scene) -> Array:
     --------
     >>> clearances(Trajectories(np.array([[0j, 3j]]), np.zeros((1, 2))), Scene((1j,), ((5j, 1.0),)))
     array([1.])
+
+    Notebook: 19-group-graphs
     """
     return np.array([np.abs(flock.places - centre).min() - radius for centre, radius in scene.discs])

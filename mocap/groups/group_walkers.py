@@ -119,6 +119,8 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     >>> walkers = walk_group(graph, plan)
     >>> len(walkers.motions), bool(walkers.nearest > 1.2)
     (2, True)
+
+    Notebook: 19-group-graphs
     """
     if not flock.places.shape[-1]:
         raise MocapError("A plan has one member or more, got none.")

@@ -195,6 +195,8 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
     >>> found = plan_group(graph, Scene((9 + 2j,), ((5 + 0j, 0.5),)))
     >>> 7 < found.seconds < 20
     True
+
+    Notebook: 19-group-graphs
     """
     begin = start or Placed(0)
     _check_start(graph, begin, scene)

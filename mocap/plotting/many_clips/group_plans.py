@@ -37,6 +37,8 @@ def draw_group_plan(
     >>> figure = draw_group_plan(steps + [0j, 1j], [5 + 0j], [(3 + 2j, 0.5)])
     >>> len(figure.axes[0].lines), len(figure.axes[0].patches)
     (2, 2)
+
+    Notebook: 19-group-graphs
     """
     ax = ax or Figure(figsize=(7, 7), layout="constrained").add_subplot()
     for number, way in enumerate(np.asarray(places).T):
