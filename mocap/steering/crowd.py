@@ -1,4 +1,8 @@
-"""Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3]."""
+"""Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3].
+
+This serves a few characters whose paths are given and cross. A group that stays together and must find its
+way among obstacles is planned by `groups`.
+"""
 
 import warnings
 from collections.abc import Callable, Sequence
