@@ -78,7 +78,7 @@ def test_the_films_move_and_touch_answers(opened, artefacts):
         other = {"left": "right", "right": "left"}[side]
         opened.get_by_role("button", name=f"the {other} one").click()
 
-    assert take(opened, wrong).startswith("You chose right in 0 of 4 pairs: d′ = -")
+    assert take(opened, wrong).startswith("You chose right in 0 of 4 pairs: d′ = −")
     assert seen[0] != seen[1]
 
 

@@ -91,11 +91,12 @@ def sentence(right: int, of: int) -> str:
     'You chose right in 20 of 20 pairs: d′ = 2.8, with 95 % confidence 1.4 or more. You see these seams.'
     """
     value, low, high = d_prime(right, of)
-    limits = f"from {low:.1f} to {high:.1f}"
+    shown, least, most = (f"{number:.1f}".replace("-", "−") for number in (value, low, high))
+    limits = f"from {least} to {most}"
     if right in (0, of):
-        limits = f"{low:.1f} or more" if right else f"{high:.1f} or less"
+        limits = f"{least} or more" if right else f"{most} or less"
     verdict = "You see these seams." if low > 0 else "That can be guessing, whose d′ is 0."
     if high < 0:
         verdict = "You see these seams, but you chose the films without one."
-    shown = f"d′ = {value:.1f}, with 95 % confidence {limits}"
-    return f"You chose right in {right} of {of} pairs: {shown}. {verdict}"
+    estimate = f"d′ = {shown}, with 95 % confidence {limits}"
+    return f"You chose right in {right} of {of} pairs: {estimate}. {verdict}"

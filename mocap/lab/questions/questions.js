@@ -201,7 +201,8 @@
       const now = kept();
       let count = 0, right = 0, choices = 0;
       spec.rows.forEach((row, at) => {
-        const thought = now[row.key], [mine, , off] = cells[at];
+        const [mine, , off] = cells[at], kind = row.value === null ? "string" : "number";
+        const thought = [kind, "object"].includes(typeof now[row.key]) ? now[row.key] : undefined; // as the bet is today
         mine.textContent = thought === undefined ? "–" : written(thought, row.unit);
         off.textContent = "–";
         if (thought === undefined || thought === null) return;
@@ -227,6 +228,8 @@
     for (const root of document.querySelectorAll(".mocap-question:not([data-awake])")) {
       const spec = JSON.parse(atob(root.dataset.spec));
       root.dataset.awake = spec.kind;
+      root.setAttribute("role", "group");
+      root.setAttribute("aria-label", (root.querySelector(".asked") ?? root.querySelector(".head")).textContent);
       KINDS[spec.kind](root, spec);
     }
   }

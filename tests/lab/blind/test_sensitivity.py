@@ -88,9 +88,9 @@ def test_what_cannot_be_is_said(right, of, sure):
     ("right", "said"),
     [
         (20, "1.4 or more. You see these seams."),
-        (10, "d′ = 0.0, with 95 % confidence from -0.9 to 0.9. That can be guessing"),
+        (10, "d′ = 0.0, with 95 % confidence from −0.9 to 0.9. That can be guessing"),
         (3, "but you chose the films without one."),
-        (0, "-1.4 or less."),
+        (0, "−1.4 or less."),
     ],
 )
 def test_the_sentence_says_what_a_count_shows(right, said):
