@@ -41,6 +41,8 @@ def add_course(commands: "Commands") -> None:
     mark.description = MARKING
     mark.add_argument("folder", type=Path, help="holds a folder for each student, with notebooks")
     again = "run notebooks again and store them with their outputs"
+    which = "write notebooks/PAPERS.md: which line of which paper is in which function, test and cell"
+    doing.add_parser("papers", help=which, description=f"W{which[1:]}.").set_defaults(run=_papers)
     run = doing.add_parser("run", help=again, description=f"{again.capitalize()}.")
     run.add_argument("notebooks", nargs="*", type=Path, help="files to run (default: the whole course)")
     run.set_defaults(run=_run)
@@ -97,6 +99,11 @@ def _run(options: argparse.Namespace) -> int:
     folder = course.stored()
     for notebook in bar("running")(options.notebooks or sorted(folder.glob("*.ipynb"))):
         course.run(notebook, folder.parent / "figures")
+    return 0
+
+
+def _papers(_: argparse.Namespace) -> int:
+    print(f"wrote {course.write_ledger(course.stored().parent)}")
     return 0
 
 

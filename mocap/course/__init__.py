@@ -13,9 +13,14 @@ Reading order
 5. `marked_values`: numbers in prose, and the expressions that compute them
 6. `notebooks`: read a notebook, find its cells by their tags, run it
 7. `handout`: copies without solutions
-8. `site`: the course as HTML pages
-9. `lite`: the course in JupyterLite
-10. `lab`: the course in JupyterLab
+8. `ledger`: which line of which paper is where
+9. `site`: the course as HTML pages
+10. `lite`: the course in JupyterLite
+11. `lab`: the course in JupyterLab
+
+References
+----------
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
 """
 
 import lazy_loader
@@ -35,6 +40,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "real_clips": ["people"],
         "notebooks": ["read", "run", "shown_source", "tagged"],
         "handout": ["hand_out"],
+        "ledger": ["write_ledger"],
         "site": ["build_site"],
         "lite": ["build_lite"],
         "lab": ["open_course", "stored"],

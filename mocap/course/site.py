@@ -19,7 +19,7 @@ from mocap.errors import MocapError
 
 PAGE = Path(__file__).with_name("page.html")
 STILL = "mocap-still"  # the class of a picture that stands in for a widget
-PAGES = {"GLOSSARY": "Glossary", "FORMULAS": "Formula sheet"}  # beside the notebooks, as Markdown
+PAGES = {"GLOSSARY": "Glossary", "FORMULAS": "Formula sheet", "PAPERS": "Papers"}  # beside the notebooks
 MATH = re.compile(r"(```.*?```|`[^`]*`)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)
 UPRIGHT = re.compile(r"\\(?:operatorname|mathrm)\s*\{([A-Za-z]\w*)\}")
 NAMED = r"<m(?:i|text)>[a-z]{2,}\d?</m(?:i|text)>"  # a function's name, such as sin

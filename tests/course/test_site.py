@@ -118,9 +118,9 @@ def test_the_search_finds_text_code_and_formulas_under_their_heading(site):
 
 
 def write_course(folder, *cells):
-    """Write a course of one notebook, and its two pages."""
+    """Write a course of one notebook, and its pages."""
     folder.mkdir()
-    for name in ("GLOSSARY", "FORMULAS"):
+    for name in ("GLOSSARY", "FORMULAS", "PAPERS"):
         (folder / f"{name}.md").write_text(f"# {name.title()}\n")
     made = new_notebook(cells=list(cells))
     nbformat.write(made, folder / "00-one.ipynb")

@@ -1,0 +1,90 @@
+"""The ledger of papers: no equation without a row, and no row without its function, test and cell."""
+
+import re
+from pathlib import Path
+from pkgutil import resolve_name
+
+import pytest
+
+from mocap.cli.main import main
+from mocap.course import ledger
+from mocap.errors import MocapError
+
+ROOT = Path(__file__).parents[2]
+ROWS = ledger.ledger(ROOT)
+each = pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.key} {row.place}")
+
+
+@each
+def test_every_row_has_a_function_a_test_and_a_cell_that_exist(row):
+    assert row.functions and row.tests and row.says and row.departs
+    for name in row.functions:
+        assert callable(resolve_name(f"mocap.{name}")), name
+    for test in row.tests:
+        sentence, path = re.fullmatch(r"(.+) \(`(.+)`\)", test).groups()
+        assert f"def test_{sentence.replace(' ', '_')}(" in (ROOT / "tests" / path).read_text("utf-8")
+    paper = ledger.papers()[row.key]
+    assert row.cells or not (ROOT / "notebooks" / f"{paper['notebook']}.ipynb").exists()
+    for cell in row.cells:
+        name, heading = re.fullmatch(r"\[\w+\]\((.+)\) (.+)", cell).groups()
+        assert heading.replace('"', '\\"') in (ROOT / "notebooks" / name).read_text("utf-8")
+
+
+def test_no_equation_of_a_paper_is_without_a_row():
+    have = {(row.key, place) for row in ROWS for place in ledger._one_by_one(row.place)}
+    for key, paper in ledger.papers().items():
+        assert {(key, f"Eq. {number}") for number in range(1, paper["equations"] + 1)} <= have
+
+
+def test_what_a_docstring_cites_has_a_row():
+    """A new citation asks for a row; figures are pictures, and other papers have no ledger."""
+    have = {(row.key, place) for row in ROWS for place in ledger._one_by_one(row.place)}
+    for function in ledger.functions(ROOT / "mocap"):
+        for key, place in function.cites - have:
+            assert place.startswith("Fig.") or key not in ledger.papers(), (function.public, key, place)
+
+
+def test_the_ten_papers_are_those_of_the_faces_references():
+    faces = "".join(path.read_text("utf-8") for path in (ROOT / "mocap").glob("*/__init__.py"))
+    assert len(ledger.papers()) == 10
+    for key, paper in ledger.papers().items():
+        (reference,) = set(re.findall(rf"\.\. \[{key}\] (.+?), ", faces))
+        assert paper["cite"].startswith(reference) and f"*{paper['title']}" in " ".join(faces.split())
+        doi = re.search(r"10\.\d+/[\d.]+\d", paper["cite"])[0]
+        assert doi in faces
+
+
+def test_the_page_on_disk_is_what_is_written():
+    """If this fails, run `mocap course papers`: a citation, a test or a heading has changed."""
+    assert (ROOT / "notebooks" / "PAPERS.md").read_text("utf-8") == ledger.page(ROWS)
+
+
+def test_every_row_of_the_page_has_as_many_columns():
+    rows = [line for line in ledger.page(ROWS).splitlines() if line.startswith("|")]
+    assert {line.count("|") for line in rows} == {7}
+    assert len(rows) == len(ROWS) + 2 * len(ledger.papers())
+
+
+def test_the_command_writes_the_page_of_a_checkout(tmp_path, monkeypatch, capsys):
+    (tmp_path / "notebooks").mkdir()
+    monkeypatch.setattr("mocap.course.stored", lambda: tmp_path / "notebooks")
+    assert main(["course", "papers"]) == 2
+    assert f"there are none in {tmp_path}" in capsys.readouterr().err
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "mocap").mkdir()
+    assert main(["course", "papers"]) == 0
+    text = (tmp_path / "notebooks" / "PAPERS.md").read_text("utf-8")
+    assert text.startswith("# Papers") and "## [KGP02] Motion Graphs" in text
+
+
+def test_citations_are_read_one_by_one():
+    assert ledger.cited("[KGP02, Eqs. 2-4], [HG07, Eqs. 1-2, after ACP02]; [KG03] and\n[KSG02, step 1].") == {
+        *(("KGP02", f"Eq. {number}") for number in (2, 3, 4)),
+        *(("HG07", f"Eq. {number}") for number in (1, 2)),
+        ("KSG02", "step 1"),
+    }
+
+
+def test_a_folder_without_tests_is_refused(tmp_path):
+    with pytest.raises(MocapError, match="reads the package's tests: there are none in"):
+        ledger.ledger(tmp_path)
