@@ -4,8 +4,8 @@ All fit one protocol, `Character`: its `step` takes a heading and a speed and gi
 steers, records or measures one of them does so for all. A new way of control is a class with the same
 members, in a file of its own.
 
-Reading order (notebooks 08, 12)
---------------------------------
+Reading order (notebooks 08, 12, 17, 18)
+----------------------------------------
 1. `characters`: the protocol, and the pose that a step gives
 2. `look_ahead`: the walks ahead of a controlled character, and their cost
 3. `graph_control`: a character on a motion graph

@@ -4,8 +4,8 @@ In a motion graph a node is a moment of a clip. Here it is all strides of one ki
 made by blending. An edge gives for each of them a box of targets that may follow, and when. So control needs
 no search: it reads the box, and takes what is nearest to the command.
 
-Reading order
--------------
+Reading order (notebook 17)
+---------------------------
  1. `strides`: strides and steps, all on one grid of phases
  2. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
  3. `stride_changes`: strides that begin as one kind and end as another

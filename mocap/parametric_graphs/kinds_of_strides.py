@@ -66,6 +66,8 @@ def build_kinds(
     >>> graph = build_kinds(kinds, [("calm", "lively")], sampling=Sampling(12, 60))
     >>> print(*graph.graph.edges)
     ('calm', 'calm') ('calm', 'calm to lively') ('lively', 'lively') ('calm to lively', 'lively')
+
+    Notebook: 17-parametric-graphs
     """
     if not kinds:
         raise MocapError("A graph has one kind of strides or more, got none.")
@@ -104,6 +106,8 @@ def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -
     >>> strides = cut_strides([resample(generate_walk(circle, speed=0.2), 30)])
     >>> bool((on_the_spot(strides).values[:, 1] < 0.35).all())
     True
+
+    Notebook: 17-parametric-graphs
     """
     angles, speeds = np.abs(strides.values[:, 0]), strides.values[:, 1]
     if ((angles >= turns) & (speeds <= slow)).any():

@@ -148,6 +148,8 @@ def optimal_transitions(source: StrideSpace, target: StrideSpace, at: Array, to:
     >>> found = optimal_transitions(space, space, np.array([[0.0]]), np.array([[0.0], [0.7]]))
     >>> bool(found.cost[0, 0] < found.cost[0, 1])
     True
+
+    Notebook: 17-parametric-graphs
     """
     leaving, entering = near_strike(source, at, 1.0), near_strike(target, to, 0.0)
     first, second = _windows(leaving.points), _windows(entering.points)

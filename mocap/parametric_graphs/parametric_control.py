@@ -73,6 +73,8 @@ class ParametricController:
     >>> graph = build_parametric({"walk": make_space(strides, 0.2, -0.8, 0.8)}, good=0.05)
     >>> ParametricController(graph).step(heading=0.5, speed=0.8).rotations.shape
     (38, 4)
+
+    Notebook: 17-parametric-graphs
     """
 
     def __init__(self, graph: ParametricGraph, *, start: str | None = None) -> None:

@@ -23,6 +23,8 @@ class Sampling(NamedTuple):
     --------
     >>> Sampling(targets=200)
     Sampling(sources=50, targets=200, seed=0)
+
+    Notebook: 17-parametric-graphs
     """
 
     sources: int = 50
@@ -95,6 +97,8 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     >>> good, bad = np.array([[0.0, 0], [10, 10]]), np.array([[9.0, 2]])
     >>> shrink_box(good, bad, np.array([5.0, 5]), eps=0.01)
     (array([0., 0.]), array([ 8.95, 10.  ]))
+
+    Notebook: 17-parametric-graphs
     """
     if not len(good):
         raise MocapError("A box holds one good target or more, got none.")
@@ -147,6 +151,8 @@ def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling |
     >>> space = make_space(strides, 0.2, -0.8, 0.8)
     >>> 0.005 < smallest_good(space, space, Sampling(targets=100)) < 0.05
     True
+
+    Notebook: 17-parametric-graphs
     """
     return float(_sample(source, target, sampling or Sampling()).found.cost.min(axis=1).max())
 
@@ -186,6 +192,8 @@ def build_edge(
     >>> way = edge.look_up(np.array([0.0]))
     >>> bool(way.low[0] < 0 < way.high[0])
     True
+
+    Notebook: 17-parametric-graphs
     """
     bad = BAD * good if bad is None else bad
     if not (np.isfinite([good, bad]).all() and 0 < good <= bad):

@@ -94,6 +94,8 @@ def build_parametric(
     >>> graph = build_parametric({"walk": space}, good=0.05)
     >>> list(graph.graph.edges)
     [('walk', 'walk')]
+
+    Notebook: 17-parametric-graphs
     """
     if not spaces:
         raise MocapError("A parametric graph has one space or more, got none.")

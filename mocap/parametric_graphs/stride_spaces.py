@@ -111,6 +111,8 @@ def bell_weights(values: Array, asked: Array, width: Array) -> Array:
     --------
     >>> bell_weights(np.array([[0.0], [1.0]]), np.array([[0.0]]), np.ones(1)).round(3)
     array([[0.622, 0.378]])
+
+    Notebook: 17-parametric-graphs
     """
     gaps = (((asked[:, None] - values) / width) ** 2).sum(axis=-1)
     weights = np.exp(-(gaps - gaps.min(axis=1, keepdims=True)) / 2)
@@ -128,6 +130,8 @@ def measure_mixes(strides: Strides, weights: Array) -> Array:
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> bool(np.abs(measure_mixes(strides, np.eye(len(strides))) - strides.values).max() < 0.02)
     True
+
+    Notebook: 17-parametric-graphs
     """
     ground, facing = mixed_way(strides, weights)
     zero, one = strides.ends
@@ -178,6 +182,8 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     >>> got = measure_mixes(strides, space.weights([[0.5]]))[0, 0]
     >>> float(got.round(1))
     0.5
+
+    Notebook: 17-parametric-graphs
     """
     names = tuple(parameters)
     width, lowest, highest = (np.atleast_1d(np.asarray(value, float)) for value in (width, low, high))

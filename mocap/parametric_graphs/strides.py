@@ -4,6 +4,8 @@ A stride runs from a strike of one foot to the next strike of the same foot, a s
 the grid the strikes lie at even phases from 0 to 1, so that phase for phase all examples do the same; a
 margin on either side leaves room for the windows of transitions. The ground is left out: velocities and
 turning are as the body sees them, so that examples can be mixed.
+
+Notebook: 17-parametric-graphs
 """
 
 from collections.abc import Iterator, Sequence
@@ -244,8 +246,7 @@ def _tabled(found: list[tuple[_Found, Array]], grid: Array, feet: str, dropped: 
 
 def _calibrated(strides: Strides, *, steps: bool) -> Strides:
     """Take off what a straight step turns, and measure where the way leads beside where the body faces."""
-    values = strides.values.copy()
-    sway = 0.0
+    values, sway = strides.values.copy(), 0.0
     if steps:
         calm = np.abs(values[:, 0] - np.median(values[:, 0])) < np.radians(15)
         sway = float(np.median(values[calm, 0]))
@@ -253,8 +254,7 @@ def _calibrated(strides: Strides, *, steps: bool) -> Strides:
     straight = np.abs(values[:, 0]) < STRAIGHT
     straight |= not straight.any()
     ground, _ = mixed_way(strides, np.eye(len(values))[straight])
-    zero, one = strides.ends
-    offset = float(np.median(np.angle(ground[:, one] - ground[:, zero])))
+    offset = float(np.median(np.angle(np.diff(ground[:, strides.ends], axis=1))))
     return replace(strides, values=values, sway=sway, offset=offset)
 
 
