@@ -3,7 +3,7 @@
 Every function draws on `ax` (new axes by default), computes nothing of its own, and returns the artists that
 it made; `show` puts the picture into a notebook with a sentence for readers who do not see it.
 
-Reading order (notebooks 00 to 17)
+Reading order (notebooks 00 to 19)
 ----------------------------------
 1. `style`: colours that colour-blind readers can tell apart
 2. `axes`: 3D axes with a ground

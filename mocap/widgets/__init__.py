@@ -3,7 +3,7 @@
 The player is one script that runs in JupyterLab and on a page of its own, without a network. An experiment is
 a picture that is drawn anew when its controls move.
 
-Reading order (notebooks 00 to 17)
+Reading order (notebooks 00 to 19)
 ----------------------------------
 1. `player`: a motion that plays, on a page or in a notebook
 2. `live_player`: players that Python and the reader move together, and a canvas to draw a path on
