@@ -44,6 +44,8 @@ def command_headings(seconds: float, fps: float, seed: int = 0) -> Array:
     --------
     >>> command_headings(4, 30).shape
     (120,)
+
+    Notebook: 18-motion-matching
     """
     random, count = np.random.default_rng(seed), int(np.ceil(seconds / EVERY))
     turns = random.choice([-1, 1], count) * random.uniform(TURNS[0], TURNS[1], count)
@@ -84,6 +86,8 @@ def judge_control(
     >>> report = judge_control(lambda: Controller(graph), quality.spread(clips), seconds=20)
     >>> bool(report.slide > report.cleaned), report.kept > 0.9
     (True, True)
+
+    Notebook: 18-motion-matching
     """
     delay = measure_delay(make(), speed=speed, seed=seed)
     character = make()

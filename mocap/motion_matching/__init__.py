@@ -4,8 +4,8 @@ There is no graph. Every 0.1 s a character compares its own pose, and the future
 frames of all clips, and plays on from the frame that fits best. It needs no transitions and no pruning, and
 obeys sooner; it knows nothing of what comes later.
 
-Reading order
--------------
+Reading order (notebook 18)
+---------------------------
 1. `frame_features`: what a frame is like, in 27 numbers
 2. `springs`: how a wish, and the offset after a cut, come and go
 3. `pose_database`: all frames side by side, standardised

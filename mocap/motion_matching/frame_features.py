@@ -89,6 +89,8 @@ def features(motion: Motion, smooth: float = SMOOTH) -> Array:
     >>> walk = features(generate("walk_straight"))
     >>> walk.shape, walk[100, 20].round(1)  # after one second she is 1 m ahead
     ((1201, 27), np.float64(1.0))
+
+    Notebook: 18-motion-matching
     """
     track, positions = body_track(motion, smooth), joint_positions(motion)
     speeds = velocities(positions, motion.fps)
@@ -103,7 +105,10 @@ def features(motion: Motion, smooth: float = SMOOTH) -> Array:
 
 
 def ahead_columns(ahead: Points) -> Array:
-    """Write complex numbers z + ix, (..., 3) of them, as the six columns (x, z, x, z, x, z)."""
+    """Write complex numbers z + ix, (..., 3) of them, as the six columns (x, z, x, z, x, z).
+
+    Notebook: 18-motion-matching
+    """
     return np.stack([ahead.imag, ahead.real], axis=-1).reshape(*ahead.shape[:-1], -1)
 
 

@@ -57,6 +57,8 @@ class MotionMatcher:
     >>> matcher = MotionMatcher(tabulate(clips))
     >>> matcher.step(heading=0.0, speed=0.8).rotations.shape
     (38, 4)
+
+    Notebook: 18-motion-matching
     """
 
     def __init__(

@@ -27,6 +27,8 @@ class Wants(NamedTuple):
     --------
     >>> Wants(future=0.5).every
     0.1
+
+    Notebook: 18-motion-matching
     """
 
     every: float = 0.1
@@ -136,6 +138,8 @@ def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) ->
     >>> ahead = foresee(table, 100, 1.3 + 0j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
     >>> ahead[4:6].round(1)  # after one second she would be 1.2 m ahead
     array([0. , 1.2])
+
+    Notebook: 18-motion-matching
     """
     seen = complex(database.drift[now] * np.exp(-1j * database.heading[now]))
     way = spring_way(seen, goal, halflife, AHEAD)

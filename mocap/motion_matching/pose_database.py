@@ -131,6 +131,8 @@ def tabulate(
     >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> table.values.shape == (len(table), 27), len(table) - int(table.usable.sum())
     (True, 30)
+
+    Notebook: 18-motion-matching
     """
     _check(clips, end)
     frames, rate = [len(clip) for clip in clips], clips[0].fps

@@ -36,6 +36,8 @@ def spring(start: Value, speed: Value, goal: Value, halflife: float, seconds: Ar
     --------
     >>> spring(1.0, 0.0, 0.0, 0.27, 0.27).round(3)
     np.float64(0.597)
+
+    Notebook: 18-motion-matching
     """
     pull = _pull(halflife)
     gap, t = start - goal, np.asarray(seconds)
@@ -57,6 +59,8 @@ def spring_way(speed: Value, goal: Value, halflife: float, seconds: ArrayLike) -
 
     >>> spring_way(0.0, 1.0, 0.27, 2.0).round(2)
     np.float64(1.61)
+
+    Notebook: 18-motion-matching
     """
     pull, t = _pull(halflife), np.asarray(seconds)
     gap = speed - goal

@@ -53,6 +53,8 @@ def plant_slides(
     >>> slides = plant_slides(sample("walk_straight"))
     >>> len(slides) > 20, max(slide.far for slide in slides) < 1e-6
     (True, True)
+
+    Notebook: 18-motion-matching
     """
     names = motion.skeleton.names
     planted = list(motion.contacts) if joints is None else [names[joint] for joint in joints]
