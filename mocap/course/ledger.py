@@ -240,18 +240,23 @@ def _linked(name: str, heading: str) -> str:
 
 
 def page(rows: Sequence[Row]) -> str:
-    """Write the rows as a page of tables, one for each paper, in Markdown."""
-    parts = [(Path(PAPERS).with_name("papers.md")).read_text("utf-8").rstrip()]
+    """Write the rows as a page of tables, one for each paper after one of all papers, in Markdown."""
+    tables = ["| paper | read | rows | as the paper says |\n|---|---|---|---|"]
     for key, paper in papers().items():
-        parts.append(f"## [{key}] {paper['title']}\n\n{paper['cite']}. {paper['read']}")
-        lines = ["| in the paper | what it says | here | test | notebook | what departs, and why |"]
-        lines += ["|---|---|---|---|---|---|"]
-        for row in (row for row in rows if row.key == key):
-            code = "<br>".join(f"`{name}`" for name in row.functions)
-            lists = ["<br>".join(some) for some in (row.tests, row.cells)]
-            lines.append("| " + " | ".join([row.place, row.says, code, *lists, row.departs]) + " |")
-        parts.append("\n".join(lines))
-    return "\n\n".join(parts) + "\n"
+        own = [row for row in rows if row.key == key]
+        same = sum(row.departs.startswith("nothing") for row in own)
+        tables[0] += f"\n| [{paper['title']}](#{_slug(key, paper)}) | {paper['read']} | {len(own)} | {same} |"
+        lines = ["| in the paper | here | test | what departs, and why |", "|---|---|---|---|"]
+        for row in own:
+            code = [f"`{name}`" for name in row.functions]
+            lists = ["<br>".join(some) for some in ([*code, *row.cells], row.tests)]
+            lines.append("| " + " | ".join([f"**{row.place}** {row.says}", *lists, row.departs]) + " |")
+        tables.append(f"## {key} {paper['title']}\n\n{paper['cite']}.\n\n" + "\n".join(lines))
+    return "\n\n".join([PAPERS.with_suffix(".md").read_text("utf-8").rstrip(), *tables]) + "\n"
+
+
+def _slug(key: str, paper: Mapping[str, Any]) -> str:
+    return f"{key} {paper['title']}".lower().replace(" ", "-")
 
 
 def write_ledger(root: Path) -> Path:
