@@ -77,6 +77,8 @@ def inspector(
     >>> inspector(*walks, at=(56, 20), show=["windows"])
     Inspector('Frames 56 to 65 of walk_curve_1 and 20 to 29 of walk_curve_2: RMS distance 1.9 cm, aligned.')
 
+    Notebook: 02-matching
+
     """
     tabs = tuple(show)
     if not tabs or tabs != TABS[: len(tabs)]:
