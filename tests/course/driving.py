@@ -11,6 +11,7 @@ import warnings
 from IPython import get_ipython
 
 from mocap import widgets
+from mocap.widgets.live_steering.company import Order
 
 displayed = {}
 
@@ -42,6 +43,11 @@ def drive(shown):
             shown.set(**values)
     elif isinstance(shown, widgets.Player):
         assert shown.scene["frames"] > 1
+    elif hasattr(shown, "company"):  # characters that are steered
+        for heading, speed in ((2.0, shown.scene["speeds"][0]), (-1.0, shown.scene["speeds"][1])):
+            shown.command = [heading, speed, ""]
+            walked = shown.company.walk(Order(*shown.command), 2.0)
+            assert not [member.fault for member in walked if member.fault]
     else:  # a player that reports back
         for frame in (0, shown.scene["frames"] - 1, shown.scene["frames"] // 2):
             shown.frame = frame

@@ -159,6 +159,8 @@ def steered(
     >>> page = steered({"matching": motion_matching.MotionMatcher(database)}, speeds=(0.6, 0.9))
     >>> page, [len(seconds) for seconds in page.delays.values()]
     (Steered(matching), [2])
+
+    Notebook: 17-parametric-graphs
     """
     low, high = (float(speed) for speed in speeds)
     if not 0 <= low < high < math.inf:
