@@ -1,7 +1,7 @@
 // Stands for Python where steered characters are tested: all walk at the speed of the command, and turn at once.
 
 class Model {
-  constructor(state) { Object.assign(this, { state, heard: {}, questions: [], delay: 10, silent: false, said: {}, frames: 1, places: [] }); }
+  constructor(state) { Object.assign(this, { state, heard: {}, questions: [], delay: 10, silent: false, said: {}, frames: 1, places: [], kept: [] }); }
   get(name) { return this.state[name]; }
   set(name, value) {
     const same = JSON.stringify(value) === JSON.stringify(this.state[name]);
@@ -12,8 +12,11 @@ class Model {
   off(name, call) { this.heard[name] = this.heard[name].filter((other) => other !== call); }
   tell(name, ...what) { (this.heard[name] ?? []).forEach((call) => call(...what)); }
   save_changes() {}
-  send(question) { this.questions.push(question); if (!this.silent) setTimeout(() => this.answer(question), this.delay); }
-  speak() { this.silent = false; this.answer(this.questions.at(-1)); }
+  send(question) {
+    this.questions.push(question);
+    if (this.silent) this.kept.push(question); else setTimeout(() => this.answer(question), this.delay);
+  }
+  speak() { this.silent = false; this.kept.splice(0).forEach((question) => this.answer(question)); }
 
   answer({ view, number, seconds, command: [heading, speed] }) {
     const count = Math.max(1, Math.round(30 * seconds)), first = this.frames, all = (value) => Array(count).fill(value);

@@ -1,11 +1,12 @@
 // Characters that obey one command, side by side. `steered_widget.py` answers the questions that are asked here.
 //
-// The pictures run on behind what Python has walked: where few seconds are left, the browser asks for the next ones and
-// says the command. How many are "few" goes by how long the last answers took. Where no answer comes, time runs slower
-// and slower until it stands. Nothing is asked while nobody looks.
+// The pictures run on behind what Python has walked: where few seconds are left, the browser asks for a few more and says
+// the command. How many are "few" goes by how long the last answers took; two questions may be under way. Where no
+// answer comes, time runs slower and slower until it stands. Nothing is asked while nobody looks.
 
-const PIECE = 0.04; // seconds of walking per question, at least
-const GENTLE = 0.04; // with fewer seconds left than this, time runs slower
+const PIECE = 0.05; // seconds of walking per question, at least
+const MOST = 2; // questions under way; with more, a busy machine would only have more to do
+const GENTLE = 0.03; // with fewer seconds left than this, time runs slower
 const SILENT = 1000, LOST = 15000; // milliseconds without an answer until the page says that Python is busy, or may have ended
 const DIRECTIONS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0], w: [0, 1], s: [0, -1], a: [-1, 0], d: [1, 0] };
 
@@ -13,7 +14,7 @@ class Steering {
   constructor(root, model) {
     Object.assign(this, { root, model, scene: model.get("scene"), view: Math.random() });
     this.time = null; this.playing = false; this.visible = true; this.pictures = 0; this.scripted = 0;
-    this.number = 0; this.asked = null; this.trips = [50]; this.ways = []; this.under = null; this.held = new Set();
+    this.number = 0; this.asked = new Map(); this.trips = [50]; this.ways = []; this.under = null; this.held = new Set();
     this.shared = { yaw: VIEWS.behind[0], pitch: VIEWS.behind[1], zoom: 1 };
     this.build();
     this.listen();
@@ -158,21 +159,23 @@ class Steering {
   // The seconds that must be ahead when a question is asked: as long as nearly all answers take, and a little more.
   get lead() { return Math.min(0.5, [...this.trips].sort((a, b) => b - a)[this.trips.length >> 3] / 1000 + GENTLE); }
 
+  // The seconds that Python has been asked for, and has not sent.
+  get promised() { return [...this.asked.values()].reduce((sum, { seconds }) => sum + seconds, 0); }
+
   ask() {
-    if (this.asked !== null || this.gone) return;
-    const seconds = this.time === null ? PIECE : Math.max(PIECE, this.lead + PIECE - this.ahead);
-    this.asked = performance.now(); this.number++;
+    const missing = this.time === null ? PIECE : this.lead - this.ahead - this.promised, seconds = Math.max(PIECE, missing);
+    if (missing <= 0 || this.asked.size >= MOST || this.gone) return;
+    this.asked.set(++this.number, { at: performance.now(), seconds });
     if (this.under && this.under.number === null) this.under.number = this.number;
     try {
-      this.model.save_changes();
       this.model.send({ kind: "ask", view: this.view, number: this.number, seconds, command: this.model.get("command") });
+      this.model.save_changes(); // after the question, which carries the command as well, and is in a hurry
     } catch { this.ended(); }
   }
 
   answered(content, buffers) {
-    if (content.kind === "refused") { this.say(content.why, true); this.asked = null; return; }
-    const own = content.view === this.view;
-    if (own) this.timeTrip(content);
+    if (content.kind === "refused") { this.say(content.why, true); this.asked.clear(); return; }
+    if (content.view === this.view) this.timeTrip(content);
     content.members.forEach((member, k) => this.panels[k].walker.add(member, numbersOf(buffers[k])));
     if (content.notes.length) this.say(content.notes.join("\n"));
     else if (this.late || this.warned) this.say("");
@@ -186,8 +189,8 @@ class Steering {
 
   // Remember how long the answer took, and where the frames begin that know a new command.
   timeTrip({ number, members }) {
-    this.trips = [...this.trips.slice(-19), performance.now() - this.asked];
-    this.asked = null;
+    if (this.asked.has(number)) this.trips = [...this.trips.slice(-19), performance.now() - this.asked.get(number).at];
+    this.asked.delete(number);
     if (this.under?.number === number) this.under.start = members[0].first / this.panels[0].walker.fps;
   }
 
@@ -202,7 +205,7 @@ class Steering {
     this.last = this.playing ? now : null;
     if (this.playing) {
       this.time += seconds * Math.min(1, Math.max(0, this.ahead / GENTLE));
-      if (this.ahead < this.lead) this.ask();
+      this.ask();
       this.arrived();
       this.update();
     }
@@ -216,7 +219,7 @@ class Steering {
       this.ways = [...this.ways.slice(-8), performance.now() - this.under.since];
       this.under = null;
     }
-    const silent = this.asked === null ? 0 : performance.now() - this.asked;
+    const silent = this.asked.size ? performance.now() - this.asked.values().next().value.at : 0;
     if (silent > LOST) this.say("Python does not answer. Has it ended? Then run the cell again.", true);
     else if (silent > SILENT) this.say("Python is busy: the figures wait until it answers.");
     this.late = silent > SILENT;
