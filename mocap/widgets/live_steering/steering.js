@@ -204,7 +204,8 @@ class Steering {
     const seconds = this.last ? Math.min(0.1, (now - this.last) / 1000) : 0, before = performance.now();
     this.last = this.playing ? now : null;
     if (this.playing) {
-      this.time += seconds * Math.min(1, Math.max(0, this.ahead / GENTLE));
+      const ahead = Math.max(0, this.ahead);
+      this.time += Math.min(ahead, seconds * Math.min(1, ahead / GENTLE));
       this.ask();
       this.arrived();
       this.update();
