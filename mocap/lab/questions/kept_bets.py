@@ -6,7 +6,9 @@ The browser keeps bets in its local storage, under the key of each; so they outl
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Mapping
+from html import unescape
 from typing import Any
 
 from mocap.errors import MocapError, shortened
@@ -112,7 +114,7 @@ def summed_up(bets: Mapping[str, Bet], names: Mapping[str, object]) -> Shown:
         for row in rows
     )
     inside = f'<table class="table"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
-    text = [f"{to_text(bet.ask)}: {row['written']}" for bet, row in zip(bets.values(), rows, strict=True)]
+    text = [f"{_plain(row['ask'])}: {row['written']}" for row in rows]
     return shown("What you thought, and what came out", inside, {"kind": "summary", "rows": rows}, text)
 
 
@@ -129,6 +131,10 @@ def _came_out(key: str, bet: Bet, names: Mapping[str, object]) -> dict[str, Any]
             return row | {"ask": to_html(bet.ask), "value": None, "written": ""}
         raise MocapError(f"Bet {key}: {error}") from error
     return row | {"value": value, "written": f"{value:.{_decimals(bet.step)}f} {bet.unit}".rstrip()}
+
+
+def _plain(html: str) -> str:
+    return unescape(re.sub(r"<[^>]*>", "", html))
 
 
 def _decimals(step: float) -> int:
