@@ -168,7 +168,8 @@ def _list(options: argparse.Namespace) -> int:
 def _fetch(options: argparse.Namespace) -> int:
     known = datasets.SETS[options.set]
     if not options.accept:
-        raise MocapError(f"{known.terms()} If you accept that, add --accept ({known.size()} to download).")
+        print(known.terms())
+        raise MocapError(f"If you accept this licence, add --accept: {known.size()} to download.")
     print(f"{len(datasets.fetch_set(options.set, bar('fetching')))} clips are at hand")
     return 0
 

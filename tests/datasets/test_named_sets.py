@@ -248,8 +248,9 @@ def test_a_folder_that_cannot_be_written_is_one_sentence(server, data):
 
 def test_the_command_shows_the_licence_before_it_fetches(server, data, capsys):
     assert main(["data", "fetch", "lafan1"]) == 2
-    said = capsys.readouterr().err
-    assert "under CC BY-NC-ND 4.0" in said and "If you accept that, add --accept (1 MB to download)" in said
+    said = capsys.readouterr()
+    assert "under CC BY-NC-ND 4.0" in said.out
+    assert said.err == "mocap: If you accept this licence, add --accept: 1 MB to download.\n"
     assert server.asked == []
     assert main(["data", "fetch", "lafan1", "--accept"]) == 0
     assert "4 clips are at hand" in capsys.readouterr().out
