@@ -46,6 +46,8 @@ def mine(what: str | Callable[..., Any] | Slot) -> Slot:
     hamilton: the package's stands in until yours passes its check.
     >>> hamilton([0, 1, 0, 0], [0, 0, 1, 0]).tolist()
     [0.0, 0.0, 0.0, 1.0]
+
+    Notebook: 08-path-synthesis
     """
     if isinstance(what, Slot):
         what = what.written if what.written is not what.stand_in else what.name
@@ -77,6 +79,8 @@ def whose(*names: str) -> str:
     --------
     >>> whose("hamilton", "climb")
     "hamilton, climb: the package's"
+
+    Notebook: 02-matching
     """
     found = slots(*names)
     own = ", ".join(slot.name for slot in found if slot.yours)

@@ -16,6 +16,7 @@ import mocap
 from mocap.cli.main import main
 from mocap.course import checks, notebooks
 from mocap.errors import MocapError
+from mocap.lab.adopting import slots
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"
@@ -189,10 +190,11 @@ def test_each_exercise_has_its_parts_in_order(name):
 
 
 def namespace(name, check):
-    """Run what an exercise may use: the notebook's first code cell."""
+    """Run what an exercise may use: the notebook's first code cell, and the exercises before it."""
     space = {"__name__": "__main__"}
     exec(code(name)[0], space)
-    return space
+    asked = [other for other, _ in notebooks.tagged(read(name), "exercise")]
+    return {slot.name: slot for slot in slots(*asked[: asked.index(check)])} | space
 
 
 @pytest.mark.parametrize(("name", "check", "cell"), EXERCISES)

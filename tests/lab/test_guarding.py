@@ -102,9 +102,8 @@ def test_answers_of_the_same_form(given, wanted, right):
 
 
 def test_other_functions_are_compared_with_the_packages_answer(capsys):
-    points = np.array([[0.0, 0.0], [1.0, 0.0]])
-    place = slot("point_at", lambda points, along: points[0])
-    assert place(points, np.array([0.5, 2.0])).shape == (2, 2)
-    assert "gave an answer of the shape (2,)" in capsys.readouterr().out
+    place = slot("move_points", lambda points, angle, x, z: points[0])
+    assert place(np.ones((2, 3)), 0.5, 1.0, 2.0).shape == (2, 3)
+    assert "gave an answer of the shape (3,)" in capsys.readouterr().out
     assert place.calls == 1
     assert place.seconds > 0

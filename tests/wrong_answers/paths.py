@@ -3,33 +3,6 @@ from itertools import pairwise
 import numpy as np
 
 
-def evenly(points, along):
-    length = np.linalg.norm(points[1:] - points[:-1], axis=1).sum()
-    index = np.clip(along / length, 0, 1) * (len(points) - 1)
-    before = np.minimum(index.astype(int), len(points) - 2)
-    return points[before] + (index - before)[:, None] * (points[before + 1] - points[before])
-
-
-def no_zero(points, along):
-    s = np.cumsum(np.linalg.norm(points[1:] - points[:-1], axis=1))
-    return np.column_stack([np.interp(along, s, points[1:, k]) for k in (0, 1)])
-
-
-def one_late(points, along):
-    s = np.cumsum(np.linalg.norm(points[1:] - points[:-1], axis=1))
-    return np.column_stack([np.interp(along, s, points[:-1, k]) for k in (0, 1)])
-
-
-def corner(points, along):
-    s = np.append(0, np.cumsum(np.linalg.norm(points[1:] - points[:-1], axis=1)))
-    return np.array([points[np.argmin((s - a) ** 2)] for a in along])
-
-
-def squared(points, along):
-    s = np.append(0, np.cumsum(((points[1:] - points[:-1]) ** 2).sum(axis=1)))
-    return np.column_stack([np.interp(along, s, points[:, k]) for k in (0, 1)])
-
-
 def summed(track, path, along, step):
     cost, s = 0.0, along
     for before, here in pairwise(track):
@@ -115,13 +88,6 @@ def wrongly(how):
 
 
 WRONG = {
-    "point_at": [
-        (evenly, "evenly spaced"),
-        (no_zero, "missing from your lengths"),
-        (one_late, "one corner late"),
-        (corner, "the nearest corner"),
-        (squared, "square root is missing"),
-    ],
     "edge_cost": [
         (may_stand, "stand for ever"),
         (floor_added, "it is a minimum"),

@@ -16,55 +16,6 @@ def _polyline(rng: np.random.Generator) -> Array:
     return np.asarray(rng.normal(size=(rng.integers(4, 9), 2)).cumsum(axis=0))
 
 
-def _at(points: Array, along: Array, knots: Array) -> Array:
-    return np.stack([np.interp(along, knots, axis) for axis in points.T], axis=-1)
-
-
-def _lengths(points: Array) -> Array:
-    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-
-
-def _nearest_corner(points: Array, along: Array) -> Array:
-    return np.asarray(points[np.abs(_lengths(points) - along[:, None]).argmin(axis=1)])
-
-
-def _draw_point_at(rng: np.random.Generator) -> tuple[Array, Array]:
-    points = _polyline(rng)
-    return points, rng.uniform(-0.2, 1.2, 12) * _lengths(points)[-1]
-
-
-point_at = Check(
-    name="point_at",
-    asks="the points (n, 2) at `along` metres along the line; beyond an end, that end",
-    start="how far along is each corner? Take 0 and np.cumsum of the pieces' lengths; then use np.interp.",
-    draw=_draw_point_at,
-    truth=lambda points, along: _at(points, along, _lengths(points)),
-    mistakes=[
-        Mistake(
-            lambda points, along: _at(points, along, np.linspace(0, _lengths(points)[-1], len(points))),
-            "you treat the corners as evenly spaced; the pieces of a line differ in length.",
-        ),
-        Mistake(
-            lambda points, along: _at(points[1:], along, _lengths(points)[1:]),
-            "the first corner lies 0 m along: it is missing from your lengths.",
-        ),
-        Mistake(
-            lambda points, along: _at(points[:-1], along, _lengths(points)[1:]),
-            "you are one corner late: the first corner lies 0 m along.",
-        ),
-        Mistake(_nearest_corner, "that is the nearest corner; between two corners, interpolate."),
-        Mistake(
-            lambda points, along: _at(
-                points,
-                along,
-                np.concatenate([[0.0], np.cumsum(np.sum(np.diff(points, axis=0) ** 2, axis=1))]),
-            ),
-            "your lengths are squared: a square root is missing.",
-        ),
-    ],
-)
-
-
 def _cost(track: Array, path: Line, along: float, steps: Array) -> tuple[float, float]:
     reached = along + np.cumsum(steps)
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])

@@ -153,6 +153,8 @@ def walk_beside(
     Raises
     ------
     NoWalk, MocapError : as for `build_own` and `follow_own`.
+
+    Notebook: 08-path-synthesis
     """
     line = GroundPath(np.asarray(path, float))
     ours, theirs = tools(), packages()

@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Points
+from mocap._shared.arrays import Points
+from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.lab.own.by_hand import longer
@@ -63,28 +64,27 @@ def follow_own(
     ------
     NoWalk : where no walk reaches the end of the path.
     """
-    corners = np.asarray(path, float)
-    length, best = float(np.hypot(*np.diff(corners, axis=0).T).sum()), None
-    waiting = {0: _starts(graph, corners, by)}
-    for layer in range(int(length / LAYER) + 1):
+    line, best = GroundPath(np.asarray(path, float)), None
+    waiting = {0: _starts(graph, line, by)}
+    for layer in range(int(line.length / LAYER) + 1):
         first = layer == 0  # every walk that starts has cost nothing yet
         while states := waiting.pop(layer, []):
-            chosen = states if first else _selected(graph, states, corners, width, by)
+            chosen = states if first else _selected(graph, states, line, width, by)
             first = False
-            for state in (new for old in chosen for new in _longer(graph, old, corners, seam, by)):
-                if state.along >= length:
+            for state in (new for old in chosen for new in _longer(graph, old, line, seam, by)):
+                if state.along >= line.length:
                     best = state if best is None or state.cost < best.cost else best
                 elif best is None or state.cost < best.cost:
                     waiting.setdefault(max(layer, int(state.along / LAYER)), []).append(state)
     if best is None:
-        raise NoWalk(f"No walk of this graph reaches the end of a path of {length:.1f} m.")
+        raise NoWalk(f"No walk of this graph reaches the end of a path of {line.length:.1f} m.")
     return _traced(best)
 
 
-def _starts(graph: OwnGraph, corners: Array, by: Tools) -> list[_State]:
+def _starts(graph: OwnGraph, line: GroundPath, by: Tools) -> list[_State]:
     """Lay each node on the start of the path, so that the clip goes on in the path's direction."""
-    x, z = corners[0]
-    (ahead_x, ahead_z), *_ = by.point_at(corners, np.array([0.3])) - corners[0]
+    x, z = line.points[0]
+    ahead_x, ahead_z = line.at(0.3) - line.points[0]
     frames = max(1, round(0.75 * graph.clips[0].fps))
     states = []
     for clip, frame in graph.edges:
@@ -98,7 +98,7 @@ def _starts(graph: OwnGraph, corners: Array, by: Tools) -> list[_State]:
     return states
 
 
-def _selected(graph: OwnGraph, states: list[_State], corners: Array, width: int, by: Tools) -> list[_State]:
+def _selected(graph: OwnGraph, states: list[_State], line: GroundPath, width: int, by: Tools) -> list[_State]:
     """Choose the walks that go on, by what they have cost and what the next moments would cost."""
     numbers = {node: number for number, node in enumerate(graph.edges)}
     stand, costs = [], []
@@ -108,7 +108,7 @@ def _selected(graph: OwnGraph, states: list[_State], corners: Array, width: int,
         cell = (place.real / PLACE, place.imag / PLACE, np.angle(state.turn) / TURN)
         stand.append([numbers[state.node], *(round(number) for number in cell)])
         steps = np.abs(np.diff(track[:: len(track) // 4])).cumsum()
-        wanted = by.point_at(corners, state.along + steps) @ [1j, 1]
+        wanted = line.at(state.along + steps) @ [1j, 1]
         off = state.turn * track[len(track) // 4 :: len(track) // 4] + state.move - wanted
         costs.append(state.cost + min(RESCUE, len(track) * np.mean(np.abs(off) ** 2)))
     return [states[number] for number in by.survivors(np.array(stand), np.array(costs), width)]
@@ -122,13 +122,13 @@ def _ahead(graph: OwnGraph, state: _State) -> Points:
     return on_ground(roots[np.minimum(frame + frames, len(roots) - 1)])
 
 
-def _longer(graph: OwnGraph, state: _State, corners: Array, seam: float, by: Tools) -> list[_State]:
+def _longer(graph: OwnGraph, state: _State, line: GroundPath, seam: float, by: Tools) -> list[_State]:
     """Lengthen a walk by every edge that leaves its node."""
     edges = graph.edges[state.node]
     offered = [(edge.end, edge.track, edge.turn, edge.move, seam * bool(edge.match)) for edge in edges]
     least = LEAST / graph.clips[0].fps
     walk = state.turn, state.move, state.along, state.cost
-    walks = longer(walk, offered, lambda along: by.point_at(corners, along), least, by)
+    walks = longer(walk, offered, line.at, least, by)
     return [
         _State(edge.end, turn, move, along, cost, edge, state)
         for edge, (_, turn, move, along, cost) in zip(edges, walks, strict=True)

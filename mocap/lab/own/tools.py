@@ -22,7 +22,6 @@ NAMES = (
     "tarjan",
     "component_to_keep",
     "lay_on",
-    "point_at",
     "edge_cost",
     "lengthen",
     "survivors",
