@@ -99,6 +99,8 @@ def _run(options: argparse.Namespace) -> int:
     folder = course.stored()
     for notebook in bar("running")(options.notebooks or sorted(folder.glob("*.ipynb"))):
         course.run(notebook, folder.parent / "figures")
+    if (folder.parent / "tests").is_dir():  # of a checkout: headings and calls may have changed
+        course.write_ledger(folder.parent)
     return 0
 
 

@@ -55,8 +55,8 @@ def test_the_ten_papers_are_those_of_the_faces_references():
 
 
 def test_the_page_on_disk_is_what_is_written():
-    """If this fails, run `mocap course papers`: a citation, a test or a heading has changed."""
-    assert (ROOT / "notebooks" / "PAPERS.md").read_text("utf-8") == ledger.page(ROWS)
+    stored = (ROOT / "notebooks" / "PAPERS.md").read_text("utf-8")
+    assert stored == ledger.page(ROWS), "a citation, a test or a heading has changed: run mocap course papers"
 
 
 def test_every_row_of_the_page_has_as_many_columns():
