@@ -4,7 +4,9 @@ import pytest
 from PIL import Image
 
 from mocap.cli.main import main
+from mocap.cli.many_clips.crowd import _film
 from mocap.files import load_save
+from tests.strategies import wave
 
 
 @pytest.fixture
@@ -20,7 +22,8 @@ def crowd(*more):
     return main([*words, *more])
 
 
-def test_a_motion_for_each_member_a_plan_and_a_film(course, capsys):
+def test_a_motion_for_each_member_a_plan_and_a_film(course, capsys, monkeypatch):
+    monkeypatch.setattr("mocap.cli.many_clips.crowd.find_spec", lambda name: None)  # no imageio-ffmpeg
     assert crowd() == 0
     said = capsys.readouterr().out
     assert "for 3 members" in said and "3 characters" in said and "m apart at least" in said
@@ -28,8 +31,14 @@ def test_a_motion_for_each_member_a_plan_and_a_film(course, capsys):
     assert names == ["crowd.gif", "member-01.bvh", "member-02.bvh", "member-03.bvh", "plan.png"]
     lengths = {len(load_save.load(course / "crowd" / name)) for name in names if name.startswith("member")}
     with Image.open(course / "crowd" / "crowd.gif") as film:
-        assert film.n_frames == pytest.approx(max(lengths) * 25 / 30, abs=2)
+        assert film.n_frames == pytest.approx(max(lengths) * 12.5 / 30, abs=2)
     assert len(lengths) == 1
+
+
+def test_the_film_is_an_mp4_where_that_can_be(tmp_path):
+    pytest.importorskip("imageio_ffmpeg")
+    _film([wave(30), wave(30, phase=1)], tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["crowd.mp4"]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The command `mocap crowd`: a group that was planned, and a character for each member."""
 
 import argparse
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ from mocap.cli.options import SEED, SKELETON, bar, whole
 from mocap.errors import MocapError, NoWalk
 
 if TYPE_CHECKING:
+    from mocap.body.motion import Motion
     from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
     from mocap.groups.planning import Scene
@@ -25,7 +27,7 @@ def add_crowd(commands: "Commands") -> None:
         help="plan the way of a group, and walk it with a character for each member",
         description="Plan how a group walks past points and around obstacles, and let a character of a "
         "motion graph walk each member's way, in place and in time. Writes a motion for each member, "
-        "plan.png and crowd.gif.",
+        "plan.png, and a film: crowd.mp4, or crowd.gif where imageio-ffmpeg is not installed.",
         epilog="Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/",
     )
     add = crowd.add_argument
@@ -36,7 +38,7 @@ def add_crowd(commands: "Commands") -> None:
     add("--graph", type=Path, help="an .npz file from `mocap graph` (default: one of generated walks)")
     add("--skeleton", type=Path, help=SKELETON)
     add("--to", choices=FORMATS, default="bvh", help="format of the motions (default: %(default)s)")
-    add("--no-film", action="store_true", help="write no crowd.gif, which takes the longest")
+    add("--no-film", action="store_true", help="write no film, which takes the longest")
     add("--seed", type=SEED, default=0, help="of the simulation (default: %(default)s)")
     crowd.set_defaults(run=_crowd)
 
@@ -60,9 +62,15 @@ def _crowd(options: argparse.Namespace) -> int:
         figure = plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near)
         figure.savefig(beside, format="png")
     if not options.no_film:
-        widgets.save_animation(list(walkers.motions), options.out / "crowd.gif", progress=bar("drawing"))
+        _film(list(walkers.motions), options.out)
     print(f"{'wrote':<12} {options.out}")
     return 0
+
+
+def _film(motions: "list[Motion]", folder: Path) -> None:
+    """Write an .mp4 where that can be; a .gif has half the frames, and is three times as large even so."""
+    name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
+    widgets.save_animation(motions, folder / name, fps=fps, progress=bar("drawing"))
 
 
 def _scene(options: argparse.Namespace) -> "Scene":
