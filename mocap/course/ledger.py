@@ -20,13 +20,15 @@ from mocap.errors import MocapError
 
 PAPERS = Path(__file__).with_name("papers.toml")
 SHOWN = 4  # functions of a row at most
-PICTURES = ("plotting", "diagrams", "widgets", "lab")  # rooms that draw what others compute
+SHORT = 5  # letters: such a name without a call may be another word
+OTHERS = ("plotting", "diagrams", "widgets", "lab", "course", "cli")  # rooms that use what others compute
 CITATION = re.compile(r"\[([A-Z][A-Za-z]+\d\d), ([^\]]+)\]")
+OWN = re.compile(r"\A(?:.+\n?)+|^In the paper: .+$", re.MULTILINE)  # what a docstring says first
 EQUATIONS = re.compile(r"Eqs?\. (\d+)(?:(-| and |, )(\d+))?")
 
 
 class Function(NamedTuple):
-    """A function or class of the package with what its docstring cites, and what the first paragraph cites.
+    """A function or class of the package with what its docstring cites, and what it cites as its own.
 
     `module` is ROOM.FILE, or ROOM.FOLDER.FILE; `name` may be CLASS.METHOD; `public` is ROOM.NAME if the
     face exports it, else it has the file; `notebook` is the one that its docstring names, or "".
@@ -92,13 +94,13 @@ def functions(package: Path) -> list[Function]:
     found = []
     for path in sorted(package.glob("*/**/*.py")):
         parts = path.relative_to(package).with_suffix("").parts
-        if parts[0] in PICTURES or parts[-1] == "__init__":
+        if parts[0] in OTHERS or parts[-1] == "__init__":
             continue
         for node, name in _defined(ast.parse(path.read_text("utf-8")).body):
             text = ast.get_docstring(node) or ""
             if not node.name.startswith("_") and (cites := cited(text)):
                 taught = (re.findall(r"^Notebook: (\S+)$", text, re.MULTILINE) or [""])[0]
-                first, module = cited(text.partition("\n\n")[0]), ".".join(parts)
+                first, module = cited("".join(OWN.findall(text))), ".".join(parts)
                 exported = f'"{name.partition(".")[0]}"' in faces[parts[0]]
                 public = f"{parts[0] if exported else module}.{name}"
                 found.append(Function(module, name, public, taught, cites, first))
@@ -145,7 +147,7 @@ def ledger(root: Path) -> list[Row]:
 
 
 def _chosen(known: Sequence[Function], places: set[tuple[str, str]]) -> list[Function]:
-    """Choose those whose first paragraph cites a place, else those that cite it further down."""
+    """Choose those that cite a place as their own, in the first paragraph or by "In the paper:", else all."""
     first = [one for one in known if one.first & places]
     return (first or [one for one in known if one.cites & places])[:SHOWN]
 
@@ -228,7 +230,7 @@ class _Cells:
     def calling(self, name: str, *notebooks: str) -> str:
         """Link the first cell that calls a function, or else names it, in the first notebook that does."""
         for own in filter(None, notebooks):
-            for use in (rf"\b{name}\(", rf"\b{name}\b"):
+            for use in (rf"\b{name}\(", rf"\b{name}\b")[: 2 if len(name) > SHORT else 1]:
                 for notebook, heading, code in self.cells:
                     if notebook == own and re.search(use, code):
                         return _linked(notebook, heading)
@@ -241,7 +243,7 @@ def _linked(name: str, heading: str) -> str:
 
 def page(rows: Sequence[Row]) -> str:
     """Write the rows as a page of tables, one for each paper after one of all papers, in Markdown."""
-    tables = ["| paper | read | rows | as the paper says |\n|---|---|---|---|"]
+    tables = ["| paper | how we know it | rows | as the paper says |\n|---|---|---|---|"]
     for key, paper in papers().items():
         own = [row for row in rows if row.key == key]
         same = sum(row.departs.startswith("nothing") for row in own)
