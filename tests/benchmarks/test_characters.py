@@ -49,17 +49,26 @@ def test_steps_beside_those_of_a_character_on_a_motion_graph():
     for name, took in times.items():
         print(f"\n{name}: {STEPS / took:.0f} poses per second, {took / times['motion graph']:.2f} ×", end="")
     assert times["matching"] <= times["motion graph"]
-    assert max(times["strides"], times["steps"]) <= 2 * times["motion graph"]
+    assert max(times["strides"], times["steps"]) <= times["motion graph"]
 
 
-def test_the_worst_step_of_matching_is_no_worse_than_that_of_a_graph():
+def test_worst_steps_beside_those_of_a_character_on_a_motion_graph():
     """The worst step of a run, in the best of five runs: what else the machine does is not the step's."""
     compiled, table = graphs.compile_graph(bundled(*WALKS)), tabulate(clips())
+    walks, steps_ = walking(), stepping(0.04)
     gc.freeze()
-    makes = (lambda: Controller(compiled), lambda: MotionMatcher(table))
-    graph, matching = (min(measure_delay(make(), speed=0.8).worst for _ in range(5)) for make in makes)
-    print(f"\nworst steps: graph {graph:.2f} ms, matching {matching:.2f} ms")
-    assert matching <= 1.2 * graph
+    makes = {
+        "motion graph": lambda: Controller(compiled),
+        "strides": lambda: ParametricController(walks),
+        "steps": lambda: ParametricController(steps_),
+        "matching": lambda: MotionMatcher(table),
+    }
+    worst = {
+        name: min(measure_delay(make(), speed=0.8).worst for _ in range(5)) for name, make in makes.items()
+    }
+    print("\nworst steps:", ", ".join(f"{name} {took:.2f} ms" for name, took in worst.items()))
+    assert worst["matching"] <= 1.2 * worst["motion graph"]
+    assert max(worst["strides"], worst["steps"]) <= 3 * worst["motion graph"]
 
 
 def test_one_product_is_quicker_for_a_course_and_a_tree_for_a_game():
