@@ -24,28 +24,6 @@ def the_swings(speeds, enter, leave):
     return np.array([number not in plants for number in numbers])
 
 
-def ground_speeds(positions):
-    steps = positions[1:] - positions[:-1]
-    return np.sqrt(steps[:, 0] ** 2 + steps[:, 2] ** 2)
-
-
-def frame_before(positions, fps, fastest):
-    return [f for f, speed in enumerate(ground_speeds(positions) * fps) if speed > fastest]
-
-
-def without_fps(positions, fps, fastest):
-    return [f + 1 for f, speed in enumerate(ground_speeds(positions)) if speed > fastest]
-
-
-def upwards_too(positions, fps, fastest):
-    speeds = np.sqrt(((positions[1:] - positions[:-1]) ** 2).sum(axis=1)) * fps
-    return list(np.nonzero(speeds > fastest)[0] + 1)
-
-
-def as_a_mask(positions, fps, fastest):
-    return ground_speeds(positions) * fps > fastest
-
-
 def frame_by_frame(speeds, span, fastest_walk):
     return np.array([speed > fastest_walk for speed in speeds])
 
@@ -68,11 +46,6 @@ def walking(speeds, span, fastest_walk):
     half = span // 2
     means = [speeds[max(0, f - half) : f + half + 1].mean() for f in range(len(speeds))]
     return np.array(means) <= fastest_walk
-
-
-def upwards_and_the_frame_before(positions, fps, fastest):
-    speeds = np.sqrt(((positions[1:] - positions[:-1]) ** 2).sum(axis=1)) * fps
-    return [f for f, speed in enumerate(speeds) if speed > fastest]
 
 
 def below_zero(lengths, window):
@@ -101,13 +74,6 @@ WRONG = {
         (the_loose_one, "the loose one"),
         (going_through, "at its first frame"),
         (the_swings, "marks the swings"),
-    ],
-    "leaps": [
-        (frame_before, "the frames before"),
-        (without_fps, "metres per frame"),
-        (upwards_too, "leave y out"),
-        (as_a_mask, "that is a mask"),
-        (upwards_and_the_frame_before, "two things"),
     ],
     "running": [
         (frame_by_frame, "flickers"),

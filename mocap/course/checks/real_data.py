@@ -58,55 +58,6 @@ standing = Check(
 )
 
 
-def _leaping(rng: np.random.Generator) -> tuple[Array, float, float]:
-    """Draw a steady way over the ground with one or two leaps, and a jump upwards that is not a leap."""
-    fps, frames = float(rng.integers(30, 121)), int(rng.integers(20, 50))
-    steps = rng.normal(0.8, 0.1, (frames, 3)) / fps
-    steps[rng.integers(1, frames, 2), 2] += 9.0 / fps
-    steps[rng.integers(1, frames), 1] += 9.0 / fps
-    return steps.cumsum(axis=0), fps, 5.0
-
-
-def _speeds(positions: Array, fps: float) -> Array:
-    return np.asarray(np.hypot(*np.diff(positions[:, [0, 2]], axis=0).T) * fps)
-
-
-leaps = Check(
-    name="leaps",
-    asks="a list of the frames that the root reaches, over the ground, faster than `fastest`",
-    start="np.diff gives the step from each frame to the next; a step lasts 1 / fps seconds.",
-    draw=_leaping,
-    truth=lambda positions, fps, fastest: (np.flatnonzero(_speeds(positions, fps) > fastest) + 1).tolist(),
-    mistakes=[
-        Mistake(
-            lambda positions, fps, fastest: np.flatnonzero(_speeds(positions, fps) > fastest),
-            "these are the frames before the leaps: step f leads from frame f to frame f + 1.",
-        ),
-        Mistake(
-            lambda positions, fps, fastest: np.flatnonzero(_speeds(positions, 1.0) > fastest) + 1,
-            "you compare metres per frame with metres per second.",
-        ),
-        Mistake(
-            lambda positions, fps, fastest: (
-                np.flatnonzero(np.linalg.norm(np.diff(positions, axis=0), axis=1) * fps > fastest) + 1
-            ),
-            "a jump upwards is not a leap over the ground; leave y out.",
-        ),
-        Mistake(
-            lambda positions, fps, fastest: np.flatnonzero(
-                np.linalg.norm(np.diff(positions, axis=0), axis=1) * fps > fastest
-            ),
-            "two things: leave y out, because a jump upwards is not a leap; and step f leads from frame f to "
-            "frame f + 1.",
-        ),
-        Mistake(
-            lambda positions, fps, fastest: _speeds(positions, fps) > fastest,
-            "that is a mask; np.flatnonzero turns it into frame numbers.",
-        ),
-    ],
-)
-
-
 def _tempo(rng: np.random.Generator) -> tuple[Array, int, float]:
     """Draw speeds that vary with every step, of a walk and then a run."""
     frames, span = 120, 2 * int(rng.integers(3, 10)) + 1
