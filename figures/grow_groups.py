@@ -1,4 +1,4 @@
-"""Measure how group motion graphs grow with their members: `python figures/grow_groups.py`.
+"""Measure how group motion graphs grow with their members: `OMP_NUM_THREADS=1 python figures/grow_groups.py`.
 
 Writes the table `groups.md` beside this script. Times are CPU time of one run, on one core.
 """
@@ -24,7 +24,7 @@ NEAREST = (5, 10, 20)  # candidates for each of a thousand
 
 HEAD = """# How a group motion graph grows
 
-Written by `python figures/grow_groups.py`; CPU time of one run on one core. Two minutes of a flock are
+Written by `OMP_NUM_THREADS=1 python figures/grow_groups.py`; CPU time of one run. Two minutes of a flock are
 simulated, clustered into at most six nodes of 0.5 m, and joined by clips. Then a way is planned over 24 m
 past two points between two obstacles, and played. Covered is the share of the simulation near a node. Of
 clips, those are kept that bring nobody nearer than 0.60 m and need at most 2.2 m/s².
