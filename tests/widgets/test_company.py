@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
@@ -15,7 +15,8 @@ from mocap.widgets.live_steering.company import Company, Order
 from tests.widgets.steerable import Dot
 
 
-@given(st.lists(st.floats(0, 0.5), min_size=1, max_size=9))
+@settings(max_examples=15)
+@given(st.lists(st.floats(0, 0.1), min_size=1, max_size=6))
 def test_frames_are_counted_by_seconds_however_they_are_asked_for(pieces):
     company = Company({"slow": Dot(fps=30.0), "fast": Dot(fps=120.0)})
     walked = [company.walk(Order(), seconds) for seconds in pieces]

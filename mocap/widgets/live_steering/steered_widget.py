@@ -190,13 +190,13 @@ def _recorded(company: Company, speed: float) -> list[Motion]:
 def _still(player: Player, record: bool) -> tuple[dict[str, str], dict[str, Any]]:
     """Give what a page without Python shows: the recording or its picture, and a sentence."""
     data, metadata = player._repr_mimebundle_()
-    seen = data["text/html"] if record else html_picture(data)
+    seen = data["text/html"] if record else _html_picture(data)
     said = "Recorded: ahead for 2 s, 4 s to the left, 4 s to the right. Run the cell to steer by yourself."
     data["text/html"] = f"<p>{html.escape(said)}</p>{seen}"
     return data, metadata
 
 
-def html_picture(data: dict[str, str]) -> str:
+def _html_picture(data: dict[str, str]) -> str:
     """Write the picture of a bundle as HTML, with its sentence."""
     return f'<img alt="{html.escape(data["text/plain"])}" src="data:image/png;base64,{data["image/png"]}">'
 
