@@ -1,7 +1,7 @@
 // What the inspector computes: bodies out of rotations, the best turn, the blend. `tests/browser/test_inspector.py`
 // holds each of these formulas against the package's function, which every comment names.
 
-const STEP = 1e-5; // metres, and parts of a quaternion: what one unit of a number means
+const STEP = 5e-6; // metres, and parts of a quaternion: what one unit of a number means
 
 // Undo what `packing.py` does: four planes of bytes make 32-bit numbers, and these are second differences over time.
 function unpacked(bytes, { offset, frames, channels }) {
@@ -15,26 +15,20 @@ function unpacked(bytes, { offset, frames, channels }) {
   return numbers; // frame by frame: x, y, z of the root, then w, x, y, z of each joint
 }
 
-// ---- quaternions: w, x, y, z ----
+// ---- quaternions: w, x, y, z; many of them in one array, so that a page can turn thousands in a few milliseconds ----
 
 const times = ([a, b, c, d], [e, f, g, h]) =>
   [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e];
 
-function turned([w, x, y, z], [a, b, c]) {
-  const u = 2 * (y * c - z * b), v = 2 * (z * a - x * c), t = 2 * (x * b - y * a);
-  return [a + w * u + y * t - z * v, b + w * v + z * u - x * t, c + w * t + x * v - y * u];
-}
-
 // `rotations.slerp`: the short way round, and on a straight line where both are almost equal.
-function slerp(from, to, share) {
-  const dot = from.reduce((sum, v, k) => sum + v * to[k], 0), sign = dot < 0 ? -1 : 1;
-  const angle = Math.acos(Math.min(1, Math.abs(dot))), sine = Math.sin(angle);
-  const [p, q] = sine < 1e-6 ? [1 - share, share] : [Math.sin((1 - share) * angle) / sine, Math.sin(share * angle) / sine];
-  const mixed = from.map((v, k) => p * v + sign * q * to[k]), size = Math.hypot(...mixed) || 1;
-  return mixed.map((v) => v / size);
+function slerp(from, to, share, k, out) {
+  const dot = from[k] * to[k] + from[k + 1] * to[k + 1] + from[k + 2] * to[k + 2] + from[k + 3] * to[k + 3], sign = dot < 0 ? -1 : 1;
+  const angle = Math.acos(Math.min(1, Math.abs(dot))), sine = Math.sin(angle), near = sine < 1e-6;
+  const p = near ? 1 - share : Math.sin((1 - share) * angle) / sine, q = sign * (near ? share : Math.sin(share * angle) / sine);
+  for (let n = k; n < k + 4; n++) out[n] = p * from[n] + q * to[n];
 }
 
-// ---- poses: the root's place, and a quaternion for each joint ----
+// ---- poses: the root's place, and the joints' quaternions, one after the other ----
 
 class Clip {
   constructor(packed, skeleton, bytes) {
@@ -45,10 +39,8 @@ class Clip {
   }
 
   pose(frame) {
-    const at = frame * this.channels, turns = [];
-    for (let k = at + 3; k < at + this.channels; k += 4) turns.push(Array.from(this.numbers.subarray(k, k + 4)));
-    const [x, y, z] = this.numbers.subarray(at, at + 3), [x0, z0] = this.origin;
-    return { root: [x + x0, y, z + z0], turns };
+    const at = frame * this.channels, [x0, z0] = this.origin, { numbers } = this;
+    return { root: [numbers[at] + x0, numbers[at + 1], numbers[at + 2] + z0], turns: numbers.subarray(at + 3, at + this.channels) };
   }
 
   // The joints of a frame, which do not change: they are computed once.
@@ -64,26 +56,30 @@ class Clip {
   }
 }
 
-// Where all joints of a pose are: `body.kinematics.joint_positions`.
+// Where all joints of a pose are: `body.kinematics.joint_positions`. A parent comes before its children.
 function joints({ parents, offsets }, { root, turns }) {
-  const places = [root], worlds = [turns[0]];
+  const places = [root], worlds = Float64Array.from(turns);
   for (let j = 1; j < parents.length; j++) {
-    const parent = parents[j], arm = turned(worlds[parent], offsets[j]);
-    places.push(places[parent].map((v, k) => v + arm[k]));
-    worlds.push(times(worlds[parent], turns[j]));
+    const p = 4 * parents[j], w = worlds[p], x = worlds[p + 1], y = worlds[p + 2], z = worlds[p + 3], [a, b, c] = offsets[j];
+    const u = 2 * (y * c - z * b), v = 2 * (z * a - x * c), t = 2 * (x * b - y * a), from = places[parents[j]]; // the arm, turned by its parent
+    places.push([from[0] + a + w * u + y * t - z * v, from[1] + b + w * v + z * u - x * t, from[2] + c + w * t + x * v - y * u]);
+    const k = 4 * j, e = turns[k], f = turns[k + 1], g = turns[k + 2], h = turns[k + 3];
+    worlds[k] = w * e - x * f - y * g - z * h; worlds[k + 1] = w * f + x * e + y * h - z * g;
+    worlds[k + 2] = w * g - x * h + y * e + z * f; worlds[k + 3] = w * h + x * g - y * f + z * e;
   }
   return places;
 }
 
 // `PlanarTransform`: turn by an angle about +y, then shift over the ground.
-function moved({ angle, x, z }, [a, b, c]) {
-  const cos = Math.cos(angle), sin = Math.sin(angle);
+function moved({ angle, x, z, cos = Math.cos(angle), sin = Math.sin(angle) }, [a, b, c]) {
   return [a * cos + c * sin + x, b, c * cos - a * sin + z];
 }
 
 function movedPose(transform, { root, turns }) {
   const half = transform.angle / 2, about = [Math.cos(half), 0, Math.sin(half), 0];
-  return { root: moved(transform, root), turns: [times(about, turns[0]), ...turns.slice(1)] };
+  const all = Float64Array.from(turns);
+  all.set(times(about, turns.subarray(0, 4)));
+  return { root: moved(transform, root), turns: all };
 }
 
 // ---- matching ----
@@ -112,7 +108,7 @@ const distanceAt = ({ A, B, fixed }, angle) => Math.sqrt(Math.max(0, fixed - 2 *
 
 function bestShift({ mx, mz, mu, mw }, angle) {
   const [u, , w] = moved({ angle, x: 0, z: 0 }, [mu, 0, mw]);
-  return { angle, x: mx - u, z: mz - w };
+  return { angle, x: mx - u, z: mz - w, cos: Math.cos(angle), sin: Math.sin(angle) };
 }
 
 // The distances, metres, around a pair of windows: rows and columns `every` frames apart, NaN where a clip ends.
@@ -141,10 +137,9 @@ const WEIGHTS = {
 function weightsOf(kind, window) { return Array.from({ length: window }, (_, p) => WEIGHTS[kind]((p + 1) / window)); }
 
 function blended(a, b, alpha) {
-  return {
-    root: a.root.map((v, k) => alpha * v + (1 - alpha) * b.root[k]),
-    turns: a.turns.map((turn, k) => slerp(b.turns[k], turn, alpha)),
-  };
+  const turns = new Float64Array(a.turns.length);
+  for (let k = 0; k < turns.length; k += 4) slerp(b.turns, a.turns, alpha, k, turns);
+  return { root: a.root.map((v, k) => alpha * v + (1 - alpha) * b.root[k]), turns };
 }
 
 // The seam with the frames around it: `blending.join`. `alpha` is 1 before the window and 0 after it.
@@ -152,9 +147,9 @@ function seamOf(first, i, second, j, { transform, window, before, after, kind })
   const weights = weightsOf(kind, window), frames = [];
   for (let f = -before; f < window + after; f++) {
     const alpha = f < 0 ? 1 : f < window ? weights[f] : 0;
-    const a = alpha > 0 ? first.pose(i + f) : null, b = alpha < 1 ? movedPose(transform, second.pose(j + f)) : null;
-    const pose = a && b ? blended(a, b, alpha) : a ?? b;
-    frames.push({ alpha, places: joints(first.skeleton, pose), plants: alpha >= 0.5 ? first.plants?.[i + f] : second.plants?.[j + f] });
+    const mix = () => joints(first.skeleton, blended(first.pose(i + f), movedPose(transform, second.pose(j + f)), alpha));
+    const places = alpha === 1 ? first.joints(i + f) : alpha === 0 ? second.joints(j + f).map((place) => moved(transform, place)) : mix();
+    frames.push({ alpha, places, plants: alpha >= 0.5 ? first.plants?.[i + f] : second.plants?.[j + f] });
   }
   return frames;
 }

@@ -1,7 +1,7 @@
 """Clips as small blocks of bytes, which `inspector_maths.js` reads.
 
 A clip is sent as its root's places and its joints' rotations, so that the page can blend them. All numbers
-are multiples of 1e-5 (metres, or parts of a quaternion), as second differences over time: these are small.
+are multiples of 5e-6 (metres, or parts of a quaternion), as second differences over time: these are small.
 Their bytes go in four planes, the lowest bytes first; the upper planes are almost empty, and compress well.
 """
 
@@ -20,7 +20,7 @@ from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.stick_figures import bones
 
-STEP = 1e-5  # what a unit of a number means; quantised so, positions err by less than a tenth of a millimetre
+STEP = 5e-6  # what a unit of a number means: a clip at 120 Hz needs it so fine, or its jolts would tremble
 SIDES = ("middle", "left", "right")  # the scripts know a side by its number
 
 
