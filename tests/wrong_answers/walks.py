@@ -1,5 +1,3 @@
-import heapq
-
 import numpy as np
 
 
@@ -58,83 +56,6 @@ def other_order(transforms):
         cos, sin = np.cos(turn), np.sin(turn)
         angle, x, z = angle + turn, x * cos + z * sin + dx, z * cos - x * sin + dz
     return angle, x, z
-
-
-def recursive(tree, cut=True, key=lambda way: way[0], leaves=False):
-    best, expanded = np.inf, 0
-
-    def go(node, cost):
-        nonlocal best, expanded
-        expanded += leaves or bool(tree[node])
-        if not tree[node]:
-            best = min(best, cost)
-        for g, child in sorted(tree[node], key=key):
-            if not cut or cost + g < best:
-                go(child, cost + g)
-
-    go(0, 0.0)
-    return best, expanded
-
-
-def everything(tree):
-    return recursive(tree, cut=False)
-
-
-def most_expensive_first(tree):
-    return recursive(tree, key=lambda way: -way[0])
-
-
-def with_leaves(tree):
-    return recursive(tree, leaves=True)
-
-
-def as_they_stand(tree):
-    best, expanded, stack = float("inf"), 0, [(0.0, 0)]
-    while stack:
-        cost, node = stack.pop()
-        if cost < best:
-            if tree[node] == []:
-                best = cost
-            else:
-                expanded += 1
-            for g, child in tree[node]:
-                stack.append((cost + g, child))
-    return best, expanded
-
-
-def counted_too_soon(tree):
-    best, expanded, stack = float("inf"), 0, [(0.0, 0)]
-    while stack:
-        cost, node = stack.pop()
-        expanded += 1
-        if cost < best:
-            if tree[node] == []:
-                best = cost
-            stack += sorted([(cost + g, child) for g, child in tree[node]])[::-1]
-    return best, expanded
-
-
-def best_first(tree):
-    best, expanded, heap = np.inf, 0, [(0.0, 0)]
-    while heap:
-        cost, node = heapq.heappop(heap)
-        if cost >= best:
-            break
-        if not tree[node]:
-            best = cost
-            continue
-        expanded += 1
-        for g, child in tree[node]:
-            heapq.heappush(heap, (cost + g, child))
-    return best, expanded
-
-
-def greedy(tree):
-    cost, node, expanded = 0.0, 0, 0
-    while tree[node]:
-        g, node = min(tree[node])
-        cost, expanded = cost + g, expanded + 1
-    return cost, expanded
 
 
 def walks(lengths, start, longest):
@@ -211,15 +132,6 @@ WRONG = {
         (with_its_own, "its own angle too"),
         (wrong_sign, "wrong direction"),
         (other_order, "the other order"),
-    ],
-    "cheapest_way": [
-        (everything, "expand every node"),
-        (most_expensive_first, "most expensive child first"),
-        (as_they_stand, "in any order"),
-        (best_first, "best-first search"),
-        (with_leaves, "a leaf is not expanded"),
-        (counted_too_soon, "skipped node is not expanded"),
-        (greedy, "a greedy search"),
     ],
     "shortest_walk": [
         (the_first, "first complete walk"),

@@ -8,8 +8,6 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.course.check import Check, Mistake, close, close_angles
 
-Tree = dict[int, list[tuple[float, int]]]
-
 
 def _shares(costs: Array) -> Array:
     return np.asarray(np.cumsum(1 / (costs + 1e-3)) / np.sum(1 / (costs + 1e-3)))
@@ -111,89 +109,6 @@ product_of = Check(
 )
 
 
-def _random_tree(rng: np.random.Generator) -> Tree:
-    """Grow a tree with two or three ways on at each fork, three forks deep: children by node."""
-    tree: Tree = {0: []}
-    layer = [0]
-    for _ in range(3):
-        below: list[int] = []
-        for node in layer:
-            children = range(len(tree), len(tree) + int(rng.integers(2, 4)))
-            tree[node] = [(float(rng.uniform(0, 1)), child) for child in children]
-            tree |= {child: [] for child in children}
-            below += children
-        layer = below
-    return tree
-
-
-def _cheapest(tree: Tree, slip: str = "") -> tuple[float, int]:
-    best, expanded, stack = np.inf, 0, [(0.0, 0, 0.0)]
-    while stack:
-        cost, node, step = stack.pop()
-        expanded += slip == "counts skipped ones"
-        if {"no bound": -1.0, "own cost": step}.get(slip, cost) >= best:
-            continue
-        expanded += bool(tree[node]) if slip != "counts leaves" else 1
-        expanded -= slip == "counts skipped ones" and bool(tree[node])
-        best = min(best, cost) if not tree[node] else best
-        if slip == "stops early" and not tree[node]:
-            break
-        children = [(cost + g, child, g) for g, child in tree[node]]
-        stack += children if slip == "no order" else sorted(children, reverse=slip != "expensive first")
-        stack = sorted(stack, reverse=True) if slip == "best first" else stack
-    return best, expanded
-
-
-cheapest_way = Check(
-    name="cheapest_way",
-    asks="the cost of the cheapest way from node 0 to a leaf, and the number of expanded nodes",
-    start="keep a stack of (cost so far, node). Pop one; skip it if it costs as much as the best leaf; "
-    "if it is "
-    "a leaf, it is the best; else count it, and push its children so that the cheapest is popped first.",
-    draw=lambda rng: (_random_tree(rng),),
-    truth=_cheapest,
-    trials=20,
-    mistakes=[
-        Mistake(
-            lambda tree: _cheapest(tree, "no bound"),
-            "the cost is right, but you expand every node: skip what already costs as much as the best "
-            "leaf, and "
-            "pop the newest node, so that a leaf comes early.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "expensive first"),
-            "the cost is right, but you try the most expensive child first: a stack is popped at its end.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "no order"),
-            "the cost is right, but you take the children in any order: an early good leaf skips more.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "best first"),
-            "the cost is right, but this is best-first search: you take up the cheapest of all nodes "
-            "that wait, "
-            "in all branches. It expands fewer, but must keep them all. Sort only the children of one node.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "counts leaves"),
-            "the cost is right, but a leaf is not expanded, because it has no children: do not count it.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "counts skipped ones"),
-            "the cost is right, but a skipped node is not expanded: count after the test.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "own cost"),
-            "you compare the cost of the last edge; compare the cost of the whole way so far.",
-        ),
-        Mistake(
-            lambda tree: _cheapest(tree, "stops early"),
-            "you stop at the first leaf, as a greedy search does; another leaf may cost less.",
-        ),
-    ],
-)
-
-
 Lengths = dict[int, dict[int, float]]
 
 
@@ -240,9 +155,9 @@ shortest_walk = Check(
     asks="the length of the shortest walk from start to goal with at most `longest` edges, and the list "
     "of its "
     "nodes; inf and [] where there is none",
-    start="as in `cheapest_way`, but keep (length so far, list of nodes) on the stack; a walk whose last "
-    "node is "
-    "the goal is complete, and one with `longest` edges is not lengthened.",
+    start="keep a stack of (length so far, list of nodes). Pop one; skip it if it is as long as the best; "
+    "if its last node is the goal, it is the best; else push it with each next node, the shortest last, "
+    "unless it has `longest` edges.",
     draw=_random_graph,
     truth=_shortest,
     same=lambda given, wanted: close(given[0], wanted[0]) and list(given[1]) == list(wanted[1]),
