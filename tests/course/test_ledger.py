@@ -62,9 +62,7 @@ def test_the_ten_papers_are_those_of_the_faces_references():
 
 def test_the_page_on_disk_is_what_is_written():
     stored = (ROOT / "notebooks" / "PAPERS.md").read_text("utf-8")
-    assert stored == ledger.page(rows()), (
-        "a citation, a test or a heading has changed: run mocap course papers"
-    )
+    assert stored == ledger.page(rows()), "something it lists has changed: run mocap course papers"
 
 
 def test_every_row_of_the_page_has_as_many_columns():
