@@ -617,7 +617,7 @@ def draw_groups() -> Figure:
     scene = groups.Scene((20 + 0j,), tuple(rocks))
     found = groups.plan_group(graph, scene)
     way = groups.play_group(graph, found.clips).places[: round(found.seconds * groups.RATE) + 1]
-    stays = groups.steer_group(graph.nodes[0], scene, limit=60)[0].places
+    stays = groups.steer_group(graph.nodes[0], scene, limit=20)[0].places
     for ax, places in ((plan, way), (steered, stays)):
         plotting.draw_group_plan(places, scene.points, scene.discs, ax=ax)
         ax.set(xlim=(10, -10), ylim=(-3, 23), ylabel="")
