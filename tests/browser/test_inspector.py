@@ -95,6 +95,7 @@ def test_around_a_transition_the_page_measures_the_grid_itself(shown):
     assert np.nanmax(np.abs(found - shades)) < 1e-3
 
 
+@pytest.mark.benchmark
 def test_from_point_to_picture_takes_less_than_sixty_milliseconds(shown):
     page = shown(inspector(*WALKS))
     for tab in ("windows", "turn", "weights", "seam"):
