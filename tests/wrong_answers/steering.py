@@ -3,41 +3,6 @@ import math
 import numpy as np
 
 
-def summed_times(along, places, seconds, fps, cost):
-    total = 0.0
-    for frame, place in enumerate(along):
-        if places[0] <= place <= places[-1]:
-            total += cost(frame / fps - np.interp(place, places, seconds))
-    return total
-
-
-def for_ever(along, places, seconds, fps):
-    times = np.arange(len(along)) / fps
-    return ((times - np.interp(along, places, seconds)) ** 2).sum()
-
-
-def in_frames(along, places, seconds, fps):
-    return summed_times(along, places, seconds, 1, lambda late: late**2)
-
-
-def not_squared(along, places, seconds, fps):
-    return summed_times(along, places, seconds, fps, abs)
-
-
-def early_is_free(along, places, seconds, fps):
-    return summed_times(along, places, seconds, fps, lambda late: late**2 if late > 0 else 0.0)
-
-
-def at_the_places(along, places, seconds, fps):
-    arrivals = [min(int((along < place).sum()), len(along) - 1) / fps for place in places]
-    return sum((a - b) ** 2 for a, b in zip(arrivals, seconds, strict=True))
-
-
-def averaged(along, places, seconds, fps):
-    inside = (along >= places[0]) & (along <= places[-1])
-    return summed_times(along, places, seconds, fps, lambda late: late**2) / max(1, inside.sum())
-
-
 def first_frame(track, heading, frame, back, off):
     for now in range(max(frame, back), len(track)):
         x, z = track[now] - track[now - back]
@@ -141,14 +106,6 @@ def at_any_speed(turn, tracks, heading, speed, fps):
 
 
 WRONG = {
-    "time_cost": [
-        (for_ever, "leave them out"),
-        (in_frames, "divide the frame's number by fps"),
-        (not_squared, "sum their squares"),
-        (early_is_free, "a walk that is early"),
-        (at_the_places, "every frame between them"),
-        (averaged, "that is a mean"),
-    ],
     "obeys_after": [
         (from_x, "headings start at +z"),
         (not_wrapped, "one direction"),

@@ -62,6 +62,8 @@ def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools)
     Raises
     ------
     MocapError : where there is no loop: the threshold is too low.
+
+    Notebook: 08b-steering
     """
     matches = find_matches([joint_cloud(clip, by) for clip in clips], window, threshold, by)
     points = [

@@ -19,6 +19,8 @@ def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools) -> Motion:
     """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6].
 
     Each frame is moved by the product of the transforms of all transitions before it.
+
+    Notebook: 08b-steering
     """
     transforms = [(float(np.angle(walk.turn)), walk.move.imag, walk.move.real)]
     parts = []

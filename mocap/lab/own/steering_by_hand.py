@@ -25,6 +25,8 @@ def steer_own(
         second.
     seconds : how long to walk.
     by : whose functions work.
+
+    Notebook: 08b-steering
     """
     fps = graph.clips[0].fps
     node, turn, move, edges, frames = next(iter(graph.edges)), 1 + 0j, 0j, [], 0

@@ -50,7 +50,10 @@ class Tools(SimpleNamespace):
 
 
 def tools() -> Tools:
-    """Take the student's functions, where they passed their checks, and the package's for the rest."""
+    """Take the student's functions, where they passed their checks, and the package's for the rest.
+
+    Notebook: 08b-steering
+    """
     return Tools(**{slot.name: slot for slot in slots(*NAMES)})
 
 
