@@ -61,11 +61,10 @@ def build_kinds(
     Examples
     --------
     >>> from mocap import body, datasets
-    >>> clips = {"calm": "walk_curve_1", "lively": "walk_curve_2"}
-    >>> kinds = {kind: [body.resample(datasets.sample(name), 30)] for kind, name in clips.items()}
-    >>> graph = build_kinds(kinds, [("calm", "lively")], sampling=Sampling(12, 60))
-    >>> print(*graph.graph.edges)
-    ('calm', 'calm') ('calm', 'calm to lively') ('lively', 'lively') ('calm to lively', 'lively')
+    >>> names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+    >>> walks = [body.resample(datasets.sample(name), 30) for name in names]
+    >>> print(build_kinds({"walk": walks}, sampling=Sampling(12, 60)).report())
+    walk → walk: boxes of ...° of turn, from ... cm on
 
     Notebook: 17-parametric-graphs
     """

@@ -73,8 +73,8 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> made = make_stride(make_space(strides, 0.2, -0.8, 0.8), np.array([0.5]))
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> made = make_stride(make_space(strides, 0.4, -0.8, 0.8), np.array([0.5]))
     >>> float((made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]).round(1))
     0.5
     """

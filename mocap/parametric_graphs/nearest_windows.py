@@ -143,9 +143,9 @@ def optimal_transitions(source: StrideSpace, target: StrideSpace, at: Array, to:
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
-    >>> found = optimal_transitions(space, space, np.array([[0.0]]), np.array([[0.0], [0.7]]))
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
+    >>> found = optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))
     >>> bool(found.cost[0, 0] < found.cost[0, 1])
     True
 

@@ -69,8 +69,8 @@ class ParametricController:
     >>> from mocap.parametric_graphs.parametric_motion_graphs import build_parametric
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> graph = build_parametric({"walk": make_space(strides, 0.2, -0.8, 0.8)}, good=0.05)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> graph = build_parametric({"walk": make_space(strides, 0.4, -0.8, 0.8)}, good=0.05)
     >>> ParametricController(graph).step(heading=0.5, speed=0.8).rotations.shape
     (38, 4)
 

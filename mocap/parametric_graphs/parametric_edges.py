@@ -147,8 +147,8 @@ def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling |
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> 0.005 < smallest_good(space, space, Sampling(targets=100)) < 0.05
     True
 
@@ -186,8 +186,8 @@ def build_edge(
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> edge = build_edge(space, space, good=0.05, sampling=Sampling(targets=200))
     >>> way = edge.look_up(np.array([0.0]))
     >>> bool(way.low[0] < 0 < way.high[0])

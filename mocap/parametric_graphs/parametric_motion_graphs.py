@@ -89,8 +89,8 @@ def build_parametric(
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> graph = build_parametric({"walk": space}, good=0.05)
     >>> list(graph.graph.edges)
     [('walk', 'walk')]
@@ -126,8 +126,8 @@ def least_thresholds(
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.stride_spaces import make_space
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> least_thresholds({"walk": space})[("walk", "walk")] < 0.05
     True
     """

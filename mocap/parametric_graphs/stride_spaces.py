@@ -127,7 +127,7 @@ def measure_mixes(strides: Strides, weights: Array) -> Array:
     --------
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> bool(np.abs(measure_mixes(strides, np.eye(len(strides))) - strides.values).max() < 0.02)
     True
 
@@ -177,8 +177,8 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     --------
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> got = measure_mixes(strides, space.weights([[0.5]]))[0, 0]
     >>> float(got.round(1))
     0.5
@@ -273,8 +273,8 @@ def draw_parameters(space: StrideSpace, count: int, random: np.random.Generator)
     --------
     >>> from mocap import body, datasets
     >>> from mocap.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> space = make_space(strides, 0.2, -0.8, 0.8)
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> draw_parameters(space, 5, np.random.default_rng(0)).shape
     (5, 1)
     """
