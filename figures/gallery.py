@@ -567,10 +567,9 @@ def draw_motion_matching() -> Figure:
         frames.append((*pose.root_position[[0, 2]], character.frame))
     x, z, played = np.array(frames).T
     for number, name in enumerate(names):
-        of = clip_of[played.astype(int)] == number
-        ground.plot(
-            np.where(of, x, np.nan), np.where(of, z, np.nan), color=SOURCES[number], linewidth=3, label=name
-        )
+        for first, stop in feet.runs(clip_of[played.astype(int)] == number):
+            ground.plot(x[first : stop + 1], z[first : stop + 1], color=SOURCES[number], linewidth=3)
+        ground.plot([], [], color=SOURCES[number], linewidth=3, label=name)
     ground.plot(x[character.cuts], z[character.cuts], "D", color=MARK, markersize=4, label="cuts")
     for frame in range(0, len(headings), 75):
         tip = (x[frame] + 0.8 * np.sin(headings[frame]), z[frame] + 0.8 * np.cos(headings[frame]))
