@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from operator import index
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -117,7 +118,7 @@ def _require_short(frames: int) -> None:
 def _cell(at: Any, shape: tuple[int, ...]) -> tuple[int, int]:  # noqa: ANN401
     """Take a cell of the grid, or say which there are."""
     try:
-        i, j = map(int, at)
+        i, j = map(index, at)
     except (TypeError, ValueError):
         raise MocapError(
             f"Two windows are chosen by their first frames, at=(i, j), not by {at!r:.80}."

@@ -80,7 +80,7 @@ def inspector(
     Notebook: 02-matching
 
     """
-    tabs = tuple(show)
+    tabs = tuple(show) if isinstance(show, Sequence) else ()
     if not tabs or tabs != TABS[: len(tabs)]:
         raise MocapError(f"An inspector shows {', '.join(TABS)}, or the first of these, not {show!r:.80}.")
     found = what[0] if len(what) == 1 else None

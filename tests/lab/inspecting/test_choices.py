@@ -36,6 +36,7 @@ def test_of_two_clips_the_lowest_minimum_comes_first():
         ("here", "at=(i, j), not by 'here'"),
         (7, "at=(i, j), not by 7"),
         ((1, 2, 3), "at=(i, j)"),
+        ((1.5, 2), "at=(i, j)"),
     ],
 )
 def test_a_cell_that_is_not_there(at, said):

@@ -77,6 +77,7 @@ def test_a_large_grid_is_sent_in_blocks_that_keep_its_minima():
         ((*WALKS, WALKS[0]), {}, "one or two clips, a graph"),
         (WALKS, {"show": ["seam"]}, "shows windows, turn, weights, seam, or the first of these"),
         (WALKS, {"show": []}, "or the first of these"),
+        (WALKS, {"show": None}, "or the first of these"),
         (WALKS, {"window": 0}, "window"),
         (WALKS, {"window": 999}, "window"),
         (WALKS, {"walk": [((0, 0), (0, 1), 0)]}, "one or two clips, a graph"),
