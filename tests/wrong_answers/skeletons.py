@@ -1,6 +1,6 @@
 import numpy as np
 
-from mocap.body.rotations import from_rotvec, multiply, rotate
+from mocap.body.rotations import multiply, rotate
 
 
 def two_separate_angles(upper, fore, shoulder, elbow):
@@ -24,25 +24,6 @@ def sine_first(upper, fore, shoulder, elbow):
 def folded_back(upper, fore, shoulder, elbow):
     arm = upper * np.exp(1j * shoulder) + fore * np.exp(1j * (shoulder - elbow))
     return arm.real, arm.imag
-
-
-def whole_angle(axis, angle):
-    n = axis / np.sqrt(axis @ axis)
-    return np.concatenate([[np.cos(angle)], np.sin(angle) * n])
-
-
-def axis_as_it_comes(axis, angle):
-    x, y, z = axis * np.sin(angle / 2)
-    return np.array([np.cos(angle / 2), x, y, z])
-
-
-def scalar_last(axis, angle):
-    x, y, z = axis / np.linalg.norm(axis) * np.sin(angle / 2)
-    return np.array([x, y, z, np.cos(angle / 2)])
-
-
-def radians_twice(axis, angle):
-    return from_rotvec(np.deg2rad(angle) * axis / np.linalg.norm(axis))
 
 
 def other_order(a, b):
@@ -104,12 +85,6 @@ WRONG = {
         (seen_from_the_elbow, "the elbow itself"),
         (sine_first, "swapped"),
         (folded_back, "same direction"),
-    ],
-    "axis_angle": [
-        (whole_angle, "half the angle"),
-        (axis_as_it_comes, "length 1"),
-        (scalar_last, "stands first"),
-        (radians_twice, "radians already"),
     ],
     "hamilton": [
         (other_order, "that is b a"),

@@ -42,45 +42,13 @@ hand = Check(
 )
 
 
-def _quaternion(axis: Array, half: float) -> Array:
-    return np.array([np.cos(half), *np.sin(half) * axis])
+def _product(a: Array, b: Array, dot: float = -1.0, cross: float = 1.0) -> Array:
+    vector = a[0] * b[1:] + b[0] * a[1:] + cross * np.cross(a[1:], b[1:])
+    return np.array([a[0] * b[0] + dot * (a[1:] @ b[1:]), *vector])
 
 
 def _unit(axis: Array) -> Array:
     return np.asarray(axis / np.linalg.norm(axis))
-
-
-axis_angle = Check(
-    name="axis_angle",
-    asks="the unit quaternion (w, x, y, z) of a turn by `angle` radians about `axis`, which has any length",
-    start="make the axis a unit vector n; then (cos θ/2, n sin θ/2).",
-    draw=lambda rng: (rng.normal(size=3), rng.choice([0, 1e-9, np.pi, -np.pi, *rng.uniform(-3, 3, 12)])),
-    truth=lambda axis, angle: _quaternion(_unit(axis), angle / 2),
-    mistakes=[
-        Mistake(
-            lambda axis, angle: _quaternion(_unit(axis), angle),
-            "that turns twice as far: q stands on both sides of v, so it holds half the angle.",
-        ),
-        Mistake(
-            lambda axis, angle: _quaternion(axis, angle / 2),
-            "your quaternion does not have length 1: the axis may have any length.",
-        ),
-        Mistake(
-            lambda axis, angle: np.roll(_quaternion(_unit(axis), angle / 2), -1),
-            "the order of the numbers is wrong: the cosine, w, stands first.",
-        ),
-        Mistake(
-            lambda axis, angle: _quaternion(_unit(axis), np.radians(angle) / 2),
-            "the angle is in radians already.",
-        ),
-    ],
-    same=close_rotations,
-)
-
-
-def _product(a: Array, b: Array, dot: float = -1.0, cross: float = 1.0) -> Array:
-    vector = a[0] * b[1:] + b[0] * a[1:] + cross * np.cross(a[1:], b[1:])
-    return np.array([a[0] * b[0] + dot * (a[1:] @ b[1:]), *vector])
 
 
 def _two_quaternions(rng: np.random.Generator) -> tuple[Array, Array]:
