@@ -54,22 +54,6 @@ def unordered(frames, leaves, enters, window):
     return set(leaves) | {enter + window for enter in enters} | {0, frames}
 
 
-def all_of_it(thresholds, frames, keep):
-    return thresholds[frames == frames.max()].min()
-
-
-def share_as_number(thresholds, frames, keep):
-    return min(t for t, f in zip(thresholds, frames, strict=True) if f >= keep)
-
-
-def kept_frames(thresholds, frames, keep):
-    return frames[frames >= keep * max(frames)][0]
-
-
-def place(thresholds, frames, keep):
-    return np.flatnonzero(frames / frames.max() >= keep)[0]
-
-
 def joined(points, transitions, window, leaves=0, enters=None):
     following = {(clip, frame): [] for clip, frames in enumerate(points) for frame in frames}
     for clip, frames in enumerate(points):
@@ -136,12 +120,6 @@ WRONG = {
         (last_frame, "after the last frame"),
         (repeated, "one node, not two"),
         (unordered, "a set has no order"),
-    ],
-    "suggested_threshold": [
-        (all_of_it, "a share of it is enough"),
-        (share_as_number, "of what?"),
-        (kept_frames, "those are frames"),
-        (place, "that is an index"),
     ],
     "successors_of": [
         (enters_at_the_window, "not at enter"),

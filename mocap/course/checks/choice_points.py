@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from mocap._shared.arrays import Array
 from mocap.course.check import Check, Mistake, close
 
 Point = tuple[float, float]
@@ -16,14 +15,6 @@ def _clip(rng: np.random.Generator) -> tuple[int, list[int], list[int], int]:
     frames, window = int(rng.integers(60, 300)), int(rng.integers(5, 15))
     leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
     return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
-
-
-def _curve(rng: np.random.Generator) -> tuple[Array, Array, float]:
-    """Draw thresholds, the frames that would be kept at each, and the share that is enough."""
-    count = rng.integers(5, 20)
-    frames = np.sort(rng.choice(3000, count, replace=False)).astype(float)
-    frames[: rng.integers(1, 3)] = 0
-    return np.linspace(0.01, 0.06, count), frames, float(rng.uniform(0.3, 0.95))
 
 
 def _same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
@@ -124,36 +115,6 @@ choice_points = Check(
                 [0, frames, *leaves, *(e + window for e in enters)]
             ),
             "if two transitions meet the clip at the same frame, there is one node, not two.",
-        ),
-    ],
-)
-
-suggested_threshold = Check(
-    name="suggested_threshold",
-    asks="the lowest threshold that keeps at least the share `keep` of the largest number of frames",
-    start="which entries of `frames` are at least keep * frames.max()?",
-    draw=_curve,
-    truth=lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep * frames.max())],
-    mistakes=[
-        Mistake(
-            lambda thresholds, frames, keep: thresholds[np.argmax(frames)],
-            "that keeps the largest number of frames; a share of it is enough.",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: thresholds[np.argmax(frames >= keep)],
-            "`keep` is a share, not a number of frames: a share of what?",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: thresholds[np.argmax(frames > 0)],
-            "that is where the first cycle appears, however short it is.",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: frames[np.argmax(frames >= keep * frames.max())],
-            "those are frames; return the threshold at the same index.",
-        ),
-        Mistake(
-            lambda thresholds, frames, keep: np.argmax(frames >= keep * frames.max()),
-            "that is an index; return the threshold at that index.",
         ),
     ],
 )
