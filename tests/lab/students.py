@@ -1,5 +1,6 @@
 """Three students: one solves all, one every second exercise, one is wrong everywhere."""
 
+import ast
 import linecache
 from functools import cache
 from itertools import count
@@ -48,9 +49,10 @@ def solutions():
     found = {}
     for file in sorted(FOLDER.glob("0*.ipynb")):
         notebook = notebooks.read(file)
-        first = next(cell.source for cell in notebook.cells if cell.cell_type == "code")
+        first = ast.parse(next(cell.source for cell in notebook.cells if cell.cell_type == "code"))
+        imports = [ast.unparse(n) for n in first.body if isinstance(n, ast.Import | ast.ImportFrom)]
         for name, cell in notebooks.tagged(notebook, "solution"):
-            found[name] = first, notebooks.solution(cell)
+            found[name] = "\n".join(imports), notebooks.solution(cell)
     return found | {name: ("import numpy as np", source) for name, source in NEW.items()}
 
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from mocap import lab
 from mocap.course.check import Check
 from mocap.course.checks import all_checks
 from mocap.marking.marks import _Answer
@@ -83,3 +84,21 @@ def test_a_reply_that_is_none_is_no_answer():
 def test_a_changed_array_of_another_shape_is_no_answer():
     reply = {"given": 1, "changed": [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]]}
     assert not DOUBLE.verdict(_Answer(SimpleNamespace(ask=lambda *_: reply), "f")).right
+
+
+def test_what_stands_in_for_a_wrong_function_gets_no_mark(tmp_path, monkeypatch):
+    """The notebook goes on with the package's function; the marker judges what the student wrote."""
+    monkeypatch.chdir(tmp_path)
+    hamilton = lab.mine(multiplied_number_by_number)
+    assert all_checks()["hamilton"].verdict(hamilton.stand_in).right
+    verdict = all_checks()["hamilton"].verdict(over_the_channel(hamilton))
+    assert not verdict.right
+    assert "multiplies number by number" in verdict.message
+    assert list(tmp_path.iterdir()) == []
+
+
+def multiplied_number_by_number(a, b):
+    return a * b
+
+
+multiplied_number_by_number.__name__ = "hamilton"

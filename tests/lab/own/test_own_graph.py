@@ -1,5 +1,7 @@
 """One's own motion graph against the package's: with the package's functions in all places they are one."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,17 @@ def by():
 @pytest.fixture(scope="module")
 def graph(clips, by):
     return own.build_own(clips, WINDOW, THRESHOLD, by)
+
+
+@pytest.fixture(scope="module")
+def cubic(by):
+    """The weights of the paper in place of the exercise's, which the package blends with."""
+    return own.replaced(by, {"quintic": cubic_weights})
+
+
+@pytest.fixture(scope="module")
+def cubic_graph(clips, cubic):
+    return own.build_own(clips, WINDOW, THRESHOLD, cubic)
 
 
 @pytest.fixture(scope="module")
@@ -104,10 +117,9 @@ def keys(walk, theirs):
     return found
 
 
-def test_with_the_same_weights_the_walk_is_the_packages_motion(graph, theirs, walk, by):
+def test_with_the_same_weights_the_walk_is_the_packages_motion(graph, theirs, walk, by, cubic):
     place = body.PlanarTransform.from_complex(walk.turn, walk.move)
     package = synthesis.to_motion(theirs, keys(walk, theirs), place=place)
-    cubic = own.replaced(by, {"quintic": cubic_weights})
     ours = own.play_own(graph, walk, cubic)
     assert np.allclose(ours.root_positions, package.root_positions, atol=1e-9)
     dots = np.abs((ours.rotations * package.rotations).sum(-1))
@@ -116,10 +128,10 @@ def test_with_the_same_weights_the_walk_is_the_packages_motion(graph, theirs, wa
     assert 1e-4 < np.abs(quintic.root_positions - package.root_positions).max() < 0.02
 
 
-def test_what_a_walk_costs_is_eq_9_and_a_price_for_each_seam(graph, theirs, by):
+def test_what_a_walk_costs_is_eq_9_and_a_price_for_each_seam(cubic_graph, theirs, cubic):
     """On a straight line, which the package's evenly spaced points do not change."""
-    line, cubic = body.GroundPath([[0, 0], [0.6, 3]]), own.replaced(by, {"quintic": cubic_weights})
-    walk = own.follow_own(own.build_own(graph.clips, WINDOW, THRESHOLD, cubic), line.points, cubic, seam=0.2)
+    line = body.GroundPath([[0, 0], [0.6, 2]])
+    walk = own.follow_own(cubic_graph, line.points, cubic, seam=0.2)
     compiled = compile_graph(theirs)
     cost = PathCost(compiled, make_route(compiled, line, Wishes()))
     state, total = PathState(walk.turn, walk.move, 0.0), 0.0
@@ -138,22 +150,42 @@ def test_the_walk_stays_on_its_path(graph, walk, by):
     assert off.max() < 0.2
 
 
-def test_a_wide_beam_that_merges_nothing_finds_the_cheapest_walk_of_all(graph, theirs, by, monkeypatch):
+def test_a_wide_beam_that_merges_nothing_finds_the_cheapest_walk_of_all(
+    cubic_graph, theirs, cubic, monkeypatch
+):
     monkeypatch.setattr(searching, "PLACE", 1e-6)
     monkeypatch.setattr(searching, "TURN", 1e-6)
-    line, cubic = body.GroundPath([[0, 0], [0, 0.5]]), own.replaced(by, {"quintic": cubic_weights})
-    small = own.build_own(graph.clips, WINDOW, THRESHOLD, cubic)
-    found = own.follow_own(small, line.points, cubic, width=10**6, seam=0.0)
+    line = body.GroundPath([[0, 0], [0, 0.5]])
+    found = own.follow_own(cubic_graph, line.points, cubic, width=10**6, seam=0.0)
     compiled = compile_graph(theirs)
     cost = PathCost(compiled, make_route(compiled, line, Wishes()))
     problem = synthesis.Problem(theirs.graph, cost.cost, cost.done)
     best = min(
         synthesis.branch_and_bound(problem, start.node, PathState(start.turn, start.move, 0.0)).cost
-        for start in searching._starts(small, line, cubic)
+        for start in searching._starts(cubic_graph, line, cubic)
     )
     assert found.cost == pytest.approx(best, rel=1e-9)
 
 
+def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_would_lead(graph, by):
+    asked = []
+
+    def last(turn, tracks, heading, speed, fps):
+        asked.append((turn, len(tracks), tracks[0][0], heading))
+        return len(tracks) - 1
+
+    command = {True: (0.5, 1.0), False: (-0.5, 1.0)}
+    walk = own.steer_own(
+        graph, lambda second: command[second < 1], 2.0, own.replaced(by, {"next_edge": last})
+    )
+    assert all(there.start == here.end for here, there in pairwise(walk.edges))
+    assert [graph.edges[edge.start][-1] is edge for edge in walk.edges] == [True] * len(asked)
+    assert {asked[0][3], asked[-1][3]} == {0.5, -0.5}
+    assert asked[-1][0] == pytest.approx(np.prod([edge.turn for edge in walk.edges[:-1]]))
+    assert 60 <= sum(len(edge.track) - 1 for edge in walk.edges) < 90
+
+
+@pytest.mark.exhaustive
 def test_commands_are_obeyed_better_than_by_chance(by, monkeypatch):
     monkeypatch.setattr(pieces, "joint_cloud", lambda clip, by: matching.point_cloud(clip))
     straight, circle = (
