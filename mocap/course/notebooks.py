@@ -158,7 +158,8 @@ def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
 
 def _refresh(notebook: Any, path: Path, answer: list[Any]) -> None:  # noqa: ANN401
     """Write the values of marked numbers into the text; a notebook that stepped aside gives no answer."""
-    values = json.loads(answer[-1].text) if answer else {}
+    printed = "".join(output.text for output in answer if output.get("name") == "stdout")
+    values = json.loads(printed) if printed else {}  # and not what warnings wrote beside it
     for number, cell in enumerate(notebook.cells):
         if cell.cell_type == "markdown":
             cell.source = marked_values.refreshed(cell.source, values)

@@ -271,6 +271,10 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path)
             "import ipywidgets\nfrom mocap.widgets import explore\nimport matplotlib.pyplot as plt\n"
             "explore(lambda x=1: plt.figure(), alt='Nothing.', x=(0, 2))"
         ),
+        new.new_code_cell(
+            "import warnings\n\ndef seven():\n    warnings.warn('beside the number')\n    return 7"
+        ),
+        new.new_markdown_cell("It is 1<!--= seven() -->."),
     ]
     path = tmp_path / "n.ipynb"
     nbformat.write(new.new_notebook(cells=cells, metadata={"widgets": {"big": 1}}), path)
@@ -283,6 +287,7 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path)
     assert stream.text == "0\n1\n2\n"
     (shown,) = notebook.cells[2].outputs
     assert set(shown.data) == {"image/png", "text/html", "text/plain"}
+    assert notebook.cells[-1].source == "It is 7<!--= seven() -->."
 
 
 @pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
