@@ -42,6 +42,7 @@ diagrams           ideas drawn step by step (00 to 09)
 widgets            players and experiments for notebooks (00 to 19)
 course             the notebooks: checks of exercises, hand-outs, pages
 marking            marks for notebooks handed in, whose code runs sealed
+teaching           slides and films that are made from the notebooks
 lab                what students wrote is used, and what they thought is kept
 cli                the command `mocap`
 
@@ -88,6 +89,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "quality",
         "steering",
         "synthesis",
+        "teaching",
         "variants",
         "widgets",
     ],

@@ -31,11 +31,16 @@ def add_course(commands: "Commands") -> None:
     site = _add(
         doing, "site", _site, "write the course as HTML pages that need no network", Path("mocap-site")
     )
-    site.add_argument(
-        "--moving",
-        action="store_true",
-        help="run the notebooks (minutes) and record the experiments' sliders",
+    slides = _add(
+        doing, "slides", _slides, "write the course as slides that need no network", Path("mocap-slides")
     )
+    slides.epilog = "For example: mocap course slides -o slides, then open slides/index.html."
+    for made in (site, slides):
+        made.add_argument(
+            "--moving",
+            action="store_true",
+            help="run the notebooks (minutes) and record the experiments' sliders",
+        )
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
     mark.description = MARKING
@@ -65,6 +70,14 @@ def _site(options: argparse.Namespace) -> int:
     print(
         f"wrote {course.build_site(course.stored(), options.out, bar('converting'), moving=options.moving)}"
     )
+    return 0
+
+
+def _slides(options: argparse.Namespace) -> int:
+    from mocap import teaching
+
+    folder, shown = course.stored(), bar("converting")
+    print(f"wrote {teaching.build_slides(folder, options.out, shown, moving=options.moving)}")
     return 0
 
 

@@ -83,12 +83,12 @@ def build_site(
         raise MocapError(f"The folder {notebooks} holds no notebooks.")
     make_folder(out)
     contents = {file.stem: _contents(file) for file in files}
-    titles = {name: PAGES.get(name) or _title(name, notebook) for name, notebook in contents.items()}
+    titles = {name: PAGES.get(name) or page_title(name, notebook) for name, notebook in contents.items()}
     index: list[dict[str, str]] = []
     for file in progress(files):
         name, notebook = file.stem, contents[file.stem]
-        _fill_in(notebook, _recorded(file, notebook) if moving and file.suffix == ".ipynb" else {})
-        body, sections = _anchored(_body(notebook))
+        fill_in(notebook, recorded_of(file, notebook) if moving and file.suffix == ".ipynb" else {})
+        body, sections = _anchored(body_of(notebook))
         write_text(out / f"{name}.html", _page(name, titles, body, sections))
         index += _searched(name, titles[name], body, sections)
     write_text(out / "search.js", f"const sections = {json.dumps(index, ensure_ascii=False)};\n")
@@ -109,11 +109,12 @@ def _contents(file: Path) -> Any:  # noqa: ANN401
     return new_notebook(cells=[new_markdown_cell(text, id="page")])
 
 
-def _title(name: str, notebook: Any) -> str:  # noqa: ANN401
+def page_title(name: str, notebook: Any) -> str:  # noqa: ANN401
+    """Give a notebook's number and its heading."""
     return f"{name.partition('-')[0]} {notebook.cells[0].source.splitlines()[0].lstrip('# ')}"
 
 
-def _recorded(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
+def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
     """Run a copy of a notebook, and give the recording of each experiment by the source of its cell."""
     from nbclient import NotebookClient
     from nbclient.exceptions import CellExecutionError
@@ -135,7 +136,7 @@ def _recorded(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
     return {one["source"]: one for one in recorded}
 
 
-def _fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
+def fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
     """Put recordings in the place of experiments, and a sentence above what stays still."""
     opening = f'<div class="{STILL}">'
     for cell in notebook.cells:
@@ -161,7 +162,7 @@ def _moving(recorded: dict[str, Any]) -> str:
     )
 
 
-def _body(notebook: Any) -> str:  # noqa: ANN401
+def body_of(notebook: Any) -> str:  # noqa: ANN401
     """Convert a notebook's cells; formulas become MathML, which browsers draw themselves."""
     try:
         import latex2mathml  # noqa: F401 - `_mathml` needs it
