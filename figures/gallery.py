@@ -543,7 +543,7 @@ def draw_parametric_graph() -> Figure:
     ground = ground[:, first : last + 1]
     right.plot(-ground[0].imag, ground[0].real, color=ASKED, linewidth=3, label="a straight stride")
     for number, way in enumerate(ground[1:] + ground[0, -1]):
-        label = "strides that may follow" if not number else None
+        label = "may follow it" if not number else None
         right.plot(-way.imag, way.real, color=CURVES[0], linewidth=2, label=label)
     right.set(aspect="equal", xlabel="to the right (m)", ylabel="ahead (m)", xlim=(-1.3, 1.1))
     right.legend(frameon=False, fontsize=8, loc="center left")
