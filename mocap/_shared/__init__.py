@@ -7,4 +7,5 @@
 5. `progress`: what functions take as `progress=`
 6. `collector`: pause Python's garbage collector while a graph grows
 7. `tasks`: work by threads, processes or a cluster
+8. `limits`: a limit of time for code that others wrote
 """

@@ -11,10 +11,12 @@ import copy
 import inspect
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from mocap._shared.limits import Overdue, time_limit
 
 Answer = Callable[..., Any]
 
@@ -94,6 +96,7 @@ class Check:
     mistakes : known wrong answers with their hints; if several fit, the first one counts.
     same : takes two answers, returns whether they are the same.
     trials : the number of random inputs.
+    seconds : the time limit of all these calls; right functions take a hundredth of it.
 
     Examples
     --------
@@ -117,28 +120,35 @@ class Check:
     mistakes: Sequence[Mistake]
     same: Callable[[Any, Any], bool] = close
     trials: int = 40
+    seconds: float = 30.0
+    _said: list[tuple[Answer, Verdict]] = field(default_factory=list, init=False, repr=False)
 
     def __call__(self, answer: Answer) -> None:
         """Print the verdict on a student's function."""
-        print(self.verdict(answer))
+        verdict = self.verdict(answer)
+        self._said[:] = [(_written(answer), verdict)]
+        print(verdict)
+
+    def again(self, answer: Answer) -> Verdict:
+        """Give the verdict that was printed last, once, if it is on this function; else judge it."""
+        said = {id(function): verdict for function, verdict in self._said}
+        self._said.clear()
+        return said.get(id(_written(answer))) or self.verdict(answer)
 
     def verdict(self, answer: Answer) -> Verdict:
         """Try a function on random input, and say what is wrong with it, if anything is.
 
         Of a place that a student's function was put into, it judges what the student has written.
         """
-        answer = getattr(answer, "written", answer)
-        rng = np.random.default_rng(0)
-        tried: list[Trial] = []
+        answer, tried = _written(answer), list[Trial]()
         try:
-            for _ in range(self.trials):
-                arguments = self.draw(rng)
-                used = copy.deepcopy(arguments)
-                tried.append(Trial(arguments, self.truth(*copy.deepcopy(arguments)), answer(*used)))
-                if tried[-1].given is ...:
-                    raise NotImplementedError
-                if not all(map(_unchanged, used, arguments)):
-                    return self._wrong("your function changes its arguments; work on a copy.")
+            with time_limit(self.seconds):
+                changed = self._try(answer, tried)
+            if changed:
+                return self._wrong("your function changes its arguments; work on a copy.")
+        except Overdue:
+            begun = f"{len(tried)} of {self.trials} inputs were done"
+            return self._wrong(f"stopped after {self.seconds:g} s, when {begun}. Does a loop never end?")
         except NotImplementedError:
             return self._wrong(f"not there yet. It must return {self.asks}. Hint: {self.start}")
         except Exception as error:  # a student's function may raise anything, and the page shows it
@@ -147,6 +157,19 @@ class Check:
         if failed:
             return self._wrong(self._known_mistake(tried) or self._first_wrong(failed[0]))
         return Verdict(True, f"{self.name}: right on {self.trials} random inputs.")
+
+    def _try(self, answer: Answer, tried: list[Trial]) -> bool:
+        """Call a function on random inputs, until it changes one; say whether it did."""
+        rng = np.random.default_rng(0)
+        for _ in range(self.trials):
+            arguments = self.draw(rng)
+            used = copy.deepcopy(arguments)
+            tried.append(Trial(arguments, self.truth(*copy.deepcopy(arguments)), answer(*used)))
+            if tried[-1].given is ...:
+                raise NotImplementedError
+            if not all(map(_unchanged, used, arguments)):
+                return True
+        return False
 
     def _wrong(self, message: str) -> Verdict:
         return Verdict(False, f"{self.name}: {message}")
@@ -175,6 +198,10 @@ class Check:
         return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
 
 
+def _written(answer: Answer) -> Answer:
+    return getattr(answer, "written", answer)
+
+
 def _unchanged(used: Any, argument: Any) -> bool:  # noqa: ANN401
     return not isinstance(argument, np.ndarray) or np.array_equal(used, argument, equal_nan=True)
 
@@ -193,8 +220,6 @@ def _short(value: Any) -> str:  # noqa: ANN401
 def _raised(error: Exception, answer: Answer) -> str:
     """Say what a function raised, and in which of its lines."""
     here = inspect.getsourcefile(answer) if inspect.isfunction(answer) else None
-    lines = [
-        f for f in traceback.extract_tb(error.__traceback__) if f.filename == here and f.name != "verdict"
-    ]
+    lines = [f for f in traceback.extract_tb(error.__traceback__) if f.filename == here and f.name != "_try"]
     at = f" in `{lines[-1].line}`" if lines and lines[-1].line else ""
     return f"your function raises {type(error).__name__}{at}: {error}"

@@ -52,9 +52,8 @@ def mine(what: str | Callable[..., Any] | Slot) -> Slot:
     if isinstance(what, Slot):
         what = what.written if what.written is not what.stand_in else what.name
     slot = slots(what if isinstance(what, str) else what.__name__)[0]
-    if callable(what):
-        _take(slot, what)
-    print(_whose(slot))
+    passed = callable(what) and _take(slot, what)
+    print(_whose(slot, as_it_passed=callable(what) and not passed))
     return slot
 
 
@@ -88,25 +87,28 @@ def whose(*names: str) -> str:
     return " · ".join(f"{part}: {of}" for part, of in ((own, "yours"), (rest, "the package's")) if part)
 
 
-def _take(slot: Slot, written: Callable[..., Any]) -> None:
-    """Adopt a function if it is right, and write it into the file."""
+def _take(slot: Slot, written: Callable[..., Any]) -> bool:
+    """Adopt a function if it is right, and write it into the file; say whether it is right."""
     slot.written = written
-    if not all_checks()[slot.name].verdict(written).right:
-        return
+    if not all_checks()[slot.name].again(written).right:
+        return False
     slot.own, slot.stopped, slot.kept = written, "", False
     if (file := place()) is None:
-        return
+        return True
     try:
         plain = plain_source(written, all_checks())  # type: ignore[arg-type]
-        _read[0] = keep(file, slot.name, _notebooks()[slot.name], plain)
+        _read[0] = keep(file, slot.name, notebook_of(slot.name), plain)
         slot.kept = True
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
+    return True
 
 
-def _whose(slot: Slot) -> str:
+def _whose(slot: Slot, *, as_it_passed: bool = False) -> str:
     if slot.yours:
-        return f"{slot.name}: yours" + (f", kept in {place()}." if slot.kept else ".")
+        kept = f", kept in {place()}" if slot.kept else ""
+        which = "; it is the one that passed, not this one" if as_it_passed else ""
+        return f"{slot.name}: yours{kept}{which}."
     why = f"; yours {slot.stopped}." if slot.stopped else " until yours passes its check."
     return f"{slot.name}: the package's stands in{why}"
 
@@ -144,6 +146,17 @@ def _take_from_file(name: str, function: Callable[..., Any], file: Path | None) 
     slot.own, slot.stopped, slot.kept = (function, "", True) if verdict.right else (None, "", False)
     if not verdict.right:
         print(f"{file}: {name} does not pass its check any more, so the package's stands in.")
+
+
+def notebook_of(name: str) -> str:
+    """Give the number of the notebook that asks for a function.
+
+    Examples
+    --------
+    >>> notebook_of("hamilton")
+    '01'
+    """
+    return _notebooks()[name]
 
 
 @cache

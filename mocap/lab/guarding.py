@@ -7,24 +7,18 @@ function raises an error, gives another form of answer than the package's (a NaN
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from mocap._shared.limits import Overdue, time_limit
 from mocap.course.check import Check
 
 SECONDS = 30.0  # of one call; what the course asks for takes a thousandth of it
 SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,), "short_way": (4,)}
 """The answers of functions that are called thousands of times; others are compared with the package's."""
-
-
-class Overdue(Exception):
-    """A function has taken longer than `SECONDS`."""
 
 
 class Slot:
@@ -137,35 +131,3 @@ def _seen(given: Any) -> str:  # noqa: ANN401
     if np.isnan(array).any():
         return "NaN"
     return f"an answer of the shape {array.shape}"
-
-
-@contextmanager
-def time_limit(seconds: float) -> Iterator[None]:
-    """Raise `Overdue` in the code inside after some seconds.
-
-    It takes the alarm of Linux and macOS, in the main thread, where notebooks run their cells. Elsewhere, and
-    inside another limit, there is none.
-
-    Examples
-    --------
-    >>> with time_limit(0.05):
-    ...     while True:
-    ...         pass
-    Traceback (most recent call last):
-    mocap.lab.guarding.Overdue
-    """
-    main = threading.current_thread() is threading.main_thread()
-    if not (main and hasattr(signal, "setitimer")) or signal.getitimer(signal.ITIMER_REAL)[0]:
-        yield
-        return
-
-    def overdue(*_: object) -> None:
-        raise Overdue
-
-    before = signal.signal(signal.SIGALRM, overdue)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)

@@ -129,7 +129,8 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     new = Section(name, f"# ---- {name} (notebook {notebook}) ----\n", 0, f"\n{plain.source}")
     kept = sorted([*(part for part in sections if part.name != name), new], key=_notebook)
     imports = "\n".join(sorted(lines | plain.imports))
-    text = "\n\n".join([f"{HEAD}\n{imports}\n", *(part.heading + part.body.rstrip() + "\n" for part in kept)])
+    start = f"{HEAD}\n{imports}\n" if imports else HEAD
+    text = "\n\n".join([start, *(part.heading + part.body.rstrip() + "\n" for part in kept)])
     try:
         write_text(file, text)
     except OSError as error:

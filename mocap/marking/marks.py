@@ -149,7 +149,8 @@ def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> d
 def _judge(student: Sealed, name: str, seed: int) -> Verdict:
     rng = np.random.default_rng(seed)
     known = all_checks()[name]
-    check = dataclasses.replace(known, draw=lambda _: known.draw(rng))
+    seconds = 2 * SECONDS  # the limit of `allow` comes first
+    check = dataclasses.replace(known, draw=lambda _: known.draw(rng), seconds=seconds)
     prepared = student.ask("prepare", name)
     if not prepared["found"]:
         return Verdict(False, f"{name}: {MISSING}")

@@ -2,6 +2,7 @@
 
 import pkgutil
 import re
+from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
@@ -99,6 +100,17 @@ def unfinished(x):
 def test_what_a_check_says(answer, message, capsys):
     assert DOUBLE(answer) is None
     assert message in capsys.readouterr().out
+
+
+def test_a_function_that_never_ends_is_stopped_and_counts_the_inputs_that_were_done():
+    check = replace(ALL["hamilton"], seconds=0.2)
+
+    def forever(a, b):
+        while True:
+            pass
+
+    said = "✗ hamilton: stopped after 0.2 s, when 0 of 40 inputs were done. Does a loop never end?"
+    assert str(check.verdict(forever)) == said
 
 
 def test_a_wrong_number_is_told_beside_the_right_one():

@@ -8,6 +8,11 @@ from tests.lab.conftest import new_kernel
 from tests.lab.students import solutions, written
 
 X, Y, Z = np.eye(4)[1:]
+COUNTED = """
+def hamilton(a, b):
+    called.append(a)
+    return multiply(a, b)
+"""
 
 
 def test_before_an_exercise_is_solved_the_packages_function_stands_in(capsys, fresh):
@@ -26,6 +31,7 @@ def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file
     assert hamilton(X, Y).tolist() == Z.tolist()
     text = fresh.read_text()
     assert "import numpy as np\n" in text
+    assert "\n\n\n\n" not in text
     assert f"# ---- hamilton (notebook 01) ----\n\n{solutions()['hamilton'][1]}" in text
     assert lab.whose("hamilton", "climb") == "hamilton: yours · climb: the package's"
 
@@ -50,6 +56,26 @@ def test_a_wrong_function_leaves_the_place_as_it_was(capsys, fresh):
     assert lab.mine(wrong).own is not wrong
     assert lab.mine("hamilton").yours
     assert "a * b" not in fresh.read_text()
+
+
+def test_a_wrong_version_after_a_right_one_is_not_called_the_readers(capsys):
+    lab.mine(written("hamilton"))
+    lab.mine(written("hamilton", "def hamilton(a, b):\n    return a * b\n"))
+    lab.mine("hamilton")
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "hamilton: yours, kept in my_graph.py; it is the one that passed, not this one.",
+        "hamilton: yours, kept in my_graph.py.",
+    ]
+
+
+def test_a_check_cell_calls_a_slow_function_once_for_each_input():
+    called = []
+    own = written("hamilton", others={"called": called}, source=COUNTED)
+    checks.hamilton(own)
+    lab.mine(own)
+    assert len(called) == checks.hamilton.trials
+    lab.mine(own)  # a helper of it may have changed since
+    assert len(called) == 2 * checks.hamilton.trials
 
 
 def test_the_check_judges_what_was_written_when_its_cell_runs_again(capsys):

@@ -3,9 +3,10 @@ import threading
 import numpy as np
 import pytest
 
+from mocap._shared.limits import time_limit
 from mocap.course import checks
 from mocap.lab import guarding
-from mocap.lab.guarding import Slot, same_form, time_limit
+from mocap.lab.guarding import Slot, same_form
 
 
 def slot(name, own):
