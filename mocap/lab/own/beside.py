@@ -17,7 +17,9 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.errors import MocapWarning
 from mocap.graphs import build, prune
+from mocap.lab.adopting import notebook_of
 from mocap.lab.guarding import Slot
+from mocap.lab.own.by_hand import PARTS
 from mocap.lab.own.pieces import build_own
 from mocap.lab.own.playing import play_own
 from mocap.lab.own.searching import follow_own
@@ -42,9 +44,10 @@ class Walked(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the table: an exercise, whose function ran, how often, and the seconds of both."""
+    """A line of the table: an exercise, its notebook, whose function ran, how often, and both's seconds."""
 
     name: str
+    notebook: str
     yours: bool
     calls: int
     seconds: float
@@ -131,7 +134,9 @@ class Beside:
 
 def _row(line: Line, timed: bool) -> str:
     whose = "yours" if line.yours else "the package's"
-    row = f"<td><code>{line.name}</code></td><td>{whose}</td><td>{line.calls}</td>"
+    if line.name in PARTS and not line.yours:
+        whose = f"made of <code>{PARTS[line.name]}</code>"
+    row = f"<td><code>{line.name}</code> ({line.notebook})</td><td>{whose}</td><td>{line.calls}</td>"
     return row + f"<td>{line.seconds:.2f}</td><td>{line.package_seconds:.2f}</td>" * timed
 
 
@@ -164,12 +169,12 @@ def walk_beside(
     any_own = any(slot.yours for slot in vars(ours).values())
     stand_ins = _own_walk(clips, line, (window, threshold), theirs) if any_own else own
     pairs = zip(vars(ours).values(), vars(theirs if any_own else ours).values(), strict=True)
-    lines = tuple(_line(slot, other) for slot, other in pairs)
+    lines = tuple(_line(slot, other) for slot, other in pairs if slot.name != "next_edge")  # it steers
     return Beside(line, own, stand_ins, _package_walk(clips, line, (window, threshold)), lines)
 
 
 def _line(slot: Slot, other: Slot) -> Line:
-    return Line(slot.name, slot.yours, slot.calls, slot.seconds, other.seconds)
+    return Line(slot.name, notebook_of(slot.name), slot.yours, slot.calls, slot.seconds, other.seconds)
 
 
 def _own_walk(clips: Sequence[Motion], path: GroundPath, settings: tuple[int, float], by: Tools) -> Walked:

@@ -9,6 +9,9 @@ from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.lab.own.tools import Tools
 
+PARTS = {"lengthen": "edge_cost", "mix": "short_way"}
+"""What stands in for a function that nobody wrote, and what it is made of."""
+
 
 def mixed(first: Motion, second: Motion, alpha: Array, by: Tools) -> tuple[Array, Array]:
     """Mix two windows by `mix`, or one joint of one frame after the other by `short_way`.
