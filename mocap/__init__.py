@@ -43,7 +43,7 @@ widgets            players and experiments for notebooks (00 to 19)
 course             the notebooks: checks of exercises, hand-outs, pages
 marking            marks for notebooks handed in, whose code runs sealed
 teaching           slides and films that are made from the notebooks
-lab                what students wrote is used, and what they thought is kept
+lab                what students wrote is used, and what they thought is kept (00 to 19)
 cli                the command `mocap`
 
 Below them are `mocap.errors`, all errors that the package raises on purpose, and small helpers in `_shared`.

@@ -1,7 +1,7 @@
 """The notebooks as a laboratory: what a student wrote is used, and what a student thought is kept.
 
-Reading order
--------------
+Reading order (notebooks 00 to 19)
+----------------------------------
 1. `adopting`: a student's function drives the course from the exercise on; the package's stands in before
 2. `guarding`: the place of an exercise: whose function runs there, and the guard around it
 3. `kept_functions`: the file beside the notebooks that keeps what students wrote
