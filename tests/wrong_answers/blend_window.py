@@ -90,28 +90,6 @@ def the_nearest(asked, leaves, weights, fps):
     return (nearest - asked + int(np.argmax(weights < 0.5))) / fps
 
 
-def over_ground(steps):
-    return float(np.sqrt((steps[:, [0, 2]] ** 2).sum(axis=1)).sum())
-
-
-def in_space(positions, planted):
-    steps = (positions[1:] - positions[:-1])[planted[:-1] & planted[1:]]
-    return np.sqrt((steps**2).sum(axis=1)).sum()
-
-
-def with_touch_down(positions, planted):
-    return over_ground((positions[1:] - positions[:-1])[planted[1:]])
-
-
-def between_plants(positions, planted):
-    standing = positions[planted]
-    return over_ground(standing[1:] - standing[:-1])
-
-
-def with_swings(positions, planted):
-    return over_ground(positions[1:] - positions[:-1])
-
-
 WRONG = {
     "added_jolt": [
         (a_frame_early, "a frame early"),
@@ -136,11 +114,5 @@ WRONG = {
         (half_of_it, "fall evenly"),
         (all_of_it, "when the blend ends"),
         (the_nearest, "in the past"),
-    ],
-    "ground_slid": [
-        (in_space, "includes the height"),
-        (with_touch_down, "comes down"),
-        (between_plants, "from one footplant to the next"),
-        (with_swings, "only planted feet slide"),
     ],
 }
