@@ -41,6 +41,10 @@ def add_course(commands: "Commands") -> None:
             action="store_true",
             help="run the notebooks (minutes) and record the experiments' sliders",
         )
+    film = _add(doing, "film", _film, "render a film of a notebook, of about three minutes", None)
+    film.epilog = "For example: mocap course film notebooks/06-pruning.ipynb -o pruning.mp4"
+    film.add_argument("notebook", type=Path, help="file of the notebook")
+    film.add_argument("--still", action="store_true", help="do not run it: sliders stand still")
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
     mark.description = MARKING
@@ -53,9 +57,12 @@ def add_course(commands: "Commands") -> None:
     run.set_defaults(run=_run)
 
 
-def _add(commands: "Commands", name: str, run: object, what: str, out: Path) -> argparse.ArgumentParser:
+def _add(
+    commands: "Commands", name: str, run: object, what: str, out: Path | None
+) -> argparse.ArgumentParser:
     command = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
-    command.add_argument("-o", "--out", type=Path, default=out, help="where to write (default: %(default)s)")
+    said = out or "the notebook's name, here"
+    command.add_argument("-o", "--out", type=Path, default=out, help=f"where to write (default: {said})")
     command.set_defaults(run=run)
     return command
 
@@ -78,6 +85,16 @@ def _slides(options: argparse.Namespace) -> int:
 
     folder, shown = course.stored(), bar("converting")
     print(f"wrote {teaching.build_slides(folder, options.out, shown, moving=options.moving)}")
+    return 0
+
+
+def _film(options: argparse.Namespace) -> int:
+    from mocap import teaching
+
+    out = options.out or Path(options.notebook.with_suffix(".mp4").name)
+    require_writable(out)
+    teaching.render_film(options.notebook, out, moving=not options.still, progress=bar("drawing"))
+    print(f"wrote {out}")
     return 0
 
 

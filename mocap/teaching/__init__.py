@@ -1,13 +1,16 @@
-"""The course before a class: slides that are made from the notebooks themselves.
+"""The course before a class: slides and films that are made from the notebooks themselves.
 
 Nothing is written twice: headings, sentences, pictures, players and recordings are those of the notebooks.
-The command `mocap course slides` does this.
+The commands `mocap course slides` and `mocap course film` do this.
 
 Reading order
 -------------
 1. `prose`: Markdown as paragraphs and sentences, and the first sentence of each
 2. `deck`: which cells make which slide, by rules and by tags
 3. `slides`: the decks as pages for reveal.js, without a network
+4. `moving_figures`: the stick figures of a stored player, drawn at a moment
+5. `film_script`: what a film of a notebook shows, for how long, above which words
+6. `films`: the pictures of a film, and the film
 """
 
 import lazy_loader
@@ -16,5 +19,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "slides": ["build_slides"],
+        "films": ["render_film"],
     },
 )

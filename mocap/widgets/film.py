@@ -4,6 +4,7 @@ import re
 import subprocess
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
 
@@ -67,14 +68,14 @@ def save_animation(
     if not motions:
         raise MocapError("There is no motion to show.")
     if suffix == ".mp4":
-        _require_ffmpeg()
+        require_ffmpeg()
     with replacing(path) as beside:
         if suffix == ".html":
             beside.write_text(play(*motions).page(), "utf-8")
         elif suffix == ".png":
             beside.write_bytes(play(*motions).picture)
         elif suffix == ".mp4":
-            _write_mp4(_pictures(motions, fps, progress), beside, fps)
+            write_mp4(_pictures(motions, fps, progress), beside, fps)
         else:
             _write_gif(_pictures(motions, fps, progress), beside, fps)
     return Path(path)
@@ -112,18 +113,42 @@ def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) ->
     first.save(path, save_all=True, append_images=rest, duration=round(1000 / fps), loop=0)
 
 
-def _write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
-    """Give ffmpeg the pictures, one after the other, and raise what it complains of."""
+def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:
+    """Give ffmpeg the pictures, one after the other, and raise what it complains of.
+
+    Parameters
+    ----------
+    pictures : each of shape (height, width, 3), of even height and width.
+    path : the file to write.
+    fps : pictures per second.
+
+    Raises
+    ------
+    MocapError : what ffmpeg says.
+    """
     import imageio_ffmpeg
 
-    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", "500x500", "-r", f"{fps:g}", "-i", "-"]
-    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-y", *raw, "-pix_fmt", "yuv420p", str(path)]
+    first = next(pictures)
+    size = f"{first.shape[1]}x{first.shape[0]}"
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{fps:g}", "-i", "-"]
+    command = [
+        imageio_ffmpeg.get_ffmpeg_exe(),
+        "-v",
+        "error",
+        "-y",
+        *raw,
+        "-preset",
+        "veryfast",
+        "-pix_fmt",
+        "yuv420p",
+        str(path),
+    ]
     with TemporaryFile() as said:
         ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
         assert ffmpeg.stdin
         try:
             with suppress(BrokenPipeError), ffmpeg.stdin as pipe:
-                for picture in pictures:
+                for picture in chain([first], pictures):
                     pipe.write(np.ascontiguousarray(picture).data)
         finally:
             failed = ffmpeg.wait()
@@ -134,7 +159,8 @@ def _write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) ->
             raise MocapError(f"ffmpeg cannot write the film: {reason[:120].strip()}.")
 
 
-def _require_ffmpeg() -> None:
+def require_ffmpeg() -> None:
+    """Raise a sentence where imageio-ffmpeg is not installed."""
     try:
         import imageio_ffmpeg  # noqa: F401
     except ImportError as error:
