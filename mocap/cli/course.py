@@ -1,6 +1,7 @@
 """The commands `mocap course`, for those who teach from the notebooks or write them, and `mocap lab`."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,10 +14,15 @@ if TYPE_CHECKING:
 
 MARKING = """Mark a folder of handed-in notebooks into two .csv files: OUT has a line for each exercise, and
 OUT-table a line for each student. Each notebook runs in a process of its own, with a new folder as its home,
-few variables in its environment, and limits of time, memory, processes and file size. This does not keep it
-from using the network, from reading or writing what you can read or write, or from an attack on the marker
-by somebody who knows how. If you do not trust those who hand in, mark in a container without a network:
-notebooks/README.md has the command."""
+few variables in its environment, and limits of time, memory, processes and file size. On Linux it has no
+network, where the system allows that; the first line printed says whether it does. All this does not keep a
+notebook from reading or writing what you can read or write, from sockets that are files, or from an attack on
+the marker by somebody who knows how. If you do not trust those who hand in, mark in a container without a
+network: notebooks/README.md has the command."""
+NETWORK = {
+    True: "marking without a network: notebooks cannot open a connection",
+    False: "marking WITH the network: this system cannot keep notebooks from using it; a container can",
+}
 
 
 def add_course(commands: "Commands") -> None:
@@ -106,6 +112,7 @@ def _lite(options: argparse.Namespace) -> int:
 def _mark(options: argparse.Namespace) -> int:
     table = options.out.with_stem(f"{options.out.stem}-table")
     require_writable(options.out)
+    print(NETWORK[marking.offline()], file=sys.stderr)
     marks: list[marking.Mark] = []
     try:
         for one in marking.mark(options.folder, bar("marking")):

@@ -21,6 +21,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "marks": ["Mark", "mark"],
+        "sealed": ["offline"],
         "tables": ["to_csv", "to_table"],
     },
 )

@@ -25,19 +25,21 @@ MOST = 2000  # files
 LIMITS = {"RLIMIT_AS": MEMORY, "RLIMIT_FSIZE": FILE, "RLIMIT_NOFILE": 256, "RLIMIT_CORE": 0}
 LINUX = sys.platform == "linux"
 DIE_WITH_PARENT, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 36, 38  # of prctl(2)
+NEW_USER, NEW_NET = 0x10000000, 0x40000000  # of unshare(2)
 
 
-def keep(channel: int) -> None:
+def keep(channel: int, *, offline: bool) -> None:
     """Run a student's process on a socket, and write to standard output why it was stopped, if it was.
 
     Parameters
     ----------
     channel : the number of the open socket.
+    offline : whether the process has no network; if that cannot be, it does not run.
     """
     _prctl(ADOPT_ORPHANS, 1)
     student = os.fork()
     if not student:
-        _be_student(channel)
+        _be_student(channel, offline)
     os.close(channel)
     why = _watch(student)
     _kill_all(student)
@@ -49,9 +51,44 @@ def _prctl(option: int, value: int) -> None:
         ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
 
-def _be_student(channel: int) -> None:
+def cut_off() -> None:
+    """Leave the network: from here on this process and its children see none, not even this machine's own.
+
+    Linux gives the process a network of its own, which leads nowhere, and for the right to that a table of
+    users in which it is what it was before. Sockets that are files can still be opened.
+
+    Raises
+    ------
+    OSError : where the system does not allow it, or is not Linux.
+    """
+    if not LINUX:
+        raise OSError("no namespaces here")
+    user, group = os.getuid(), os.getgid()
+    if ctypes.CDLL(None, use_errno=True).unshare(NEW_USER | NEW_NET):
+        raise OSError(ctypes.get_errno(), "unshare")
+    own = Path("/proc/self")
+    (own / "setgroups").write_text("deny")
+    (own / "uid_map").write_text(f"{user} {user} 1")
+    (own / "gid_map").write_text(f"{group} {group} 1")
+
+
+def _be_student(channel: int, offline: bool) -> None:
     """Take the limits, and serve the marker; never return."""
     os.setpgid(0, 0)
+    try:
+        if offline:
+            cut_off()
+        _limit()
+        from mocap.marking.student import serve
+
+        with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
+            serve(requests, replies)
+    finally:
+        os._exit(0)
+
+
+def _limit() -> None:
+    """Print nowhere, get no new rights, and take no more than the limits."""
     _prctl(DIE_WITH_PARENT, signal.SIGKILL)
     _prctl(NO_NEW_RIGHTS, 1)
     nothing = os.open(os.devnull, os.O_RDWR)
@@ -60,13 +97,6 @@ def _be_student(channel: int) -> None:
     for name, limit in LIMITS.items():
         with suppress(OSError, ValueError):  # not every system has all of them
             resource.setrlimit(getattr(resource, name), (limit, limit))
-    try:
-        from mocap.marking.student import serve
-
-        with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
-            serve(requests, replies)
-    finally:
-        os._exit(0)
 
 
 def _watch(student: int) -> str:
@@ -132,4 +162,7 @@ def _kill_all(student: int) -> None:
 
 
 if __name__ == "__main__":
-    keep(int(sys.argv[1]))
+    if sys.argv[1] == "cut_off":
+        cut_off()
+    else:
+        keep(int(sys.argv[1]), offline="offline" in sys.argv)

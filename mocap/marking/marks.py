@@ -55,9 +55,10 @@ def mark(folder: Path, progress: Callable[[Iterable[Any]], Iterable[Any]] = iter
     prints is thrown away. At the end all that it started is killed. The first cell runs, then each exercise
     with the cells that define what it uses. The checks run here, on random input of their own.
 
-    This cannot keep a notebook from using the network, from reading what you can read, from writing where
-    you can write, from calling the package's own functions, or from an attack on this process by somebody
-    who knows how. A container without a network can: `notebooks/README.md` says how.
+    On Linux, where `offline` says so, the process has no network. This cannot keep a notebook from reading
+    what you can read, from writing where you can write, from calling the package's own functions, or from an
+    attack on this process by somebody who knows how. A container without a network can: `notebooks/README.md`
+    says how.
 
     Parameters
     ----------

@@ -13,6 +13,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ import mocap
 from mocap.errors import MocapError
 
 REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
+KEEPER = (sys.executable, "-m", "mocap.marking.keeper")
 KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "PYTHONHOME", "TZ")
 FIXED = {
     "MPLBACKEND": "Agg",
@@ -92,6 +94,21 @@ class Sealed:
             raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
 
 
+@cache
+def offline() -> bool:
+    """Try whether this system can run a process without a network.
+
+    Examples
+    --------
+    >>> offline() in (True, False)
+    True
+    """
+    path = {"PYTHONPATH": os.pathsep.join(_python_path())}
+    return not subprocess.run(
+        [*KEEPER, "cut_off"], env=os.environ | path, check=False, capture_output=True
+    ).returncode
+
+
 @contextmanager
 def fonts() -> Iterator[Path]:
     """Make a folder with Matplotlib's list of fonts, which each process would otherwise make for itself."""
@@ -121,7 +138,7 @@ def sealed(fonts: Path | None = None) -> Iterator[Sealed]:
     with _home(fonts) as (folder, environment), ours:
         with theirs:
             keeper = subprocess.Popen(
-                [sys.executable, "-m", "mocap.marking.keeper", str(theirs.fileno())],
+                [*KEEPER, str(theirs.fileno()), *["offline"] * offline()],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
