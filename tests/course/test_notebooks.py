@@ -198,7 +198,7 @@ def opened(name):
 
 
 def namespace(name, check):
-    """Give what an exercise may use: the names of the notebook's first code cell, and the exercises before."""
+    """Give what an exercise may use: the names of the first code cell, and the exercises before it."""
     asked = [other for other, _ in notebooks.tagged(read(name), "exercise")]
     return {slot.name: slot for slot in slots(*asked[: asked.index(check)])} | opened(name)
 
