@@ -19,7 +19,12 @@ from mocap.errors import MocapError
 
 PAGE = Path(__file__).with_name("page.html")
 STILL = "mocap-still"  # the class of a picture that stands in for a widget
-PAGES = {"GLOSSARY": "Glossary", "FORMULAS": "Formula sheet", "PAPERS": "Papers"}  # beside the notebooks
+PAGES = {  # beside the notebooks
+    "GLOSSARY": "Glossary",
+    "FORMULAS": "Formula sheet",
+    "PAPERS": "Papers",
+    "PROJECT": "Project",
+}
 MATH = re.compile(r"(```.*?```|`[^`]*`)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)
 UPRIGHT = re.compile(r"\\(?:operatorname|mathrm)\s*\{([A-Za-z]\w*)\}")
 NAMED = r"<m(?:i|text)>[a-z]{2,}\d?</m(?:i|text)>"  # a function's name, such as sin
@@ -32,6 +37,12 @@ NOTE = '<p class="note">{}</p>'
 STILL_NOTES = {
     False: "A still picture: its controls move where the notebook runs.",
     True: "A recording: here you can play it and turn it; it answers you where the notebook runs.",
+}
+LIVE = {  # what needs no Python, by its class
+    "mocap-player": "the players play",
+    "mocap-question": "quizzes and bets answer you",
+    "mocap-inspector": "seams can be looked into",
+    "moving": "the sliders show recorded positions",
 }
 RUN = (
     "To run {} live, in a checkout of the package: <code>pip install '.[notebooks]'</code>, "
@@ -248,11 +259,10 @@ def _note(name: str, body: str) -> str:
     """Say what moves on a page, what does not, and how to run it."""
     if name in PAGES:
         return NOTE.format(f"This page is text. {RUN.format('the notebooks')}")
-    live = ["the players play"] if 'class="mocap-player' in body else []
-    live += ["the sliders show recorded positions"] if 'class="moving"' in body else []
+    live = [said for part, said in LIVE.items() if f'class="{part}' in body]
     if not live:
         return NOTE.format(f"This page is still: code and controls do not run here. {RUN.format('it')}")
-    said = " and ".join(live)
+    said = " and ".join(filter(None, [", ".join(live[:-1]), live[-1]]))
     return NOTE.format(f"On this page {said}; code and other controls are still. {RUN.format('it')}")
 
 

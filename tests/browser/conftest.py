@@ -79,9 +79,9 @@ def is_error(message):
 
 
 @contextlib.contextmanager
-def watched_page(browser):
+def watched_page(browser, **screen):
     """Open a fresh page; yield it, and a list of its faults: requests that leave the machine, and errors."""
-    context = browser.new_context(viewport={"width": 1200, "height": 900})
+    context = browser.new_context(**{"viewport": {"width": 1200, "height": 900}} | screen)
     page, faults = context.new_page(), []
 
     def stay(route):

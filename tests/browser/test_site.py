@@ -8,7 +8,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 
 from mocap.course.lab import stored
 from mocap.course.site import PAGES, build_site
-from tests.browser.conftest import wait_until
+from tests.browser.conftest import wait_until, watched_page
 
 
 @pytest.fixture(scope="module")
@@ -117,10 +117,24 @@ def test_a_recorded_experiment_moves(page, tmp_path, artefacts):
     page.screenshot(path=artefacts / "site-moving.png")
 
 
-def test_every_page_fits_a_phone(page, site, artefacts):
-    page.set_viewport_size({"width": 390, "height": 800})
-    for file in sorted(site.parent.glob("[0-9]*.html")):
-        page.goto(file.as_uri())
-        assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
-        assert page.locator("nav a[aria-current=page]").count() == 1
-    page.screenshot(path=artefacts / "site-phone.png")
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+CUT_OR_SMALL = """() => {
+  const box = part => part.getBoundingClientRect();
+  const slides = part => part && part.tagName !== "MAIN" &&
+    (/auto|scroll/.test(getComputedStyle(part).overflowX) || slides(part.parentElement));
+  const seen = [...document.querySelectorAll("main *:not(math *, svg *)")].filter(part => box(part).width);
+  const cut = seen.filter(part => box(part).right > innerWidth + 1 && !slides(part.parentElement));
+  const small = seen.filter(part => part.matches("button, select, summary") && box(part).height < 40);
+  return [...cut, ...small].map(part => `${part.tagName} ${part.textContent}`.slice(0, 60));
+}"""  # `main` hides what stands out of it
+
+
+def test_every_page_fits_a_phone(browser, site, artefacts):
+    with watched_page(browser, **PHONE) as (page, faults):
+        for file in sorted(site.parent.glob("[0-9]*.html")):
+            page.goto(file.as_uri())
+            assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
+            assert page.evaluate(CUT_OR_SMALL) == [], file.name
+            assert page.locator("nav a[aria-current=page]").count() == 1
+        page.screenshot(path=artefacts / "site-phone.png")
+    assert faults == []

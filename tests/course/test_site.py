@@ -84,7 +84,8 @@ def test_each_page_says_what_is_live_and_how_to_run_it(site):
         assert "mocap lab" in note
         assert len(re.findall(r"[.] ", note)) == 1
     text = (site / "00-quickstart.html").read_text("utf-8")
-    assert "On this page the players play; code and other controls are still." in text
+    live = "the players play, quizzes and bets answer you and seams can be looked into"
+    assert f"On this page {live}; code and other controls are still." in text
     assert reopening.STILL == STILL
     stills = [part[:200] for part in text.split('<div class="mocap-still">')[1:]]
     assert stills
