@@ -13,7 +13,7 @@ from mocap.lab.questions.quizzes import asked
 from mocap.lab.questions.reading import Bet, Choice, Number, Order
 
 share = Bet("Share of the walks", "100 * died", unit="%", low=0, high=100)
-more = Bet("How many", "twice", choices=["as many", "twice"])
+more = Bet("How many turn?", "twice", choices=["as many", "twice"])
 off = Bet("Off the path", "3.25", unit="cm", step=0.1)
 died = 0.6
 high = Number("How high?", 12, 0.5, "Higher.", "Lower.", "So it is.", "cm", [[0.12, "In cm."]])
@@ -105,10 +105,11 @@ def test_an_answer_opens_when_a_bet_is_kept_and_the_page_remembers(opened):
     wait_until(is_open[2])
     again()
     assert "Share of the walks: 1 %" in bet.inner_text()
+    assert "How many turn? twice" in bet.inner_text()
     rows = [row.inner_text().split("\t") for row in summary.locator("tbody tr").all()]
     assert rows == [
         ["Share of the walks", "1 %", "60 %", "59 %"],
-        ["How many", "twice", "twice", "✓ right"],
+        ["How many turn?", "twice", "twice", "✓ right"],
         ["Off the path", "2.5 cm", "3.2 cm", "0.8 cm"],
     ]
     assert "You have kept 3 of 3 bets." in summary.inner_text()
@@ -155,7 +156,7 @@ def test_without_a_script_only_what_is_asked_is_seen(browser, tmp_path):
     page = context.new_page()
     on_the_site(page, None, tmp_path)
     text = " ".join(page.locator(".mocap-question, details").all_inner_texts())
-    assert "How many: as many / twice" in text
+    assert "as many / twice" in text
     assert "the right one" in text
     for hidden in ("As it says", "Look at its name", "So it is", "Most of them do."):
         assert hidden not in text

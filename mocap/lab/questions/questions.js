@@ -155,7 +155,7 @@
       if (settled(spec)) {
         reply(null, "");
         return place.replaceChildren(...spec.bets.map((one) =>
-          make("li", {}, rich(one.ask), ": ", make("strong", {}, written(now[one.key], one.unit)))));
+          make("li", {}, rich(one.ask), one.ask.endsWith("?") ? " " : ": ", make("strong", {}, written(now[one.key], one.unit)))));
       }
       const commit = () => {
         const values = controls.map(([, value]) => value());
