@@ -10,7 +10,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 
 from mocap.cli.main import main
 from mocap.course.lab import stored
-from mocap.course.site import STILL, build_site
+from mocap.course.site import PAGES, STILL, build_site
 from mocap.errors import MocapError
 from mocap.widgets import reopening
 
@@ -121,7 +121,7 @@ def test_the_search_finds_text_code_and_formulas_under_their_heading(site):
 def write_course(folder, *cells):
     """Write a course of one notebook, and its pages."""
     folder.mkdir()
-    for name in ("GLOSSARY", "FORMULAS", "PAPERS"):
+    for name in PAGES:
         (folder / f"{name}.md").write_text(f"# {name.title()}\n")
     made = new_notebook(cells=list(cells))
     nbformat.write(made, folder / "00-one.ipynb")

@@ -1,0 +1,103 @@
+"""Six sessions of 90 minutes: each part takes the minutes that the plan gives it, by the rule for notebooks."""
+
+import re
+from functools import cache
+
+import pytest
+from nbformat.v4 import new_markdown_cell, new_notebook
+
+from mocap.course import read
+from mocap.course.lab import stored
+from tests.course import test_prose
+
+PLAN = (stored() / "README.md").read_text("utf-8")
+PROJECT = (stored() / "PROJECT.md").read_text("utf-8")
+ROWS = re.findall(
+    r"^\| (\d) \| (.*) \| (.*) \|$", PLAN.partition("## Two weeks")[2].partition("## Three hours")[0], re.M
+)
+NAMES = sorted(path.stem for path in stored().glob("*.ipynb"))
+NEAR = 5  # minutes
+
+
+@cache
+def sections(name):
+    """Give the minutes of each section of a notebook, by the rule for the whole."""
+    parts, at = {}, ""
+    for cell in read(stored() / f"{name}.ipynb").cells:
+        pieces = [cell]
+        if cell.cell_type == "markdown":
+            pieces = [new_markdown_cell(text) for text in re.split(r"^(?=##? )", cell.source, flags=re.M)]
+        for piece in pieces:
+            heading = re.match(r"##? (.*)", piece.source) if piece.cell_type == "markdown" else None
+            at = heading[1] if heading else at
+            parts.setdefault(at, []).append(piece)
+    return {at: minutes_of(cells) for at, cells in parts.items()}
+
+
+def minutes_of(cells):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(test_prose, "read", lambda _: new_notebook(cells=cells))
+        return test_prose.minutes("")
+
+
+def parts(cell):
+    """Give name, heading and minutes of each part of a cell of the plan; "" where there is none."""
+    for piece in cell.split(";"):
+        name = (re.findall(r"\]\(([\w-]+)\.ipynb\)", piece) or [""])[0]
+        headed = re.findall(r"\*([^*]+)\* \((\d+)\)", piece)
+        whole = re.findall(r"\((\d+)\)", piece)
+        for heading, stated in headed or [("", minutes) for minutes in whole]:
+            yield name, heading, int(stated)
+
+
+def test_there_are_six():
+    assert [number for number, _, _ in ROWS] == list("123456")
+
+
+@pytest.mark.parametrize(("session", "in_class", "at_home"), ROWS)
+def test_a_session_adds_up(session, in_class, at_home):
+    found = list(parts(in_class))
+    assert abs(sum(stated for *_, stated in found) - 90) <= NEAR
+    taken = {}
+    for name, heading, stated in found:
+        if name:
+            own = sections(name)
+            real = own[heading] if heading else sum(own.values())
+            assert abs(real - stated) <= NEAR, (name, heading, real)
+            taken[name] = taken.get(name, 0) + real
+    ((name, _, stated),) = parts(at_home)
+    left = sum(sections(name).values())
+    if "rest of" in at_home:
+        elsewhere = [part for _, cell, _ in ROWS for part in parts(cell) if part[0] == name]
+        left -= sum(sections(name)[heading] for _, heading, _ in elsewhere)
+    assert abs(left - stated) <= NEAR, left
+
+
+def test_the_hours_in_all_are_those_of_the_sessions():
+    at_home = sum(stated for *_, cell in ROWS for *_, stated in parts(cell))
+    assert f"at home about {round(at_home / 60)} hours" in PLAN
+    assert f"In class this is {6 * 90 // 60} hours" in PLAN
+
+
+def test_the_hours_of_the_course_are_those_of_its_notebooks():
+    stated = {name: int(re.search(rf"\]\({name}\.ipynb\) \| (\d+) \|", PLAN)[1]) for name in NAMES}
+    until_ten = {name: minutes for name, minutes in stated.items() if int(name[:2]) <= 10}
+    first_halves = [minutes for name, minutes in until_ten.items() if name[2] == "-"]
+    after = [minutes for name, minutes in stated.items() if name not in until_ten]
+    for minutes, said in (
+        (sum(until_ten.values()), r"00 to 10, take about (\d+) hours"),
+        (sum(first_halves), r"without the second halves it is about (\d+) hours"),
+        (sum(after), r"take about (\d+) hours\. They"),
+    ):
+        assert abs(int(re.search(said, PLAN)[1]) - minutes / 60) < 1
+
+
+def test_the_project_adds_up_and_asks_the_five_questions():
+    marks = re.findall(r"^\| [^|]+ \| (\d+) \| [^|]+ \|$", PROJECT.partition("## How it is marked")[2], re.M)
+    assert sum(map(int, marks)) == 100
+    hours = re.findall(r"^\| \d \| .* \| (\d+) \|$", PROJECT.partition("## Timeline")[2], re.M)
+    assert f"about {sum(map(int, hours))} hours" in PROJECT
+    asked = re.findall(r"^\d\. (.*\?)$", PROJECT, re.M)
+    assert len(asked) == 5
+    assert " ".join(asked) in PLAN
+    assert "](PROJECT.md)" in PLAN
