@@ -1,4 +1,4 @@
-"""Six sessions of 90 minutes: each part takes the minutes that the plan gives it, by the rule for notebooks."""
+"""Six sessions of 90 minutes: each part takes the minutes that the plan gives it, by the same rule."""
 
 import re
 from functools import cache
