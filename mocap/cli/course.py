@@ -51,6 +51,8 @@ def add_course(commands: "Commands") -> None:
     film.epilog = "For example: mocap course film notebooks/06-pruning.ipynb -o pruning.mp4"
     film.add_argument("notebook", type=Path, help="file of the notebook")
     film.add_argument("--still", action="store_true", help="do not run it: sliders stand still")
+    board = _add(doing, "board", _board, "write drawings for the board as PNGs", Path("mocap-board"))
+    board.epilog = "For example: mocap course board -o board, then open board/board.png."
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
     mark.description = MARKING
@@ -101,6 +103,14 @@ def _film(options: argparse.Namespace) -> int:
     require_writable(out)
     teaching.render_film(options.notebook, out, moving=not options.still, progress=bar("drawing"))
     print(f"wrote {out}")
+    return 0
+
+
+def _board(options: argparse.Namespace) -> int:
+    from mocap import teaching
+
+    files = teaching.write_board(options.out, bar("drawing"))
+    print(f"wrote {len(files)} pictures to {options.out}; {files[-1]} shows all")
     return 0
 
 

@@ -1,7 +1,7 @@
-"""The course before a class: slides and films that are made from the notebooks themselves.
+"""The course before a class: slides, films and drawings that are made from the notebooks.
 
 Nothing is written twice: headings, sentences, pictures, players and recordings are those of the notebooks.
-The commands `mocap course slides` and `mocap course film` do this.
+The commands `mocap course slides`, `mocap course film` and `mocap course board` do this.
 
 Reading order
 -------------
@@ -11,6 +11,7 @@ Reading order
 4. `moving_figures`: the stick figures of a stored player, drawn at a moment
 5. `film_script`: what a film of a notebook shows, for how long, above which words
 6. `films`: the pictures of a film, and the film
+7. `board`: drawings for the board, in numbered steps
 """
 
 import lazy_loader
@@ -20,5 +21,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "slides": ["build_slides"],
         "films": ["render_film"],
+        "board": ["board_sheet", "write_board"],
     },
 )

@@ -89,10 +89,10 @@ def _page(scene: Scene) -> Image.Image:
     """Draw what stays in a scene: its heading, and its words unless they are all that it shows."""
     page = Image.new("RGB", SIZE, PAPER)
     pen = ImageDraw.Draw(page)
-    pen.text((EDGE, 24), _fitting(scene.heading, 36, SIZE[0] - 2 * EDGE), INK, _font(36, bold=True))
+    pen.text((EDGE, 24), _fitting(scene.heading, 36, SIZE[0] - 2 * EDGE), INK, font_of(36, bold=True))
     if scene.kind != "card":
-        lines = _wrapped(scene.words, _font(26), SIZE[0] - 2 * EDGE)
-        pen.multiline_text((EDGE, BOTTOM + 10), "\n".join(lines[:3]), INK, _font(26), spacing=8)
+        lines = _wrapped(scene.words, font_of(26), SIZE[0] - 2 * EDGE)
+        pen.multiline_text((EDGE, BOTTOM + 10), "\n".join(lines[:3]), INK, font_of(26), spacing=8)
     return page
 
 
@@ -120,7 +120,7 @@ def _framed(data: bytes, label: str) -> Image.Image:
     page = Image.new("RGB", (SIZE[0] - 2 * EDGE, BOTTOM - TOP), PAPER)
     page.paste(picture, ((page.width - size[0]) // 2, (room[1] - size[1]) // 2), picture)
     if label:
-        ImageDraw.Draw(page).text((page.width / 2, page.height - 30), label, SOFT, _font(22), anchor="ma")
+        ImageDraw.Draw(page).text((page.width / 2, page.height - 30), label, SOFT, font_of(22), anchor="ma")
     return page
 
 
@@ -128,7 +128,7 @@ def _card(words: str) -> Image.Image:
     """Write words large; a line of them is a point of a list."""
     page = Image.new("RGB", (SIZE[0] - 2 * EDGE, BOTTOM - TOP + 60), PAPER)
     for size in (34, 30, 26, 22, 19):
-        font, points = _font(size), words.split("\n")
+        font, points = font_of(size), words.split("\n")
         mark = "• " if len(points) > 1 else ""
         lines = [line for point in points for line in [*_wrapped(mark + point, font, page.width), ""]]
         if len(lines) * size * 1.35 < page.height:
@@ -151,13 +151,13 @@ def _wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str
 
 def _fitting(words: str, size: int, width: float) -> str:
     """Cut a heading that is too long for its line."""
-    while _font(size, bold=True).getlength(words) > width:
+    while font_of(size, bold=True).getlength(words) > width:
         words = words[:-2].rstrip() + "…"
     return words
 
 
 @cache
-def _font(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
+def font_of(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
     """Give the font of Matplotlib's pictures, which has Greek letters."""
     found = find_spec("matplotlib")
     assert found
