@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dis
 import inspect
 import textwrap
 from collections.abc import Collection, Iterator
@@ -10,6 +11,8 @@ from types import CodeType, FunctionType, ModuleType
 from typing import Any, NamedTuple
 
 from mocap.errors import MocapError
+
+NAMED = ("LOAD_GLOBAL", "LOAD_NAME")  # the second in the body of a class
 
 
 class Plain(NamedTuple):
@@ -61,8 +64,9 @@ def _gather(function: FunctionType, known: set[str], imports: set[str], helpers:
 
 
 def _used(code: CodeType) -> Iterator[str]:
-    """Yield the global names of a function and of the functions in it."""
-    yield from code.co_names
+    """Yield the global names of a function and of the functions in it, not those of attributes."""
+    named = (step.argval for step in dis.get_instructions(code) if step.opname in NAMED)
+    yield from (name for name in named if name != "__name__")  # which bodies of classes read
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             yield from _used(constant)

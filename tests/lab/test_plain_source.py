@@ -51,6 +51,22 @@ def test_the_written_source_runs_alone():
     assert space["helper"](2.5) == helper(2.5)
 
 
+def uses_an_attribute(x):
+    class Part:
+        whole = AXES
+
+    return [(x + 0j).real, x.made, Part.whole]
+
+
+real = [object()]
+
+
+def test_an_attribute_is_not_taken_for_a_value_of_its_name():
+    plain = plain_source(uses_an_attribute)
+    assert not plain.imports
+    assert plain.source.startswith("AXES = ('x', 'y')\n\n\ndef uses_an_attribute")
+
+
 def uses_an_array(x):
     return x + ARRAY
 
