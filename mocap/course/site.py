@@ -27,6 +27,7 @@ PAGES = {  # beside the notebooks
 }
 MATH = re.compile(r"(```.*?```|`[^`]*`)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)
 UPRIGHT = re.compile(r"\\(?:operatorname|mathrm)\s*\{([A-Za-z]\w*)\}")
+ARG = re.compile(r"\\arg\b")  # which the converter does not know
 NAMED = r"<m(?:i|text)>[a-z]{2,}\d?</m(?:i|text)>"  # a function's name, such as sin
 BEFORE = re.compile(rf"(</(?:mi|mn|mrow|msub|msup|msubsup|mfrac|msqrt)>)(?=(?:<msup>)?{NAMED})")
 AFTER = re.compile(rf"({NAMED}|<msup>{NAMED}<mn>\d</mn></msup>)(?=<(?:mi|mn|mrow|ms|mf))")
@@ -201,7 +202,7 @@ def _mathml(formula: str, display: str) -> str:
     """Convert a formula, with thin spaces around the names of functions, as TeX sets them."""
     from latex2mathml.converter import convert
 
-    converted = convert(UPRIGHT.sub(r"\\text{\1}", formula), display=display)
+    converted = convert(UPRIGHT.sub(r"\\text{\1}", ARG.sub(r"\\text{arg}", formula)), display=display)
     for left, bar in BARS.items():  # which the converter leaves as they are after \big
         converted = converted.replace(left, bar)
     return AFTER.sub(THIN, BEFORE.sub(THIN, converted))

@@ -9,7 +9,7 @@ COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 KEPT = re.compile(r"`[^`]*`|\$[^$\n]+\$|\[[^\]]*\](?:\([^)]*\))?|\([^()]*\)")  # no sentence ends in these
 END = re.compile(r"(?:(?<=[^A-Z\s][.!?])|(?<=[.!?]\*)|(?<=[.!?]\*\*))\s+(?=[A-ZÀ-Þ*_`$\[\"“(\d\x00])")
 SHORT = re.compile(r"\b(?:e\.g|i\.e|Eqs?|Figs?|cf|vs|no|pp?)\.$")
-ITEM = re.compile(r"^\s*(?:[-*]|\d+\.)\s")
+ITEM = re.compile(r"^[ \t]*(?:[-*]|\d+\.)[ \t]")
 LEAD = 45  # characters of words that lead a paragraph in, such as "Predict."
 HIDDEN = "\x00{}\x00"
 GREEK = {

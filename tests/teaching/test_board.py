@@ -1,5 +1,6 @@
 """Drawings for the board."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from PIL import Image
@@ -20,6 +21,13 @@ def test_a_drawing_has_its_steps_with_numbers(name):
         y = board.HEAD + number // columns * (board.PANEL[1] + board.GAP)
         assert tuple(page[y + 5, x + 24]) == blue
     assert (page[:, -board.GAP // 2 :] == 255).all()  # no heading is cut
+
+
+@pytest.mark.parametrize("name", board.BOARD)
+def test_each_has_figures(name):
+    figures = list(board.BOARD[name][1]())
+    assert len(figures) in (1, 3, 4, 6)
+    plt.close("all")
 
 
 def test_there_are_ten_and_one():
