@@ -56,6 +56,7 @@ def add_course(commands: "Commands") -> None:
     _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
     mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
     mark.description = MARKING
+    mark.epilog = "For example: mocap course mark handed-in -o marks.csv"
     mark.add_argument("folder", type=Path, help="holds a folder for each student, with notebooks")
     again = "run notebooks again and store them with their outputs"
     which = "write notebooks/PAPERS.md: which line of which paper is in which function, test and cell"
