@@ -225,3 +225,15 @@ def test_an_interruption_is_one_sentence_and_keeps_the_marks(tmp_path):
     assert err.splitlines()[1:] == ["mocap: interrupted; no half-written file is left."]
     assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0", "0"]
     assert not LINUX or sleepers() == []
+
+
+def test_kept_functions_beside_a_notebook_are_neither_run_nor_marked(tmp_path, monkeypatch):
+    kept, planted = tmp_path / "ann" / "my_graph.py", tmp_path / "planted"
+    adopts = ("exercise:speed", "from mocap import lab\nspeed = lab.mine('speed')")
+    hand_in([START, adopts], kept.with_name("later.ipynb"))
+    kept.write_text(f"open({str(planted)!r}, 'w')\n\n# ---- speed (notebook 00) ----\n\n{SPEED[1]}\n")
+    monkeypatch.setenv("MOCAP_MINE", str(kept))
+    monkeypatch.chdir(kept.parent)
+    said = [one.said for one in mark(tmp_path) if one.exercise == "speed"]
+    assert not planted.exists()
+    assert said[0].startswith("✗ speed: not there yet.")  # and not what the package puts in its place
