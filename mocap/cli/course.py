@@ -34,6 +34,22 @@ def add_course(commands: "Commands") -> None:
     )
     doing = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add(doing, "handout", _handout, "copy the notebooks without their solutions", Path("mocap-handout"))
+    _add_shows(doing)
+    _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
+    mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
+    mark.description = MARKING
+    mark.epilog = "For example: mocap course mark handed-in -o marks.csv"
+    mark.add_argument("folder", type=Path, help="holds a folder for each student, with notebooks")
+    again = "run notebooks again and store them with their outputs"
+    which = "write notebooks/PAPERS.md: which line of which paper is in which function, test and cell"
+    doing.add_parser("papers", help=which, description=f"W{which[1:]}.").set_defaults(run=_papers)
+    run = doing.add_parser("run", help=again, description=f"{again.capitalize()}.")
+    run.add_argument("notebooks", nargs="*", type=Path, help="files to run (default: the whole course)")
+    run.set_defaults(run=_run)
+
+
+def _add_shows(doing: "Commands") -> None:
+    """Add the commands that show the course: as pages, slides, films and drawings."""
     site = _add(
         doing, "site", _site, "write the course as HTML pages that need no network", Path("mocap-site")
     )
@@ -53,17 +69,6 @@ def add_course(commands: "Commands") -> None:
     film.add_argument("--still", action="store_true", help="do not run it: sliders stand still")
     board = _add(doing, "board", _board, "write drawings for the board as PNGs", Path("mocap-board"))
     board.epilog = "For example: mocap course board -o board, then open board/board.png."
-    _add(doing, "lite", _lite, "build a JupyterLite site, which runs in the browser", Path("mocap-lite"))
-    mark = _add(doing, "mark", _mark, "mark a folder of handed-in notebooks into a .csv", Path("marks.csv"))
-    mark.description = MARKING
-    mark.epilog = "For example: mocap course mark handed-in -o marks.csv"
-    mark.add_argument("folder", type=Path, help="holds a folder for each student, with notebooks")
-    again = "run notebooks again and store them with their outputs"
-    which = "write notebooks/PAPERS.md: which line of which paper is in which function, test and cell"
-    doing.add_parser("papers", help=which, description=f"W{which[1:]}.").set_defaults(run=_papers)
-    run = doing.add_parser("run", help=again, description=f"{again.capitalize()}.")
-    run.add_argument("notebooks", nargs="*", type=Path, help="files to run (default: the whole course)")
-    run.set_defaults(run=_run)
 
 
 def _add(
