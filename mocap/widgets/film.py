@@ -131,18 +131,8 @@ def write_mp4(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> 
     first = next(pictures)
     size = f"{first.shape[1]}x{first.shape[0]}"
     raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{fps:g}", "-i", "-"]
-    command = [
-        imageio_ffmpeg.get_ffmpeg_exe(),
-        "-v",
-        "error",
-        "-y",
-        *raw,
-        "-preset",
-        "veryfast",
-        "-pix_fmt",
-        "yuv420p",
-        str(path),
-    ]
+    made = ["-preset", "veryfast", "-pix_fmt", "yuv420p", str(path)]
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "error", "-y", *raw, *made]
     with TemporaryFile() as said:
         ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
         assert ffmpeg.stdin
