@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from mocap.body.limbs import Leg, name_leg
-from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
+
+if TYPE_CHECKING:
+    from mocap.body.limbs import Leg
+    from mocap.body.skeleton import Skeleton
 
 
 class Archive(NamedTuple):
@@ -36,6 +38,8 @@ class NamedSet(NamedTuple):
 
     def find_legs(self, skeleton: Skeleton) -> tuple[Leg, Leg]:
         """Give the left and the right leg of a body of this set."""
+        from mocap.body.limbs import name_leg  # the command line lists the sets without numpy
+
         left, right = self.legs, [_right(name) for name in self.legs]
         return name_leg(skeleton, *left), name_leg(skeleton, *right)
 
