@@ -100,9 +100,7 @@ def test_where_it_happens_and_which_way_makes_no_difference(place):
     walk = FLAWS["slide"]()[:200]
     values, there = ({m.name: m.value for m in judge(m).measures} for m in (walk, place.apply_motion(walk)))
     # A plant may end a frame sooner.
-    assert there.pop("slide") == pytest.approx(
-        values.pop("slide"), rel=0.02
-    )
+    assert there.pop("slide") == pytest.approx(values.pop("slide"), rel=0.02)
     assert there == pytest.approx(values, rel=1e-6, abs=1e-6)
 
 
