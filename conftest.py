@@ -20,6 +20,8 @@ THERE = all((REAL / folder).is_dir() for folder in ("cmu", "hw3"))
 MISSING = None if THERE else f"no real clips at {REAL}; name their folder in MOCAP_REAL_DATA"
 
 os.environ["MOCAP_MINE"] = ""  # nobody has solved anything: no test reads a file beside the notebooks
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")  # workers and kernels share the cores: threads of each would wait
 if not MISSING:
     os.environ["MOCAP_DATA"] = str(REAL / "cmu")  # for the kernels of the notebooks, which inherit it
 

@@ -16,7 +16,7 @@ def joint_cloud(clip: Motion, by: Tools) -> Array:
     >>> from mocap import datasets
     >>> from mocap.lab.own.tools import packages
     >>> joint_cloud(datasets.sample()[:2], packages()).shape
-    (2, 30, 3)
+    (2, 31, 3)
     """
     joints = distinct_joints(clip.skeleton)
     frames = zip(clip.root_positions, clip.rotations, strict=True)
