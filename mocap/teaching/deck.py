@@ -70,6 +70,7 @@ class _Cutter:
         self.code = 0
 
     def slides(self) -> list[Slide]:
+        """Cut the notebook cell by cell; its exercises come last."""
         for cell in self.notebook.cells:
             tags = cell.metadata.get("tags", [])
             named = next(

@@ -121,9 +121,11 @@ class _Pen:
         return (self.size / 2 + np.stack([right, -up], -1) * (self.focus / far)[:, None]), far
 
     def far(self, point: Array) -> float:
+        """Give how far a point is from the eye, metres."""
         return float(self._pixels(point)[1][0])
 
     def line(self, points: Array, colour: str, width: float) -> None:
+        """Draw a line through points, as wide everywhere; what lies behind the eye is left out."""
         if len(points) > 1:
             pixels, far = self._pixels(points)
             for part in np.split(np.arange(len(points)), np.flatnonzero(far <= 0.1)):
@@ -132,6 +134,7 @@ class _Pen:
                     self.draw.line(run, colour, round(TWICE * width), joint="curve")
 
     def lines(self, points: Array, pairs: list[list[int]], colour: str, metres: float) -> None:
+        """Draw bones between pairs of points, so thick in metres, with round ends."""
         pixels, far = self._pixels(points)
         width = max(2, round(metres * self.focus / float(far.mean())))
         for a, b in pairs:
@@ -140,16 +143,19 @@ class _Pen:
             self.draw.ellipse([x - width / 2, y - width / 2, x + width / 2, y + width / 2], colour)
 
     def disc(self, point: Array, metres: float, colour: str) -> None:
+        """Draw a ball of a radius in metres."""
         ((x, y),), far = self._pixels(point)
         reach = metres * self.focus / float(far[0])
         self.draw.ellipse([x - reach, y - reach, x + reach, y + reach], colour)
 
     def diamond(self, point: Array, colour: str) -> None:
+        """Draw a diamond on the ground, as it marks a seam."""
         corners, far = self._pixels(point + 0.07 * np.array([[1, 0, 0], [0, 0, 1], [-1, 0, 0], [0, 0, -1]]))
         if far.min() > 0.1:
             self.draw.polygon([*map(tuple, corners)], colour)
 
     def ground(self, centre: Array, reach: int = 7) -> None:
+        """Draw a line on the ground for each metre around a place."""
         x, z = np.round(centre[[0, 2]])
         along = np.linspace(-reach, reach, 29)
         for off in range(-reach, reach + 1):
