@@ -45,13 +45,13 @@ def drive(shown):
         assert shown.scene["frames"] > 1
     elif hasattr(shown, "pairs"):  # a blind test, whose films play in the page
         assert all(len(pair.seam) == len(pair.control) > 1 for pair in shown.pairs)
-    elif hasattr(shown, "still"):  # an inspector, which runs in the page
-        assert shown.picture
     elif hasattr(shown, "company"):  # characters that are steered
         for heading, speed in ((2.0, shown.scene["speeds"][0]), (-1.0, shown.scene["speeds"][1])):
             shown.command = [heading, speed, ""]
             walked = shown.company.walk(Order(*shown.command), 2.0)
             assert not [member.fault for member in walked if member.fault]
+    elif hasattr(shown, "picture"):  # an inspector, which runs in the page
+        assert shown.picture
     else:  # a player that reports back
         for frame in (0, shown.scene["frames"] - 1, shown.scene["frames"] // 2):
             shown.frame = frame
