@@ -20,6 +20,7 @@ WIDTH = 9.0  # inches
 LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
 RISE = np.radians(24)  # how far above the ground the camera stands
 MOST = 15  # bodies; more would hide one another
+FEW = 3  # characters; of more, the bodies of one moment are drawn together
 GREY = "#666666"
 APART = 0.7  # metres between two bodies at least
 
@@ -34,7 +35,8 @@ def bodies_along(
 
     Parameters
     ----------
-    motions : one or more characters; sources and seams are those of the first.
+    motions : one or more characters; sources and seams are those of the first. More than three are drawn at
+        the same three moments, so that one sees the group.
     sources : pairs (frame, name of the clip from there on), as from `synthesis.sources`: bodies and path have
         the colour of their clip. Without them one character has the colours of left and right, and several
         have a colour each.
@@ -58,12 +60,14 @@ def bodies_along(
     clouds = [joint_positions(motion) for motion in motions]
     scene = _Scene(np.concatenate([*(cloud[:, 0, [0, 2]] for cloud in clouds), asked]))
     scene.line(asked, ASKED, "asked path", 4.0)
+    named = len(motions) == 1 or len({motion.name for motion in motions}) > 1  # colours need different names
+    together = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int) if len(motions) > FEW else None
     for number, (motion, cloud) in enumerate(zip(motions, clouds, strict=True)):
         own = SOURCES[number % len(SOURCES)] if len(motions) > 1 else None
-        spans = _spans(motion, sources if number == 0 else (), own)
+        spans = _spans(motion, sources if number == 0 else (), own, named)
         for span in spans:
             scene.line(cloud[span.start : span.end + 1, 0][:, [0, 2]], span.colour or PATH, span.name)
-        scene.bodies(motion, cloud, spans)
+        scene.bodies(motion, cloud, spans, _chosen(cloud[:, 0, [0, 2]]) if together is None else together)
     scene.diamonds(clouds[0][np.asarray(list(seams), int), 0] * [1, 0, 1])
     return scene.framed()
 
@@ -77,9 +81,12 @@ class _Span(NamedTuple):
     name: str
 
 
-def _spans(motion: Motion, sources: Sequence[tuple[int, str]], colour: str | None) -> list[_Span]:
+def _spans(
+    motion: Motion, sources: Sequence[tuple[int, str]], colour: str | None, named: bool
+) -> list[_Span]:
     if not sources:
-        return [_Span(0, len(motion), colour, motion.name if colour else "walked path")]
+        name = motion.name * named if colour else "walked path"
+        return [_Span(0, len(motion), colour, name)]
     colours = source_colours([name for _, name in sources])
     ends = [*(frame for frame, _ in sources[1:]), len(motion)]
     return [_Span(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
@@ -115,7 +122,7 @@ class _Scene:
         """Draw a line over the ground, points (x, z); each name stands in the legend once."""
         if len(ground):
             known = name in self.ax.get_legend_handles_labels()[1]
-            label = None if known else name
+            label = None if known or not name else name
             self.ax.plot(*self.see(_level(ground)).T, color=colour, linewidth=wide, label=label, zorder=1)
 
     def diamonds(self, points: Array) -> None:
@@ -123,11 +130,11 @@ class _Scene:
         if len(points):
             self.ax.plot(*self.see(points).T, "D", color=MARK, markersize=6, label="seam", zorder=2)
 
-    def bodies(self, motion: Motion, cloud: Array, spans: list[_Span]) -> None:
-        """Draw bodies, those nearer to the camera over the others."""
+    def bodies(self, motion: Motion, cloud: Array, spans: list[_Span], frames: Iterable[int]) -> None:
+        """Draw bodies at some frames, those nearer to the camera over the others."""
         starts, ends, sides = bones(motion.skeleton)
         head = [joint for joint, name in enumerate(motion.skeleton.names) if "head" in name.lower()][-1:]
-        for frame in _chosen(cloud[:, 0, [0, 2]]):
+        for frame in frames:
             (span,) = [span for span in spans if span.start <= frame < span.end]
             near = 4 - float(np.tanh(cloud[frame, 0] @ self.axes[1] / 50))
             colours = [span.colour or COLOURS[side] for side in sides]
@@ -143,7 +150,8 @@ class _Scene:
         wide, high = np.ptp(self.ax.get_xlim()), np.ptp(self.ax.get_ylim())
         self.figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
         columns = min(6, len(self.ax.get_legend_handles_labels()[1]))
-        self.ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, fontsize=9, frameon=False)
+        if columns:
+            self.ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, fontsize=9, frameon=False)
         note = self.ax.text(1, 1.02, "lines 1 m apart", transform=self.ax.transAxes)
         note.set(horizontalalignment="right", fontsize=8, color=GREY)
         return self.figure
