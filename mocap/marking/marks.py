@@ -143,7 +143,7 @@ def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> d
                     student.allow(SECONDS)
                     judged[name] = _judge(student, name, seed)
             except Ended as ended:
-                judged |= dict.fromkeys(at_fault, Verdict(False, str(ended)))
+                judged |= {name: Verdict(False, f"{name}: {ended}") for name in at_fault}
     return judged
 
 
@@ -160,7 +160,9 @@ def _judge(student: Sealed, name: str, seed: int) -> Verdict:
             verdict = check.verdict(_Answer(student, name))
     except Exception:  # an answer such as 10**400, which has no float
         verdict = Verdict(False, f"{name}: your answer cannot be compared with the right one.")
-    return verdict if verdict.right or not prepared["error"] else Verdict(False, str(prepared["error"]))
+    if verdict.right or not prepared["error"]:
+        return verdict
+    return Verdict(False, f"{name}: its cells raise {prepared['error']}")
 
 
 class _Answer:

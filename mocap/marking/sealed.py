@@ -6,6 +6,7 @@ import json
 import os
 import pickle
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -157,9 +158,10 @@ def _end(keeper: subprocess.Popen[bytes]) -> str:
     """Let the keeper kill what there is, and return why it stopped the process before, if it did."""
     if keeper.stdin is None or keeper.stdin.closed:
         return ""
+    keeper.send_signal(signal.SIGCONT)  # the student's process may have stopped it
     try:
-        return keeper.communicate(timeout=10)[0].decode()
-    except subprocess.TimeoutExpired:  # as when the student's process has stopped the keeper
+        return keeper.communicate(timeout=30)[0].decode()
+    except subprocess.TimeoutExpired:  # as when it is stopped again and again
         keeper.kill()
         keeper.wait()
         return ""

@@ -1,10 +1,11 @@
 """Students of all kinds: for each a notebook as a list of cells, (tag, source)."""
 
+import os
 import sys
 
 import nbformat
 
-SLEEP = "4242.125"  # seconds, by which the tests find the process
+SLEEP = f"4242.{os.getpid()}"  # seconds, by which the tests find the process, and no other run's
 START = ("", "import numpy as np\nfrom mocap.course import checks")
 SPEED = (
     "exercise:speed",
@@ -76,7 +77,9 @@ DISHONEST = {
         f"all = [subprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True) for _ in range(40)]\n"
         "time.sleep(60)"
     ),
-    "kills what started it": speed("import os, signal\nos.kill(os.getppid(), signal.SIGKILL)"),
+    "kills what started it": speed(
+        "import os, signal, time\nos.kill(os.getppid(), signal.SIGKILL)\ntime.sleep(60)"
+    ),
     '=HYPERLINK("evil")': speed("def speed(positions, fps): raise ValueError('\\n=cmd|calc\\n\\x1b[2J')"),
 }
 UNLUCKY = {

@@ -32,7 +32,7 @@ def said(path):
 
 def sleepers():
     lines = [file for file in Path("/proc").glob("[0-9]*/cmdline") if file.exists()]
-    return [file for file in lines if SLEEP.encode() in _bytes(file)]
+    return [file for file in lines if f"\0{SLEEP}\0".encode() in _bytes(file)]
 
 
 def _bytes(file):
@@ -84,11 +84,11 @@ def test_a_dishonest_student_gets_marks_only_for_what_is_right(student, marked):
         ("answers with a pickle that runs", "speed", "speed: your answer has the shape"),
         ("remembers the inputs of the notebook", "speed", "speed: your function returns None"),
         ("lists and plants files", "speed", "speed: your function raises ValueError: [] (in"),
-        ("starts many processes", "speed", "✗ starts more than 16 processes"),
-        ("kills what started it", "speed", "✗ ends Python itself"),
-        ("prints without end", "speed", "✗ stopped after 12 s"),
+        ("starts many processes", "speed", "✗ speed: starts more than 16 processes"),
+        ("kills what started it", "speed", "✗ speed: ends Python itself"),
+        ("prints without end", "speed", "✗ speed: stopped after 12 s"),
         ("fills the memory", "speed", "your function raises MemoryError"),
-        ("ends Python", "speed", "✗ ends Python itself"),
+        ("ends Python", "speed", "✗ speed: ends Python itself"),
         (
             "lost cells and tags",
             "cheapest",
@@ -158,7 +158,7 @@ def test_an_empty_folder_and_one_without_exercises(tmp_path):
 def test_an_endless_first_cell_is_said_of_each_exercise(tmp_path, monkeypatch):
     monkeypatch.setattr(marks, "STARTING", 5)
     hand_in([("", "while True: pass"), *HONEST[1:]], tmp_path / "ada" / "00.ipynb")
-    assert [one.said for one in mark(tmp_path)] == ["✗ stopped after 5 s"] * 3
+    assert [one.said for one in mark(tmp_path)] == [f"✗ {name}: stopped after 5 s" for name in EXERCISES]
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,11 @@ def test_no_answer_stops_the_marker(answer, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("times", "size", "says"), [(20, 45_000_000, "writes 2000 files, or"), (1, 60_000_000, "File too large")]
+    ("times", "size", "says"),
+    [
+        (20, 45_000_000, "writes 2000 files, or"),
+        (1, 60_000_000, "✗ speed: its cells raise OSError: [Errno 27] File too large"),
+    ],
 )
 def test_no_notebook_fills_the_disk(times, size, says, tmp_path):
     write = f"for n in range({times}): open(f'{{n}}', 'wb').write(b'x' * {size})\nimport time\ntime.sleep(1)"
@@ -206,6 +210,16 @@ def test_what_is_no_file_is_said_at_once(tmp_path):
     ]
 
 
+@pytest.mark.skipif(not LINUX, reason="needs /proc")
+def test_a_keeper_that_was_stopped_still_leaves_no_process(tmp_path):
+    stop = f"import os, signal, subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)\n"
+    hand_in(
+        [START, ("exercise:speed", f"{stop}os.kill(os.getppid(), signal.SIGSTOP)")], tmp_path / "00.ipynb"
+    )
+    assert not next(mark(tmp_path)).right
+    assert sleepers() == []
+
+
 def test_an_interruption_is_one_sentence_and_keeps_the_marks(tmp_path):
     begun = tmp_path / "begun"
     hand_in([START, SPEED], tmp_path / "in" / "ada" / "00.ipynb")
@@ -216,9 +230,10 @@ def test_an_interruption_is_one_sentence_and_keeps_the_marks(tmp_path):
         command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
     for _ in range(1200):
-        if begun.exists():
+        if begun.exists() or process.poll() is not None:
             break
         time.sleep(0.1)
+    assert begun.exists()
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     assert (process.returncode, out) == (130, "")
