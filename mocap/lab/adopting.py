@@ -5,15 +5,17 @@ from __future__ import annotations
 import pkgutil
 import re
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from mocap.course import checks
+from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
 from mocap.errors import MocapError
-from mocap.lab.guarding import Slot
+from mocap.lab.guarding import Slot, Unseen
 from mocap.lab.kept_functions import keep, place, read_text, run_sections
 from mocap.lab.plain_source import plain_source
 
@@ -141,11 +143,21 @@ def _take_from_file(name: str, function: Callable[..., Any], file: Path | None) 
     if name not in all_checks():
         print(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
         return
-    slot, verdict = _slots()[name], all_checks()[name].verdict(function)
+    slot, verdict = _slots()[name], _judged(name, function)
     slot.written = function
     slot.own, slot.stopped, slot.kept = (function, "", True) if verdict.right else (None, "", False)
     if not verdict.right:
         print(f"{file}: {name} does not pass its check any more, so the package's stands in.")
+        print(verdict)
+
+
+def _judged(name: str, function: Callable[..., Any]) -> Verdict:
+    """Check a function of the file, without what it prints."""
+    try:
+        with redirect_stdout(Unseen()):
+            return all_checks()[name].verdict(function)
+    except SystemExit:
+        return Verdict(False, f"{name}: your function ends Python.")
 
 
 def notebook_of(name: str) -> str:

@@ -2,13 +2,16 @@
 
 A student's function that passed its check may still fail on other input. So each call is guarded: where the
 function raises an error, gives another form of answer than the package's (a NaN, say), or takes longer than
-`SECONDS`, one sentence says so, and the package's stands in from then on.
+`SECONDS`, one sentence says so, and the package's stands in from then on. What it prints is dropped: a line
+for each of some thousand calls would hide the page.
 """
 
 from __future__ import annotations
 
+import io
 import time
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from typing import Any
 
 import numpy as np
@@ -19,6 +22,25 @@ from mocap.course.check import Check
 SECONDS = 30.0  # of one call; what the course asks for takes a thousandth of it
 SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,), "short_way": (4,)}
 """The answers of functions that are called thousands of times; others are compared with the package's."""
+
+
+class Unseen(io.StringIO):
+    """Takes what is printed and drops it; `any` says whether there was some.
+
+    Examples
+    --------
+    >>> with redirect_stdout(Unseen()) as unseen:
+    ...     print("so far")
+    >>> unseen.any, unseen.getvalue()
+    (True, '')
+    """
+
+    any = False
+
+    def write(self, text: str) -> int:
+        """Drop a text."""
+        self.any = True
+        return len(text)
 
 
 class Slot:
@@ -50,7 +72,7 @@ class Slot:
         self.name, self.stand_in = check.name, check.truth
         self.own: Callable[..., Any] | None = None
         self.written: Callable[..., Any] = check.truth
-        self.kept, self.stopped = False, ""
+        self.kept, self.stopped, self._prints = False, "", False
         self.calls, self.seconds = 0, 0.0
 
     @property
@@ -71,22 +93,25 @@ class Slot:
 
     def _guarded(self, arguments: tuple[Any, ...]) -> Any:  # noqa: ANN401
         try:
-            with time_limit(SECONDS):
+            with time_limit(SECONDS), redirect_stdout(Unseen()) as unseen:
                 given = self.own(*arguments)  # type: ignore[misc] # `yours` says that there is one
         except Overdue:
             return self._give_up(f"did not end within {SECONDS:g} s", arguments)
         except (Exception, SystemExit) as error:  # a student's function may raise anything
             said = f": {error}" if str(error) else ""
             return self._give_up(f"raised {type(error).__name__}{said}"[:110], arguments)
+        if unseen.any and not self._prints:
+            self._prints = True
+            print(f"{self.name}: yours prints; it is shown where the check runs, and not here.")
+        return given if self._fits(given, arguments) else self._give_up(f"gave {_seen(given)}", arguments)
+
+    def _fits(self, given: Any, arguments: tuple[Any, ...]) -> bool:  # noqa: ANN401
         if (shape := SHAPES.get(self.name)) is not None:
-            fits = same_form(given, np.zeros(shape))
-        elif self.name == "inner_minima":  # where neighbours are exactly equal, there may be one more or less
-            fits = isinstance(given, list | tuple | np.ndarray) and all(
-                same_form(one, (0, 0)) for one in given
-            )
-        else:
-            fits = same_form(given, self.stand_in(*arguments))
-        return given if fits else self._give_up(f"gave {_seen(given)}", arguments)
+            return same_form(given, np.zeros(shape))
+        if self.name == "inner_minima":  # where neighbours are exactly equal, there may be one more or less
+            pairs = isinstance(given, list | tuple | np.ndarray)
+            return pairs and all(same_form(one, (0, 0)) for one in given)
+        return same_form(given, self.stand_in(*arguments))
 
     def _give_up(self, why: str, arguments: tuple[Any, ...]) -> Any:  # noqa: ANN401
         self.stopped = why

@@ -34,7 +34,7 @@ def place() -> Path | None:
 def read_text(file: Path | None) -> str:
     """Read the file; "" where there is none."""
     try:
-        return file.read_text("utf-8") if file else ""
+        return file.read_text("utf-8-sig") if file else ""  # editors on Windows put a mark in front
     except FileNotFoundError:
         return ""
     except (OSError, UnicodeDecodeError) as error:
@@ -96,7 +96,7 @@ def run_sections(file: Path, text: str, known: Mapping[str, Any]) -> tuple[dict[
 def _run(file: Path, part: Section, space: dict[str, Any]) -> list[str]:
     try:
         exec(compile("\n" * part.line + part.body, str(file.resolve()), "exec"), space)
-    except Exception as error:  # students edit the file, and it may hold anything
+    except (Exception, SystemExit) as error:  # students edit the file, and it may hold anything
         at = getattr(error, "lineno", None) or part.line + 1
         why = getattr(error, "msg", str(error))
         return [f"{file}, line {at}: {type(error).__name__}, {why}; this section is not used."[:200]]

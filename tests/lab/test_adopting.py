@@ -144,7 +144,40 @@ def test_a_function_in_the_file_that_no_longer_passes_is_not_used(capsys, fresh)
     assert not lab.mine("hamilton").yours
     said = capsys.readouterr().out
     assert "my_graph.py: hamilton does not pass its check any more, so the package's stands in.\n" in said
+    assert "✗ hamilton: " in said  # and why
     assert "my_graph.py: the course has no exercise 'hmilton'; it is not used.\n" in said
+
+
+@pytest.mark.parametrize("change", [b"\xef\xbb\xbf", b"\r\n"])
+def test_a_file_that_was_saved_on_windows_is_read(change, capsys, fresh):
+    lab.mine(written("hamilton"))
+    text = fresh.read_bytes()
+    fresh.write_bytes(text.replace(b"\n", change) if change == b"\r\n" else change + text)
+    new_kernel()
+    assert lab.mine("hamilton").yours
+    lab.mine(written("quintic"))
+    new_kernel()
+    assert lab.whose("hamilton", "quintic") == "hamilton, quintic: yours"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("import numpy", "exit()\nimport numpy"), ("return", "exit()\n    return")]
+)
+def test_a_file_that_ends_python_does_not(old, new, capsys, fresh):
+    lab.mine(written("hamilton"))
+    fresh.write_text(fresh.read_text().replace(old, new))
+    new_kernel()
+    assert not lab.mine("hamilton").yours
+    assert "does not pass its check any more" in capsys.readouterr().out
+
+
+def test_what_a_kept_function_prints_is_not_shown_when_the_file_is_read(capsys, fresh):
+    lab.mine(written("hamilton"))
+    fresh.write_text(fresh.read_text().replace("return", "print('here')\n    return"))
+    new_kernel()
+    capsys.readouterr()
+    assert lab.mine("hamilton").yours
+    assert "here" not in capsys.readouterr().out
 
 
 def test_a_folder_in_place_of_the_file_is_said(capsys, fresh):

@@ -43,6 +43,15 @@ def own_again(a, b):
     return own_again(a, b)
 
 
+def test_what_a_function_prints_is_dropped_with_one_sentence(capsys):
+    chatty = slot("hamilton", lambda a, b: print("a line\n" * 100) or checks.hamilton.truth(a, b))
+    for _ in range(3):
+        assert chatty(*np.eye(4)[1:3]).tolist() == [0, 0, 0, 1]
+    said = "hamilton: yours prints; it is shown where the check runs, and not here.\n"
+    assert capsys.readouterr().out == said
+    assert chatty.yours
+
+
 def test_a_function_that_never_ends_is_stopped(monkeypatch, capsys):
     monkeypatch.setattr(guarding, "SECONDS", 0.05)
 
