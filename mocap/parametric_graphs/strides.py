@@ -31,7 +31,7 @@ STRIDE, LEFT_STEP, RIGHT_STEP = "lrl", "lr", "rl"
 MARGIN, WIDEST = 0.38, 0.5  # of a stride, before the first and after the last strike
 FINE = 60  # phases per stride
 STEP_LASTS = (0.23, 1.0)  # seconds, from strike to strike; others are no steps of a walk or run
-STRAIGHT = np.radians(20)  # a stride that turns by less
+STRAIGHT, GOES = np.radians(20), 0.3  # a stride that turns by less, and goes faster, m/s
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ class Strides:
     contacts : shape (N, G, C), and `contact_names`, C of them.
     values : shape (N, 2), the turn in radians and the speed in m/s.
     sway : radians that the pelvis turns on a straight example without turning: 0 for strides.
-    offset : radians from where the body faces at a strike to where it goes.
+    offset : radians from where the body faces at a strike to where it goes; 0 where no example goes straight.
     dropped : examples that were left out.
     """
 
@@ -251,10 +251,10 @@ def _calibrated(strides: Strides, *, steps: bool) -> Strides:
         calm = np.abs(values[:, 0] - np.median(values[:, 0])) < np.radians(15)
         sway = float(np.median(values[calm, 0]))
         values[:, 0] -= sway
-    straight = np.abs(values[:, 0]) < STRAIGHT
-    straight |= not straight.any()
+    straight = (np.abs(values[:, 0]) < STRAIGHT) & (values[:, 1] > GOES)
     ground, _ = mixed_way(strides, np.eye(len(values))[straight])
-    offset = float(np.median(np.angle(np.diff(ground[:, strides.ends], axis=1))))
+    ways = np.angle(np.diff(ground[:, strides.ends], axis=1))
+    offset = float(np.median(ways)) if straight.any() else 0.0
     return replace(strides, values=values, sway=sway, offset=offset)
 
 

@@ -80,6 +80,19 @@ def test_a_straight_step_turns_by_nothing_though_the_pelvis_swings():
     assert strides().sway == 0
 
 
+def test_where_the_way_leads_is_told_by_strides_that_go_straight_somewhere():
+    """A walk in circles leads aside of where the body faces; steps on the spot lead anywhere."""
+    circle = cut_strides(clips()[:1])
+    assert np.abs(circle.values[:, 0]).min() > np.radians(20) and circle.offset == 0
+    straight = cut_strides(clips()[3:4])
+    (walk,) = clips()[3:4]
+    roots = walk.root_positions.copy()
+    roots[:, [0, 2]] *= -0.02
+    spot = replace(walk, root_positions=roots, name="spot")
+    assert abs(cut_strides([spot]).offset) == 0
+    assert cut_strides([walk, *[spot] * 2]).offset == pytest.approx(straight.offset)
+
+
 def test_by_curves_examples_are_more_alike_at_one_phase_than_by_strikes():
     gaps = []
     for by in ("strikes", "curves"):
