@@ -123,7 +123,7 @@ class _Sampled(NamedTuple):
 
 
 def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sampled:
-    """Draw sources and targets, the ends of the source's range among them, and compare all pairs."""
+    """Draw sources and targets, the outermost sources among them, and compare all pairs."""
     least, one, other = len(source.parameters) + 2, source.strides, target.strides
     if sampling.sources < least or sampling.targets < 1:
         raise MocapError(f"An edge takes {least} sources and a target or more, got {sampling}.")
@@ -133,8 +133,17 @@ def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sa
     random = np.random.default_rng(sampling.seed)
     at = draw_parameters(source, sampling.sources, random)
     to = draw_parameters(target, sampling.targets, random)
-    at[0], at[1] = source.low, source.high  # mixing cannot reach beyond the outermost samples
+    ends = _outermost(source)  # mixing cannot reach beyond them
+    at[: len(ends)] = ends
     return _Sampled(at, to, optimal_transitions(source, target, at, to))
+
+
+def _outermost(space: StrideSpace) -> Array:
+    """Give the ends of a range; of two parameters the samples farthest out, for its corners may hold none."""
+    if len(space.parameters) == 1:
+        return np.array([space.low, space.high])
+    values = space.reached
+    return np.asarray(values[np.concatenate([values.argmin(axis=0), values.argmax(axis=0)])])
 
 
 def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling | None = None) -> float:

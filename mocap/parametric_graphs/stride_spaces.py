@@ -49,6 +49,11 @@ class StrideSpace:
         """Half the range of each parameter: the unit of distances between parameters, (d,)."""
         return np.maximum((self.high - self.low) / 2, 1e-9)
 
+    @property
+    def reached(self) -> Array:
+        """What the samples within the range come to, (R, d)."""
+        return self.values[((self.values >= self.low) & (self.values <= self.high)).all(axis=1)]
+
     def weights(self, asked: ArrayLike) -> Array:
         """Mix the mixes of the nearest samples: parameters (M, d) give weights (M, N)."""
         near, shares = neighbours(np.atleast_2d(asked), self.values, self.scale)
@@ -280,8 +285,7 @@ def draw_parameters(space: StrideSpace, count: int, random: np.random.Generator)
     """
     if len(space.parameters) == 1:
         return np.asarray(random.uniform(space.low, space.high, (count, 1)))
-    inside = ((space.values >= space.low) & (space.values <= space.high)).all(axis=1)
-    values = space.values[inside]
+    values = space.reached
     near, _ = neighbours(values, values, space.scale, min(8, len(values)))
     shares, base = random.dirichlet(np.ones(3), count), random.integers(len(values), size=count)
     some = near[base[:, None], random.integers(near.shape[1], size=(count, 3))]

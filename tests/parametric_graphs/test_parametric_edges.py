@@ -11,8 +11,8 @@ from hypothesis.extra.numpy import arrays
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.parametric_graphs.nearest_windows import optimal_transitions
 from mocap.parametric_graphs.parametric_edges import Sampling, build_edge, shrink_box, smallest_good
-from mocap.parametric_graphs.stride_spaces import draw_parameters
-from tests.parametric_graphs.built import SMALL, space, stepping, walking
+from mocap.parametric_graphs.stride_spaces import draw_parameters, make_space, measure_mixes
+from tests.parametric_graphs.built import SMALL, space, stepping, strides, walking
 
 PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
@@ -86,6 +86,18 @@ def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
     assert high[1] < 0.9 and high[0] == 10  # of the second half range 0.2 is lost, of the first 1
     low, _ = shrink_box(good, bad, np.array([500.0, 0.5]))
     assert low[0] > 5  # the first is measured in hundreds
+
+
+def test_the_outermost_sources_are_among_those_drawn():
+    """Of two parameters they are strides that the space comes to; corners of its range may be none."""
+    one = space()
+    edge = build_edge(one, one, good=0.05, sampling=SMALL)
+    np.testing.assert_array_equal(edge.at[:2], [one.low, one.high])
+    both = make_space(strides(), [0.2, 0.1], [-1.2, 0.6], [1.2, 1.1], parameters=("turn", "speed"))
+    at = build_edge(both, both, good=0.2, sampling=SMALL).at
+    np.testing.assert_allclose(measure_mixes(both.strides, both.weights(at)), at, atol=np.radians(2))
+    np.testing.assert_array_equal(at.min(axis=0), both.reached.min(axis=0))
+    np.testing.assert_array_equal(at.max(axis=0), both.reached.max(axis=0))
 
 
 def test_the_smallest_threshold_is_the_smallest():
