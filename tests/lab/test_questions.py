@@ -264,6 +264,13 @@ def test_a_file_is_whole_and_belongs_to_a_notebook(file):
     assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words
 
 
+def test_the_right_choice_is_not_the_longest_more_often_than_by_chance():
+    quizzes = [quiz for file in FILES for quiz in read_questions(file).quizzes.values()]
+    choices = [quiz for quiz in quizzes if isinstance(quiz, Choice)]
+    longest = sum(len(quiz.right) > max(map(len, quiz.wrong)) for quiz in choices)
+    assert longest < sum(1 / (1 + len(quiz.wrong)) for quiz in choices)
+
+
 def calls(source):
     """List the questions that a cell asks, as pairs of the function's name and a key."""
     for node in ast.walk(ast.parse(source)):
