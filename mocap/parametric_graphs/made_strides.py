@@ -79,7 +79,8 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     0.5
     """
     strides, grid = space.strides, space.strides.grid
-    weights = space.weights(asked)
+    near, parts = neighbours(np.atleast_2d(asked), space.values, space.scale)
+    weights = parts @ space.mixes[near[0]]
     (ground,), (facing,) = mixed_way(strides, weights)
     weights, (zero, one) = weights[0], strides.ends
     seconds, heights = weights @ strides.seconds, weights @ strides.heights
@@ -90,7 +91,6 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     place = (phases - grid[0]) / (grid[1] - grid[0])
     low = np.clip(place.astype(int), 0, len(grid) - 2)
     share, used = place - low, np.flatnonzero(weights)
-    near, parts = neighbours(np.atleast_2d(asked), space.values, space.scale)
     poses = np.tensordot(parts[0], space.sampled_poses[near[0]], 1)
     turns = poses[low] * (1 - share)[:, None, None] + poses[low + 1] * share[:, None, None]
     turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
