@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
-from mocap.widgets.player import Player, play, script
+from mocap.widgets.embedding import joined
+from mocap.widgets.player import Player, play
 from mocap.widgets.reopening import display_live
 
 Follow = Callable[[Array], Motion | Player]
@@ -86,7 +87,7 @@ def _live_player() -> type[Any]:
     class LivePlayer(_Shown, anywidget.AnyWidget):
         """A player with a `frame` that Python may set and observe."""
 
-        _esm = script()
+        _esm = joined(*Player.scripts)
         scene = traitlets.Dict().tag(sync=True)
         frame = traitlets.Int(0)
         at: traitlets.List[Any] = traitlets.List([-1, 0]).tag(sync=True)  # the browser's: scene, frame

@@ -2,7 +2,7 @@
 //
 // `player.py` packs a scene. `player_scene.js` unpacks it, `player_picture.js` draws it, `player_page.js` has the
 // parts of the page, `player_hand.js` the keys, mouse and fingers, and this file ties them together. The scripts
-// are joined to one module. On a page, `startAll` starts every `.mocap-player`; in JupyterLab, anywidget calls
+// are joined to one module. On a page, `start` starts every `.mocap-player`; in JupyterLab, anywidget calls
 // `render`. Its `model` shares with Python: `scene`, with a number; `move`, which Python sets, and `at`, which the
 // player sets: the number of a scene and a frame; and `path`.
 
@@ -23,7 +23,7 @@ class Player {
 
   build() {
     this.root.classList.add("mocap-player");
-    this.root.dataset.started = "true"; // so that `startAll` does not start it a second time
+    this.root.dataset.started = "true"; // so that `start` does not start it a second time
     this.root.innerHTML = PARTS;
     const find = (what) => this.root.querySelector(what);
     this.canvas = find("canvas"); this.play = find(".play"); this.scrub = find(".scrub input"); this.strip = find(".scrub div");
@@ -214,13 +214,6 @@ class Player {
   }
 
   end() { this.resized?.disconnect(); this.seen?.disconnect(); clearTimeout(this.reporting); cancelAnimationFrame(this.waiting); }
-}
-
-// On a page: each output that appears starts the players that have not been started yet.
-export function startAll() {
-  for (const root of document.querySelectorAll(".mocap-player:not([data-started])")) {
-    root.player = new Player(root, JSON.parse(root.querySelector("script").textContent), null);
-  }
 }
 
 // In JupyterLab: called by anywidget.

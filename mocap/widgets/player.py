@@ -1,15 +1,12 @@
 """A player for notebooks and pages: stick figures that move; it needs nothing but a browser.
 
-The scripts in `PARTS` draw; this module packs what they draw. Coordinates are sent as 16-bit numbers between
+Scripts draw; this module packs what they draw. Coordinates are sent as 16-bit numbers between
 the lowest and the highest of a clip, so 20 metres are cut into steps of 0.3 mm, and at no more than 60 frames
 per second. What is sent are their second differences over time: these are small, and compress well.
 """
 
 from __future__ import annotations
 
-import base64
-import html
-import json
 import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -32,28 +29,14 @@ from mocap.plotting.stick_figures import bones, film_strip
 from mocap.plotting.style import ASTRAY as ASTRAY_COLOUR
 from mocap.plotting.style import COLOURS, MARK, PATH, SOURCES, source_colours
 from mocap.synthesis.walks import Seam
+from mocap.widgets.embedding import SHARED, Embedded
 
 Sources = Sequence[tuple[int, str]]
 
 ASTRAY = 0.15  # metres off the path that was asked for, from where on a walk's path is red
 WALKS = 1.0  # metres of ground that a motion covers at least, to be drawn along its path
 SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
-FILES = ("scene", "picture", "page", "hand")  # of the scripts; "player.js" comes last
-PARTS = (*(f"player_{part}.js" for part in FILES), "player.js")
-PAGE_STYLE = """<style>
-:root { color-scheme: light dark; }
-body { margin: 0 auto; padding: 0.5rem; max-width: 1400px; box-sizing: border-box; }
-h1 { margin: 0.25rem 0; font: 600 1.1rem system-ui, sans-serif; }
-.mocap-page .mocap-player { max-width: none; }
-.mocap-page .mocap-player canvas { height: clamp(160px, calc(100svh - 11rem), 100vw); }
-</style>
-"""
 SIDES = ("middle", "left", "right")  # the scripts know a side by its number
-
-
-def script() -> str:
-    """Join the scripts to the one module that a page and a widget run."""
-    return "\n".join(Path(__file__).with_name(part).read_text("utf-8") for part in PARTS)
 
 
 def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to look at it)
@@ -103,12 +86,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         np.reshape(np.asarray(path, float), (-1, 2)),
         runs(np.asarray(off, float) > ASTRAY),
     )
-    return Player(motions, marks, follow, alt or _alt(motions))
-
-
-def _alt(motions: Sequence[Motion]) -> str:
-    who = "A stick figure plays" if len(motions) == 1 else f"{len(motions)} stick figures play"
-    return f"{who} {names(motions)}, {max(motion.duration for motion in motions):.1f} s."
+    return Player(motions, marks, follow, alt)
 
 
 def names(motions: Sequence[Motion]) -> str:
@@ -125,8 +103,8 @@ class Marks(NamedTuple):
     astray: Indices = np.empty((0, 2), int)
 
 
-@dataclass(frozen=True, eq=False)
-class Player:
+@dataclass(frozen=True, eq=False, repr=False)
+class Player(Embedded):
     """What `play` returns; a notebook shows it live, as a picture or a sentence.
 
     Examples
@@ -142,10 +120,21 @@ class Player:
     motions: Sequence[Motion]
     marks: Marks
     follow: bool
-    alt: str
+    said: str
+    scripts = (*SHARED, Path(__file__).with_name("player.js"))
 
-    def __repr__(self) -> str:
-        return f"Player({self.alt!r})"
+    @property
+    def alt(self) -> str:
+        """What was said with the motions, else their names and seconds."""
+        count = len(self.motions)
+        who = "A stick figure plays" if count == 1 else f"{count} stick figures play"
+        seconds = max(motion.duration for motion in self.motions)
+        return self.said or f"{who} {names(self.motions)}, {seconds:.1f} s."
+
+    @property
+    def heading(self) -> str:
+        """The names of the motions."""
+        return names(self.motions)
 
     @cached_property
     def scene(self) -> dict[str, Any]:
@@ -191,32 +180,6 @@ class Player:
             return small_png(film_strip(self.motions))
         sources, seams, path, _ = self.marks
         return small_png(bodies_along(*self.motions, sources=sources, seams=seams, path=path))
-
-    def html(self) -> str:
-        """Return the player as part of a page; where no script runs, its picture stays."""
-        data = base64.b64encode(self.scene["data"]).decode()
-        scene = json.dumps({**self.scene, "data": data, "autoplay": True}).replace("<", "\\u003c")
-        picture, alt = base64.b64encode(self.picture).decode(), html.escape(self.alt)
-        return (
-            f'<div class="mocap-player"><img alt="{alt}" src="data:image/png;base64,{picture}">'
-            f'<script type="application/json">{scene}</script></div>\n'
-            f'<script type="module">\n{script()}\nstartAll();\n</script>\n'
-        )
-
-    def page(self) -> str:
-        """Return the player as a whole page, with everything that it needs."""
-        return (
-            f'<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
-            f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f'<link rel="icon" href="data:,">\n<title>{html.escape(self.alt)}</title>\n'
-            f'{PAGE_STYLE}<body class="mocap-page">\n<h1>{html.escape(names(self.motions))}</h1>\n'
-            f"{self.html()}</body>\n</html>\n"
-        )
-
-    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
-        picture = base64.b64encode(self.picture).decode()
-        bundle = {"text/html": self.html(), "image/png": picture, "text/plain": self.alt}
-        return bundle, {"image/png": {"alt": self.alt}}
 
 
 def _packed(motion: Motion, colour: str) -> tuple[dict[str, Any], bytes]:

@@ -60,3 +60,11 @@ function coloured(colour, text) {
   mark.style.background = colour;
   return [mark, text];
 }
+
+// On a page: each output that appears starts the players, or what else shows itself there, that have not been started yet.
+function start(Kind) {
+  const name = Kind.name.toLowerCase();
+  for (const root of document.querySelectorAll(`.mocap-${name}:not([data-started])`)) {
+    root[name] = new Kind(root, { ...JSON.parse(root.querySelector("script").textContent), autoplay: true });
+  }
+}

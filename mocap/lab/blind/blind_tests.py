@@ -19,13 +19,12 @@ from mocap.lab.blind.films import SIDES, packed
 from mocap.lab.blind.pairs import Pair, Plan, make_pairs
 from mocap.lab.blind.sensitivity import sentence
 from mocap.matching.transitions import Transitions
-from mocap.plotting.picture import few_colours, small_png
+from mocap.plotting.picture import Picture, few_colours, small_png
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS
-from mocap.widgets import player
+from mocap.widgets.embedding import PICTURE, SCENE, joined
 
 STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
-DRAWING = ("player_scene.js", "player_picture.js")  # the player's scripts that draw bodies
 
 
 def blind_test(
@@ -115,19 +114,15 @@ class BlindTest:
             "sentences": [sentence(right, len(self.pairs)) for right in range(len(self.pairs) + 1)],
         }
         hidden = base64.b64encode(json.dumps(spec).encode()).decode()
-        here, there = Path(__file__).parent, Path(player.__file__).parent
-        scripts = [*(there / part for part in DRAWING), here / "blind.js"]
-        picture, text = base64.b64encode(self.picture).decode(), html.escape(repr(self))
+        here, text = Path(__file__).parent, html.escape(repr(self))
+        still, _ = Picture(self.picture, self.alt)._repr_mimebundle_()
         return (
             f'<div class="mocap-blind" data-spec="{hidden}" data-films="{data}"><p>{text}</p>'
             f'<p class="still">{STILL}</p>'
-            f'<img alt="{html.escape(self.alt)}" src="data:image/png;base64,{picture}"></div>\n'
-            f'<style>{(here / "blind.css").read_text("utf-8")}</style>\n<script type="module">\n'
-            + "\n".join(script.read_text("utf-8") for script in scripts)
-            + "</script>\n"
+            f"{still['text/html']}</div>\n<style>{(here / 'blind.css').read_text('utf-8')}</style>\n"
+            f'<script type="module">\n{joined(SCENE, PICTURE, here / "blind.js")}</script>\n'
         )
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
-        picture = base64.b64encode(self.picture).decode()
-        bundle = {"text/html": self.html, "image/png": picture, "text/plain": f"{self!r} {STILL}"}
-        return bundle, {"image/png": {"alt": self.alt}}
+        bundle, metadata = Picture(self.picture, self.alt)._repr_mimebundle_()
+        return bundle | {"text/html": self.html, "text/plain": f"{self!r} {STILL}"}, metadata

@@ -1,4 +1,4 @@
-// The page around the inspector's canvases: its parts, their style, and the start.
+// The page around the inspector's canvases: its parts and their style.
 
 const NAMES = {
   grid: "Distances of all pairs of windows. A click or the arrow keys choose a pair, with shift ten frames at once.",
@@ -42,10 +42,3 @@ const INSPECTOR_PARTS = `<div class="both"><div class="maps">
     <div class="bar"><button class="play" aria-label="play">▶</button><input class="scrub" type="range"><button class="best">best turn</button>
       <label class="kind">weights <select class="kinds">${KINDS}</select></label><span class="now"></span></div></div></div>
   <div class="status" role="status"></div><div class="names"></div>`;
-
-// Each output that appears starts the inspectors that have not been started yet.
-export function startInspectors() {
-  for (const root of document.querySelectorAll(".mocap-inspector:not([data-started])")) {
-    root.inspector = new Inspector(root, JSON.parse(root.querySelector("script").textContent));
-  }
-}

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import html
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -21,23 +18,15 @@ from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.lab.inspecting.choices import EACH, MOST, Choices, of_clips, of_graph, of_walk
 from mocap.lab.inspecting.scenes import TABS, scene
-from mocap.plotting.picture import Picture, small_png
+from mocap.plotting.picture import small_png
 from mocap.plotting.storyboards import Shot, storyboard
 from mocap.steering.followed import Followed
 from mocap.synthesis.walk_to_motion import to_motion
-from mocap.widgets import player
+from mocap.widgets.embedding import SHARED, Embedded
 
-OURS = ("maths", "maps", "stage")  # scripts beside this file, before "inspector.js"
-LAST = ("inspector.js", "inspector_views.js", "inspector_page.js")
-PLAYERS = ("player_scene.js", "player_picture.js", "player_page.js", "player_hand.js")
+PARTS = ("", "_maths", "_maps", "_stage", "_views", "_page")
+OWN = [Path(__file__).with_name(f"inspector{part}.js") for part in PARTS]
 NOWHERE = np.empty((0, 2))
-
-
-def script() -> str:
-    """Join the scripts, the player's first, to the one module that a page runs."""
-    shared = [Path(player.__file__).with_name(part) for part in PLAYERS]
-    own = [Path(__file__).with_name(name) for name in (*(f"inspector_{part}.js" for part in OURS), *LAST)]
-    return "\n".join(path.read_text("utf-8") for path in (*shared, *own))
 
 
 def inspector(
@@ -99,8 +88,8 @@ def inspector(
     return Inspector(of_clips(clips, frames, at), tabs, NOWHERE, NOWHERE)
 
 
-@dataclass(frozen=True, eq=False)
-class Inspector:
+@dataclass(frozen=True, eq=False, repr=False)
+class Inspector(Embedded):
     """What `inspector` returns; a notebook shows it live, as a picture of four panels, or as a sentence.
 
     Examples
@@ -115,9 +104,7 @@ class Inspector:
     show: tuple[str, ...]
     track: Array
     asked: Array
-
-    def __repr__(self) -> str:
-        return f"Inspector({self.alt!r})"
+    scripts = (*SHARED, *OWN)
 
     @cached_property
     def alt(self) -> str:
@@ -151,35 +138,6 @@ class Inspector:
     def picture(self) -> bytes:
         """Four panels as a PNG, for places where no script runs."""
         return small_png(storyboard(self.shot, self.show))
-
-    def still(self) -> Picture:
-        """Return the picture alone, for captured clips, which a notebook must not hold."""
-        return Picture(self.picture, self.alt)
-
-    def html(self) -> str:
-        """Return the inspector as part of a page; where no script runs, its picture stays."""
-        data = base64.b64encode(self.scene["data"]).decode()
-        packed = json.dumps({**self.scene, "data": data}).replace("<", "\\u003c")
-        picture, alt = base64.b64encode(self.picture).decode(), html.escape(self.alt)
-        return (
-            f'<div class="mocap-inspector"><img alt="{alt}" src="data:image/png;base64,{picture}">'
-            f'<script type="application/json">{packed}</script></div>\n'
-            f'<script type="module">\n{script()}\nstartInspectors();\n</script>\n'
-        )
-
-    def page(self) -> str:
-        """Return the inspector as a whole page, with everything that it needs."""
-        return (
-            '<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f'<link rel="icon" href="data:,">\n<title>{html.escape(self.alt)}</title>\n'
-            f'{player.PAGE_STYLE}<body class="mocap-page">\n{self.html()}</body>\n</html>\n'
-        )
-
-    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
-        picture = base64.b64encode(self.picture).decode()
-        bundle = {"text/html": self.html(), "image/png": picture, "text/plain": self.alt}
-        return bundle, {"image/png": {"alt": self.alt}}
 
 
 def draw_where(shown: Inspector, ax: Any) -> None:  # noqa: ANN401 (axes)

@@ -21,11 +21,11 @@ from mocap.control.characters import Character
 from mocap.control.steered_motion import as_motion
 from mocap.errors import MocapError, shortened
 from mocap.plotting.style import ASTRAY, COLOURS, MARK, SOURCES
+from mocap.widgets.embedding import PAGE, PICTURE, SCENE, joined
 from mocap.widgets.live_steering.company import Company, Member, Order, Walked
 from mocap.widgets.player import SIDES, Player, play
 from mocap.widgets.reopening import display_live
 
-SHARED = ("player_scene.js", "player_picture.js", "player_page.js")  # with the player
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
 RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, and seconds of each
 APART = 1.5  # metres between two characters of the recording
@@ -33,10 +33,8 @@ MOST = 1.0  # seconds of one answer
 
 
 def script() -> str:
-    """Join the scripts to the one module that the widget runs."""
-    here = Path(__file__).parent
-    files = [here.parent / name for name in SHARED] + [here / name for name in OWN]
-    return "\n".join(file.read_text("utf-8") for file in files)
+    """Return what the widget runs."""
+    return joined(SCENE, PICTURE, PAGE, *map(Path(__file__).with_name, OWN))
 
 
 class _Steered:
@@ -190,15 +188,10 @@ def _recorded(company: Company, speed: float) -> list[Motion]:
 def _still(player: Player, record: bool) -> tuple[dict[str, str], dict[str, Any]]:
     """Give what a page without Python shows: the recording or its picture, and a sentence."""
     data, metadata = player._repr_mimebundle_()
-    seen = data["text/html"] if record else _html_picture(data)
+    seen = data["text/html"] if record else player.still()._repr_mimebundle_()[0]["text/html"]
     said = "Recorded: ahead for 2 s, 4 s to the left, 4 s to the right. Run the cell to steer by yourself."
     data["text/html"] = f"<p>{html.escape(said)}</p>{seen}"
     return data, metadata
-
-
-def _html_picture(data: dict[str, str]) -> str:
-    """Write the picture of a bundle as HTML, with its sentence."""
-    return f'<img alt="{html.escape(data["text/plain"])}" src="data:image/png;base64,{data["image/png"]}">'
 
 
 def _scene(company: Company, alt: str) -> dict[str, Any]:

@@ -16,9 +16,10 @@ from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.lab.inspecting.choices import LONGEST
 from mocap.lab.inspecting.scenes import TABS
-from mocap.lab.inspecting.showing import inspector, script
+from mocap.lab.inspecting.showing import Inspector, inspector
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
+from mocap.widgets.embedding import joined
 from tests.bundled import bundled
 
 WALKS = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
@@ -96,7 +97,9 @@ def test_more_than_a_page_can_hold_is_refused_before_anything_is_measured():
 
 
 def test_the_scripts_shades_are_those_of_the_pictures():
-    stops = re.search(r"CIVIDIS = \[(.*?)\]", script()).group(1).replace('"', "").split(", ")
+    stops = (
+        re.search(r"CIVIDIS = \[(.*?)\]", joined(*Inspector.scripts)).group(1).replace('"', "").split(", ")
+    )
     wanted = [to_hex(colormaps["cividis"](at)) for at in np.linspace(0, 1, len(stops))]
     for stop, exact in zip(stops, wanted, strict=True):
         apart = [int(stop[k : k + 2], 16) - int(exact[k : k + 2], 16) for k in (1, 3, 5)]

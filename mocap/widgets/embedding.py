@@ -1,0 +1,84 @@
+"""What plays on a page, as a notebook shows it: live, as a picture or as a sentence."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from pathlib import Path
+from typing import Any, ClassVar, Protocol
+
+from mocap.plotting.picture import Picture
+
+# Scripts of the player that others use as well.
+PARTS = ("scene", "picture", "page", "hand")
+SHARED = SCENE, PICTURE, PAGE, HAND = [Path(__file__).with_name(f"player_{part}.js") for part in PARTS]
+_STYLE = """<style>
+:root { color-scheme: light dark; }
+body { margin: 0 auto; padding: 0.5rem; max-width: 1400px; box-sizing: border-box; }
+h1 { margin: 0.25rem 0; font: 600 1.1rem system-ui, sans-serif; }
+.mocap-page .mocap-player { max-width: none; }
+.mocap-page .mocap-player canvas { height: clamp(160px, calc(100svh - 11rem), 100vw); }
+</style>
+"""
+
+
+def joined(*files: Path) -> str:
+    """Join scripts to the one module that a page and a widget run."""
+    return "\n".join(file.read_text("utf-8") for file in files)
+
+
+class Embedded(Protocol):
+    """A part of a page; its class there is its class here, in small letters after `mocap-`."""
+
+    scripts: ClassVar[tuple[Path, ...]]  # that draw the scene
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.alt!r})"
+
+    @property
+    def alt(self) -> str:
+        """A sentence for readers who do not see it."""
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """What the scripts draw; its `data` are bytes."""
+
+    @property
+    def picture(self) -> bytes:
+        """What stays where no script runs: a PNG."""
+
+    @property
+    def heading(self) -> str:
+        """What stands above it on a page of its own."""
+        return ""
+
+    def still(self) -> Picture:
+        """Return the picture alone, for captured clips, which a notebook must not hold."""
+        return Picture(self.picture, self.alt)
+
+    def html(self) -> str:
+        """Return it as part of a page; where no script runs, its picture stays."""
+        kind = type(self).__name__
+        data = base64.b64encode(self.scene["data"]).decode()
+        scene = json.dumps({**self.scene, "data": data}).replace("<", "\\u003c")
+        still, _ = self.still()._repr_mimebundle_()
+        return (
+            f'<div class="mocap-{kind.lower()}">{still["text/html"]}'
+            f'<script type="application/json">{scene}</script></div>\n'
+            f'<script type="module">\n{joined(*self.scripts)}\nstart({kind});\n</script>\n'
+        )
+
+    def page(self) -> str:
+        """Return it as a whole page, with everything that it needs."""
+        heading = f"<h1>{html.escape(self.heading)}</h1>\n" if self.heading else ""
+        return (
+            '<!doctype html>\n<html lang="en">\n<meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f'<link rel="icon" href="data:,">\n<title>{html.escape(self.alt)}</title>\n'
+            f'{_STYLE}<body class="mocap-page">\n{heading}{self.html()}</body>\n</html>\n'
+        )
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
+        bundle, metadata = self.still()._repr_mimebundle_()
+        return bundle | {"text/html": self.html()}, metadata
