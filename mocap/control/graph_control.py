@@ -19,6 +19,8 @@ from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 
+LONGEST, WIDEST = 60.0, 10_000  # seconds to look ahead, walks that stay in each round
+
 
 class Controller:
     """A character on a motion graph; each `step` takes a command and gives the next pose [KGP02, 5.3].
@@ -40,6 +42,7 @@ class Controller:
     Raises
     ------
     NoWalk : for a start that is not in the graph, and where the graph comes to an end.
+    MocapError : for less than a frame or more than a minute to look ahead, and a width outside 1 to 10 000.
 
     Examples
     --------
@@ -61,6 +64,11 @@ class Controller:
         width: int = 64,
     ) -> None:
         self.graph = compile_graph(graph)
+        if not (1 / self.graph.fps <= ahead <= LONGEST and 1 <= width <= WIDEST):
+            raise MocapError(
+                f"A character looks ahead from a frame to {LONGEST:g} s, and keeps 1 to {WIDEST} walks; "
+                f"got {ahead} s and {width}."
+            )
         self.ahead = look_ahead_by(self.graph, ahead, width)
         self.edges: list[int] = []  # still to be played; the first one is under way
         self.frame = 0  # of the first edge
