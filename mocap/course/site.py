@@ -18,6 +18,7 @@ from mocap.course.notebooks import read
 from mocap.errors import MocapError
 
 PAGE = Path(__file__).with_name("page.html")
+MOVING = Path(__file__).with_name("moving.js")
 STILL = "mocap-still"  # the class of a picture that stands in for a widget
 PAGES = {  # beside the notebooks
     "GLOSSARY": "Glossary",
@@ -162,7 +163,7 @@ def fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
 
 
 def _moving(recorded: dict[str, Any]) -> str:
-    """Write a recording as a slider and a picture; `page.html` holds the script that moves them."""
+    """Write a recording as a slider and a picture; `moving.js` moves them."""
     at, labels = recorded["at"], recorded["labels"]
     data = json.dumps({key: recorded[key] for key in ("labels", "pictures")}).replace("<", "\\u003c")
     label = html.escape(labels[at])
@@ -251,9 +252,14 @@ def _page(name: str, titles: dict[str, str], body: str, sections: list[Section])
         f"{f'<ul>{inner}</ul>' * (other == name and inner != '')}</li>"
         for other, shown in titles.items()
     )
-    return Template(PAGE.read_text("utf-8")).substitute(
-        title=html.escape(titles[name]), menu=menu, note=_note(name, body), body=body, code=_code_style()
-    )
+    parts = {"menu": menu, "note": _note(name, body), "body": body, "code": _code_style()}
+    return filled(PAGE, titles[name], parts)
+
+
+def filled(page: Path, title: str, parts: dict[str, str]) -> str:
+    """Fill in a page's template: its title, its parts, and the script that moves recordings."""
+    moving = MOVING.read_text("utf-8")
+    return Template(page.read_text("utf-8")).substitute(parts, title=html.escape(title), moving=moving)
 
 
 def _note(name: str, body: str) -> str:

@@ -12,12 +12,11 @@ import shutil
 from collections.abc import Callable, Iterable
 from importlib.util import find_spec
 from pathlib import Path
-from string import Template
 from typing import Any
 
 from mocap._shared.atomic import make_folder, write_text
 from mocap.course import read
-from mocap.course.site import body_of, fill_in, page_title, recorded_of
+from mocap.course.site import body_of, fill_in, filled, page_title, recorded_of
 from mocap.errors import MocapError
 from mocap.teaching.deck import Slide, deck_of, numbered
 
@@ -111,7 +110,7 @@ def page_of(title: str, notebook: Any, names: Iterable[str]) -> str:  # noqa: AN
     ]
     body = LINK.sub(lambda link: _link(link, set(names)), ANCHOR.sub("", "\n".join(sections)))
     code = HtmlFormatter(style="friendly").get_style_defs(".highlight")
-    return Template(PAGE.read_text("utf-8")).substitute(title=html.escape(title), slides=body, code=code)
+    return filled(PAGE, title, {"slides": body, "code": code})
 
 
 def _converted(notebook: Any, slides: list[Slide]) -> dict[tuple[str, int], str]:  # noqa: ANN401

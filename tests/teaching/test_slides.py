@@ -7,6 +7,7 @@ import pytest
 
 from mocap.cli.main import main
 from mocap.course.lab import stored
+from mocap.course.site import MOVING
 from mocap.errors import MocapError
 from mocap.teaching import slides
 
@@ -39,6 +40,11 @@ def test_a_deck_loads_only_what_lies_beside_it(decks):
             assert found.startswith("data:") or (decks / found).is_file()
     assert "MIT" in (decks / "reveal/dist/reveal.js").read_text("utf-8")[:300]
     assert "Permission is hereby granted" in (decks / "reveal/LICENSE").read_text("utf-8")
+
+
+def test_recordings_move_on_slides_by_the_script_that_moves_them_on_the_site(decks):
+    page = (decks / "06-pruning.html").read_text("utf-8")
+    assert page.count(MOVING.read_text("utf-8")) == 1
 
 
 def test_links_lead_to_decks_or_are_words(decks):
