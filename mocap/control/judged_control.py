@@ -6,8 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, runs
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
+from mocap.body.planar import on_ground
 from mocap.control.characters import Character
 from mocap.control.obedience import Delay, measure_delay
 from mocap.control.steered_motion import steer
@@ -26,7 +29,8 @@ class ControlReport(NamedTuple):
     `delay` is as `measure_delay` gives it. `slide` is how far a planted joint strays from its mean place, cm,
     on average over plants, and `cleaned` the same after `feet.clean_up`, which kept the share `kept` of the
     planted frames. `jolting` is the share of frames whose velocity jumps further than 99.9 % of the clips'
-    own. `wags` is by how many degrees the direction swings while a command stands, the RMS.
+    own. `wags` is by how many degrees the direction swings while a command stands, the RMS. `pivots` is by
+    how many degrees a foot turns while it stands, on average over plants.
     """
 
     delay: Delay
@@ -35,6 +39,7 @@ class ControlReport(NamedTuple):
     kept: float
     jolting: float
     wags: float
+    pivots: float
 
 
 def command_headings(seconds: float, fps: float, seed: int = 0) -> Array:
@@ -107,6 +112,7 @@ def judge_control(
         planted[1] / planted[0],
         float((jumps(motion)[0] > limit).mean()),
         _wags(motion, headings),
+        _pivots(motion),
     )
 
 
@@ -126,3 +132,13 @@ def _wags(motion: Motion, headings: Array) -> float:
         np.unwrap(way[stop - half - back : stop - back]) for stop in range(every, len(headings) + 1, every)
     ]
     return float(np.degrees(np.sqrt(np.mean([np.var(end) for end in ends]))))
+
+
+def _pivots(motion: Motion) -> float:
+    """Average by how many degrees feet turn on the ground, from ankle to ball, while their ankles stand."""
+    points, turned = joint_positions(motion), []
+    for leg in find_legs(motion.skeleton):
+        way = np.angle(on_ground(points[:, leg.ball] - points[:, leg.ankle]))
+        plants = runs(motion.contacts[motion.skeleton.names[leg.ankle]])
+        turned += [np.ptp(np.unwrap(way[start:stop])) for start, stop in plants if stop - start > 2]
+    return float(np.degrees(np.mean(turned))) if turned else 0.0

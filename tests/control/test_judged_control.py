@@ -6,7 +6,11 @@ from functools import cache
 import numpy as np
 import pytest
 
+from mocap.body.motion import Motion
+from mocap.body.rotations import about_y
 from mocap.control import Controller, FootTurner, command_headings, judge_control
+from mocap.control.judged_control import _pivots
+from mocap.datasets.generated import SKELETON
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.motion_matching import MotionMatcher, Wants
@@ -53,6 +57,20 @@ def test_quickness_costs_slide():
     assert matching.delay.mean < turned.delay.mean < alone.delay.mean
     assert matching.slide > 1.3 * alone.slide
     assert turned.slide < 1.5 * alone.slide
+
+
+def test_what_a_turn_about_the_foot_costs_is_that_feet_turn_on_the_ground():
+    """In the clips feet that stand do not turn, in blends of strides hardly; about a pivot by 7°."""
+    pivots = {name: report(name).pivots for name in ("motion graph", "motion graph, turned", "strides")}
+    assert pivots["strides"] < pivots["motion graph"] < 2 < 5 < pivots["motion graph, turned"]
+
+
+def test_pivots_are_the_degrees_between_a_plant_s_ends():
+    """A figure that turns by one degree per frame, its foot lifted in every eleventh."""
+    turns = np.tile([1.0, 0, 0, 0], (66, 38, 1))
+    turns[:, 0] = about_y(np.radians(np.arange(66)))
+    stands = dict.fromkeys(("lfoot", "rfoot"), np.arange(66) % 11 > 0)
+    assert _pivots(Motion(SKELETON, np.zeros((66, 3)), turns, 30.0, contacts=stands)) == pytest.approx(9)
 
 
 def test_plants_found_anew_would_hide_the_fault():
