@@ -20,6 +20,11 @@ WRONG = {
 }
 
 
+def test_no_file_of_checks_hides_a_check_of_its_name():
+    assert not {file.name for file in pkgutil.iter_modules(checks.__path__)} & {*ALL}
+    assert all(getattr(checks, name) is check for name, check in ALL.items())
+
+
 @pytest.mark.parametrize("name", ALL)
 def test_three_wrong_answers_at_least_get_their_own_hints(name):
     assert len(WRONG[name]) >= 3
