@@ -143,15 +143,28 @@ def run(path: Path, figures: Path) -> None:
     write_text(path, nbformat.writes(notebook) + "\n")
 
 
-def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
+def client(notebook: Any, folder: Path, seconds: int) -> Any:  # noqa: ANN401
+    """Prepare to run a notebook in a folder, by a kernel that does not warn of its connection.
+
+    Parameters
+    ----------
+    notebook : from `read`.
+    folder : where its cells find files.
+    seconds : that a cell may take.
+    """
     from nbclient import NotebookClient
+
+    place, quiet = {"metadata": {"path": folder}}, ["--log-level=ERROR"]
+    return NotebookClient(notebook, timeout=seconds, resources=place, extra_arguments=quiet)
+
+
+def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
     from nbclient.exceptions import CellExecutionError
 
-    at = [0]
-    client = NotebookClient(notebook, timeout=120, resources={"metadata": {"path": path.parent}})
-    client.on_cell_start = lambda cell, cell_index: at.append(cell_index)
+    at, runner = [0], client(notebook, path.parent, 120)
+    runner.on_cell_start = lambda cell, cell_index: at.append(cell_index)
     try:
-        client.execute(env={**os.environ, "MOCAP_MINE": ""})  # as if nobody had solved anything
+        runner.execute(env={**os.environ, "MOCAP_MINE": ""})  # as if nobody had solved anything
     except CellExecutionError as error:
         raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue}") from error
 

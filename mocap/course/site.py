@@ -14,7 +14,7 @@ from string import Template
 from typing import Any, NamedTuple
 
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course.notebooks import read
+from mocap.course.notebooks import client, read
 from mocap.errors import MocapError
 
 PAGE = Path(__file__).with_name("page.html")
@@ -129,7 +129,6 @@ def page_title(name: str, notebook: Any) -> str:  # noqa: ANN401
 
 def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
     """Run a copy of a notebook, and give the recording of each experiment by the source of its cell."""
-    from nbclient import NotebookClient
     from nbclient.exceptions import CellExecutionError
     from nbformat.v4 import new_code_cell
 
@@ -138,8 +137,7 @@ def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
         watching = f"from mocap.widgets import recording\nrecording.watch({folder!r})"
         again.cells.insert(0, new_code_cell(watching))
         try:
-            place, quiet = {"metadata": {"path": file.parent}}, ["--log-level=ERROR"]
-            NotebookClient(again, timeout=600, resources=place, extra_arguments=quiet).execute()
+            client(again, file.parent, 600).execute()
         except CellExecutionError as error:
             raise MocapError(f"{file}: a cell fails with {error.ename}: {error.evalue:.99}") from error
         recorded = [json.loads(kept.read_text("utf-8")) for kept in sorted(Path(folder).iterdir())]

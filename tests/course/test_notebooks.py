@@ -268,7 +268,7 @@ def test_without_clips_and_network_real_data_steps_aside_in_one_sentence(monkeyp
 # Reading and running
 
 
-def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path):
+def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path, capfd):
     new = nbformat.v4
     cells = [
         new.new_code_cell("old", metadata={"tags": ["source:body.rotations.about_y"], "scrolled": True}),
@@ -285,6 +285,9 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path)
     path = tmp_path / "n.ipynb"
     nbformat.write(new.new_notebook(cells=cells, metadata={"widgets": {"big": 1}}), path)
     assert main(["course", "run", str(path)]) == 0
+    assert (
+        "IPKernelApp" not in capfd.readouterr().err
+    )
     notebook = notebooks.read(path)
     assert notebook.metadata == {"kernelspec": notebooks.KERNEL, "language_info": {"name": "python"}}
     assert notebook.cells[0].source == notebooks.shown_source("body.rotations.about_y")
