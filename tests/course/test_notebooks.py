@@ -285,9 +285,7 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path,
     path = tmp_path / "n.ipynb"
     nbformat.write(new.new_notebook(cells=cells, metadata={"widgets": {"big": 1}}), path)
     assert main(["course", "run", str(path)]) == 0
-    assert (
-        "IPKernelApp" not in capfd.readouterr().err
-    )
+    assert "IPKernelApp" not in capfd.readouterr().err
     notebook = notebooks.read(path)
     assert notebook.metadata == {"kernelspec": notebooks.KERNEL, "language_info": {"name": "python"}}
     assert notebook.cells[0].source == notebooks.shown_source("body.rotations.about_y")

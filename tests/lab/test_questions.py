@@ -59,7 +59,7 @@ high = 100
 came_out = "100 / limit"
 
 [bet.which]
-ask = "Which"
+ask = "Which?"
 choices = ["this", "that"]
 came_out = "that"
 holds = "limit > 3"
@@ -134,11 +134,11 @@ def test_steps_are_mixed_the_same_way_each_time_and_never_in_order():
 def test_a_bet_asks_and_the_summary_says_what_came_out(tmp_path):
     bets = {f"99-{name}": bet for name, bet in questions(tmp_path).bets.items()}
     shown = asked_before(bets, {})
-    assert shown.text == "Share: ______ %\nWhich: this / that"
+    assert shown.text == "Share: ______ %\nWhich? this / that"
     assert [one["key"] for one in data(shown)["bets"]] == ["99-share", "99-which"]
-    assert "25" not in seen(shown)
+    assert "25" not in seen(shown) and "<li>Which? this / that</li>" in shown.html
     summary = summed_up(bets, {"limit": 4})
-    assert summary.text == "Share: 25 %\nWhich: that"
+    assert summary.text == "Share: 25 %\nWhich? that"
     assert [row["value"] for row in data(summary)["rows"]] == [25, None]
     with pytest.raises(MocapError, match="Bet 99-which: the answer is no longer right: 'limit > 3' is false"):
         summed_up(bets, {"limit": 2})

@@ -65,7 +65,7 @@ def asked_before(bets: Mapping[str, Bet], names: Mapping[str, object]) -> Shown:
     specs, lines = [], []
     for key, bet in bets.items():
         ask, choices = filled(bet.ask, names), [filled(choice, names) for choice in bet.choices]
-        lines.append(f"{ask}: {' / '.join(choices) or f'{BLANK} {bet.unit}'.rstrip()}")
+        lines.append(f"{_led(ask)} {' / '.join(choices) or f'{BLANK} {bet.unit}'.rstrip()}")
         specs.append(
             {"key": key, "choices": [to_text(choice) for choice in choices]}
             | {"ask": to_html(ask), "unit": bet.unit, "low": bet.low, "high": bet.high, "step": bet.step}
@@ -114,7 +114,7 @@ def summed_up(bets: Mapping[str, Bet], names: Mapping[str, object]) -> Shown:
         for row in rows
     )
     inside = f'<table class="table"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
-    text = [f"{_plain(row['ask'])}: {row['written']}" for row in rows]
+    text = [f"{_led(_plain(row['ask']))} {row['written']}" for row in rows]
     return shown("What you thought, and what came out", inside, {"kind": "summary", "rows": rows}, text)
 
 
@@ -131,6 +131,11 @@ def _came_out(key: str, bet: Bet, names: Mapping[str, object]) -> dict[str, Any]
             return row | {"ask": to_html(bet.ask), "value": None, "written": ""}
         raise MocapError(f"Bet {key}: {error}") from error
     return row | {"value": value, "written": f"{value:.{_decimals(bet.step)}f} {bet.unit}".rstrip()}
+
+
+def _led(ask: str) -> str:
+    """Write what is asked as it leads to what follows; a question needs no colon."""
+    return ask if ask.endswith("?") else f"{ask}:"
 
 
 def _plain(html: str) -> str:
