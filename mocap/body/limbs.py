@@ -68,7 +68,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
             return tuple(_complete(skeleton, [plain.index(name) for name in side.split()]) for side in pair)
     joints, known = (", ".join(names) for names in (skeleton.names, [left for left, _ in _NAMES]))
     raise MocapError(
-        f"No legs found among {shorten(joints, 45)}: tried {shorten(known, 50)}. "
+        f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. "
         "Name each by hand: legs=[name_leg(skeleton, hip, knee, ankle, ball), ...]."
     )
 

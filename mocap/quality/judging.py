@@ -109,6 +109,8 @@ def judge(
         measures.append(lopsided)
     try:
         legs = find_legs(motion.skeleton) if legs is None else legs
+        if not legs:
+            raise MocapError("no legs are named.")
         measures += [_slide(motion, places, legs), _skate(motion, places, legs)]
     except MocapError as error:
         legs = ()

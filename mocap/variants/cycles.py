@@ -86,15 +86,16 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
             f"'{shortened(motion.name)}' lasts {slow.duration:.0f} s: "
             f"look for a cycle in {LONGEST:g} s of it."
         )
-    points = point_cloud(slow).astype(np.float32)
-    grid = distance_grid(points, points, window=window)
-    np.sqrt(np.maximum(grid, 0.0, out=grid), out=grid)
-    most = min(most, len(grid) - 1)
+    most = min(most, len(slow) - window)
     if least > most:
         wanted = f"{seconds[0] + SEAM:g} s"
         raise MocapError(
             f"'{shortened(motion.name)}' lasts {motion.duration:.2g} s: a cycle takes {wanted} or more."
         )
+    points = point_cloud(slow)
+    points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
+    grid = distance_grid(points, points, window=window)
+    np.sqrt(np.maximum(grid, 0.0, out=grid), out=grid)
     first, length, missed = _best(grid, least, most)
     ends = (first / slow.fps, (first + length) / slow.fps)
     return _refined(motion, ends, seconds[0], missed)

@@ -120,9 +120,13 @@ def test_the_path_is_measured_where_one_is_given():
 
 
 def test_a_body_without_known_legs_is_measured_without_its_feet():
+    names = {name: f"b{number}" for number, name in enumerate(WALK.skeleton.names)}
+    skeleton = replace(WALK.skeleton, names=tuple(names.values()))
+    assert len(judge(Motion(skeleton, WALK.root_positions, WALK.rotations, WALK.fps)).left_out[0]) <= 200
     judged = judge(wave(60))
     assert " ".join(measure.name for measure in judged.measures) == "jolt tremble sunk turn bent size"
     assert judged.left_out[0].startswith("feet and knees: No legs found")
+    assert judge(WALK, legs=[]).left_out == ("feet and knees: no legs are named.",)
     table = judgement_table([judged, judge(WALK)])
     assert {"skate", "bent"} <= set(table.splitlines()[0].split())
     assert " - " in table

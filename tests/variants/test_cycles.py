@@ -122,6 +122,8 @@ def test_real_walks_and_runs(real_data):
 def test_what_cannot_be_looped_is_refused():
     with pytest.raises(MocapError, match=r"'wave' lasts 0\.47 s: a cycle takes 0\.6 s or more"):
         find_loop(wave(15))
+    with pytest.raises(MocapError, match=r"'wave' lasts 0 s: a cycle takes 0\.6 s or more"):
+        find_loop(wave(1))
     with pytest.raises(MocapError, match="'wave' lasts 303 s: look for a cycle in 300 s of it"):
         find_loop(wave(9100))
     for seconds in ((2.0, 1.0), (0.0, 1.0), (1.0, np.inf), (np.nan, 1.0)):
@@ -132,6 +134,13 @@ def test_what_cannot_be_looped_is_refused():
     for first, last in ((-1, 40), (40, 40), (0, 3), (0, 195), (50, 40)):
         with pytest.raises(MocapError, match=f"from frame {first} to {last} leaves no room for a seam of 6"):
             loop(wave(200), Loop(first, last, 0, 0))
+
+
+def test_a_clip_far_from_the_origin_has_the_same_cycle():
+    """As recorded by a satellite's coordinates, 900 km from where they begin."""
+    far = replace(WALK, root_positions=WALK.root_positions + [5e5, 0, 9e5])
+    assert find_loop(far)[:2] == find_loop(WALK)[:2]
+    assert find_loop(far)[2:] == pytest.approx(find_loop(WALK)[2:], rel=1e-4)
 
 
 def test_a_clip_without_any_motion_has_a_cycle():
