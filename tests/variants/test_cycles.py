@@ -138,7 +138,7 @@ def test_what_cannot_be_looped_is_refused():
 
 def test_a_clip_far_from_the_origin_has_the_same_cycle():
     """As recorded by a satellite's coordinates, 900 km from where they begin."""
-    far = replace(WALK, root_positions=WALK.root_positions + [5e5, 0, 9e5])
+    far = replace(WALK, root_positions=WALK.root_positions + np.array([5e5, 0, 9e5]))
     assert find_loop(far)[:2] == find_loop(WALK)[:2]
     assert find_loop(far)[2:] == pytest.approx(find_loop(WALK)[2:], rel=1e-4)
 
