@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from mocap.body.ground_path import GroundPath, circle
+from mocap.body.ground_path import SHAPES, GroundPath, circle
 from mocap.body.planar import on_ground
 from mocap.control import Controller, pursue, walk_to
 from mocap.errors import MocapError, NoWalk
 from tests.bundled import walking
+from tests.control.test_judged_control import CHARACTERS
 
 
 def test_it_comes_to_all_places_in_turn():
@@ -45,6 +46,16 @@ def test_it_is_led_along_a_path(path):
     line, track = on_ground(path.resampled(0.02).points), on_ground(led.motion.root_positions)
     np.testing.assert_allclose(led.off[30:], np.abs(track[30:, None] - line).min(axis=1), atol=0.3)
     assert np.abs(track[0] - line[0]) < 1e-9 and len(led.off) == len(led.motion)
+
+
+@pytest.mark.parametrize(("name", "off"), [("strides", 0.7), ("steps", 0.3), ("matching", 0.25)])
+def test_every_character_is_led_along_every_shape_and_to_places(name, off):
+    make = CHARACTERS[name]
+    for shape in SHAPES.values():
+        led = pursue(make(), shape(), speed=0.8)
+        assert led.progress == 1 and led.off.mean() < off
+    walked = walk_to(make(), [(2.0, 4.0), (-2.0, 1.0)], speed=0.8)
+    assert np.linalg.norm(walked.root_positions[-1, [0, 2]] - [-2, 1]) <= 0.5
 
 
 def test_it_ends_where_the_time_is_over():
