@@ -15,6 +15,7 @@ import json
 import os
 import re
 import textwrap
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from pkgutil import resolve_name
@@ -53,7 +54,9 @@ def read(path: Path) -> Any:  # noqa: ANN401
     """
     nbformat = library()
     try:
-        return nbformat.read(path, as_version=4)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", FutureWarning)  # of cells without ids, as some editors write them
+            return nbformat.read(path, as_version=4)
     except OSError as error:
         raise MocapError(f"{path}: {error.strerror}.") from error
     except Exception as error:  # nbformat raises errors of many kinds

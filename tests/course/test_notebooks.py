@@ -2,6 +2,7 @@
 
 import ast
 import html
+import json
 import re
 from functools import cache
 from operator import attrgetter
@@ -302,6 +303,14 @@ def test_what_is_no_notebook_is_told(text, tmp_path):
     (tmp_path / "n.ipynb").write_text(text)
     with pytest.raises(MocapError, match=r"n\.ipynb: is not a notebook"):
         notebooks.read(tmp_path / "n.ipynb")
+
+
+def test_a_notebook_whose_cells_have_no_ids_is_read_in_silence(tmp_path, recwarn):
+    cell = {"cell_type": "code", "source": "1", "metadata": {}, "outputs": [], "execution_count": None}
+    notebook = {"cells": [cell], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+    (tmp_path / "n.ipynb").write_text(json.dumps(notebook))
+    assert notebooks.read(tmp_path / "n.ipynb").cells[0].source == "1"
+    assert not recwarn.list
 
 
 def test_a_notebook_that_is_not_there_is_told(tmp_path):
