@@ -11,7 +11,7 @@ import numpy as np
 
 from mocap._shared.arrays import Points
 from mocap._shared.collector import uncollected
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.lab.own.clouds import joint_cloud
@@ -61,10 +61,16 @@ def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools)
 
     Raises
     ------
-    MocapError : where there is no loop: the threshold is too low.
+    SkeletonMismatch, MocapError : for no clips, clips that differ in skeleton or rate or are shorter than the
+        window, and where there is no loop: the threshold is too low.
 
     Notebook: 08b-steering
     """
+    require_alike(clips)
+    if not 2 <= window <= min(map(len, clips), default=0):
+        raise MocapError(
+            f"A graph takes one clip or more, and a window of 2 frames up to the shortest, got {window}."
+        )
     matches = find_matches([joint_cloud(clip, by) for clip in clips], window, threshold, by)
     points = [
         by.choice_points(

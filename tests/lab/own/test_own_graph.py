@@ -212,6 +212,14 @@ def test_a_threshold_that_leaves_no_loop_is_refused(clips, by):
         own.build_own([clips[0][:40]], WINDOW, 0.001, by)
 
 
+def test_clips_that_hold_no_window_are_refused(clips, by):
+    for some, window in (([], WINDOW), ([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
+        with pytest.raises(MocapError, match=f"a window of 2 frames up to the shortest, got {window}"):
+            own.build_own(some, window, 0.05, by)
+    with pytest.raises(MocapError, match="resample one first"):
+        own.build_own([clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
+
+
 def test_a_path_that_no_walk_reaches_is_refused(graph, by):
     nowhere = own.OwnGraph(graph.clips, WINDOW, {node: [] for node in graph.edges})
     with pytest.raises(NoWalk, match=r"No walk of this graph reaches the end of a path of 3\.0 m"):
