@@ -19,9 +19,10 @@ Reading order (notebook 19)
 4. `group_clips`: clips that lead from node to node
 5. `group_graphs`: the graph, and what a walk through it plays
 6. `group_files`: save and load it
-7. `planning`: past points, between obstacles, beside other groups
-8. `group_steering`: the same without a plan, to compare with
-9. `group_walkers`: a character of a motion graph for each member
+7. `scenes`: where to go, and what stands in the way
+8. `planning`: a search for the way
+9. `group_steering`: the same without a plan, to compare with
+10. `group_walkers`: a character of a motion graph for each member
 
 References
 ----------
@@ -48,7 +49,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "random_group_walk",
         ],
         "group_files": ["load_group", "save_group"],
-        "planning": ["GroupWalk", "Scene", "plan_group"],
+        "scenes": ["Scene"],
+        "planning": ["GroupWalk", "plan_group"],
         "group_steering": ["clearances", "steer_group"],
         "group_walkers": ["GroupWalkers", "walk_group"],
     },

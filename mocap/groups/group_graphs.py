@@ -61,6 +61,10 @@ class Placed(NamedTuple):
     turn: complex = 1 + 0j
     move: complex = 0j
 
+    def sees(self, spots: Points) -> Points:
+        """Say where spots of the ground lie as the group sees them."""
+        return (spots - self.move) / self.turn
+
 
 def make_clips(
     nodes: Sequence[Configuration],

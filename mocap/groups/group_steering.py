@@ -9,7 +9,7 @@ from mocap._shared.arrays import Array
 from mocap.errors import MocapError
 from mocap.groups.configurations import Configuration
 from mocap.groups.flocking import RATE, Flock, Trajectories, Whims, advance
-from mocap.groups.planning import Scene
+from mocap.groups.scenes import Scene
 
 
 def steer_group(

@@ -1,7 +1,6 @@
 """Plan the way of a group: past check points, between obstacles, beside other groups [LCF05].
 
-A weighted A* over clips. Because every clip's extent is known, most tests for collisions are one comparison
-of discs; this is the known bounds of [LCF05]. The rest is ours.
+That a search strings clips together is from there; the weighted A* and what a state promises are ours.
 """
 
 from cmath import phase
@@ -11,55 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Points
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.errors import MocapError, NoWalk
-from mocap.groups.flocking import APART, RATE, Disc
-from mocap.groups.group_clips import GroupClip
+from mocap.groups.flocking import RATE
 from mocap.groups.group_graphs import GroupGraph, Placed
+from mocap.groups.scenes import Exits, Obstacles, Scene
 
 PACE = 1.05  # m/s, at which a group is expected to go on
 TURNING = 1.3  # seconds per radian still to turn
 CELL, SECTOR = 0.7, 0.3  # metres and radians: groups that stand nearer than this are one state
 MOST = 4000  # states to expand
-
-
-class Scene(NamedTuple):
-    """Where a group should go, and what stands in its way.
-
-    `points` (complex, metres) to pass in order, the group's middle within `near` of each; `discs` to stay
-    clear of, by `body` for each member; `others`, (F, N) places of members of other groups, ten per second
-    from the same moment on, to stay 0.60 m away from. An other stays where its places end.
-
-    Examples
-    --------
-    >>> Scene((8 + 0j,), ((4 + 0j, 0.5),)).near
-    1.0
-    """
-
-    points: tuple[complex, ...]
-    discs: tuple[Disc, ...] = ()
-    near: float = 1.0
-    body: float = 0.3
-    others: tuple[Points, ...] = ()
-
-    def check(self, start: complex) -> None:
-        """Raise MocapError for what makes no sense, and for a start inside a disc."""
-        if not self.points or not np.isfinite(self.points).all():
-            raise MocapError(f"A scene has one point to pass or more, all finite; got {self.points}."[:200])
-        if not (0 < self.near < np.inf and 0 <= self.body < np.inf):
-            raise MocapError(
-                "A scene is passed within more than 0 m and kept clear of by 0 m or more; "
-                f"got {self.near} m and {self.body} m."
-            )
-        if any(other.ndim != 2 or not len(other) or not np.isfinite(other).all() for other in self.others):
-            raise MocapError("Other groups are finite places in a table of a frame or more by members.")
-        for centre, radius in self.discs:
-            if not (np.isfinite(centre) and np.isfinite(radius) and radius > 0):
-                raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
-            if abs(start - centre) < radius:
-                raise MocapError(
-                    f"The group starts inside the obstacle at x={centre.imag:g}, z={centre.real:g}."
-                )
 
 
 class GroupWalk(NamedTuple):
@@ -98,65 +58,6 @@ class _State(NamedTuple):
             clips.append(state.clip)
             state = state.before
         return clips[::-1]
-
-    def sees(self, spots: Points) -> Points:
-        """Say where spots of the ground lie as the group sees them."""
-        return (spots - self.at.move) / self.at.turn
-
-
-class _Exits:
-    """The clips that leave a node, side by side: their bounds, and the ways of their middles, (C, F)."""
-
-    def __init__(self, graph: GroupGraph, node: int) -> None:
-        self.numbers = graph.leaving(node)
-        self.clips = [graph.clips[number] for number in self.numbers]
-        self.centres = np.array([clip.disc[0] for clip in self.clips])
-        self.radii = np.array([clip.disc[1] for clip in self.clips])
-        self.turns = np.array([clip.turn for clip in self.clips])
-        middles = [clip.places.mean(axis=1) for clip in self.clips]
-        longest = max(map(len, middles), default=0)
-        self.middles = np.array([np.pad(way, (0, longest - len(way)), "edge") for way in middles])
-
-
-class _Obstacles:
-    """What a clip may run into, and how often bounds alone were enough."""
-
-    def __init__(self, scene: Scene, *, bounds: bool) -> None:
-        self.spots = np.array([spot for spot, _ in scene.discs], dtype=np.complex128)
-        self.sizes = np.array([radius + scene.body for _, radius in scene.discs])
-        self.others, self.bounds = scene.others, bounds
-        self.tested = self.spared = 0
-
-    def free(self, exits: _Exits, state: _State) -> list[int]:
-        """List which of the clips that leave a node keep clear of all, from where the group stands."""
-        spots = state.sees(self.spots)
-        reach = exits.radii[:, None] + self.sizes
-        near = np.abs(exits.centres[:, None] - spots) <= (reach if self.bounds else np.inf)
-        self.spared += near.size - int(near.sum())
-        blocked: set[int] = set()
-        for row, disc in np.argwhere(near).tolist():
-            if row not in blocked and self._hits(exits.clips[row], spots[disc], self.sizes[disc]):
-                blocked.add(row)
-        return [
-            row
-            for row, clip in enumerate(exits.clips)
-            if row not in blocked and all(self._apart(clip, state, other) for other in self.others)
-        ]
-
-    def _hits(self, clip: GroupClip, spot: complex, size: float) -> bool:
-        """Say whether a member comes too near to a disc, frame by frame."""
-        self.tested += 1
-        return bool(np.abs(clip.places - spot).min() < size)
-
-    def _apart(self, clip: GroupClip, state: _State, other: Points) -> bool:
-        """Say whether a clip keeps away from the members of another group in the same frames."""
-        frames = state.frames + np.arange(len(clip.places))
-        others = state.sees(other[np.minimum(frames, len(other) - 1)])
-        if self.bounds and np.abs(others - clip.disc[0]).min() > clip.disc[1] + APART:
-            self.spared += 1
-            return True
-        self.tested += 1
-        return bool(np.abs(clip.places[:, :, None] - others[:, None]).min() >= APART)
 
 
 def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
@@ -202,8 +103,8 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
     _check_start(graph, begin, scene)
     if not 0 <= weight < np.inf:
         raise MocapError(f"A plan weighs what is left by 0 or more, got {weight}.")
-    obstacles, course = _Obstacles(scene, bounds=bounds), _Course.of(scene, weight)
-    exits = [_Exits(graph, node) for node in range(len(graph.nodes))]
+    obstacles, course = Obstacles(scene, bounds=bounds), _Course.of(scene, weight)
+    exits = [Exits(graph, node) for node in range(len(graph.nodes))]
     waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, None, -1))], 0, 0
     seen: set[tuple[float, ...]] = set()
     while waiting and len(seen) < most:
@@ -215,13 +116,21 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
             continue
         seen.add(key)
         leaving = exits[state.at.node]
-        for promise, after in course.go_on(leaving, obstacles.free(leaving, state), state):
+        for promise, after in course.go_on(leaving, obstacles.free(leaving, state.at, state.frames), state):
             count += 1
             heappush(waiting, (promise, count, after))
     why = f"the limit of {most} states ended the search" if waiting else "obstacles closed every way"
     raise NoWalk(
-        f"No way past point {farthest + 1} of {len(scene.points)} was found: {why} ({len(seen)} tried)."
+        f"No way past point {farthest + 1} of {len(scene.points)} was found: {why} ({len(seen)} tried). "
+        + _what_helps(graph, scene, closed=not waiting)
     )
+
+
+def _what_helps(graph: GroupGraph, scene: Scene, *, closed: bool) -> str:
+    """Say what to change where no way was found; the gap named just lets the narrowest node through."""
+    wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body
+    begin = "Start farther off or turned" if closed else "Allow more, set a point on the way"
+    return f"{begin}, take fewer members, or leave gaps of {wide:.1f} m."
 
 
 def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
@@ -260,18 +169,18 @@ class _Course(NamedTuple):
         remaining = np.append(np.cumsum(legs[::-1])[::-1], 0.0)
         return cls(np.array(scene.points, dtype=np.complex128), scene.near, remaining, weight)
 
-    def go_on(self, exits: _Exits, rows: list[int], state: _State) -> Iterator[tuple[float, _State]]:
+    def go_on(self, exits: Exits, rows: Indices, state: _State) -> Iterator[tuple[float, _State]]:
         """Walk some of the clips that leave a node: the promise and the state after each."""
-        if not rows:
+        if not len(rows):
             return
-        points, ways = state.sees(self.points), exits.middles[rows]
+        points, ways = state.at.sees(self.points), exits.middles[rows]
         close = (np.abs(ways - points[state.goal]) < self.near).any(axis=1)
         passed = [
             self._passed(way, points, state.goal) if hit else (state.goal, 0)
             for way, hit in zip(ways, close, strict=True)
         ]
         left = self._left(points, ways[:, -1], exits.turns[rows], [goal for goal, _ in passed])
-        for row, (goal, frame), seconds in zip(rows, passed, left.tolist(), strict=True):
+        for row, (goal, frame), seconds in zip(rows.tolist(), passed, left.tolist(), strict=True):
             clip, done = exits.clips[row], goal == len(points)
             frames = state.frames + len(clip.places) - 1
             so_far = (state.frames + frame if done else frames) / RATE

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from mocap.body.motion import Motion
     from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
-    from mocap.groups.planning import Scene
+    from mocap.groups.scenes import Scene
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 FORMATS = ("bvh", "glb")
