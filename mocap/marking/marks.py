@@ -143,7 +143,7 @@ def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> d
                     student.allow(SECONDS)
                     judged[name] = _judge(student, name, seed)
             except Ended as ended:
-                judged |= {name: Verdict(False, f"{name}: {ended}") for name in at_fault}
+                judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault}
     return judged
 
 

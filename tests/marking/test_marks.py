@@ -158,7 +158,7 @@ def test_an_empty_folder_and_one_without_exercises(tmp_path):
 def test_an_endless_first_cell_is_said_of_each_exercise(tmp_path, monkeypatch):
     monkeypatch.setattr(marks, "STARTING", 5)
     hand_in([("", "while True: pass"), *HONEST[1:]], tmp_path / "ada" / "00.ipynb")
-    assert [one.said for one in mark(tmp_path)] == [f"✗ {name}: stopped after 5 s" for name in EXERCISES]
+    assert [one.said for one in mark(tmp_path)] == [f"✗ {name}: stopped after 5 s." for name in EXERCISES]
 
 
 @pytest.mark.parametrize(
