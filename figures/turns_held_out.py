@@ -51,9 +51,11 @@ class Walker(NamedTuple):
 
 
 class Compared(NamedTuple):
-    """The real strides (R, 4), and those made in each way (M, 4), by `MEASURES`."""
+    """The real strides (R, 4), those on either side that others are made from, and those made in each way."""
 
     real: np.ndarray
+    straighter: np.ndarray
+    sharper: np.ndarray
     made: dict[str, np.ndarray]
 
     def off(self, way: str) -> np.ndarray:
@@ -138,7 +140,8 @@ def compare(strides: Walker, case: Case, draws: int = 40) -> Compared:
             share = float((wanted - a) / (b - a))
             rows.append(measure(plain(stretch(own, a), stretch(own, b, start), share)))
         made[way] = np.array(rows)
-    return Compared(np.array([measure(stretch(own, turn)) for turn in turns[held]]), made)
+    real = (np.array([measure(stretch(own, turn)) for turn in turns[some]]) for some in (held, low, high))
+    return Compared(*real, made)
 
 
 HEAD = """# Turns that were held out of the making
@@ -148,7 +151,10 @@ and 180 degrees. All strides of one turn are left out, then made from those on e
 stride space, on the clock of registration curves and on that of the strikes; and as plain blends of two
 strides, frame by frame, from the first strike on or from anywhere within 0.3 of a stride. How far the knees
 bend and the thighs swing, from strike to strike of a foot how far it goes, and how far the root sways: mean,
-in brackets how many standard deviations of the real strides it is off the real mean."""
+in brackets how many standard deviations of the real strides it is off the real mean.
+
+A blend of two strides is about as long as they are, or between. At 100 to 125 degrees the walker took longer
+strides than on either side, where two slow ones are all that is sharper: no blend of those comes to them."""
 
 
 def main() -> None:
@@ -158,9 +164,11 @@ def main() -> None:
     for case in CASES:
         found = compare(strides, case)
         lines += [f"## {case}", "", f"| strides | {' | '.join(MEASURES)} |", "|---" * 5 + "|"]
-        spread = zip(found.real.mean(axis=0), found.real.std(axis=0, ddof=1), strict=True)
-        cells = [f"{mean:.0f} ± {std:.1f}" for mean, std in spread]
-        lines.append(f"| {len(found.real)} real | {' | '.join(cells)} |")
+        names = ("real", "real, straighter", "real, sharper")
+        for name, some in zip(names, found[:3], strict=True):
+            spread = zip(some.mean(axis=0), some.std(axis=0, ddof=1), strict=True)
+            cells = [f"{mean:.0f} ± {std:.1f}" for mean, std in spread]
+            lines.append(f"| {len(some)} {name} | {' | '.join(cells)} |")
         for way in WAYS:
             row = zip(found.made[way].mean(axis=0), found.off(way), strict=True)
             lines.append(f"| {way} | {' | '.join(f'{mean:.0f} ({off:+.1f})' for mean, off in row)} |")

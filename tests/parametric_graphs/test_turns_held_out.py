@@ -27,7 +27,13 @@ def test_straight_on_and_90_degrees_make_45(strides, case):
 
 @pytest.mark.parametrize("case", CASES[2:], ids=str)
 def test_sharper_turns_have_the_knees_and_hips_of_real_ones(strides, case):
-    """Not the stride's length: at 100 to 125 degrees two strides, both slow, are all that is sharper."""
+    """And the length, unless the strides on either side are all shorter: no blend is longer than both."""
     found = turns_held_out.compare(strides, case)
-    assert np.abs(found.off(CURVES)[[0, 1, 3]]).max() <= 2
-    assert np.abs(found.off(CURVES)).max() <= 3 and found.off(ANYWHERE)[0] < -2
+    assert np.abs(found.off(CURVES)[[0, 1, 3]]).max() <= 2 and found.off(ANYWHERE)[0] < -2
+    real, straighter, sharper, made = (
+        some[:, 2].mean() for some in (found.real, found.straighter, found.sharper, found.made[CURVES])
+    )
+    if case == CASES[2]:
+        assert abs(found.off(CURVES)[2]) <= 2
+    else:
+        assert sharper < made < straighter < real
