@@ -11,6 +11,10 @@ const STYLE = `
 .mocap-dragging button:active { cursor: grabbing; }
 .mocap-dragging button span { display: block; width: 18px; height: 18px; margin: 5px; border: 2px solid #222; border-radius: 50%;
   background: #fffc; }
+@media (pointer: coarse) {
+  .mocap-dragging button { width: 44px; height: 44px; margin: -22px; }
+  .mocap-dragging button span { margin: 11px; }
+}
 .mocap-dragging button:focus-visible { outline: none; }
 .mocap-dragging button:focus-visible span { outline: 3px solid #0072B2; outline-offset: 1px; }`;
 

@@ -13,6 +13,7 @@ from mocap.plotting.picture import Picture
 # Scripts of the player that others use as well.
 PARTS = ("scene", "picture", "page", "hand")
 SHARED = SCENE, PICTURE, PAGE, HAND = [Path(__file__).with_name(f"player_{part}.js") for part in PARTS]
+TOUCH = Path(__file__).with_name("touch.js")
 _STYLE = """<style>
 :root { color-scheme: light dark; }
 body { margin: 0 auto; padding: 0.5rem; max-width: 1400px; box-sizing: border-box; }

@@ -36,6 +36,7 @@ class Hand {
   pointerdown(event) {
     this.player.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, event);
+    this.before = { yaw: this.camera.yaw, pitch: this.camera.pitch };
     this.stroke = this.player.drawing && event.button === 0 && this.pointers.size === 1 ? event.pointerId : null;
     if (this.stroke !== null) this.drawn = [];
   }
@@ -58,7 +59,13 @@ class Hand {
     this.stroke = null;
   }
 
-  pointercancel(event) { this.pointers.delete(event.pointerId); this.stroke = null; }
+  // The finger scrolls the page: what it turned until that was known is turned back.
+  pointercancel(event) {
+    this.pointers.delete(event.pointerId);
+    this.stroke = null;
+    Object.assign(this.camera, this.before);
+    this.player.update();
+  }
 
   // ---- the path that is drawn ----
 

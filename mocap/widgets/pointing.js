@@ -4,7 +4,7 @@
 // the figure's, from row 0 and column 0. Width or height is negative where they start at the right or the bottom.
 
 const STYLE = `
-.mocap-pointing { position: relative; touch-action: none; cursor: crosshair; }
+.mocap-pointing { position: relative; cursor: crosshair; }
 .mocap-pointing:focus-visible { outline: 3px solid #0072B2; outline-offset: -3px; }
 .mocap-pointing img { display: block; width: 100%; }
 .mocap-pointing i { position: absolute; width: 14px; height: 14px; margin: -8px; border: 2px solid #fff; border-radius: 50%;
@@ -36,14 +36,13 @@ export default {
     };
 
     const point = (event) => {
-      if (event.type === "pointerdown") { place.setPointerCapture(event.pointerId); place.focus({ preventScroll: true }); }
-      else if (!event.buttons) return;
+      place.focus({ preventScroll: true });
       const { x, y, width, height } = picture.getBoundingClientRect();
       const [across, down] = [(event.clientX - x) / width, (event.clientY - y) / height];
       choose((rows * (down - top)) / high, (columns * (across - left)) / wide);
     };
 
-    place.onpointerdown = place.onpointermove = point;
+    whenPointed(place, point);
     place.onkeydown = (event) => {
       const step = STEPS[event.key], [row, column] = model.get("value"), far = event.shiftKey ? 10 : 1;
       if (!step) return;

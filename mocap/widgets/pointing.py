@@ -17,8 +17,7 @@ from PIL import Image, ImageDraw
 
 from mocap.errors import MocapError
 from mocap.plotting.picture import figure_of, small_png
-
-SCRIPT = Path(__file__).with_name("pointing.js")
+from mocap.widgets.embedding import TOUCH, joined
 
 
 def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: ANN401
@@ -109,7 +108,7 @@ def _pointer_class() -> type[Any]:
     class Pointer(Pointed, anywidget.AnyWidget, ValueWidget):  # type: ignore[misc]  # untyped
         """A picture with a `value`, a row and a column, that Python and the reader may set."""
 
-        _esm = SCRIPT.read_text("utf-8")
+        _esm = joined(TOUCH, Path(__file__).with_name("pointing.js"))
         description = traitlets.Unicode().tag(sync=True)
         picture = traitlets.Unicode().tag(sync=True)
         box: traitlets.List[float] = traitlets.List().tag(sync=True)

@@ -18,6 +18,7 @@ from mocap.quality.seam_measures import jumps
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.browser.conftest import wait_until
+from tests.browser.test_page import touch_of
 from tests.bundled import bundled
 
 IT = "document.querySelector('.mocap-inspector').inspector"
@@ -179,6 +180,29 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown, artefacts):
     )
     page.locator(".walk").click(position={"x": x, "y": z})
     assert page.evaluate(f"{IT}.pick.seam") == 0
+
+
+@pytest.mark.parametrize("part", [".chart", ".grid"])
+def test_a_finger_across_chooses_and_a_finger_up_scrolls(shown, part):
+    page = shown(inspector(*WALKS, at=(56, 20)))
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.evaluate("document.body.style.height = '3000px'")
+    page.locator("[data-tab=turn]").click()
+    chosen = f"[{IT}.pick.i, {IT}.pick.j, {IT}.angle]"
+    before, fingers = page.evaluate(chosen), touch_of(page, part)
+    fingers("touchStart", (120, 60))
+    for step in range(1, 12):
+        fingers("touchMove", (120 + 9 * step, 60 + step))
+    fingers("touchEnd")
+    wait_until(lambda: page.evaluate(chosen) != before)
+    assert page.evaluate("scrollY") == 0
+    before = page.evaluate(chosen)
+    fingers("touchStart", (120, 110))
+    for step in range(1, 12):
+        fingers("touchMove", (120, 110 - 9 * step))
+    fingers("touchEnd")
+    wait_until(lambda: page.evaluate("scrollY") > 50)
+    assert page.evaluate(chosen) == before
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -225,6 +225,7 @@ def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook
     wait_until(lambda: f"row {row + 1}, column {column - 10}:" in status.inner_text())
     wait_until(lambda: laid.get_attribute("src") != before)
     page.screenshot(path=artefacts / "lab-point.png")
+    assert grid.evaluate("part => getComputedStyle(part).touchAction") == "pan-y"
 
 
 def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows(notebook, artefacts):

@@ -213,11 +213,13 @@ def test_one_finger_across_turns_and_does_not_scroll(resting, touch):
 def test_one_finger_down_scrolls_the_page(resting, touch):
     page = resting(play(wave(300)))
     page.evaluate("document.body.style.height = '3000px'")
+    view = page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]")
     touch("touchStart", (300, 300))
     for k in range(1, 15):
         touch("touchMove", (300, 300 - 15 * k))
     touch("touchEnd")
     wait_until(lambda: page.evaluate("scrollY") > 50)
+    assert page.evaluate(f"[{PLAYER}.camera.yaw, {PLAYER}.camera.pitch]") == view
 
 
 def test_seams_and_stretches_off_the_path_are_marked(resting):

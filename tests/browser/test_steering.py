@@ -132,6 +132,23 @@ def test_a_finger_on_the_pad_commands_and_does_not_scroll(steering):
     assert steering.evaluate("scrollY") == 0
 
 
+def test_a_finger_on_the_ground_commands_when_it_taps_and_scrolls_when_it_moves_up(steering):
+    press(steering, "ArrowUp")
+    wait_until(lambda: steering.evaluate(f"{IT}.panels[0].walker.frames.length > 0"))
+    steering.evaluate("document.body.style.height = '3000px'")
+    before, fingers = command(steering), touch_of(steering, "figure >> nth=0 >> canvas")
+    fingers("touchStart", (20, 200))
+    fingers("touchEnd")
+    wait_until(lambda: command(steering) != before)
+    before = command(steering)
+    fingers("touchStart", (200, 200))
+    for step in range(1, 12):
+        fingers("touchMove", (200, 200 - 9 * step))
+    fingers("touchEnd")
+    wait_until(lambda: steering.evaluate("scrollY") > 50)
+    assert command(steering) == before
+
+
 def test_without_an_answer_time_slows_down_and_stands_and_goes_on_afterwards(steering):
     press(steering, "ArrowUp")
     wait_until(lambda: steering.evaluate(f"{IT}.time") > 1)

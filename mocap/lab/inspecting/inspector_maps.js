@@ -40,8 +40,7 @@ function line(pen, points, colour, width = 1, alpha = 1) {
 class Map2D {
   constructor(canvas, inspector) {
     Object.assign(this, { canvas, inspector, drawn: false });
-    canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); canvas.focus({ preventScroll: true }); this.point(event); });
-    canvas.addEventListener("pointermove", (event) => { if (event.buttons) this.point(event); });
+    whenPointed(canvas, (event) => { canvas.focus({ preventScroll: true }); this.point(event); });
     canvas.addEventListener("keydown", (event) => {
       const step = STEPS[event.key];
       if (!step && event.key !== "n") return;

@@ -13,13 +13,13 @@ const INSPECTOR_STYLE = `
 .mocap-inspector .both { display: grid; grid-template-columns: 1fr; gap: 8px 14px; }
 .mocap-inspector .maps { display: contents; } .mocap-inspector:not(.alone) .grid { order: 2; } .mocap-inspector .shown { min-width: 0; order: 1; }
 @container (min-width: 620px) { .mocap-inspector .both { grid-template-columns: 2fr 3fr; } .mocap-inspector .maps { display: block; min-width: 0; } .mocap-inspector.alone .grid { height: 400px; } }
-.mocap-inspector canvas { display: block; box-sizing: border-box; width: 100%; touch-action: pan-y; }
+.mocap-inspector canvas { display: block; box-sizing: border-box; width: 100%; }
 .mocap-inspector canvas[hidden] { display: none; }
 .mocap-inspector :focus-visible { outline: 3px solid #0072B2; outline-offset: 1px; }
 .mocap-inspector .maps canvas { cursor: crosshair; margin-bottom: 6px; }
-.mocap-inspector .grid { height: 290px; touch-action: none; } .mocap-inspector .walk { height: 220px; } .mocap-inspector .graph { height: 180px; }
+.mocap-inspector .grid { height: 290px; } .mocap-inspector .walk { height: 220px; } .mocap-inspector .graph { height: 180px; }
 .mocap-inspector .bodies { height: 300px; border: 1px solid #8884; cursor: grab; touch-action: pan-y; }
-.mocap-inspector .chart { height: 130px; margin-top: 4px; touch-action: none; cursor: ew-resize; }
+.mocap-inspector .chart { height: 130px; margin-top: 4px; cursor: ew-resize; }
 .mocap-inspector .bar { display: flex; flex-wrap: wrap; gap: 4px 8px; align-items: center; padding: 4px 0; }
 .mocap-inspector button, .mocap-inspector select { font: inherit; min-width: 36px; min-height: 32px; padding: 0 8px; color: inherit;
   background: #8882; border: 1px solid #8888; border-radius: 4px; cursor: pointer; }

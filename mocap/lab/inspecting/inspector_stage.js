@@ -38,10 +38,9 @@ class Stage extends Picture {
 class Chart {
   constructor(canvas, move) {
     this.canvas = canvas;
-    canvas.onpointerdown = canvas.onpointermove = (event) => {
-      if (event.type === "pointerdown") canvas.setPointerCapture(event.pointerId);
-      if (event.buttons && this.span) move(this.span[0] + ((event.offsetX - 46) / (canvas.clientWidth - 60)) * (this.span[1] - this.span[0]));
-    };
+    whenPointed(canvas, ({ offsetX }) => {
+      if (this.span) move(this.span[0] + ((offsetX - 46) / (canvas.clientWidth - 60)) * (this.span[1] - this.span[0]));
+    });
   }
 
   draw({ curves, at, across, up, span, bands = [], bars = [] }, palette) {

@@ -22,7 +22,7 @@ from mocap.plotting.picture import small_png
 from mocap.plotting.storyboards import Shot, storyboard
 from mocap.steering.followed import Followed
 from mocap.synthesis.walk_to_motion import to_motion
-from mocap.widgets.embedding import SHARED, Embedded
+from mocap.widgets.embedding import SHARED, TOUCH, Embedded
 
 PARTS = ("", "_maths", "_maps", "_stage", "_views", "_page")
 OWN = [Path(__file__).with_name(f"inspector{part}.js") for part in PARTS]
@@ -104,7 +104,7 @@ class Inspector(Embedded):
     show: tuple[str, ...]
     track: Array
     asked: Array
-    scripts = (*SHARED, *OWN)
+    scripts = (*SHARED, TOUCH, *OWN)
 
     @cached_property
     def alt(self) -> str:

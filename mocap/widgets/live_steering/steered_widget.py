@@ -21,7 +21,7 @@ from mocap.control.characters import Character
 from mocap.control.steered_motion import as_motion
 from mocap.errors import MocapError, shortened
 from mocap.plotting.style import ASTRAY, COLOURS, MARK, SOURCES
-from mocap.widgets.embedding import PAGE, PICTURE, SCENE, joined
+from mocap.widgets.embedding import PAGE, PICTURE, SCENE, TOUCH, joined
 from mocap.widgets.live_steering.company import Company, Member, Order, Walked
 from mocap.widgets.player import SIDES, Player, play
 from mocap.widgets.reopening import display_live
@@ -34,7 +34,7 @@ MOST = 1.0  # seconds of one answer
 
 def script() -> str:
     """Return what the widget runs."""
-    return joined(SCENE, PICTURE, PAGE, *map(Path(__file__).with_name, OWN))
+    return joined(SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
 
 
 class _Steered:

@@ -63,7 +63,7 @@ class Steering {
     this.kindPart.onchange = () => this.order({ label: this.kindPart.value });
     this.viewPart.onchange = () => { [this.shared.yaw, this.shared.pitch] = VIEWS[this.viewPart.value]; this.update(); };
     this.padPart.onpointerdown = this.padPart.onpointermove = (event) => this.onPad(event);
-    for (const one of this.panels) one.canvas.onpointerdown = one.canvas.onpointermove = (event) => this.onGround(event, one);
+    for (const one of this.panels) whenPointed(one.canvas, (event) => this.onGround(event, one));
     this.panelsPart.onkeydown = (event) => this.key(event);
     this.panelsPart.onkeyup = (event) => this.held.delete(keyName(event));
     this.panelsPart.onblur = () => this.held.clear();
@@ -114,8 +114,7 @@ class Steering {
   }
 
   onGround(event, { camera, walker }) {
-    if (event.type === "pointerdown") { event.target.setPointerCapture(event.pointerId); this.panelsPart.focus({ preventScroll: true }); }
-    else if (!event.buttons) return;
+    this.panelsPart.focus({ preventScroll: true });
     const place = walker.frames.length && camera.eye && camera.ground(event.offsetX, event.offsetY);
     if (!place) return;
     const [x, , z] = walker.pose(this.time), right = place[0] - x, ahead = place[1] - z;
