@@ -9,13 +9,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array, Indices, Mask
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
+from mocap.lab.adopting import slots, whose
+from mocap.lab.own.matches import window_distances
+from mocap.lab.own.tools import tools
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
+from mocap.matching.point_clouds import distinct_joints
 from mocap.synthesis.walks import seams
 
 SECONDS = 0.7  # of clip that are shown before and after a window
@@ -58,6 +63,7 @@ class Choices(NamedTuple):
     transitions: tuple[Pick, ...] = ()
     costs: tuple[float, ...] = ()  # metres
     seams: tuple[Pick, ...] = ()
+    by: str = ""  # whose functions made the grid, where some are the reader's
 
     def needed(self, clip: int) -> Mask:
         """Mark the frames of a clip that a page may show: of a graph, those near its transitions."""
@@ -85,6 +91,8 @@ def around(fps: float) -> int:
 def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa: ANN401 (a reader's value)
     """Choose two windows of two clips, by default those of the lowest local minimum.
 
+    The reader's `window_sums` and `inner_minima` make the grid and its minima, if they passed their checks.
+
     Raises
     ------
     SkeletonMismatch, MocapError : for clips that do not go together, have more than 6000 frames together or
@@ -100,13 +108,27 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     require_alike(clips)
     _require_short(len(clips[0]) + len(clips[-1]))
     first, second = clips[0], clips[-1]
-    grid = np.asarray(distance_grid(first, second, window=window), float)
-    places = local_minima(grid)
+    grid, places, by = _measured(first, second, window)
     lowest = places[np.argsort(grid[*places.T], kind="stable")][:MINIMA]
     minima = tuple((int(i), int(j)) for i, j in lowest)
     i, j = minima[0] if at is None else _cell(at, grid.shape)
     frames = around(first.fps)
-    return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima)
+    return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima, by=by)
+
+
+def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indices, str]:
+    """Give the grid, the cells of its minima, and whose functions made them."""
+    names = "window_sums", "inner_minima"
+    sums, inner = slots(*names)
+    if sums.yours and window <= min(len(first), len(second)):
+        points = distinct_joints(first.skeleton)
+        clouds = [joint_positions(clip)[:, points] for clip in (first, second)]
+        grid = window_distances(clouds[0], clouds[1], window, tools())
+    else:
+        grid = np.asarray(distance_grid(first, second, window=window), float)
+    found = np.array(inner(grid, np.inf) if inner.yours else [], int).reshape(-1, 2)
+    by = whose(*names) if sums.yours or inner.yours else ""
+    return grid, found if len(found) else local_minima(grid), by
 
 
 def _require_short(frames: int) -> None:

@@ -14,6 +14,7 @@ from mocap.lab.inspecting.packing import packed_clip, packed_skeleton
 from mocap.plotting.style import ASKED, COLOURS, CURVES, MARK, PATH, QUIET, SOURCES
 
 TABS = ("windows", "turn", "weights", "seam")  # in the order in which the course meets them
+KEY = "Solid lines: the first clip. Dashed: the second. Blue is left, orange-red is right."
 WIDEST = 600  # rows and columns of a grid's picture; of more, blocks of cells become one
 
 
@@ -45,7 +46,7 @@ def scene(choices: Choices, show: Sequence[str], track: Array, asked: Array, alt
         "graph": _graph(choices),
         "walk": _walk(choices, track, asked),
         "colours": _colours(),
-        "key": "Solid lines: the first clip. Dashed: the second. Blue is left, orange-red is right.",
+        "key": KEY + f" The grid by {choices.by}." * bool(choices.by),
         "data": zlib.compress(data + shades, 9),
     }
 

@@ -3,16 +3,20 @@
 import numpy as np
 import pytest
 
+from mocap import lab
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import from_transitions
 from mocap.lab.inspecting.choices import EACH, around, of_clips, of_graph, of_walk
+from mocap.lab.inspecting.scenes import scene
 from mocap.matching.distance_grids import distance_grid
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walks import seams
 from tests.bundled import bundled
+from tests.lab.students import written
 
+NOWHERE = np.zeros((0, 2))
 WALKS = [resample(sample(f"walk_curve_{n}"), 30)[:120] for n in (1, 2)]
 
 
@@ -26,6 +30,26 @@ def test_of_two_clips_the_lowest_minimum_comes_first():
     grid = distance_grid(*WALKS, window=10)
     assert grid[choices.pick.i, choices.pick.j] == grid.min()
     assert list(choices.minima) == sorted(choices.minima, key=lambda place: grid[place])
+
+
+def test_the_readers_functions_make_the_grid_and_its_minima_and_it_is_said():
+    theirs = of_clips(WALKS, 10, None)
+    assert theirs.by == "" and "The grid by" not in scene(theirs, ["windows"], NOWHERE, NOWHERE, "")["key"]
+    sums, inner = lab.mine(written("window_sums")), lab.mine(written("inner_minima"))
+    sums.calls = inner.calls = 0
+    ours = of_clips(WALKS, 10, None)
+    assert (sums.calls, inner.calls) == (3, 1)
+    assert np.allclose(ours.grid, theirs.grid, atol=1e-6)
+    assert ours.pick == theirs.pick and {*ours.minima} - {*theirs.minima} == set()
+    said = scene(ours, ["windows"], NOWHERE, NOWHERE, "")["key"]
+    assert said.endswith(" The grid by window_sums, inner_minima: yours.")
+
+
+def test_where_the_readers_function_fails_the_packages_makes_the_grid(capsys):
+    lab.mine(written("window_sums")).own = lambda numbers, window: 1 / 0
+    assert np.allclose(of_clips(WALKS, 10, None).grid, distance_grid(*WALKS, window=10), atol=1e-6)
+    assert "window_sums: yours raised ZeroDivisionError" in capsys.readouterr().out
+    assert of_clips(WALKS, 10, None).by == ""
 
 
 @pytest.mark.parametrize(
