@@ -19,6 +19,7 @@ from mocap.parametric_graphs.strides import Strides, cut_strides
 WIDTH = np.radians(14)  # of the bell, for strides
 WIDEST = np.radians(75)  # of turn per stride, to either side
 LEAST, MOST = 0.04, 0.08  # metres: T_GOOD where none is given
+BOTH = np.radians(10)  # per stride: who turns less to one side does not obey there
 Made = TypeVar("Made")
 SLOW, TURNS = 0.35, np.radians(30)  # m/s and radians per stride, of turns on the spot
 
@@ -56,7 +57,8 @@ def build_kinds(
 
     Warns
     -----
-    MocapWarning : for a kind with hardly any stride in some part of its range, as `make_space`.
+    MocapWarning : for a kind with hardly any stride in some part of its range, as `make_space`; and for one
+        that hardly turns to one side.
 
     Examples
     --------
@@ -133,7 +135,16 @@ def _space(name: str, strides: Strides, widest: float, *, warn: bool) -> StrideS
     with warnings.catch_warnings():
         if not warn:  # a change has the gaps of its kinds
             warnings.simplefilter("ignore", MocapWarning)
-        return _named(name, lambda: make_space(strides, WIDTH, min(low, high - 1e-6), high))
+        space = _named(name, lambda: make_space(strides, WIDTH, min(low, high - 1e-6), high))
+        if max(low, -high) > -BOTH:
+            side = "left" if high < BOTH else "right"
+            warnings.warn(
+                f"{name} turns by {np.degrees(low):.0f}° to {np.degrees(high):.0f}° per stride, hardly to "
+                f"the {side}: there it does not obey; add clips, or mirror these.",
+                MocapWarning,
+                stacklevel=3,
+            )
+    return space
 
 
 def _named(name: str, make: Callable[[], Made]) -> Made:

@@ -92,6 +92,15 @@ def test_strides_may_be_given_and_a_threshold():
     assert wide.space("walk").high > graph.space("walk").high
 
 
+@pytest.mark.parametrize(("side", "hardly"), [(1, "left"), (-1, "right")])
+def test_a_kind_that_turns_to_one_side_only_is_said(side, hardly):
+    some = strides().take(side * strides().values[:, 0] < np.radians(2))
+    with pytest.warns(
+        MocapWarning, match=f"hardly to the {hardly}: there it does not obey; add clips, or mir"
+    ):
+        build_kinds({"walk": some}, good=0.05, sampling=SMALL)
+
+
 @pytest.mark.parametrize(
     ("kinds", "changes", "error", "sentence"),
     [
