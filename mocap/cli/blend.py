@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import blending, feet, files
+from mocap import blending, feet, files, quality
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_reading, bar, number, require_amc
 from mocap.errors import MocapError
@@ -88,6 +88,7 @@ def _registered(options: argparse.Namespace) -> "Registration":
     for path in bar("reading")(options.clips):
         clip = files.load(path, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
         clips.append(feet.mark_plants(clip) if options.clean else clip)
+    quality.warn_of_size(clips)
     slack = min(SLACK, min(clip.duration for clip in clips) / 2) if options.slack is None else options.slack
     registration: Registration = blending.register(clips, slack=slack)
     return registration

@@ -5,7 +5,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import body, datasets, files, graphs, variants
+from mocap import body, datasets, files, graphs, quality, variants
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_building, bar, require_other, window_frames
 from mocap.errors import MocapError, MocapWarning
@@ -61,11 +61,7 @@ def _build(options: argparse.Namespace) -> int:
     window = window_frames(options.window, options.fps)
     found = files.find_files(options.clips)
     require_other(options.out, found)
-    clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
-    origins = [datasets.Origin(file, options.skeleton, options.scale) for file in found]
-    if options.mirror:
-        clips += _mirrored(clips)
-        origins += [origin._replace(mirrored=True) for origin in origins]
+    clips, origins = _clips(options, found)
     graph = graphs.build(
         [body.resample(clip, options.fps) for clip in clips],
         window=window,
@@ -81,6 +77,17 @@ def _build(options: argparse.Namespace) -> int:
         graphs.write_graphml(graph, options.graphml)
         print(f"{'wrote':<12} {options.graphml}")
     return 0
+
+
+def _clips(options: argparse.Namespace, found: list[Path]) -> "tuple[list[Motion], list[datasets.Origin]]":
+    """Read the clips, with their mirror images where these are asked for, and remember where they are."""
+    clips = files.load_all(found, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
+    quality.warn_of_size(clips)
+    origins = [datasets.Origin(file, options.skeleton, options.scale) for file in found]
+    if options.mirror:
+        clips += _mirrored(clips)
+        origins += [origin._replace(mirrored=True) for origin in origins]
+    return clips, origins
 
 
 def _mirrored(clips: "list[Motion]") -> "list[Motion]":

@@ -46,6 +46,7 @@ def _loop(options: argparse.Namespace) -> int:
     require_other(options.out, [options.clip])
     require_writable(options.out)
     motion = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+    quality.warn_of_size([motion])
     found = variants.find_loop(motion, seconds=(options.shortest, options.longest))
     way = "inertialize" if options.inertialize else "blend"
     if found.seam > POOR:

@@ -27,7 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "blend_measures": ["BlendJolts", "added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
-        "clip_flaws": ["Flaw", "Report", "inspect"],
+        "clip_flaws": ["Flaw", "Report", "inspect", "warn_of_size"],
         "falling": ["SEGMENTS", "Segment", "centre_of_mass", "gravity"],
         "joint_limits": ["Bend", "joint_bends"],
         "judgements": ["Judgement", "Measure", "judgement_table"],

@@ -4,7 +4,8 @@ The thresholds lie beyond what people do. They were checked on 132 trials of the
 subjects 02, 03, 16, 49 and 127.
 """
 
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
+from mocap.errors import MocapWarning, shortened
 
 # Frames in a row that repeat the frame before. Two trials have such frames, 6 and 13 in a row; in the
 # others no frame repeats the one before.
@@ -100,6 +102,26 @@ class Report:
         return "" if SMALLEST < self.height < TALLEST else ": is its scale right?"
 
 
+def warn_of_size(motions: Iterable[Motion]) -> None:
+    """Warn of the first body that nobody has, so that all that is measured in metres would be wrong.
+
+    Warns
+    -----
+    MocapWarning : for a body below 0.15 m or above 3.5 m: its unit of length is likelier to be wrong.
+
+    Examples
+    --------
+    >>> from mocap.datasets.generated import generate
+    >>> warn_of_size([generate("walk_straight")])
+    """
+    for motion in motions:
+        height = _height(joint_positions(motion))
+        if not SMALLEST < height < TALLEST:
+            tall = f"'{shortened(motion.name)}' is {height:.2g} m tall: is its scale right?"
+            warnings.warn(tall, MocapWarning, stacklevel=2)
+            return
+
+
 def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report:
     """Measure a clip and look for flaws.
 
@@ -144,8 +166,14 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
         *_flips(motion, turns, angles or {}),
         *_under(motion, positions),
     ]
-    height = float(np.median(np.ptp(positions[..., 1], axis=1)))
-    return Report(motion, height, float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum()), flaws)
+    return Report(
+        motion, _height(positions), float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum()), flaws
+    )
+
+
+def _height(positions: Array) -> float:
+    """Measure how far a body reaches up, the median over its frames (F, J, 3)."""
+    return float(np.median(np.ptp(positions[..., 1], axis=1)))
 
 
 def _frames(flags: ArrayLike, after: int = 0) -> list[int]:

@@ -7,6 +7,7 @@ from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.cli.main import main
+from mocap.datasets import samples
 from mocap.files import load_save
 from tests.strategies import wave
 
@@ -34,6 +35,33 @@ def test_info_asks_for_the_unit_of_a_body_of_two_centimetres(clips, capsys):
     assert "m: is its scale right?" in capsys.readouterr().out
     assert main(["info", str(clips / "a.bvh")]) == 0
     assert "scale" not in capsys.readouterr().out
+
+
+LINES = [
+    "graph . -o g.npz",
+    "loop a.bvh",
+    "blend a.bvh b.bvh",
+    "find a.bvh:0-30 .",
+    "bend walk.bvh --along l.csv -o w.bvh",
+]
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_a_body_of_millimetres_is_doubted(line, clips, capsys, monkeypatch):
+    """A file in metres is read as centimetres, and then all that is measured in metres is small enough."""
+    monkeypatch.chdir(clips)
+    if line.startswith("bend"):
+        load_save.save(samples.sample("walk_straight")[:240], "walk.bvh")
+        (clips / "l.csv").write_text("0,0\n0,0.01\n")
+    main([*line.split(), "--scale", "0.0001"])
+    assert "m tall: is its scale right?" in capsys.readouterr().err
+
+
+def test_a_body_to_wear_of_millimetres_is_doubted(clips, capsys):
+    load_save.save(samples.sample("walk_straight")[:240], clips / "walk.bvh")
+    line = ["retarget", str(clips / "walk.bvh"), "--to", str(clips / "walk.bvh"), "-o", str(clips / "worn")]
+    assert main([*line, "--to-scale", "0.0001"]) == 0
+    assert "'walk' is 0.017 m tall: is its scale right?" in capsys.readouterr().err
 
 
 def test_a_name_that_no_joint_has_is_answered_by_the_likest(clips, capsys):

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import editing, files
+from mocap import editing, files, quality
 from mocap._shared.atomic import require_writable
 from mocap.cli.editing.warp import FORMATS
 from mocap.cli.options import LENGTH, TURN, add_reading, require_amc
@@ -50,6 +50,7 @@ def _bend(options: argparse.Namespace) -> int:
     require_writable(options.out)
     line = files.load_path(options.along, scale=options.unit)
     motion = files.load(options.source, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+    quality.warn_of_size([motion])
     bent = editing.bend(motion, line, limit=math.radians(options.limit))
     files.save(bent.motion, options.out, widen=options.widen)
     print(f"{'bent':<10} {bent.report()}")

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import editing, files
+from mocap import editing, files, quality
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import LENGTH, add_reading, as_options, bar, number, require_amc
 from mocap.errors import MocapError
@@ -86,6 +86,7 @@ def _body(options: argparse.Namespace) -> "Skeleton | Stance":
         body: Skeleton | Stance = files.load_skeleton(options.to)
         return body
     clip = files.load(options.to, scale=options.to_scale)
+    quality.warn_of_size([clip])
     try:
         body = editing.stance_of(clip)
     except MocapError as error:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import files, match_webs
+from mocap import files, match_webs, quality
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli.options import CM, LENGTH, SKELETON, bar, whole
 from mocap.errors import MocapError
@@ -52,6 +52,7 @@ def _find(options: argparse.Namespace) -> int:
     asked = _position(query, found)
     paths = [*found, query] if asked is None else found
     clips = files.load_all(paths, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
+    quality.warn_of_size(clips)
     below = options.below / 100
     web = match_webs.build_web(clips, below=ROOM * below, progress=bar("comparing"))
     lengths = (1 / 2, 2) if options.any_length else (3 / 4, 4 / 3)
