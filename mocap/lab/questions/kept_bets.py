@@ -5,16 +5,15 @@ The browser keeps bets in its local storage, under the key of each; so they outl
 
 from __future__ import annotations
 
-import inspect
 import re
 from collections.abc import Mapping
 from html import unescape
 from typing import Any
 
-from mocap.errors import MocapError, shortened
-from mocap.lab.questions.computed import filled, require, rounded
+from mocap.errors import MocapError
+from mocap.lab.questions.computed import filled, names_of_cell, require, rounded
 from mocap.lab.questions.page import BLANK, Shown, listed, shown, to_html, to_text
-from mocap.lab.questions.reading import Bet, file_of, read_questions
+from mocap.lab.questions.reading import Bet, file_of, question, read_questions
 
 COLUMNS = ("", "you thought", "came out", "off by")
 
@@ -43,21 +42,9 @@ def bet(*keys: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    frame = inspect.currentframe()
-    names = frame.f_back.f_globals if frame and frame.f_back else {}
-    found = {key: _found(key) for key in keys}
-    if not found:
+    if not keys:
         raise MocapError("A bet needs a key, such as '09-walks-that-die'.")
-    return asked_before(found, names)
-
-
-def _found(key: str) -> Bet:
-    notebook, _, name = key.partition("-")
-    file = file_of(notebook)
-    bets = read_questions(file).bets
-    if name not in bets:
-        raise MocapError(f"No bet {shortened(repr(name), 40)} in {file.name}.")
-    return bets[name]
+    return asked_before({key: question("bet", key) for key in keys}, names_of_cell())
 
 
 def asked_before(bets: Mapping[str, Bet], names: Mapping[str, object]) -> Shown:
@@ -99,10 +86,8 @@ def bets(notebook: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    frame = inspect.currentframe()
-    names = frame.f_back.f_globals if frame and frame.f_back else {}
     found = read_questions(file_of(notebook)).bets
-    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, names)
+    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, names_of_cell())
 
 
 def summed_up(bets: Mapping[str, Bet], names: Mapping[str, object]) -> Shown:

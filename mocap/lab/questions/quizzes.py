@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import inspect
 import random
 from collections.abc import Mapping
 from typing import Any
 from zlib import crc32
 
-from mocap.errors import MocapError, shortened
-from mocap.lab.questions.computed import all_filled, rounded
+from mocap.errors import MocapError
+from mocap.lab.questions.computed import all_filled, names_of_cell, rounded
 from mocap.lab.questions.page import BLANK, Shown, listed, shown, to_html, to_text
-from mocap.lab.questions.reading import Choice, Number, Order, Quiz, file_of, read_questions
+from mocap.lab.questions.reading import Choice, Number, Order, Quiz, question
 
 HEADS = {Choice: "Quiz: choose one", Number: "Quiz: a number", Order: "Quiz: put in order"}
 
@@ -42,14 +41,7 @@ def quiz(key: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    frame = inspect.currentframe()
-    names = frame.f_back.f_globals if frame and frame.f_back else {}
-    notebook, _, name = key.partition("-")
-    file = file_of(notebook)
-    quizzes = read_questions(file).quizzes
-    if name not in quizzes:
-        raise MocapError(f"No quiz {shortened(repr(name), 40)} in {file.name}.")
-    return asked(key, quizzes[name], names)
+    return asked(key, question("quiz", key), names_of_cell())
 
 
 def asked(key: str, quiz: Quiz, names: Mapping[str, object]) -> Shown:

@@ -8,7 +8,7 @@ marked as in Markdown, and `{{expression:.1f}}` is a number that the notebook co
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
@@ -148,6 +148,22 @@ def file_of(notebook: str, folder: Path = TEXTS) -> Path:
     if not found:
         raise MocapError(f"There are no questions for a notebook {shortened(repr(notebook), 30)}.")
     return found[0]
+
+
+def question(kind: str, key: str) -> Any:  # noqa: ANN401 (a Quiz or a Bet)
+    """Find a quiz or a bet by its key: the number of the notebook, and its name in the notebook's file.
+
+    Raises
+    ------
+    MocapError : for an unknown key, and a file that is not whole.
+    """
+    notebook, _, name = key.partition("-")
+    file = file_of(notebook)
+    all_of_it = read_questions(file)
+    found: Mapping[str, Quiz | Bet] = all_of_it.quizzes if kind == "quiz" else all_of_it.bets
+    if name not in found:
+        raise MocapError(f"No {kind} {shortened(repr(name), 40)} in {file.name}.")
+    return found[name]
 
 
 def read_questions(file: Path) -> Questions:
