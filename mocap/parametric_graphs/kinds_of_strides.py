@@ -157,7 +157,9 @@ def _named(name: str, make: Callable[[], Made]) -> Made:
 
 def _least(spaces: Mapping[str, StrideSpace], edges: Sequence[tuple[str, str]], sampling: Sampling) -> float:
     """Find the T_GOOD that gives all edges, with a twentieth to spare."""
-    needed = {(a, b): smallest_good(spaces[a], spaces[b], sampling) for a, b in edges}
+    needed = {
+        (a, b): _named(f"{a} → {b}", partial(smallest_good, spaces[a], spaces[b], sampling)) for a, b in edges
+    }
     (one, other), worst = max(needed.items(), key=lambda item: item[1])
     if worst > MOST:
         raise NoWalk(

@@ -123,6 +123,13 @@ def test_no_change_between_two_kinds_is_refused_with_both_names():
         build_kinds(kinds, sampling=SMALL)
 
 
+def test_windows_that_run_off_the_margins_are_refused_with_the_names():
+    lines = [[[0, 0], [side, 6], [5 * side, 12]] for side in (-2, 0, 2)]
+    jogs = cut_strides([resample(generate_walk(line, style="jog"), 30) for line in lines], margin=0.3)
+    with pytest.raises(MocapError, match=r"jog → jog: A window runs 0.\d+ s off"):
+        build_kinds({"jog": jogs}, sampling=SMALL)
+
+
 def test_a_kind_that_cannot_follow_itself_is_refused_with_what_would_help():
     """Strides that begin as walk and end as jog."""
     faster = changing_strides(strides(), cut_strides(named("jog"), label="jog"))
