@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import dis
 import inspect
 import textwrap
@@ -41,20 +42,21 @@ def plain_source(function: FunctionType, known: Collection[str] = ()) -> Plain:
     """
     imports: set[str] = set()
     helpers: dict[str, str] = {}
-    _gather(function, {*known, function.__name__}, imports, helpers)
+    _gather(inspect.unwrap(function), {*known, function.__name__}, imports, helpers)
     return Plain(frozenset(imports), "\n\n".join([*helpers.values(), _source(function)]))
 
 
 def _gather(function: FunctionType, known: set[str], imports: set[str], helpers: dict[str, str]) -> None:
     """Collect what a function uses, its helpers' helpers first."""
-    for name in _used(function.__code__):
+    for name in (*_used(function.__code__), *_around(_source(function))):
         if name in known or name not in function.__globals__:
             continue
         known.add(name)
         value = function.__globals__[name]
-        if isinstance(value, FunctionType) and value.__globals__ is function.__globals__:
-            _gather(value, known, imports, helpers)
-            helpers[name] = _source(value)
+        own = inspect.unwrap(value) if callable(value) else None  # as it stands below its decorators
+        if isinstance(own, FunctionType) and own.__globals__ is function.__globals__:
+            _gather(own, known, imports, helpers)
+            helpers[name] = _source(own)
         elif line := _import(name, value):
             imports.add(line)
         elif _is_plain(value):
@@ -70,6 +72,14 @@ def _used(code: CodeType) -> Iterator[str]:
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             yield from _used(constant)
+
+
+def _around(source: str) -> Iterator[str]:
+    """Yield the names in the decorators and defaults of a function, which its own code does not hold."""
+    made = ast.parse(source).body[0]
+    if isinstance(made, ast.FunctionDef):
+        given = [*made.decorator_list, *made.args.defaults, *filter(None, made.args.kw_defaults)]
+        yield from (node.id for part in given for node in ast.walk(part) if isinstance(node, ast.Name))
 
 
 def _import(name: str, value: Any) -> str:  # noqa: ANN401

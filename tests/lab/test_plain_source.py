@@ -51,6 +51,32 @@ def test_the_written_source_runs_alone():
     assert space["helper"](2.5) == helper(2.5)
 
 
+def doubled(function):
+    @functools.wraps(function)
+    def twice(*given):
+        return 2 * function(*given)
+
+    return twice
+
+
+@functools.cache
+def cached(x):
+    return x + 1
+
+
+@doubled
+def decorated(x, y=EPSILON, *, axis=AXES[0]):
+    return cached(x) + y
+
+
+@pytest.mark.parametrize("function", [decorated, cached])
+def test_what_stands_around_a_function_is_written_too(function):
+    plain = plain_source(function)
+    space = {}
+    exec("\n".join(plain.imports) + "\n" + plain.source, space)
+    assert space[function.__name__](3.5) == function(3.5)
+
+
 def uses_an_attribute(x):
     class Part:
         whole = AXES
