@@ -20,6 +20,7 @@ WEIGHTS = {  # [Hol20]
     "places ahead": 1.0,
     "directions ahead": 1.5,
 }
+LONGEST = 60.0  # seconds to smooth over
 END = 1.0  # seconds before a clip's end from which no frame is found: its future is not known
 
 
@@ -122,7 +123,8 @@ def tabulate(
 
     Raises
     ------
-    MocapError : for no clips, none that is longer than `end`, and as `standardise`.
+    MocapError : for no clips, none that is longer than `end`, seconds that make no sense, and as
+        `standardise`.
     SkeletonMismatch : for clips of different skeletons.
 
     Examples
@@ -134,7 +136,7 @@ def tabulate(
 
     Notebook: 18-motion-matching
     """
-    _check(clips, end)
+    _check(clips, smooth, end)
     frames, rate = [len(clip) for clip in clips], clips[0].fps
     values, mean, scale = standardise(np.concatenate([features(clip, smooth) for clip in clips]), weights)
     tracks = zip(*(_tracks(clip, smooth) for clip in clips), strict=True)
@@ -161,8 +163,12 @@ def tabulate(
     )
 
 
-def _check(clips: Sequence[Motion], end: float) -> None:
+def _check(clips: Sequence[Motion], smooth: float, end: float) -> None:
     """Raise MocapError for clips that cannot be searched."""
+    if not (0 <= smooth <= LONGEST and 0 <= end < np.inf):
+        raise MocapError(
+            f"Seconds are from 0 on, to smooth up to {LONGEST:g}; got smooth={smooth}, end={end}."
+        )
     if not clips:
         raise MocapError("Motion matching needs at least one clip, got none.")
     require_alike(clips)

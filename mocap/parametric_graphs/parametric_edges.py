@@ -122,14 +122,20 @@ class _Sampled(NamedTuple):
     found: OptimalTransitions
 
 
-def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sampled:
-    """Draw sources and targets, the outermost sources among them, and compare all pairs."""
-    least, one, other = len(source.parameters) + 2, source.strides, target.strides
-    if sampling.sources < least or sampling.targets < 1:
-        raise MocapError(f"An edge takes {least} sources and a target or more, got {sampling}.")
+def require_joinable(source: StrideSpace, target: StrideSpace) -> None:
+    """Raise SkeletonMismatch or MocapError for spaces of different skeletons or rates."""
+    one, other = source.strides, target.strides
     one.skeleton.require_same(other.skeleton)
     if one.fps != other.fps:
         raise MocapError(f"An edge joins spaces of one rate, got {one.fps:g} and {other.fps:g} Hz.")
+
+
+def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sampled:
+    """Draw sources and targets, the outermost sources among them, and compare all pairs."""
+    least = len(source.parameters) + 2
+    if sampling.sources < least or sampling.targets < 1:
+        raise MocapError(f"An edge takes {least} sources and a target or more, got {sampling}.")
+    require_joinable(source, target)
     random = np.random.default_rng(sampling.seed)
     at = draw_parameters(source, sampling.sources, random)
     to = draw_parameters(target, sampling.targets, random)

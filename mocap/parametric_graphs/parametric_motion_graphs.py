@@ -11,6 +11,7 @@ from mocap.parametric_graphs.parametric_edges import (
     ParametricEdge,
     Sampling,
     build_edge,
+    require_joinable,
     smallest_good,
 )
 from mocap.parametric_graphs.stride_spaces import StrideSpace
@@ -102,6 +103,8 @@ def build_parametric(
     asked = [(a, b) for a in spaces for b in spaces] if edges is None else list(edges)
     if unknown := [name for pair in asked for name in pair if name not in spaces]:
         raise MocapError(f"There is no space '{unknown[0]}'; there are: {', '.join(spaces)}.")
+    for space in spaces.values():  # before any edge takes its seconds
+        require_joinable(next(iter(spaces.values())), space)
     graph = nx.DiGraph()
     graph.add_nodes_from((name, {"space": space}) for name, space in spaces.items())
     for name, other in asked:

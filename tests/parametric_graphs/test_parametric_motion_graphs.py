@@ -1,5 +1,7 @@
 """Nodes and edges under names: seven kinds of strides in one graph, and refusals that help."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,6 +57,12 @@ def test_what_cannot_be_built_is_refused(spaces, edges, good, error, sentence):
     with pytest.raises(error, match=sentence) as caught:
         build_parametric({name: space() for name in spaces}, edges, good=good, sampling=SMALL)
     assert len(str(caught.value)) <= 200
+
+
+def test_spaces_of_two_rates_are_no_graph_even_without_an_edge_between_them():
+    slow = replace(space(), strides=replace(space().strides, fps=60.0))
+    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
+        build_parametric({"a": space(), "b": slow}, [("a", "a"), ("b", "b")], good=0.05, sampling=SMALL)
 
 
 def test_a_space_asked_by_speed_says_so():
