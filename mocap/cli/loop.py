@@ -14,7 +14,7 @@ from mocap.errors import MocapWarning
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
 
-LASTS = number(0.1, 600)
+LASTS = number(0.2, 600)  # no shorter than the seam
 POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
 
 

@@ -62,7 +62,7 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     Parameters
     ----------
     motion : F frames.
-    seconds : the shortest and the longest cycle.
+    seconds : the shortest and the longest cycle, no shorter than the seam of 0.2 s.
 
     Raises
     ------
@@ -103,8 +103,10 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
 
 def _lengths(motion: Motion, fps: float, seconds: tuple[float, float]) -> tuple[int, int]:
     """Turn the bounds of a cycle into frames."""
-    if not 0 < seconds[0] <= seconds[1] < np.inf:
-        raise MocapError(f"A cycle lasts from one number of seconds to a larger one, got {seconds}.")
+    if not SEAM <= seconds[0] <= seconds[1] < np.inf:
+        raise MocapError(
+            f"A cycle lasts from one number of seconds to a larger one, {SEAM:g} or more; got {seconds}."
+        )
     return max(2, round(seconds[0] * fps)), round(seconds[1] * fps)
 
 

@@ -126,7 +126,7 @@ def test_what_cannot_be_looped_is_refused():
         find_loop(wave(1))
     with pytest.raises(MocapError, match="'wave' lasts 303 s: look for a cycle in 300 s of it"):
         find_loop(wave(9100))
-    for seconds in ((2.0, 1.0), (0.0, 1.0), (1.0, np.inf), (np.nan, 1.0)):
+    for seconds in ((2.0, 1.0), (0.0, 1.0), (0.1, 1.0), (1.0, np.inf), (np.nan, 1.0)):
         with pytest.raises(MocapError, match="from one number of seconds to a larger one"):
             find_loop(wave(200), seconds=seconds)
     with pytest.raises(MocapError, match="closed by one of blend, inertialize, not by 'magic'"):
@@ -134,6 +134,10 @@ def test_what_cannot_be_looped_is_refused():
     for first, last in ((-1, 40), (40, 40), (0, 3), (0, 195), (50, 40)):
         with pytest.raises(MocapError, match=f"from frame {first} to {last} leaves no room for a seam of 6"):
             loop(wave(200), Loop(first, last, 0, 0))
+
+
+def test_the_shortest_cycle_that_may_be_asked_for_can_be_closed():
+    assert loop(WALK, find_loop(WALK, seconds=(0.2, 0.2)), way="inertialize").duration == pytest.approx(0.2)
 
 
 def test_a_clip_far_from_the_origin_has_the_same_cycle():
