@@ -6,15 +6,16 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.plotting.axes import rims
 from mocap.plotting.stick_figures import bones
-from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, SOURCES, source_colours
+from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, SOURCES, source_colours
 
 WIDTH = 9.0  # inches
 LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
@@ -30,6 +31,7 @@ def bodies_along(
     sources: Sequence[tuple[int, str]] = (),
     seams: Iterable[int] = (),
     path: ArrayLike = (),
+    discs: ArrayLike = (),
 ) -> Figure:
     """Draw motions as bodies along their paths, evenly spread over the ground, from the side and above.
 
@@ -42,6 +44,7 @@ def bodies_along(
         have a colour each.
     seams : frames at which a transition starts, marked on the path.
     path : the path that was asked for, shape (N, 2), points (x, z) in metres.
+    discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
 
     Returns
     -------
@@ -59,6 +62,7 @@ def bodies_along(
     asked = np.reshape(np.asarray(path, float), (-1, 2))
     clouds = [joint_positions(motion) for motion in motions]
     scene = _Scene(np.concatenate([*(cloud[:, 0, [0, 2]] for cloud in clouds), asked]))
+    scene.discs(discs)
     scene.line(asked, ASKED, "asked path", 4.0)
     named = len(motions) == 1 or len({motion.name for motion in motions}) > 1  # colours need different names
     together = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int) if len(motions) > FEW else None
@@ -124,6 +128,11 @@ class _Scene:
             known = name in self.ax.get_legend_handles_labels()[1]
             label = None if known or not name else name
             self.ax.plot(*self.see(_level(ground)).T, color=colour, linewidth=wide, label=label, zorder=1)
+
+    def discs(self, discs: ArrayLike) -> None:
+        """Draw obstacles, (x, z, radius) each."""
+        if len(outlines := self.see(rims(discs))):
+            self.ax.add_collection(PolyCollection(list(outlines), facecolors=QUIET, zorder=0.5))
 
     def diamonds(self, points: Array) -> None:
         """Mark seams at points, shape (N, 3)."""

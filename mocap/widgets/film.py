@@ -12,25 +12,32 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
-from numpy.typing import NDArray
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
+from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError
-from mocap.plotting.axes import filled, ground_axes, look_at, to_picture
+from mocap.plotting.axes import filled, ground_axes, look_at, rims, to_picture
 from mocap.plotting.stick_figures import StickFigure
-from mocap.plotting.style import PATH, SOURCES
+from mocap.plotting.style import PATH, QUIET, SOURCES
 from mocap.widgets.player import play
 
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
 
 
 def save_animation(
-    motion: Motion | Sequence[Motion], path: str | Path, *, fps: float = 25.0, progress: Progress = iter
+    motion: Motion | Sequence[Motion],
+    path: str | Path,
+    *,
+    discs: ArrayLike = (),
+    fps: float = 25.0,
+    progress: Progress = iter,
 ) -> Path:
     """Write a motion as a file to look at: a stick figure on the ground, its path, a camera that follows it.
 
@@ -39,6 +46,7 @@ def save_animation(
     motion : what to show; of several, each has a colour, and the camera follows them all.
     path : the file to write; nothing is left behind when writing fails. Its ending decides: .gif or .mp4 is a
         film, .png a strip of poses, .html a page with the player, which needs nothing else.
+    discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     fps : frames per second of a film; a GIF counts in hundredths of a second, so 20, 25 and 50 are exact.
     progress : wraps the frames of a film as they are drawn, to show a bar.
 
@@ -71,17 +79,18 @@ def save_animation(
         require_ffmpeg()
     with replacing(path) as beside:
         if suffix == ".html":
-            beside.write_text(play(*motions).page(), "utf-8")
+            beside.write_text(play(*motions, discs=discs).page(), "utf-8")
         elif suffix == ".png":
-            beside.write_bytes(play(*motions).picture)
-        elif suffix == ".mp4":
-            write_mp4(_pictures(motions, fps, progress), beside, fps)
+            beside.write_bytes(play(*motions, discs=discs).picture)
         else:
-            _write_gif(_pictures(motions, fps, progress), beside, fps)
+            write = write_mp4 if suffix == ".mp4" else _write_gif
+            write(_pictures(motions, discs, fps, progress), beside, fps)
     return Path(path)
 
 
-def _pictures(motions: Sequence[Motion], fps: float, progress: Progress) -> Iterator[NDArray[np.uint8]]:
+def _pictures(
+    motions: Sequence[Motion], discs: ArrayLike, fps: float, progress: Progress
+) -> Iterator[NDArray[np.uint8]]:
     """Draw a film, frame by frame, each of shape (500, 500, 3); who has come to the end stands there."""
     motions = [resample(motion, fps) for motion in motions]
     frames = max(map(len, motions))
@@ -92,13 +101,22 @@ def _pictures(motions: Sequence[Motion], fps: float, progress: Progress) -> Iter
     figure = Figure(figsize=(5, 5))
     canvas = FigureCanvasAgg(figure)  # whatever pyplot's backend is, this one needs no screen
     ax = ground_axes(centres[0], reach, ax=filled(figure))
+    obstacles, outlines = Poly3DCollection(np.zeros((1, 3, 3)), facecolors=QUIET, zorder=0.5), rims(discs)
+    ax.add_collection3d(obstacles)
     bodies = [_body(motion, number, len(motions), ax) for number, motion in enumerate(motions)]
     for frame in progress(range(frames)):
         look_at(ax, centres[frame], reach)
+        obstacles.set_verts(to_picture(_near(outlines, centres[frame], 2 * reach)))
         for body, cloud in zip(bodies, clouds, strict=True):
             body.pose(cloud[frame])
         canvas.draw()
         yield np.array(canvas.buffer_rgba())[..., :3]
+
+
+def _near(outlines: Array, centre: Array, reach: float) -> Array:
+    """Cut off what is farther than `reach` to a side of (x, z): matplotlib cannot draw behind the camera."""
+    middle, side = centre[[0, 0, 1]] * [1, 0, 1], np.array([reach, 0, reach])
+    return np.asarray(np.clip(outlines, middle - side, middle + side))
 
 
 def _body(motion: Motion, number: int, count: int, ax: Axes3D) -> StickFigure:

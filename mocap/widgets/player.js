@@ -181,12 +181,12 @@ class Player {
   // ---- the picture ----
 
   draw() {
-    const { characters, time, reach, hand } = this, { asked, sides, marks } = this.scene, target = this.target();
+    const { characters, time, reach, hand } = this, { asked, obstacles, sides, marks } = this.scene, target = this.target();
     const distance = this.follow.checked ? 4.2 : reach, ghosts = this.ghosts.checked, dark = isDark();
     this.root.classList.toggle("dark", dark);
     const palette = dark ? DARK : LIGHT, drawn = hand.drawn, pen = hand.pen ? drawn.at(-1) : null;
     const ground = this.follow.checked ? Math.min(reach, FOLLOWED) : reach;
-    this.picture.draw({ characters, time, asked, drawn, pen, sides, marks, palette, ghosts, target, distance, reach: ground });
+    this.picture.draw({ characters, time, asked, drawn, pen, obstacles, sides, marks, palette, ghosts, target, distance, reach: ground });
     this.showState();
   }
 

@@ -45,6 +45,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     seams: Iterable[Seam | int] = (),
     path: ArrayLike = (),
     off: ArrayLike = (),
+    discs: ArrayLike = (),
     follow: bool = True,
     alt: str = "",
 ) -> Player:
@@ -59,6 +60,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     path : a path that was asked for, shape (N, 2), points (x, z) in metres.
     off : metres from there in each frame of the first motion, shape (F,), as in `Followed.off`; where it is
         more than 15 cm off, its path is red.
+    discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see it; by default it gives names and seconds.
 
@@ -85,6 +87,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         tuple(seam if isinstance(seam, int) else seam.frame for seam in seams),
         np.reshape(np.asarray(path, float), (-1, 2)),
         runs(np.asarray(off, float) > ASTRAY),
+        np.reshape(np.asarray(discs, float), (-1, 3)),
     )
     return Player(motions, marks, follow, alt)
 
@@ -101,6 +104,7 @@ class Marks(NamedTuple):
     seams: tuple[int, ...] = ()
     path: Array = np.empty((0, 2))
     astray: Indices = np.empty((0, 2), int)
+    discs: Array = np.empty((0, 3))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -162,6 +166,7 @@ class Player(Embedded):
             "follow": self.follow,
             "sides": [COLOURS[side] for side in SIDES],
             "asked": marks.path.round(3).tolist(),
+            "obstacles": marks.discs.round(3).tolist(),
             "marks": {"seam": MARK, "astray": ASTRAY_COLOUR},
             "characters": characters,
             "data": zlib.compress(data),
@@ -178,8 +183,9 @@ class Player(Embedded):
         ground = self.motions[0].root_positions[:, [0, 2]]
         if max(np.ptp(ground, axis=0)) < WALKS and not len(self.marks.path):
             return small_png(film_strip(self.motions))
-        sources, seams, path, _ = self.marks
-        return small_png(bodies_along(*self.motions, sources=sources, seams=seams, path=path))
+        sources, seams, path, _, discs = self.marks
+        figure = bodies_along(*self.motions, sources=sources, seams=seams, path=path, discs=discs)
+        return small_png(figure)
 
 
 def _packed(motion: Motion, colour: str) -> tuple[dict[str, Any], bytes]:

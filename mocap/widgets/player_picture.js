@@ -9,13 +9,14 @@ class Picture {
   constructor(canvas, camera) { this.canvas = canvas; this.camera = camera; }
 
   // Draw the characters at a time, seen from `distance` metres away from `target`. `asked` and `drawn` are paths on
-  // the ground, `pen` is a place on it, `sides` are the colours of a body's sides, and the ground reaches at least
-  // `reach` metres.
-  draw({ characters, time, asked, drawn, pen, sides, marks, palette, ghosts, target, distance, reach }) {
+  // the ground, `pen` is a place on it, `obstacles` are discs on it (x, z, radius), `sides` are the colours of a body's
+  // sides, and the ground reaches at least `reach` metres.
+  draw({ characters, time, asked, drawn, pen, obstacles = [], sides, marks, palette, ghosts, target, distance, reach }) {
     Object.assign(this, { characters, time, sides, marks, palette });
     const [wide, high] = this.clear();
     this.camera.place(target, distance, wide, high);
     this.drawGround(target, reach);
+    for (const disc of obstacles) this.drawObstacle(disc);
     const flat = (places) => places.map(([x, z]) => [x, 0, z]);
     this.stroke([flat(asked)], palette.asked, 6, 0.75);
     this.stroke([flat(drawn)], palette.asked, 3);
@@ -49,6 +50,18 @@ class Picture {
       this.stroke([...along, ...across], this.palette.line, 1, 1 - i / (lines + 1));
     }
     if (gap > 1) this.write(`lines ${gap} m apart`);
+  }
+
+  // A disc on the ground, as a polygon: it may be large. Corners behind the camera are left out.
+  drawObstacle([x, z, radius]) {
+    const { camera, pen } = this;
+    pen.beginPath();
+    for (let angle = 0; angle < 2 * Math.PI; angle += Math.PI / 24) {
+      camera.project(x + radius * Math.sin(angle), 0, z + radius * Math.cos(angle));
+      if (camera.far > NEAR) pen.lineTo(camera.across, camera.down);
+    }
+    pen.fillStyle = this.palette.line;
+    pen.fill();
   }
 
   // A few words in the lower left corner.

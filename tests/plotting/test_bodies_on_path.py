@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_hex
 
 from mocap.plotting.bodies_on_path import APART, HIGH, LOW, MOST, WIDTH, bodies_along
@@ -65,3 +65,12 @@ def test_the_picture_fits_what_it_shows(frames):
     figure.canvas.draw()
     inside = figure.axes[0].get_window_extent().bounds
     assert inside[3] > 0.6 * high * figure.dpi or inside[2] > 0.9 * wide * figure.dpi
+
+
+def test_obstacles_lie_on_the_ground():
+    (outline,) = [
+        part.get_paths()
+        for part in bodies_along(wave(30), discs=[[0, 1, 0.5]]).axes[0].collections
+        if isinstance(part, PolyCollection)
+    ]
+    assert len(outline) == 1 and np.ptp(outline[0].vertices, axis=0).max() == pytest.approx(1.0, abs=0.01)

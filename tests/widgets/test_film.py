@@ -68,10 +68,11 @@ def test_without_imageio_ffmpeg_one_sentence_says_what_to_install(tmp_path, monk
 
 
 def test_a_strip_and_a_page_are_the_players(tmp_path):
-    motion = wave(30)
-    strip = film.save_animation(motion, tmp_path / "wave.png")
-    page = film.save_animation(motion, tmp_path / "wave.HTML")
-    player = play(motion)
+    motion, discs = wave(30), [[0, 1.23456, 0.5]]
+    strip = film.save_animation(motion, tmp_path / "wave.png", discs=discs)
+    page = film.save_animation(motion, tmp_path / "wave.HTML", discs=discs)
+    player = play(motion, discs=discs)
+    assert player.scene["obstacles"] == [[0, 1.235, 0.5]]
     assert strip.read_bytes() == player.picture
     assert page.read_text("utf-8") == player.page()
 
@@ -115,3 +116,15 @@ def test_a_film_of_nobody_is_refused(tmp_path):
     with pytest.raises(MocapError, match="There is no motion to show"):
         film.save_animation([], tmp_path / "none.gif")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("disc", "grey"),
+    [((0.0, 0.5, 0.8), (0.02, 0.3)), ((-7 * np.sin(0.96), 7 * np.cos(0.96), 0.8), (0, 0.001))],
+    ids=["in sight", "beside the camera"],
+)
+def test_obstacles_lie_on_the_ground(disc, grey):
+    """What is beside and behind the camera must not fill the picture."""
+    picture = next(film._pictures([wave(9)], [disc], 20.0, iter)).astype(int)
+    share = (np.abs(picture - 0x99) < 3).all(axis=-1).mean()
+    assert grey[0] <= share <= grey[1]
