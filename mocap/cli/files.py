@@ -53,8 +53,8 @@ def add_judge(commands: "Commands") -> None:
         "judge",
         help="measure motions, whatever made them, and rank them",
         description="Measure motions, whatever program made them, and list the best first: jolts, trembling, "
-        "feet that sink, slide or skate, joints that bend or turn too far, bones that change their length, "
-        "a body of another size than people's, and how far from a path. "
+        "feet that sink, float, slide or skate, joints that bend or turn too far, bones that change their "
+        "length, a body of another size than people's, and how far from a path. "
         "Each number is a share of its limit; above 1 it stands out beyond what captured people do. "
         "Whether a motion is the one that was wanted, or looks alive, it cannot see.",
         epilog="Example: mocap judge made.bvh --against clips/ --path line.csv",

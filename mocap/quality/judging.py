@@ -38,6 +38,7 @@ WINDOW = 1 / 3  # seconds: jumps in a window are compared with those in the clip
 SEAM = 1.5  # times what all but one in a thousand windows of the clips do
 TREMBLE, FLAT = 3.0, 0.1  # millimetres from a smooth curve through so many seconds
 STILL = 0.02  # m/s: a jump of velocity that one who stands still makes
+ALOFT = 0.25  # metres; in 153 clips the lowest joint comes down to 12.5 cm at least, also on stairs
 SLIDE = 2.5  # centimetres that a planted foot may wander
 SKATE, SLOWEST, SLOW = 8.0, 25, 0.5  # percent of the body's speed; the percentile of the frames; least m/s
 LOPSIDED = 20.0  # millimetres between a left bone and its partner
@@ -63,6 +64,7 @@ def judge(
     - skate: how fast the slowest joint of the feet is over the ground, a quarter of the time, in percent of
       the body's speed. A body that glides has no plants that could slide.
     - sunk: how deep the lowest joint is below the ground, y = 0.
+    - aloft: how high the lowest joint stays; told where it never comes down to 25 cm.
     - lopsided: how much the bones of left and right differ.
     - size: how many times a body is taller or shorter than people are: its unit of length may be wrong.
     - bones: by how much a bone of the file changes its length.
@@ -105,8 +107,7 @@ def judge(
         )
     places, left_out = joint_positions(motion), []
     measures = [_jolt(motion, against), _tremble(motion), _sunk(motion, places), _fastest(motion)]
-    if (lopsided := _lopsided(motion)) is not None:
-        measures.append(lopsided)
+    measures += filter(None, (_lopsided(motion), _aloft(places)))
     try:
         legs = find_legs(motion.skeleton) if legs is None else legs
         if not legs:
@@ -155,6 +156,14 @@ def _sunk(motion: Motion, places: Array) -> Measure:
     frame, joint = map(int, np.unravel_index(int(places[..., 1].argmin()), places.shape[:2]))
     depth = max(0.0, -float(places[frame, joint, 1]))
     return Measure("sunk", 100 * depth, 100 * UNDER, "cm", f"'{motion.skeleton.names[joint]}', frame {frame}")
+
+
+def _aloft(places: Array) -> Measure | None:
+    """Find a body that never comes down to the ground; one who climbs stairs stood below them."""
+    lowest = places[..., 1].min(axis=1)
+    where = f"lowest in frame {int(lowest.argmin())}"
+    high = float(lowest.min())
+    return Measure("aloft", 100 * high, 100 * ALOFT, "cm", where) if high > ALOFT else None
 
 
 def _fastest(motion: Motion) -> Measure:

@@ -51,6 +51,7 @@ def measured(motion, name, **more):
 FLAWS = {
     "jolt": lambda: concatenate([WALK[:200], WALK[240:]]),
     "tremble": trembling,
+    "aloft": lambda: replace(WALK, root_positions=WALK.root_positions + 0.4 * np.eye(3)[1]),
     "sunk": lambda: replace(WALK, root_positions=WALK.root_positions - [0, 0.1, 0]),
     "turn": lambda: turned("lhand", 90.0 * (np.arange(len(WALK)) == 100), [1, 0, 0]),
     "lopsided": lopsided,
@@ -124,7 +125,7 @@ def test_a_body_without_known_legs_is_measured_without_its_feet():
     skeleton = replace(WALK.skeleton, names=tuple(names.values()))
     assert len(judge(Motion(skeleton, WALK.root_positions, WALK.rotations, WALK.fps)).left_out[0]) <= 200
     judged = judge(wave(60))
-    assert " ".join(measure.name for measure in judged.measures) == "jolt tremble sunk turn bent size"
+    assert " ".join(measure.name for measure in judged.measures) == "jolt tremble sunk turn aloft bent size"
     assert judged.left_out[0].startswith("feet and knees: No legs found")
     assert judge(WALK, legs=[]).left_out == ("feet and knees: no legs are named.",)
     table = judgement_table([judged, judge(WALK)])
