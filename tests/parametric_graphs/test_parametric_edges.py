@@ -45,6 +45,16 @@ def test_without_bad_targets_boxes_hold_more_of_them():
     assert shares[0] <= shares[1]
 
 
+def test_few_sources_leave_bad_targets_in_the_boxes_between_them():
+    """Of 100 fresh boxes 18 hold a bad one where five sources were drawn, one or none where 50 were."""
+    one = space()
+    few, many = (
+        build_edge(one, one, good=0.03, sampling=Sampling(sources, targets=300)) for sources in (5, 50)
+    )
+    boxes = [fresh(one, one, edge, 1.35 * 0.03)[0] for edge in (few, many)]
+    assert boxes[0] > 0.12 > 0.03 > boxes[1]
+
+
 def test_with_d_plus_1_neighbours_boxes_jump():
     """The paper's k gives the nearest sample alone; one more makes boxes continuous [HG07, Eqs. 1-2]."""
     edge = walking().edge("walk", "walk")
