@@ -116,10 +116,12 @@ class _Scene:
         return np.stack([points @ self.axes[0], points @ self.up], axis=-1)
 
     def _grid(self, ground: Array) -> None:
-        low, high = np.floor(ground.min(axis=0) - 0.5), np.ceil(ground.max(axis=0) + 0.5)
+        """Draw squares of 1 m on the floor; of 10, 100, ... m where more than a thousand would stand in a row."""
+        cell = 10.0 ** np.ceil(np.log10(max(np.ptp(ground, axis=0).max() / 1000, 1.0)))
+        low, high = np.floor(ground.min(axis=0) / cell - 0.5), np.ceil(ground.max(axis=0) / cell + 0.5)
         away = [((x, low[1]), (x, high[1])) for x in np.arange(low[0], high[0] + 1)]
         along = [((low[0], z), (high[0], z)) for z in np.arange(low[1], high[1] + 1)]
-        lines = self.see(np.array([*away, *along]) @ self.axes)
+        lines = self.see(cell * np.array([*away, *along]) @ self.axes)
         self.ax.add_collection(LineCollection(list(lines), colors=FLOOR, linewidths=0.8, zorder=0))
 
     def line(self, ground: Array, colour: str, name: str, wide: float = 1.6) -> None:

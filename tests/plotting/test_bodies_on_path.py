@@ -1,5 +1,7 @@
 """Bodies along a path: how many, where, in which colours."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection, PolyCollection
@@ -30,6 +32,15 @@ def test_bodies_are_spread_over_the_ground_in_the_colours_of_their_sides():
 def test_a_long_walk_has_a_bounded_number_of_bodies():
     assert APART * MOST < 0.02 * 2000
     assert MOST / 2 < len(bodies(bodies_along(wave(2000)))) <= MOST
+
+
+def test_a_frame_beyond_the_horizon_gets_a_coarser_floor():
+    """One frame out of range, as a lost marker gives it: squares of 1 m would take minutes and gigabytes."""
+    walk = wave(50)
+    roots = walk.root_positions.copy()
+    roots[20] = [0, 1, 1e7]
+    floor = bodies_along(replace(walk, root_positions=roots)).axes[0].collections[0]
+    assert len(floor.get_segments()) < 2000
 
 
 def test_clips_have_their_colours_and_seams_are_marked_where_they_are():
