@@ -116,7 +116,7 @@ class _Scene:
         return np.stack([points @ self.axes[0], points @ self.up], axis=-1)
 
     def _grid(self, ground: Array) -> None:
-        """Draw squares of 1 m on the floor; of 10, 100, ... m where more than a thousand would stand in a row."""
+        """Draw squares of 1 m on the floor; of 10, 100, ... m rather than more than a thousand in a row."""
         cell = 10.0 ** np.ceil(np.log10(max(np.ptp(ground, axis=0).max() / 1000, 1.0)))
         low, high = np.floor(ground.min(axis=0) / cell - 0.5), np.ceil(ground.max(axis=0) / cell + 0.5)
         away = [((x, low[1]), (x, high[1])) for x in np.arange(low[0], high[0] + 1)]
