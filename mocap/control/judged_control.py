@@ -80,7 +80,7 @@ def judge_control(
 
     Raises
     ------
-    MocapError : for a character whose clips do not say when feet stand.
+    MocapError : for a character whose clips do not say when feet stand, and less than two seconds.
 
     Examples
     --------
@@ -94,11 +94,13 @@ def judge_control(
 
     Notebook: 18-motion-matching
     """
+    if not EVERY <= seconds < np.inf:
+        raise MocapError(f"A character is judged by commands for {EVERY:g} s or more, got {seconds} s.")
     delay = measure_delay(make(), speed=speed, seed=seed)
     character = make()
     headings = command_headings(seconds, character.fps, seed)
     motion = steer(character, headings.tolist(), speed).motion
-    if not motion.contacts:
+    if not any(mark.any() for mark in motion.contacts.values()):
         raise MocapError("The character's clips do not say when feet stand; mark_plants finds out.")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # how much was let go is `kept`

@@ -9,6 +9,7 @@ import pytest
 from mocap.body.motion import Motion
 from mocap.body.rotations import about_y
 from mocap.control import Controller, FootTurner, command_headings, judge_control
+from mocap.control.characters import Pose
 from mocap.control.judged_control import _pivots
 from mocap.datasets.generated import SKELETON
 from mocap.errors import MocapError
@@ -90,6 +91,27 @@ def test_commands_turn_by_30_to_120_degrees_every_two_seconds():
     turns = np.abs(np.diff(headings[::60]))
     assert len(headings) == 600 and turns.min() >= np.pi / 6 and turns.max() <= 2 * np.pi / 3
     assert not np.diff(headings.reshape(-1, 60), axis=1).any()
+
+
+@pytest.mark.parametrize("seconds", [0, 1.9, np.nan, np.inf])
+def test_less_than_one_command_is_refused(seconds):
+    with pytest.raises(MocapError, match="judged by commands for 2 s or more"):
+        judge_control(Flier, spread(clips()), seconds=seconds)
+
+
+class Flier:
+    """Its feet are marked, and never stand."""
+
+    skeleton, fps, frames_left = SKELETON, 30.0, 0
+
+    def step(self, heading, speed, label=""):
+        turns = np.tile([1.0, 0, 0, 0], (len(SKELETON), 1))
+        return Pose(np.array([0.0, 1.0, 0.0]), turns, False, {"lfoot": False, "rfoot": False})
+
+
+def test_a_character_that_never_stands_is_refused():
+    with pytest.raises(MocapError, match="do not say when feet stand"):
+        judge_control(Flier, spread(clips()), seconds=5)
 
 
 def test_a_character_without_marks_is_refused():
