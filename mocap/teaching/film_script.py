@@ -21,7 +21,8 @@ from mocap.teaching.prose import blocks, sentences, shortened, spoken
 SPEED = 15.0  # characters that are read per second
 WORDS = 200  # characters of a caption at most
 LOOK = {"card": 3.0, "still": 5.0, "moving": 9.0, "player": 10.0}  # seconds of a scene at least
-SHORTEST, MIDDLE, LONGEST = 150.0, 180.0, 210.0  # seconds of a film
+SHORTEST, MIDDLE = 150.0, 180.0  # seconds of a film
+ENDS = (".", "!", "?", ")", '"', "…")
 LAST, LEARNT = "Read on", "What you learnt"
 ALT = re.compile(r' alt="([^"]*)"')
 SKIPPED = (LAST, "Your bets", "Where to go from here")
@@ -84,9 +85,11 @@ def script_of(notebook: Any, recorded: Mapping[str, Any]) -> list[Scene]:  # noq
             taken.add(number)
             total += scenes[number].seconds
     chosen = [scenes[number] for number in sorted(taken)]
-    longer = max(1.0, min(LONGEST, max(MIDDLE, total)) / total) if chosen else 1.0
-    for scene in chosen:
-        scene.longer = longer
+    shown = [scene for scene in chosen if scene.kind != "card"] or chosen  # to look at, as words are not
+    looked = sum(scene.seconds for scene in shown)
+    whole = max(SHORTEST, min(MIDDLE, total + looked))  # at most twice as long, if that is long enough
+    for scene in shown:
+        scene.longer = max(1.0, (whole - total + looked) / looked)
     return chosen
 
 
@@ -143,7 +146,7 @@ def _caption(parts: Iterable[str]) -> str:
     words = ""
     for part in parts:
         said = spoken(part)
-        if not said or said.endswith(":") or len(words) + len(said) > WORDS:
+        if not said.endswith(ENDS) or len(words) + len(said) > WORDS:  # others lead to a formula or a list
             break
         words = f"{words} {said}".strip()
     return words

@@ -7,7 +7,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 
 from mocap.course import read
 from mocap.course.lab import stored
-from mocap.teaching.film_script import LEARNT, SPEED, script_of
+from mocap.teaching.film_script import ENDS, LEARNT, SPEED, script_of
 
 NAMES = sorted(path.stem for path in stored().glob("*.ipynb"))
 PNG = base64.b64encode(b"picture").decode()
@@ -33,6 +33,8 @@ def test_a_film_lasts_three_minutes_and_its_words_can_be_read(name):
     for scene in scenes:
         assert len(scene.words) <= SPEED * scene.seconds
         assert scene.heading
+        assert scene.kind != "card" or scene.longer == 1  # nobody reads the same words for a minute
+        assert all(line.endswith(ENDS) for line in scene.words.splitlines())
         assert not set("$`<") & set(scene.words)
     assert scenes[-1].heading == LEARNT
     assert scenes[0].words
