@@ -1,11 +1,19 @@
 """`mocap crowd` writes motions, a plan and a film; what cannot be planned is said before it writes."""
 
+from argparse import Namespace
+
+import numpy as np
 import pytest
 from PIL import Image
 
 from mocap.cli.main import main
-from mocap.cli.many_clips.crowd import _film
+from mocap.cli.many_clips.crowd import _film, _plan, _write
+from mocap.errors import NoWalk
 from mocap.files import load_save
+from mocap.groups.group_graphs import Placed
+from mocap.groups.planning import plan_group
+from mocap.groups.scenes import Scene
+from tests.groups.built import graph
 from tests.strategies import wave
 
 
@@ -37,8 +45,70 @@ def test_a_motion_for_each_member_a_plan_and_a_film(course, capsys, monkeypatch)
 
 def test_the_film_is_an_mp4_where_that_can_be(tmp_path):
     pytest.importorskip("imageio_ffmpeg")
-    _film([wave(30), wave(30, phase=1)], tmp_path)
+    _film([wave(30), wave(30, phase=1)], Scene((1 + 0j,), ((2 + 0j, 0.5),)), tmp_path / "crowd.mp4")
     assert [path.name for path in tmp_path.iterdir()] == ["crowd.mp4"]
+
+
+def write(folder, members, *, to="bvh", no_film=True):
+    motions = [wave(10, phase=number) for number in range(members)]
+    places = np.linspace(0, 1, 9)[:, None] + np.zeros(members)
+    _write(motions, places, Scene((1 + 0j,)), Namespace(out=folder, to=to, no_film=no_film))
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_smaller_crowd_leaves_no_members_of_an_earlier_one_and_all_other_files(tmp_path, capsys):
+    for own in ("member-04.bvh", "member-06.glb", "notes.txt"):
+        (tmp_path / own).write_text("one's own")
+    write(tmp_path, 3)
+    write(tmp_path, 2, to="glb")
+    assert capsys.readouterr().out == "removed      3 of the files of an earlier crowd\n"
+    left = ["member-01.glb", "member-02.glb", "member-04.bvh", "member-06.glb", "notes.txt", "plan.png"]
+    assert names(tmp_path) == left
+    (tmp_path / "member-03.bvh").write_text("one's own, where an earlier crowd had a file")
+    write(tmp_path, 2, to="glb")
+    assert names(tmp_path) == sorted([*left, "member-03.bvh"])
+
+
+def test_a_plan_that_is_no_crowd_s_lets_nothing_be_removed(tmp_path):
+    (tmp_path / "plan.png").write_bytes(b"member-05.bvh\n\xff")
+    (tmp_path / "member-05.bvh").write_text("one's own")
+    write(tmp_path, 2)
+    assert names(tmp_path) == ["member-01.bvh", "member-02.bvh", "member-05.bvh", "plan.png"]
+
+
+@pytest.mark.parametrize("fails", ["files.save", "cli.many_clips.crowd._film"])
+def test_when_it_is_interrupted_nothing_is_lost_and_the_next_crowd_tidies_up(tmp_path, monkeypatch, fails):
+    """Until all motions are whole the old crowd stays; until the film is whole, the old film and members."""
+    monkeypatch.setattr(
+        "mocap.cli.many_clips.crowd._film", lambda motions, scene, path: path.write_text("a film")
+    )
+    write(tmp_path, 4, no_film=False)
+    old = {name: (tmp_path / name).read_bytes() for name in names(tmp_path)}
+
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(f"mocap.{fails}", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            write(tmp_path, 3, to="glb", no_film=False)
+    new = [f"member-{number:02}.glb" for number in (1, 2, 3)] if "_film" in fails else []
+    assert names(tmp_path) == sorted([*old, *new])
+    kept = [name for name in old if name != "plan.png" or not new]
+    assert all((tmp_path / name).read_bytes() == old[name] for name in kept)
+    write(tmp_path, 2)
+    assert names(tmp_path) == ["member-01.bvh", "member-02.bvh", "plan.png"]
+
+
+def test_where_the_way_to_the_first_point_is_closed_it_sets_out_to_a_side():
+    group, scene = graph(3), Scene((20j,), ((3.4j, 1.3),))
+    with pytest.raises(NoWalk, match="closed every way"):
+        plan_group(group, scene, start=Placed(0, 1j))
+    start, found = _plan(group, scene)
+    assert abs(np.angle(start.turn / 1j)) == pytest.approx(0.5) and found.clips
 
 
 @pytest.mark.parametrize(

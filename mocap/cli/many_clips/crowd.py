@@ -1,8 +1,13 @@
 """The command `mocap crowd`: a group that was planned, and a character for each member."""
 
 import argparse
+import cmath
+import re
+from collections.abc import Sequence
+from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from mocap import body, datasets, files, graphs, groups, plotting, widgets
@@ -11,13 +16,20 @@ from mocap.cli.options import SEED, SKELETON, bar, whole
 from mocap.errors import MocapError, NoWalk
 
 if TYPE_CHECKING:
+    from mocap._shared.arrays import Points
     from mocap.body.motion import Motion
     from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
+    from mocap.groups.group_graphs import GroupGraph, Placed
+    from mocap.groups.planning import GroupWalk
     from mocap.groups.scenes import Scene
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 FORMATS = ("bvh", "glb")
+FILMS = ("crowd.mp4", "crowd.gif")
+OURS = re.compile(r"^(?:member-\d\d\.(?:bvh|glb)|crowd\.(?:mp4|gif))$", re.MULTILINE)
+WROTE, LONGEST = "mocap crowd wrote", 2000  # how the list of files begins, and its length at most
+TURNS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the way to the first point, tried in this order
 
 
 def add_crowd(commands: "Commands") -> None:
@@ -26,8 +38,9 @@ def add_crowd(commands: "Commands") -> None:
         "crowd",
         help="plan the way of a group, and walk it with a character for each member",
         description="Plan how a group walks past points and around obstacles, and let a character of a "
-        "motion graph walk each member's way, in place and in time. Writes a motion for each member, "
-        "plan.png, and a film: crowd.mp4, or crowd.gif where imageio-ffmpeg is not installed.",
+        "motion graph walk each member's way, in place and in time. The group starts at x = 0, z = 0. Writes "
+        "a motion for each member, plan.png, and a film: crowd.mp4, or crowd.gif where imageio-ffmpeg is not "
+        "installed. Replaces what an earlier crowd wrote into the folder, and leaves other files alone.",
         epilog="Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/",
     )
     add = crowd.add_argument
@@ -49,28 +62,76 @@ def _crowd(options: argparse.Namespace) -> int:
     scene.check(0j)
     motion_graph = _graph(options)
     group = groups.build_group(options.members, seed=options.seed)
-    found = groups.plan_group(group, scene)
+    start, found = _plan(group, scene)
     frames = round(found.seconds * groups.RATE) + 1
-    plan = groups.Trajectories(*(part[:frames] for part in groups.play_group(group, found.clips)))
+    plan = groups.Trajectories(*(part[:frames] for part in groups.play_group(group, found.clips, start)))
     print(f"{'planned':<12} {found.seconds:.1f} s for {options.members} members, {found.expanded} states")
     walkers = groups.walk_group(motion_graph, plan, progress=bar("walking"))
     print(f"{'walked':<12} {walkers.report()}")
-    make_folder(options.out)
-    for number, motion in enumerate(walkers.motions, 1):
-        files.save(motion, options.out / f"member-{number:02}.{options.to}")
-    with replacing(options.out / "plan.png") as beside:
-        figure = plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near)
-        figure.savefig(beside, format="png")
-    if not options.no_film:
-        _film(list(walkers.motions), options.out)
+    _write(walkers.motions, plan.places, scene, options)
     print(f"{'wrote':<12} {options.out}")
     return 0
 
 
-def _film(motions: "list[Motion]", folder: Path) -> None:
+def _plan(group: "GroupGraph", scene: "Scene") -> "tuple[Placed, GroupWalk]":
+    """Plan a way that sets out towards the first point or, where that is closed, to one side of it."""
+    refused: list[NoWalk] = []
+    for turn in TURNS:
+        start = groups.Placed(0, cmath.rect(1.0, cmath.phase(scene.points[0]) + turn))
+        try:
+            return start, groups.plan_group(group, scene, start=start)
+        except NoWalk as error:
+            refused.append(error)
+    raise refused[0]
+
+
+def _write(
+    motions: "Sequence[Motion]", places: "Points", scene: "Scene", options: argparse.Namespace
+) -> None:
+    """Write a crowd's files; once all are whole, remove those of an earlier crowd that this one lacks."""
+    folder, film = options.out, FILMS[0] if find_spec("imageio_ffmpeg") else FILMS[1]
+    make_folder(folder)
+    names = [f"member-{number:02}.{options.to}" for number in range(1, len(motions) + 1)]
+    old, new = _written(folder), {*names, *([] if options.no_film else [film])}
+    try:
+        with TemporaryDirectory(prefix=".", dir=folder) as beside:
+            for name, motion in zip(names, motions, strict=True):
+                files.save(motion, Path(beside, name))
+            _save_plan(places, scene, folder, old | new)  # before the others: it names all that is ever there
+            for name in names:
+                Path(beside, name).replace(folder / name)
+        if not options.no_film:
+            _film(motions, scene, folder / film)
+        stale = sorted(name for name in old - new if (folder / name).is_file())
+        for name in stale:
+            (folder / name).unlink()
+    except OSError as error:
+        raise MocapError(f"Cannot write into {folder}: {error.strerror or error}.") from error
+    _save_plan(places, scene, folder, new)
+    if stale:
+        print(f"{'removed':<12} {len(stale)} of the files of an earlier crowd")
+
+
+def _save_plan(places: "Points", scene: "Scene", folder: Path, names: set[str]) -> None:
+    """Save the plan as a picture that says, in a comment in the file, what was written beside it."""
+    figure = plotting.draw_group_plan(places, scene.points, scene.discs, near=scene.near)
+    with replacing(folder / "plan.png") as beside:
+        figure.savefig(beside, format="png", metadata={"Comment": "\n".join([WROTE, *sorted(names), ""])})
+
+
+def _written(folder: Path) -> set[str]:
+    """Name the files that an earlier crowd wrote, as its plan says: other files may have such names, too."""
+    with suppress(OSError):
+        plan = (folder / "plan.png").read_bytes().decode("latin-1")
+        return set(OURS.findall(plan.partition(WROTE)[2][:LONGEST]))
+    return set()
+
+
+def _film(motions: "Sequence[Motion]", scene: "Scene", path: Path) -> None:
     """Write an .mp4 where that can be; a .gif has half the frames, and is three times as large even so."""
-    name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
-    widgets.save_animation(motions, folder / name, fps=fps, progress=bar("drawing"))
+    discs = [(centre.imag, centre.real, radius) for centre, radius in scene.discs]
+    fps = 25.0 if path.suffix == ".mp4" else 12.5
+    widgets.save_animation(motions, path, discs=discs, fps=fps, progress=bar("drawing"))
 
 
 def _scene(options: argparse.Namespace) -> "Scene":
