@@ -7,12 +7,14 @@ side with the numbers of the steps.
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.text import Text
 from PIL import Image, ImageDraw
 
 from mocap import datasets, diagrams, graphs, matching, plotting
@@ -144,6 +146,8 @@ def board_sheet(name: str) -> Image.Image:
     """
     heading, steps = BOARD[name]
     figures = list(steps())
+    for figure in figures if len(figures) > 1 else []:
+        _unnumbered(figure)
     room = PANEL if len(figures) > 1 else (2 * PANEL[0], PANEL[1])  # one figure that shows its steps itself
     panels = [_panel(figure, heading, room) for figure in figures]
     columns = min(len(panels), 2 if len(panels) == 4 else 3)
@@ -158,6 +162,12 @@ def board_sheet(name: str) -> Image.Image:
             pen.ellipse([x, y, x + 48, y + 48], DISC)
             pen.text((x + 24, y + 24), str(number + 1), PAPER, font_of(28, bold=True), anchor="mm")
     return page
+
+
+def _unnumbered(figure: Any) -> None:  # noqa: ANN401
+    """Take off the number with which a step's title begins: the disc beside it has one."""
+    for text in figure.findobj(Text):
+        text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
 
 
 def _panel(figure: Any, heading: str, room: tuple[int, int]) -> Image.Image:  # noqa: ANN401

@@ -23,6 +23,17 @@ def test_a_drawing_has_its_steps_with_numbers(name):
     assert (page[:, -board.GAP // 2 :] == 255).all()  # no heading is cut
 
 
+def test_a_step_has_one_number(monkeypatch):
+    kept = []
+    monkeypatch.setattr(board, "_panel", lambda figure, *_: kept.append(figure) or Image.new("RGB", (9, 9)))
+    board.board_sheet("07-graph")
+    titles = [figure.axes[0].get_title(loc="left") for figure in kept]
+    assert titles[0].startswith("Two clips: ")
+    board.board_sheet("04-laid-on")
+    assert any(ax.get_title().startswith("1. ") for ax in kept[-1].axes)  # which shows its steps itself
+    plt.close("all")
+
+
 @pytest.mark.parametrize("name", board.BOARD)
 def test_each_has_figures(name):
     figures = list(board.BOARD[name][1]())
