@@ -89,10 +89,7 @@ class ParametricController:
         self.parameters = space.clipped(straight)
         self.chosen: list[Chosen] = []
         self.stride, self.place = make_stride(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
-        self._play(
-            _Buffer(np.empty((0, 3)), np.empty((0, len(self.skeleton), 4)), np.empty(0, bool), {}),
-            self.stride.frame(0.0),
-        )
+        self._play([], self.stride.frame(0.0))
 
     @property
     def skeleton(self) -> Skeleton:
@@ -133,20 +130,12 @@ class ParametricController:
         marks = {name: bool(mark[frame]) for name, mark in buffer.contacts.items()}
         return Pose(buffer.roots[frame], buffer.turns[frame], bool(buffer.blending[frame]), marks)
 
-    def _play(self, blended: _Buffer, first: int) -> None:
-        """Put the frames of the stride from `first` to its decision behind the blended ones."""
+    def _play(self, before: list[_Buffer], first: int) -> None:
+        """Put the frames of the stride from `first` to its decision behind others."""
         self.way = self._ways()
-        last = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
-        frames = slice(first, max(last, first))
-        roots, turns = self.stride.placed(frames, self.place)
-        marks, none = self.stride.motion.contacts, np.empty(0, bool)
-        self._buffer = _Buffer(
-            np.concatenate([blended.roots, roots]),
-            np.concatenate([blended.turns, turns]),
-            np.concatenate([blended.blending, np.zeros(len(roots), bool)]),
-            {n: np.concatenate([blended.contacts.get(n, none), m[frames]]) for n, m in marks.items()},
-        )
-        self._next, self._at = 0, frames.stop
+        soonest = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
+        self._next, self._at = 0, max(soonest, first)
+        self._buffer = _joined([*before, _Playing(self.stride, self.place, first).until(self._at)])
 
     def _ways(self) -> dict[str, Way]:
         """Look up for each node that may follow which box and when."""
@@ -160,17 +149,17 @@ class ParametricController:
         node = self._towards(label, heading, speed)
         space, way = self.graph.space(node), self.way[node]
         wished = self._wish(space, heading, speed)
-        taken = np.clip(wished, np.minimum(way.low, way.high), np.maximum(way.low, way.high))
-        made, centre = make_stride(space, taken), self._at + HALF
-        into = made.frame(way.enter)
-        window, other = facing_windows(self.stride, centre, made, into)
-        lay = align(window, other)
-        cost = float(np.sqrt(((window - lay.apply_points(other)) ** 2).sum(axis=-1).mean()))
+        taken = np.clip(wished, way.low, way.high)
+        made, centre = make_stride(space, taken), max(self.stride.frame(way.leave), self._at + HALF)
+        into, rest = made.frame(way.enter), _Playing(self.stride, self.place, self._at).until(centre - HALF)
+        window, facing = facing_windows(self.stride, centre, made, into)
+        lay = align(window, facing)
+        cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=-1).mean()))
         place = self.place @ lay
-        blended = _blend(_Playing(self.stride, self.place, self._at), _Playing(made, place, into - HALF))
+        one, other = _Playing(self.stride, self.place, centre - HALF), _Playing(made, place, into - HALF)
         self.chosen.append(Chosen(node, wished, taken, made.values[space.columns], cost))
         self.node, self.parameters, self.stride, self.place = node, taken, made, place
-        self._play(blended, into + HALF + 1)
+        self._play([rest, _blend(one, other)], into + HALF + 1)
 
     def _wish(self, space: StrideSpace, heading: float, speed: float) -> Array:
         """Say which parameters would obey the command: the turn still missing, and the speed."""
@@ -200,11 +189,10 @@ class ParametricController:
     def _missed(self, node: str, heading: float, speed: float) -> float:
         """Measure how far the best of a box is from the wish, in radians and m/s together."""
         space, way = self.graph.space(node), self.way[node]
-        full = np.array([self._wish(space, heading, speed), way.low, way.high])
-        taken = np.clip(full[0], full[1:].min(axis=0), full[1:].max(axis=0))
-        made = dict(zip(space.parameters, np.abs(full[0] - taken), strict=True))
+        wished = self._wish(space, heading, speed)
+        off = dict(zip(space.parameters, np.abs(wished - np.clip(wished, way.low, way.high)), strict=True))
         usual = np.abs(np.median(space.strides.values[:, 1]) - speed)
-        return float(made.get("turn", 0.0) + made.get("speed", usual))
+        return float(off.get("turn", 0.0) + off.get("speed", usual))
 
 
 class _Playing(NamedTuple):
@@ -214,18 +202,28 @@ class _Playing(NamedTuple):
     place: PlanarTransform
     frame: int
 
-    def window(self) -> tuple[Array, Array, dict[str, Mask]]:
-        """Take the frames of a transition: roots, rotations and contacts."""
-        frames = slice(self.frame, self.frame + WINDOW)
+    def until(self, stop: int) -> _Buffer:
+        """Take the frames from this one until another."""
+        frames = slice(self.frame, stop)
+        roots, turns = self.stride.placed(frames, self.place)
         marks = {name: mark[frames] for name, mark in self.stride.motion.contacts.items()}
-        return *self.stride.placed(frames, self.place), marks
+        return _Buffer(roots, turns, np.zeros(len(roots), bool), marks)
 
 
 def _blend(one: _Playing, other: _Playing) -> _Buffer:
     """Blend the last frames of a stride with the first of the next, by cubic weights."""
-    (roots, turns, marks), (other_roots, other_turns, other_marks) = one.window(), other.window()
+    old, new = one.until(one.frame + WINDOW), other.until(other.frame + WINDOW)
     share = cubic_weights(WINDOW)
-    mixed = share[:, None] * roots + (1 - share)[:, None] * other_roots
-    amount = np.broadcast_to(share[:, None], turns.shape[:2])
-    contacts = {name: np.where(share >= 0.5, mark, other_marks[name]) for name, mark in marks.items()}
-    return _Buffer(mixed, rotations.slerp(other_turns, turns, amount), np.ones(WINDOW, bool), contacts)
+    mixed = share[:, None] * old.roots + (1 - share)[:, None] * new.roots
+    turns = rotations.slerp(new.turns, old.turns, np.broadcast_to(share[:, None], old.turns.shape[:2]))
+    contacts = {name: np.where(share >= 0.5, mark, new.contacts[name]) for name, mark in old.contacts.items()}
+    return _Buffer(mixed, turns, np.ones(WINDOW, bool), contacts)
+
+
+def _joined(parts: list[_Buffer]) -> _Buffer:
+    """Put frames in a row."""
+    roots, turns, blending = (np.concatenate([part[place] for part in parts]) for place in range(3))
+    names = parts[0].contacts
+    return _Buffer(
+        roots, turns, blending, {n: np.concatenate([part.contacts[n] for part in parts]) for n in names}
+    )

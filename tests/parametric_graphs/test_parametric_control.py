@@ -10,6 +10,7 @@ from mocap.body.planar import heading
 from mocap.control import Controller, measure_delay, steer
 from mocap.errors import MocapError, NoWalk
 from mocap.parametric_graphs.parametric_control import ParametricController
+from mocap.parametric_graphs.parametric_edges import BAD
 from mocap.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from mocap.quality.seam_measures import jumps, spread
 from tests.bundled import bundled
@@ -54,6 +55,17 @@ def test_seams_cost_what_the_edge_promises(built):
         character.step(0.0, SPEED)
     cost = np.array([chosen.cost for chosen in character.chosen])
     assert cost.max() <= 1.35 * 0.03 + 0.01 and (cost > 1.35 * 0.03).mean() <= 0.02
+
+
+def test_seams_between_kinds_cost_what_their_edges_promise():
+    """Each is left when its own edge says so: left when the first of them may, one costs 10 cm."""
+    random, character = np.random.default_rng(0), ParametricController(many_kinds())
+    for _ in range(60):
+        label, heading = ("walk", "sneak", "jog")[random.integers(3)], random.uniform(-3, 3)
+        for _ in range(60):
+            character.step(heading, 1.0, label)
+    assert {chosen.node for chosen in character.chosen} == set(many_kinds().graph)
+    assert max(chosen.cost for chosen in character.chosen) <= BAD * 0.055
 
 
 def test_no_frame_jolts_more_than_the_clips():
