@@ -128,6 +128,8 @@ def require_joinable(source: StrideSpace, target: StrideSpace) -> None:
     one.skeleton.require_same(other.skeleton)
     if one.fps != other.fps:
         raise MocapError(f"An edge joins spaces of one rate, got {one.fps:g} and {other.fps:g} Hz.")
+    if odd := set(one.contact_names) ^ set(other.contact_names):
+        raise MocapError(f"An edge joins spaces with the same marks; one of them lacks {min(odd)}.")
 
 
 def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sampled:
@@ -193,7 +195,7 @@ def build_edge(
     Raises
     ------
     MocapError : for thresholds that are not above 0, T_BAD below T_GOOD, too few samples, and spaces of
-        different skeletons or rates.
+        different skeletons, rates or marks.
     NoWalk : where some source has no good target: [HG07] has no edge then.
 
     Examples

@@ -141,8 +141,12 @@ def test_what_makes_no_sense_is_refused(settings, sentence):
         build_edge(space(), space(), **settings)
 
 
-def test_spaces_of_other_rates_and_bodies_are_refused():
+def test_spaces_of_other_rates_marks_and_bodies_are_refused():
     source = space()
+    fewer = ("lfoot", "rfoot", "ltoes", "head")
+    marked = replace(source, strides=replace(source.strides, contact_names=fewer))
+    with pytest.raises(MocapError, match="the same marks; one of them lacks head"):
+        build_edge(source, marked, good=0.04)
     slow = replace(source, strides=replace(source.strides, fps=60.0))
     with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
         build_edge(source, slow, good=0.04)
