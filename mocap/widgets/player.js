@@ -108,7 +108,7 @@ class Player {
     this.drawButton.onclick = () => { this.drawing = !this.drawing; this.update(); };
     this.resized = new ResizeObserver(() => this.update());
     this.resized.observe(this.canvas);
-    this.seen = new IntersectionObserver(([entry]) => { this.visible = entry.isIntersecting; this.update(); });
+    this.seen = new IntersectionObserver((entries) => { this.visible = entries.at(-1).isIntersecting; this.update(); });
     this.seen.observe(this.canvas);
     if (this.model) this.link();
   }

@@ -29,7 +29,7 @@ const STYLE = `
 .mocap-player:fullscreen { max-width: none; display: flex; flex-direction: column; }
 .mocap-player:fullscreen canvas { flex: 1; min-height: 0; height: auto; }
 @media (pointer: coarse) {
-  .mocap-player button, .mocap-player select, .mocap-player .scrub input, .mocap-player label { min-height: 44px; min-width: 44px; }
+  .mocap-player button, .mocap-player select, .mocap-player input[type="range"], .mocap-player label { min-height: 44px; min-width: 44px; }
   .mocap-player input[type="checkbox"] { width: 24px; height: 24px; }
 }
 @media (max-height: 450px) and (pointer: coarse) { .mocap-player .bar { flex-wrap: nowrap; overflow-x: auto; padding: 0 2px; } }`;

@@ -182,6 +182,16 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown, artefacts):
     assert page.evaluate(f"{IT}.pick.seam") == 0
 
 
+def test_one_tab_is_no_choice_and_a_flat_grid_leaves_no_gap(shown):
+    page = shown(inspector(WALKS[0][:40], WALKS[1], show=["windows"]))
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert page.locator(".tabs").is_hidden()
+    wait_until(lambda: page.locator(".grid").bounding_box()["height"] < 120)
+    assert page.evaluate(f"{IT}.maps.grid.box.scale") == pytest.approx(
+        page.evaluate(f"({IT}.maps.grid.canvas.clientWidth - 50) / {IT}.maps.grid.grid.columns")
+    )
+
+
 @pytest.mark.parametrize("part", [".chart", ".grid"])
 def test_a_finger_across_chooses_and_a_finger_up_scrolls(shown, part):
     page = shown(inspector(*WALKS, at=(56, 20)))

@@ -290,6 +290,18 @@ def test_fingers_have_room(browser, tmp_path):
     context.close()
 
 
+def test_what_comes_into_sight_as_it_leaves_is_drawn(page, tmp_path):
+    page.add_init_script("""
+        const Real = IntersectionObserver; window.seen = [];
+        window.IntersectionObserver = class extends Real { constructor(see) { super(see); seen.push(see); } };
+    """)
+    (tmp_path / "player.html").write_text(play(wave(60)).page(), "utf-8")
+    page.goto((tmp_path / "player.html").as_uri())
+    wait_until(lambda: page.evaluate(f"{PLAYER}?.pictures > 0"))
+    page.evaluate("seen[0]([{ isIntersecting: false }, { isIntersecting: true }])")
+    assert page.evaluate(f"{PLAYER}.visible")
+
+
 def test_it_fills_the_screen_when_asked(resting):
     page = resting(play(wave(60)))
     page.get_by_role("button", name="full screen").click()

@@ -115,6 +115,7 @@ def test_a_recorded_experiment_moves(page, tmp_path, artefacts):
     slider.press("Home")
     wait_until(lambda: picture.bounding_box()["width"] < wide)
     page.screenshot(path=artefacts / "site-moving.png")
+    assert slider.bounding_box()["height"] >= 44
 
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}

@@ -25,6 +25,7 @@ class Inspector {
     root.innerHTML = `<style>${INSPECTOR_STYLE}</style>${INSPECTOR_PARTS}`;
     const find = (what) => root.querySelector(what);
     find(".tabs").innerHTML = tabs;
+    find(".tabs").hidden = scene.tabs.length === 1;
     this.canvas = find(".bodies"); this.scrub = find(".scrub"); this.play = find(".play");
     this.status = find(".status"); this.now = find(".now"); this.weights = find(".kinds");
     for (const part of root.querySelectorAll("canvas, button, input, select")) part.dataset.lmSuppressShortcuts = "true";
@@ -65,7 +66,7 @@ class Inspector {
     this.scrub.oninput = () => this.move(Number(this.scrub.value));
     this.resized = new ResizeObserver(() => this.update());
     for (const canvas of this.root.querySelectorAll("canvas")) this.resized.observe(canvas);
-    this.seen = new IntersectionObserver(([entry]) => { this.visible = entry.isIntersecting; this.update(); });
+    this.seen = new IntersectionObserver((entries) => { this.visible = entries.at(-1).isIntersecting; this.update(); });
     this.seen.observe(this.root);
     this.orbit = this.hand.orbit.bind(this.hand);
     this.hand.orbit = (...angles) => { this.turned = true; this.orbit(...angles); };

@@ -106,7 +106,9 @@ class GridMap extends Map2D {
 
   draw(palette, { pick, lit, fps, path }) {
     if (!this.grid) return;
-    const { pen, wide, high } = sheet(this.canvas), { rows, columns, every, from } = this.grid;
+    const { rows, columns, every, from } = this.grid;
+    this.canvas.style.maxHeight = `${((this.canvas.clientWidth - 50) / columns) * rows + 44}px`; // no more than a flat grid takes
+    const { pen, wide, high } = sheet(this.canvas);
     this.drawn = true;
     const { left, top, scale } = this.box = this.place(wide, high), size = [columns * every * scale, rows * every * scale];
     pen.imageSmoothingEnabled = false;

@@ -70,7 +70,7 @@ class Steering {
     this.panelsPart.onwheel = (event) => this.wheel(event);
     this.resized = new ResizeObserver(() => this.update());
     this.resized.observe(this.panelsPart);
-    this.seen = new IntersectionObserver(([entry]) => { this.visible = entry.isIntersecting; this.update(); });
+    this.seen = new IntersectionObserver((entries) => { this.visible = entries.at(-1).isIntersecting; this.update(); });
     this.seen.observe(this.panelsPart);
     this.answers = (content, buffers) => this.answered(content, buffers);
     this.commands = () => { this.commanded(); this.showCommand(); this.update(); };
