@@ -44,6 +44,7 @@ LIVE = {  # what needs no Python, by its class
     "mocap-player": "the players play",
     "mocap-question": "quizzes and bets answer you",
     "mocap-inspector": "seams can be looked into",
+    "mocap-blind": "the blind test can be taken",
     "moving": "the sliders show recorded positions",
 }
 RUN = (

@@ -86,6 +86,8 @@ def test_each_page_says_what_is_live_and_how_to_run_it(site):
     text = (site / "00-quickstart.html").read_text("utf-8")
     live = "the players play, quizzes and bets answer you and seams can be looked into"
     assert f"On this page {live}; code and other controls are still." in text
+    blind = (site / "09-discussion.html").read_text("utf-8")
+    assert "quizzes and bets answer you and the blind test can be taken;" in blind
     assert reopening.STILL == STILL
     stills = [part[:200] for part in text.split('<div class="mocap-still">')[1:]]
     assert stills
