@@ -12,12 +12,13 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
-from mocap.body.planar import on_ground
+from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.control.characters import Character, Pose
 from mocap.control.steered_motion import as_motion
 from mocap.errors import MocapError, NoWalk
 
 NEAR = 1.5  # metres around where it was last, in which the nearest point of a path is looked for
+AIM = 0.1  # metres of a path that tell in which direction it starts
 
 
 class Pursued(NamedTuple):
@@ -90,7 +91,7 @@ def pursue(
 
     Parameters
     ----------
-    character : any, just made; it starts at the path's start, in its direction.
+    character : any; the motion is laid so that it faces along the path where both start.
     path : where to go.
     speed : metres per second.
     ahead : metres along the path from where the character is to where it is led. Less follows bends more
@@ -99,7 +100,7 @@ def pursue(
 
     Returns
     -------
-    The motion, placed so that it starts on the path; how far it is off; and how much was walked, 1 for all.
+    The motion, laid on the path; how far it is off; and how much was walked, 1 for all.
 
     Raises
     ------
@@ -119,28 +120,19 @@ def pursue(
         raise MocapError(f"Speed, distance ahead and limit are above 0, got {speed}, {ahead}, {limit}.")
     fine = path.resampled(0.02)
     line, along = on_ground(fine.points), fine.along
-    first = character.step(0.0, speed)
-    origin = complex(on_ground(first.root_position)) - line[0]
-    poses: list[Pose] = [first]
+    poses: list[Pose] = [character.step(0.0, speed)]
+    turn = np.exp(1j * (np.angle(on_ground(fine.at(AIM)) - line[0]) - heading(poses[0].rotations[0])))
+    place = PlanarTransform.from_complex(turn, line[0] - turn * on_ground(poses[0].root_position))
     off, now = [0.0], 0.0
     for _ in range(round(limit * path.length / speed * character.fps)):
-        here = complex(on_ground(poses[-1].root_position)) - origin
+        here = complex(on_ground(place.apply_points(poses[-1].root_position)))
         near = np.flatnonzero((along >= now - 0.2) & (along <= now + NEAR))
         gaps = np.abs(line[near] - here)
         now, off[-1] = float(along[near[gaps.argmin()]]), float(gaps.min())
         if now >= path.length - 0.1:
             break
         goal = complex(on_ground(fine.at(now + ahead)))
-        poses.append(character.step(float(np.angle(goal - here)), speed))
+        poses.append(character.step(float(np.angle((goal - here) / turn)), speed))
         off.append(off[-1])
-    motion = as_motion(character, poses, "led")
-    shift = np.array([origin.imag, 0.0, origin.real])
-    placed = Motion(
-        motion.skeleton,
-        motion.root_positions - shift,
-        motion.rotations,
-        motion.fps,
-        "led",
-        contacts=motion.contacts,
-    )
-    return Pursued(placed, np.array(off), min(1.0, (now + 0.1) / path.length))
+    motion = place.apply_motion(as_motion(character, poses, "led"))
+    return Pursued(motion, np.array(off), min(1.0, (now + 0.1) / path.length))

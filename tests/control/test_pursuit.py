@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mocap.body.ground_path import SHAPES, GroundPath, circle
-from mocap.body.planar import on_ground
+from mocap.body.planar import PlanarTransform, on_ground
 from mocap.control import Controller, pursue, walk_to
 from mocap.errors import MocapError, NoWalk
 from tests.bundled import walking
@@ -46,6 +46,36 @@ def test_it_is_led_along_a_path(path):
     line, track = on_ground(path.resampled(0.02).points), on_ground(led.motion.root_positions)
     np.testing.assert_allclose(led.off[30:], np.abs(track[30:, None] - line).min(axis=1), atol=0.3)
     assert np.abs(track[0] - line[0]) < 1e-9 and len(led.off) == len(led.motion)
+
+
+class Turned:
+    """A character that is turned by 100° against where another one is."""
+
+    def __init__(self, character):
+        self.character, self.skeleton, self.fps = character, character.skeleton, character.fps
+        self.place = PlanarTransform(np.radians(100), 3.0, -2.0)
+
+    def step(self, heading, speed):
+        pose = self.character.step(heading - np.radians(100), speed)
+        turns = pose.rotations.copy()
+        turns[0] = self.place.apply_orientations(turns[0])
+        return pose._replace(root_position=self.place.apply_points(pose.root_position), rotations=turns)
+
+
+@pytest.mark.parametrize("towards", [0.5, 2.0, -2.5])
+def test_it_does_not_matter_which_way_a_path_and_a_character_start(towards):
+    """Both start alike: else the turn at the start would count as if the character did not obey."""
+    end = [8 * np.sin(towards), 8 * np.cos(towards)]
+    ahead, aside, turned = (
+        pursue(make(walking()), GroundPath([[0, 0], to]), speed=0.8).off
+        for make, to in (
+            (Controller, [0, 8]),
+            (Controller, end),
+            (lambda graph: Turned(Controller(graph)), end),
+        )
+    )
+    np.testing.assert_allclose(aside[:240], ahead[:240], atol=1e-3)
+    assert turned.max() < ahead.max() + 0.1  # its first command, 0, is 100° aside of its way
 
 
 @pytest.mark.parametrize(("name", "off"), [("strides", 0.7), ("steps", 0.3), ("matching", 0.25)])
