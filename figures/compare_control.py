@@ -125,10 +125,11 @@ within 20 degrees, on average and for 95 %. Then a minute of such turns every tw
 (`control.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
 with plants carried from the clips; how many planted frames the cleaning keeps. Jolting: frames whose velocity
 jumps further than 99.9 % of the clips' own. Wags: how the direction swings while a command stands. Pivots:
-how far a foot turns while it stands. All are means of four runs with other commands, ± their standard
-deviation; of the plants kept it is the least. CPU time of a step, on average and at worst, in the quickest of
-the four runs, and of the preparation. The centimetres of a way are its threshold. Below each table: led along
-five paths by commands alone (`control.pursue`), metres from the path on average and at worst."""
+how far a foot turns while it stands; that is what it costs to turn about it. All are means of four runs with
+other commands, ± their standard deviation; of the plants kept it is the least. CPU time of a step, on average
+and at worst, in the quickest of the four runs, and of the preparation. The centimetres of a way are its
+threshold. Below each table: led along five paths by commands alone (`control.pursue`), metres from the path
+on average and at worst."""
 COLUMNS = (
     "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | pivots | step, ms "
     "| worst | ready, s |"
