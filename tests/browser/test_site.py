@@ -126,7 +126,9 @@ CUT_OR_SMALL = """() => {
   const seen = [...document.querySelectorAll("main *:not(math *, svg *)")].filter(part => box(part).width);
   const cut = seen.filter(part => box(part).right > innerWidth + 1 && !slides(part.parentElement));
   const small = seen.filter(part => part.matches("button, select, summary") && box(part).height < 40);
-  return [...cut, ...small].map(part => `${part.tagName} ${part.textContent}`.slice(0, 60));
+  const one = part => part.matches("td > code") && /^\\w+$/.test(part.textContent);
+  const broken = seen.filter(part => one(part) && part.getClientRects().length > 1);
+  return [...cut, ...small, ...broken].map(part => `${part.tagName} ${part.textContent}`.slice(0, 60));
 }"""  # `main` hides what stands out of it
 
 
