@@ -57,7 +57,7 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
     """
     if not len(flock.places):
         raise MocapError("There is no frame to take nodes from.")
-    if nodes < 1 or not reach > 0 or not every > 0:
+    if not (nodes >= 1 and reach > 0 and 0 < every < np.inf):
         raise MocapError(
             f"Clusters take a node or more, a reach and a step above 0; got {nodes}, {reach} m, {every} s."
         )

@@ -67,7 +67,7 @@ def seen_from_itself(group: Configuration) -> tuple[Configuration, Points, Point
     Notebook: 19-group-graphs
     """
     middle, way = group.places.mean(axis=-1), group.velocities.mean(axis=-1)
-    if (np.abs(way) < SLOWEST).any():
+    if not (np.abs(way) >= SLOWEST).all():
         raise MocapError(
             f"A group that moves by {np.abs(way).min():.2f} m/s on average has no direction; "
             f"{SLOWEST:g} m/s is the least."
@@ -95,7 +95,7 @@ def compare(
 
     Raises
     ------
-    MocapError : for groups of different sizes, and numbers that are not finite.
+    MocapError : for groups of different sizes, numbers that are not finite, and no round.
 
     Examples
     --------
@@ -109,6 +109,8 @@ def compare(
 
     Notebook: 19-group-graphs
     """
+    if rounds < 1 or not np.isfinite(starts).all():
+        raise MocapError(f"A comparison takes a round or more from finite turns, got {rounds} and {starts}.")
     pairs, shape = _pairs(first, second)
     best: Match | None = None
     for start in starts:
@@ -141,6 +143,8 @@ def _pairs(first: Configuration, second: Configuration) -> tuple[_Pairs, tuple[i
     sizes = first.places.shape[-1], second.places.shape[-1]
     if sizes[0] != sizes[1]:
         raise MocapError(f"Groups of {sizes[0]} and {sizes[1]} members cannot be matched.")
+    if any(group.places.shape != group.velocities.shape for group in (first, second)):
+        raise MocapError("A configuration has one place and one velocity for each member.")
     parts = np.broadcast_arrays(*first, *second)
     if not all(np.isfinite(part).all() for part in parts):
         raise MocapError("A configuration has places and velocities that are not finite.")

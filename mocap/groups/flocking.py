@@ -51,10 +51,15 @@ class Flock(NamedTuple):
     whim: float = 0.5
 
     def check(self) -> None:
-        """Raise MocapError for a figure that is below 0 or not finite."""
+        """Raise MocapError for figures below 0 or not finite, for no space, and for speeds that cross."""
         for name, figure in self._asdict().items():
             if not 0 <= figure < np.inf:
                 raise MocapError(f"The figures of a flock are finite and not below 0; {name} is {figure}.")
+        if not (self.space > 0 and self.slowest <= self.fastest):
+            raise MocapError(
+                "A flock keeps a space above 0 m, and its slowest speed is not above its fastest; "
+                f"got {self.space} m, {self.slowest} and {self.fastest} m/s."
+            )
 
 
 class Trajectories(NamedTuple):
@@ -180,13 +185,13 @@ def simulate(
 
     Notebook: 19-group-graphs
     """
-    if count < 2 or count != int(count):
+    if not (2 <= count < np.inf and count == int(count)):
         raise MocapError(f"A group has two members or more, got {count}.")
     if not (0.5 / RATE < seconds < np.inf and 0 <= settle < np.inf):
         raise MocapError(
             f"A flock settles and is then simulated for more than 0 seconds; got {settle} s and {seconds} s."
         )
-    rules, random = rules or Flock(), np.random.default_rng(seed)
+    count, rules, random = int(count), rules or Flock(), np.random.default_rng(seed)
     rules.check()
     start = random.normal(0, 1.5, (2, count))
     now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))

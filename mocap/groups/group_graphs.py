@@ -11,7 +11,7 @@ import numpy as np
 from mocap._shared.arrays import Points
 from mocap.errors import MocapError, MocapWarning
 from mocap.groups.clustering import cluster
-from mocap.groups.configurations import Configuration
+from mocap.groups.configurations import Configuration, seen_from_itself
 from mocap.groups.flocking import Flock, Trajectories, Whims, simulate
 from mocap.groups.group_clips import BENDS, HARDEST, Drawn, GroupClip, clips_from, run_from
 
@@ -90,8 +90,8 @@ def make_clips(
 
     Raises
     ------
-    MocapError : for no nodes, bends or seeds; where no clip is kept, with how many collide and how many are
-        too hard.
+    MocapError : for no nodes, bends or seeds; for a node that stands; where no clip is kept, with how many
+        collide and how many are too hard.
 
     Warns
     -----
@@ -104,6 +104,8 @@ def make_clips(
             "Clips take a node, a bend and a seed or more, and finite bends; got "
             f"{len(nodes)} nodes, bends {list(bends)} and {seeds} seeds."[:140]
         )
+    for node in nodes:
+        seen_from_itself(node)  # refuses who stands
     rules, random = rules or Flock(), np.random.default_rng(seed)
     rules.check()
     members = nodes[0].places.shape[-1]

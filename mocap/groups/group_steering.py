@@ -45,8 +45,8 @@ def steer_group(
     scene.check(complex(start.places.mean()))
     rules = rules or Flock()
     rules.check()
-    if not limit > 0:
-        raise MocapError(f"A flock is steered for more than 0 seconds, got {limit}.")
+    if not 0 < limit < np.inf:  # in a pocket it would steer for ever
+        raise MocapError(f"A flock is steered for more than 0 seconds and not for ever, got {limit}.")
     now, goal = Trajectories(*start), 0
     whims, frames = Whims(start.places.shape, rules, np.random.default_rng(seed)), [now]
     while goal < len(scene.points) and len(frames) <= limit * RATE:

@@ -35,7 +35,9 @@ class Scene(NamedTuple):
     others: tuple[Points, ...] = ()
 
     def check(self, start: complex) -> None:
-        """Raise MocapError for what makes no sense, and for a start inside a disc."""
+        """Raise MocapError for what makes no sense, and for a start nowhere or inside a disc."""
+        if not np.isfinite(start):
+            raise MocapError(f"A group starts at a finite place, got {start}.")
         if not self.points or not np.isfinite(self.points).all():
             raise MocapError(f"A scene has one point to pass or more, all finite; got {self.points}."[:200])
         if not (0 < self.near < np.inf and 0 <= self.body < np.inf):
@@ -43,8 +45,8 @@ class Scene(NamedTuple):
                 "A scene is passed within more than 0 m and kept clear of by 0 m or more; "
                 f"got {self.near} m and {self.body} m."
             )
-        if any(other.ndim != 2 or not len(other) or not np.isfinite(other).all() for other in self.others):
-            raise MocapError("Other groups are finite places in a table of a frame or more by members.")
+        if any(other.ndim != 2 or not other.size or not np.isfinite(other).all() for other in self.others):
+            raise MocapError("Other groups are finite places in a table of frames by members, one or more.")
         for centre, radius in self.discs:
             if not (np.isfinite(centre) and np.isfinite(radius) and radius > 0):
                 raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")

@@ -180,3 +180,15 @@ def test_what_cannot_be_compared_is_refused(first, second, starts, sentence):
     groups = (Configuration(np.array(g, complex), np.ones(len(g), complex)) for g in (first, second))
     with pytest.raises(MocapError, match=sentence):
         compare(*groups, starts=starts)
+
+
+def test_rounds_turns_and_shapes_that_make_no_sense_are_refused():
+    group = Configuration(np.array([0j, 1j]), np.ones(2, complex))
+    with pytest.raises(MocapError, match=r"a round or more from finite turns, got 0 and \(0.0"):
+        compare(group, group, rounds=0)
+    with pytest.raises(MocapError, match=r"from finite turns, got 5 and \(nan"):
+        compare(group, group, starts=(np.nan,))
+    with pytest.raises(MocapError, match="one place and one velocity for each member"):
+        compare(Configuration(group.places, group.velocities[:1]), group)
+    with pytest.raises(MocapError, match="moves by nan m/s"):
+        seen_from_itself(Configuration(group.places, group.velocities * np.nan))

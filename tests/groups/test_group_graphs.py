@@ -114,3 +114,8 @@ def test_a_seed_gives_the_same_graph():
     one, again = (build_group(4, nodes=2, simulated=40.0, reach=0.8, seed=5) for _ in range(2))
     np.testing.assert_array_equal(one.clips[0].places, again.clips[0].places)
     assert one.members == 4 and len(flock(4).places) == 1200
+
+
+def test_a_node_that_stands_is_refused():
+    with pytest.raises(MocapError, match=r"moves by 0\.00 m/s on average has no direction"):
+        make_clips([Configuration(np.array([0j, 5j]), np.zeros(2, complex))])

@@ -150,9 +150,10 @@ def test_what_a_refusal_advises_helps():
     assert plan_group(graph(3), Scene((24 + 0j,), wall(3.2)), most=700)
 
 
-def test_steering_takes_some_time():
-    with pytest.raises(MocapError, match="more than 0 seconds, got nan"):
-        steer_group(graph().nodes[0], Scene((9 + 0j,)), limit=np.nan)
+@pytest.mark.parametrize("limit", [np.nan, 0.0, np.inf])
+def test_steering_takes_some_time_and_ends(limit):
+    with pytest.raises(MocapError, match=f"more than 0 seconds and not for ever, got {limit}"):
+        steer_group(graph().nodes[0], Scene((9 + 0j,)), limit=limit)
 
 
 @pytest.mark.parametrize(

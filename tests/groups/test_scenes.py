@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError
+from mocap.groups.configurations import Configuration
 from mocap.groups.flocking import APART
 from mocap.groups.group_graphs import Placed
 from mocap.groups.group_steering import steer_group
@@ -23,6 +24,7 @@ from tests.groups.built import course, graph
         (Scene((9j,), near=0.0), "passed within more than 0 m .* got 0.0 m and 0.3 m"),
         (Scene((9j,), body=np.nan), "got 1.0 m and nan m"),
         (Scene((9j,), others=(np.zeros(5, complex),)), "Other groups are finite places in a table"),
+        (Scene((9j,), others=(np.zeros((5, 0), complex),)), "frames by members, one or more"),
         (Scene((9j,), others=(np.full((5, 2), np.nan + 0j),)), "Other groups are finite places"),
     ],
 )
@@ -61,3 +63,9 @@ def test_all_clips_at_once_are_as_free_as_one_by_one(bounds):
         assert rows == free_one_by_one(group, at, frame, scene)
         found.append(len(rows))
     assert min(found) < 10 and max(found) == 40
+
+
+def test_who_starts_nowhere_is_refused():
+    start = Configuration(np.full(2, np.nan, complex), np.ones(2, complex))
+    with pytest.raises(MocapError, match="A group starts at a finite place, got"):
+        steer_group(start, Scene((9j,)))
