@@ -30,7 +30,7 @@ class ControlReport(NamedTuple):
     on average over plants, and `cleaned` the same after `feet.clean_up`, which kept the share `kept` of the
     planted frames. `jolting` is the share of frames whose velocity jumps further than 99.9 % of the clips'
     own. `wags` is by how many degrees the direction swings while a command stands, the RMS. `pivots` is by
-    how many degrees a foot turns while it stands, on average over plants.
+    how many degrees a foot turns while it stands, on average over plants, and `pace` the speed in m/s.
     """
 
     delay: Delay
@@ -40,6 +40,7 @@ class ControlReport(NamedTuple):
     jolting: float
     wags: float
     pivots: float
+    pace: float
 
 
 def command_headings(seconds: float, fps: float, seed: int = 0) -> Array:
@@ -115,6 +116,7 @@ def judge_control(
         float((jumps(motion)[0] > limit).mean()),
         _wags(motion, headings),
         _pivots(motion),
+        float(np.abs(np.diff(on_ground(motion.root_positions))).mean() * motion.fps),
     )
 
 

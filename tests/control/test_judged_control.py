@@ -50,6 +50,7 @@ def test_all_obey_and_all_feet_can_be_cleaned(name):
     assert judged.delay.mean < 3 and judged.delay.slowest < 8
     assert judged.cleaned < 0.01 < judged.slide < 4
     assert judged.kept >= 0.9 and judged.jolting <= 0.02
+    assert judged.pace == pytest.approx(SPEED, abs=0.1)
 
 
 def test_quickness_costs_slide():
