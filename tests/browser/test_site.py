@@ -62,6 +62,17 @@ def test_a_heading_has_a_link_to_itself(page, site):
     assert abs(page.locator(at).bounding_box()["y"]) < 60  # the page has scrolled there
 
 
+def test_the_keyboard_skips_the_menu(page, site):
+    page.goto(site.as_uri())
+    page.keyboard.press("Tab")
+    skip = page.get_by_role("link", name="Skip to the text")
+    assert skip.bounding_box()["x"] >= 0
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.closest('main') !== null")
+    assert skip.bounding_box()["x"] < -500
+
+
 def test_the_menu_folds_on_a_phone(page, site, artefacts):
     page.goto(site.as_uri())
     assert page.locator("#menu").is_visible()

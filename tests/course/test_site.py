@@ -79,7 +79,7 @@ def test_the_menu_lists_the_sections_of_its_page(site):
 
 def test_each_page_says_what_is_live_and_how_to_run_it(site):
     for path in site.glob("[0-9A-Z]*.html"):
-        note = re.search(r'<main>\s*<p class="note">(.*?)</p>', path.read_text("utf-8"))[1]
+        note = re.search(r'<main[^>]*>\s*<p class="note">(.*?)</p>', path.read_text("utf-8"))[1]
         assert "pip install '.[notebooks]'" in note
         assert "mocap lab" in note
         assert len(re.findall(r"[.] ", note)) == 1
