@@ -8,8 +8,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 
-class Overdue(Exception):
-    """Code has taken longer than its limit."""
+class Overdue(BaseException):
+    """Code has taken longer than its limit.
+
+    It is no `Exception`, because a loop that never ends may hold `except Exception`.
+    """
 
 
 @contextmanager

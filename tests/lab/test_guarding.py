@@ -1,4 +1,5 @@
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -60,6 +61,21 @@ def test_a_function_that_never_ends_is_stopped(monkeypatch, capsys):
             pass
 
     assert slot("hamilton", forever)(*np.eye(4)[:2]).tolist() == [0, 1, 0, 0]
+    assert "yours did not end within 0.05 s; the package's" in capsys.readouterr().out
+
+
+def test_a_function_that_never_ends_and_catches_exceptions_is_stopped(monkeypatch, capsys):
+    monkeypatch.setattr(guarding, "SECONDS", 0.05)
+
+    def forever(a, b):
+        end = time.monotonic() + 5  # or this test would never end where it fails
+        while time.monotonic() < end:
+            try:
+                a[9]
+            except Exception:
+                continue
+
+    slot("hamilton", forever)(*np.eye(4)[:2])
     assert "yours did not end within 0.05 s; the package's" in capsys.readouterr().out
 
 
