@@ -206,7 +206,7 @@ def simulate(
 
 
 def nearest_two(places: Points) -> Array:
-    """Measure the least distance of any two members in each frame, (F,) of (F, N).
+    """Measure the least distance of any two members in each frame, (F,) of (F, N); inf for one alone.
 
     Examples
     --------
@@ -216,7 +216,7 @@ def nearest_two(places: Points) -> Array:
     Notebook: 19-group-graphs
     """
     gap = np.abs(places[..., :, None] - places[..., None, :])
-    return np.asarray((gap + 1e9 * np.eye(places.shape[-1])).min(axis=(-2, -1)))
+    return np.asarray(np.where(np.eye(places.shape[-1], dtype=bool), np.inf, gap).min(axis=(-2, -1)))
 
 
 def _unit(vectors: Points) -> Points:

@@ -46,11 +46,6 @@ class GroupClip:
     move: complex
     disc: tuple[complex, float]
 
-    @property
-    def seconds(self) -> float:
-        """How long it takes."""
-        return (len(self.places) - 1) / RATE
-
 
 class Drawn(NamedTuple):
     """How a set of clips came about: how many were tried, how many collide or are too hard, and by how much.

@@ -85,10 +85,11 @@ def load_group(path: str | Path) -> GroupGraph:
 
 
 def _whole(arrays: Arrays) -> bool:
-    """Say whether clips fill the frames, join nodes that there are, and renumber all members."""
+    """Say whether all is finite, and clips fill the frames, join nodes there are, and renumber everybody."""
     lengths, nodes = arrays["lengths"], len(arrays["node_places"])
     return bool(
-        lengths.sum() == len(arrays["places"])
+        all(np.isfinite(part).all() for part in arrays.values())
+        and lengths.sum() == len(arrays["places"])
         and (lengths > 1).all()
         and len(lengths)
         and all(((arrays[key] >= 0) & (arrays[key] < nodes)).all() for key in ("starts", "ends"))

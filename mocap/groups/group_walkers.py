@@ -17,7 +17,7 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.groups.flocking import RATE, Trajectories
+from mocap.groups.flocking import RATE, Trajectories, nearest_two
 from mocap.steering.beam_search import Beam
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Prices, Wishes
@@ -59,8 +59,7 @@ class GroupWalkers:
     @property
     def nearest(self) -> float:
         """The least distance of any two roots, metres."""
-        gap = np.abs(self.tracks[:, :, None] - self.tracks[:, None])
-        return float((gap + 1e9 * np.eye(gap.shape[-1])).min())
+        return float(nearest_two(self.tracks).min())
 
     def report(self) -> str:
         """Say in one line how well the characters keep to the plan."""
@@ -81,7 +80,7 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     pool: Executor | None = None,
     progress: Progress = iter,
 ) -> GroupWalkers:
-    """Walk each member's way by a character of a motion graph, in place and in time [LCF05].
+    """Walk each member's way by a character of a motion graph, in place and in time [ours].
 
     Each member's way is a path to follow, with a place to pass in each second: the bare lines would bring
     characters to 0.15 m of each other, although the members keep 0.9 m. With `bend` each walk is then put

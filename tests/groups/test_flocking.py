@@ -121,3 +121,7 @@ def test_two_are_pushed_just_apart(gap):
 def test_what_makes_no_sense_is_refused(wrong, sentence):
     with pytest.raises(MocapError, match=sentence):
         simulate(**{"count": 4, "seconds": 5.0, **wrong})
+
+
+def test_who_is_alone_has_nobody_near():
+    assert nearest_two(np.zeros((2, 1), complex)).tolist() == [np.inf, np.inf]

@@ -36,7 +36,7 @@ def test_nobody_comes_nearer_than_60_cm_and_nobody_is_jerked(count, nodes):
     for clip in graph(count, nodes).clips:
         assert nearest_two(clip.places).min() >= APART
         assert accelerations(clip.places).max() <= HARDEST
-        assert clip.seconds == 4.0
+        assert len(clip.places) == 41
 
 
 @every_graph

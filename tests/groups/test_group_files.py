@@ -22,9 +22,10 @@ def test_it_comes_back(tmp_path):
     assert back.clips[3].disc == group.clips[3].disc
 
 
-def test_clips_that_point_nowhere_are_refused(tmp_path):
+@pytest.mark.parametrize("wrong", [{"end": 99}, {"move": complex(np.nan)}, {"disc": (0j, np.inf)}])
+def test_clips_that_point_nowhere_are_refused(tmp_path, wrong):
     group = graph(6, 6)
-    wrong = replace(group.clips[0], end=99)
+    wrong = replace(group.clips[0], **wrong)
     save_group(replace(group, clips=(wrong,)), tmp_path / "six.npz")
     with pytest.raises(FormatError, match="numbers that contradict each other"):
         load_group(tmp_path / "six.npz")
