@@ -11,10 +11,11 @@ from mocap.control import Controller, measure_delay, steer
 from mocap.errors import MocapError, NoWalk
 from mocap.parametric_graphs.parametric_control import ParametricController
 from mocap.parametric_graphs.parametric_edges import BAD
-from mocap.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.parametric_graphs.stride_spaces import make_space
 from mocap.quality.seam_measures import jumps, spread
 from tests.bundled import bundled
-from tests.parametric_graphs.built import WALKS, clips, stepping, walking
+from tests.parametric_graphs.built import SMALL, WALKS, clips, stepping, strides, walking
 from tests.parametric_graphs.kinds import many_kinds
 
 SPEED = 0.8
@@ -150,6 +151,18 @@ def test_a_node_that_no_stride_leads_to_is_refused():
     with pytest.raises(NoWalk, match="No strides lead from 'walk' to 'far'"):
         for _ in range(60):
             character.step(0.0, 1.0, "far")
+
+
+def test_asked_by_turn_and_speed_it_walks_as_fast_as_told_and_says_where_no_clip_does():
+    """Where no clip goes straight on at a speed, what a stride comes to is not what was taken."""
+    both = make_space(strides(), [0.2, 0.1], [-0.6, 0.7], [0.6, 0.85], parameters=("turn", "speed"))
+    graph = build_parametric({"walk": both}, good=0.06, sampling=SMALL)
+    for speed in (0.7, 0.75, 0.8):
+        character = ParametricController(graph)
+        track = steer(character, [0.0] * 450, speed).motion.root_positions[150:, [0, 2]] @ [1j, 1]
+        assert 30 * np.abs(np.diff(track)).mean() == pytest.approx(speed, abs=0.03)
+        taken, got = (np.array([part[place] for part in character.chosen]) for place in (2, 3))
+        assert np.abs(got - taken)[:, 1].max() < 0.05 < np.abs(got - taken)[:, 0].max()
 
 
 def test_without_a_label_the_kind_follows_the_speed():
