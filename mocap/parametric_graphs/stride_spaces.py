@@ -208,9 +208,9 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     lowest, highest = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
     if not (lowest < highest).all():
         number = int(np.argmin(highest - lowest))
+        ends = (_said(names[number], end) for end in (come[:, number].min(), come[:, number].max()))
         raise MocapError(
-            f"These strides come to a {names[number]} of {come[:, number].min():.2f} to "
-            f"{come[:, number].max():.2f}, outside the range asked for."
+            f"These strides come to a {names[number]} of {' to '.join(ends)}, outside the range asked for."
         )
     _warn_of_gaps(names, values, width, (lowest, highest))
     return StrideSpace(strides, names, come, mixes, lowest, highest)
@@ -226,10 +226,7 @@ def _check_strides(names: tuple[str, ...], values: Array, width: Array) -> None:
     spans = np.ptp(values, axis=0)
     if (spans < width / 2).any():
         number = int((spans / width).argmin())
-        low, high = (
-            _said(names[number], values[:, number].min()),
-            _said(names[number], values[:, number].max()),
-        )
+        low, high = (_said(names[number], end) for end in (values[:, number].min(), values[:, number].max()))
         raise MocapError(
             f"{len(values)} strides hardly vary in {names[number]}, from {low} to {high}: "
             f"ask by something else, or add clips that vary."

@@ -108,7 +108,7 @@ def test_the_range_is_cut_to_what_the_strides_come_to():
         ({"low": 0.5, "high": 0.5}, "a low end below its high end"),
         ({"low": [0.1, 0.2]}, "one finite number per parameter, 1"),
         ({"high": np.nan}, "one finite number per parameter"),
-        ({"low": 20.0, "high": 21.0}, r"come to a turn of -?\d.\d+ to \d.\d+, outside the range"),
+        ({"low": 20.0, "high": 21.0}, r"come to a turn of -?\d+° to -?\d+°, outside the range"),
     ],
 )
 def test_what_makes_no_sense_is_refused(settings, sentence):
