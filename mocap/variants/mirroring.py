@@ -25,6 +25,7 @@ from mocap.errors import MocapError, MocapWarning, shortened
 
 LOPSIDED = 0.01  # metres: by how much a bone and its partner may differ without a warning
 NEAR = np.cos(np.radians(10))  # of a plane to one of the axes, to be taken for it
+CLEAR = 0.2  # of the square of the bones: how much better one way must fit than the other
 KEPT = 1e-6  # of the square of the bones: how much speaks for no turn, where bones leave it open
 ACROSS = np.array([1.0, 0.0, 0.0])  # the world is mirrored in the plane x = 0
 ENDING = "_mirrored"
@@ -97,15 +98,27 @@ def _across(skeleton: Skeleton, partners: NDArray[np.intp]) -> Array:
 
 
 def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Array:
-    """Give K of each joint: the rotation that maximises Σ H o · K o', with bones o and the partner's o'."""
-    mirror = np.eye(3) - 2 * np.outer(across, across)
+    """Give K of each joint: the rotation that maximises Σ H o · K o', with bones o and the partner's o'.
+
+    A single bone leaves the turn about itself open. There K is near 1, for axes that are mirror images, or
+    near -H, for axes that all point the other way; where both fit, it is as in the joint above. Else a knee
+    would bend the same way by other angles, and a blend of both would turn it round.
+    """
+    mirror = _reflection(across)
     upward = np.cross(across, np.roll(across, 1))  # any direction in the plane, for bones that are opposite
     matrices = np.zeros((len(skeleton), 3, 3))
     for child in range(1, len(skeleton)):
         bone, other = mirror @ skeleton.offsets[child], skeleton.offsets[partners[child]]
         matrices[skeleton.parents[child]] += np.outer(bone, other)
+    usual = np.tile(np.eye(3), (len(skeleton), 1, 1))
+    for joint, matrix in enumerate(matrices):
+        better = np.sum((np.eye(3) + mirror) * matrix)  # how much better 1 fits than -H
+        if abs(better) > CLEAR * np.linalg.norm(matrix):
+            usual[joint] = np.eye(3) if better > 0 else -mirror
+        elif joint:
+            usual[joint] = usual[skeleton.parents[joint]]
     small = KEPT * np.linalg.norm(matrices, axis=(-2, -1), keepdims=True) + 1e-12
-    turns = _rotations(matrices + small * (np.eye(3) + np.outer(upward, upward)))
+    turns = _rotations(matrices + small * (usual + 0.1 * np.outer(upward, upward)))
     for _ in range(2):  # what the bones leave open stays as it is, and what they fix becomes exact
         turns = _rotations(matrices + small * turns)
     return rotations.from_matrix(turns)

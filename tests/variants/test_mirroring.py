@@ -33,8 +33,12 @@ def reflected(motion):
 
 def with_other_axes(motion, seed):
     """Describe the same motion by a skeleton in which each joint's axes point anywhere."""
+    return with_axes(motion, random_quaternions(np.random.default_rng(seed), len(motion.skeleton)))
+
+
+def with_axes(motion, axes):
+    """Describe the same motion by a skeleton in which each joint's axes are turned."""
     skeleton = motion.skeleton
-    axes = random_quaternions(np.random.default_rng(seed), len(skeleton))
     above = np.concatenate([[rotations.IDENTITY], axes[skeleton.parents[1:]]])
     offsets = rotations.rotate(rotations.inverse(above), skeleton.offsets)
     local = rotations.multiply(rotations.inverse(above), rotations.multiply(motion.rotations, axes))
@@ -71,6 +75,28 @@ def test_axes_may_point_anywhere_and_names_alone_do_not_do(seed):
     assert np.abs(joint_positions(mirror(odd)) - reflected(WALK)).max() < 1e-9
     assert np.abs(joint_positions(naive(odd)) - reflected(WALK)).max() > 0.3
     assert np.abs(joint_positions(naive(WALK)) - reflected(WALK)).max() < 1e-9  # they do where axes agree
+
+
+def test_where_all_axes_of_a_side_point_the_other_way_a_knee_bends_as_its_partner_does():
+    """By other angles it would bend the same, but a blend of both would turn it round."""
+    leg = ("rfemur", "rtibia", "rfoot", "rtoes", "rtoes_end")
+    axes = np.tile(rotations.IDENTITY, (len(WALK.skeleton), 1))
+    axes[[WALK.skeleton.index(name) for name in leg]] = [0.0, 1.0, 0.0, 0.0]
+    there, here = with_axes(mirror(WALK), axes), mirror(with_axes(WALK, axes))
+    assert rotations.angle_between(there.rotations, here.rotations).max() < 1e-6
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_a_walk_and_its_mirror_image_turn_their_joints_alike(real_data):
+    for name in (
+        "bandai_namco/dataset-2_walk_normal_001",
+        "pymo/AV_8Walk_Meredith_HVHA_Rep1",
+        "imusim/16_15",
+    ):
+        walk = load_save.load(real_data / "bvh" / f"{name}.bvh")
+        even = np.full(len(walk), 1 / len(walk))
+        means = [rotations.mean(clip.rotations[:, 1:].swapaxes(0, 1), even) for clip in (walk, mirror(walk))]
+        assert np.degrees(rotations.angle_between(*means)).max() < 60
 
 
 def test_plants_and_words_change_sides():
