@@ -16,7 +16,7 @@ import os
 import re
 import textwrap
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
@@ -146,28 +146,30 @@ def run(path: Path, figures: Path) -> None:
     write_text(path, nbformat.writes(notebook) + "\n")
 
 
-def client(notebook: Any, folder: Path, seconds: int) -> Any:  # noqa: ANN401
-    """Prepare to run a notebook in a folder, by a kernel that does not warn of its connection.
+def execute(notebook: Any, folder: Path, seconds: int, started: Callable[..., None] | None = None) -> None:  # noqa: ANN401
+    """Run a notebook as if nobody had solved anything, by a kernel that does not warn of its connection.
 
     Parameters
     ----------
-    notebook : from `read`.
+    notebook : from `read`; it takes the outputs.
     folder : where its cells find files.
     seconds : that a cell may take.
+    started : called with `cell` and `cell_index` when a cell starts.
     """
     from nbclient import NotebookClient
 
     place, quiet = {"metadata": {"path": folder}}, ["--log-level=ERROR"]
-    return NotebookClient(notebook, timeout=seconds, resources=place, extra_arguments=quiet)
+    client = NotebookClient(notebook, timeout=seconds, resources=place, extra_arguments=quiet)
+    client.on_cell_start = started
+    client.execute(env={**os.environ, "MOCAP_MINE": ""})
 
 
 def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
     from nbclient.exceptions import CellExecutionError
 
-    at, runner = [0], client(notebook, path.parent, 120)
-    runner.on_cell_start = lambda cell, cell_index: at.append(cell_index)
+    at = [0]
     try:
-        runner.execute(env={**os.environ, "MOCAP_MINE": ""})  # as if nobody had solved anything
+        execute(notebook, path.parent, 120, lambda cell, cell_index: at.append(cell_index))
     except CellExecutionError as error:
         raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue}") from error
 

@@ -14,7 +14,7 @@ from string import Template
 from typing import Any, NamedTuple
 
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course.notebooks import client, read
+from mocap.course.notebooks import execute, read
 from mocap.errors import MocapError
 
 PAGE = Path(__file__).with_name("page.html")
@@ -138,7 +138,7 @@ def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
         watching = f"from mocap.widgets import recording\nrecording.watch({folder!r})"
         again.cells.insert(0, new_code_cell(watching))
         try:
-            client(again, file.parent, 600).execute()
+            execute(again, file.parent, 600)
         except CellExecutionError as error:
             raise MocapError(f"{file}: a cell fails with {error.ename}: {error.evalue:.99}") from error
         recorded = [json.loads(kept.read_text("utf-8")) for kept in sorted(Path(folder).iterdir())]

@@ -178,7 +178,8 @@ explore(draw, alt="A white picture, as wide as the slider says.", steps_taken=(0
 def test_experiments_move_through_recorded_positions(tmp_path):
     still = {"text/html": '<div class="mocap-still"><img alt="Still."></div>', "text/plain": "Still."}
     cell = new_code_cell(EXPERIMENT, outputs=[new_output("display_data", still)])
-    folder = write_course(tmp_path / "in", new_markdown_cell("# One"), cell)
+    alone = new_code_cell("import os\nassert os.environ['MOCAP_MINE'] == ''  # nobody's functions are shown")
+    folder = write_course(tmp_path / "in", new_markdown_cell("# One"), alone, cell)
     text = build_site(folder, tmp_path / "still").read_text("utf-8")
     assert "its controls move where the notebook runs" in text
     text = build_site(folder, tmp_path / "moving", moving=True).read_text("utf-8")
