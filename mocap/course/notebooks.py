@@ -146,7 +146,7 @@ def run(path: Path, figures: Path) -> None:
     write_text(path, nbformat.writes(notebook) + "\n")
 
 
-def execute(notebook: Any, folder: Path, seconds: int, started: Callable[..., None] | None = None) -> None:  # noqa: ANN401
+def execute(notebook: Any, folder: Path, seconds: int, started: Callable[..., object] | None = None) -> None:  # noqa: ANN401
     """Run a notebook as if nobody had solved anything, by a kernel that does not warn of its connection.
 
     Parameters
@@ -159,9 +159,8 @@ def execute(notebook: Any, folder: Path, seconds: int, started: Callable[..., No
     from nbclient import NotebookClient
 
     place, quiet = {"metadata": {"path": folder}}, ["--log-level=ERROR"]
-    client = NotebookClient(notebook, timeout=seconds, resources=place, extra_arguments=quiet)
-    client.on_cell_start = started
-    client.execute(env={**os.environ, "MOCAP_MINE": ""})
+    more: dict[str, Any] = {"resources": place, "extra_arguments": quiet, "on_cell_start": started}
+    NotebookClient(notebook, timeout=seconds, **more).execute(env={**os.environ, "MOCAP_MINE": ""})
 
 
 def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
