@@ -125,13 +125,13 @@ within 20 degrees, on average and for 95 %. Then a minute of such turns every tw
 (`control.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
 with plants carried from the clips; how many planted frames the cleaning keeps. Jolting: frames whose velocity
 jumps further than 99.9 % of the clips' own. Wags: how the direction swings while a command stands. Pivots:
-how far a foot turns while it stands; that is what it costs to turn about it. All are means of four runs with
-other commands, ± their standard deviation; of the plants kept it is the least. CPU time of a step, on average
-and at worst, in the quickest of the four runs, and of the preparation. The centimetres of a way are its
-threshold. Below each table: led along five paths by commands alone (`control.pursue`), metres from the path
-on average and at worst."""
+how far a foot turns while it stands; that is what it costs to turn about it. Strides and steps are asked for
+a turn only, and go as fast as their clips. All are means of four runs with other commands, ± their standard
+deviation; of the plants kept it is the least. CPU time of a step, on average and at worst, in the quickest of
+the four runs, and of the preparation. The centimetres of a way are its threshold. Below each table: led along
+five paths by commands alone (`control.pursue`), metres from the path on average and at worst."""
 COLUMNS = (
-    "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | pivots | step, ms "
+    "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | pivots | m/s | step, ms "
     "| worst | ready, s |"
 )
 
@@ -139,7 +139,7 @@ COLUMNS = (
 def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
     usual = quality.spread(clips)
     rows, led = (
-        [COLUMNS, "|---" * 12 + "|"],
+        [COLUMNS, "|---" * 13 + "|"],
         [f"| way | {' | '.join(SHAPES)} |", "|---" * (len(SHAPES) + 1) + "|"],
     )
     made, refused = ways(name, clips)
@@ -172,7 +172,7 @@ def _judged(make: Callable[[], control.Character], usual: quality.Spread, speed:
     cells = [f"{np.mean(soon):.2f} ± {np.std(soon):.2f}", f"{np.mean([d.slowest for d in delays]):.2f}"]
     cells += [f"{np.mean(slides):.1f} ± {np.std(slides):.1f}", mean("cleaned", ".1f")]
     cells += [f"{min(report.kept for report in reports):.1%}", mean("jolting", ".1%")]
-    cells += [mean("wags", ".1f") + "°", mean("pivots", ".1f") + "°"]
+    cells += [mean("wags", ".1f") + "°", mean("pivots", ".1f") + "°", mean("pace", ".2f")]
     cells += [f"{min(delay.step for delay in delays):.2f}", f"{min(delay.worst for delay in delays):.1f}"]
     return " | ".join(cells)
 
