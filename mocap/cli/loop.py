@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 LASTS = number(0.2, 600)  # no shorter than the seam
 POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
+LITTLE = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
 
 
 def add_loop(commands: "Commands") -> None:
@@ -52,6 +53,9 @@ def _loop(options: argparse.Namespace) -> int:
     if found.seam > POOR:
         seam = f"the ends of the best cycle are {100 * found.seam:.0f} cm apart: it may leap there"
         warnings.warn(f"{options.clip}: {seam}.", MocapWarning, stacklevel=1)
+    if found.missed > LITTLE:
+        other = f"the clip's other poses are {100 * found.missed:.0f} cm away: it may hold no whole cycle"
+        warnings.warn(f"{options.clip}: {other}.", MocapWarning, stacklevel=1)
     cycle = variants.loop(motion, found, way=way, straight=options.straight, clean=options.clean)
     files.save(editing.repeated(cycle, options.times), options.out, widen=True)
     report = quality.inspect(cycle)

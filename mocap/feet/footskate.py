@@ -187,7 +187,7 @@ def _warn_of_plants_let_go(motion: Motion, asked: Mapping[str, Mask], held: Mapp
     gone = [f"{name} {a}-{b - 1}" for name in names for a, b in runs(asked[name] & ~held[name])]
     if gone:
         name = shortened(motion.name, 40)
-        fit = [n for n in range(1, 5) if n == 1 or len(", ".join(gone[:n])) <= 73 - len(name)]
+        fit = [n for n in range(1, 5) if n == 1 or len(", ".join(gone[:n])) <= 71 - len(name)]
         more = len(gone) - fit[-1]
         warnings.warn(
             f"'{name}': to hold these plants would move the root by more than {100 * MOST:.0f} cm, "

@@ -9,6 +9,7 @@ is large for a held pose, and for half a stride. Method and measure are ours.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, NamedTuple
@@ -20,8 +21,9 @@ from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform, heading, lay_on
+from mocap.editing.path_editing import plants_kept
 from mocap.editing.warping.looping import repeated
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.matching.distance_grids import Floats, distance_grid
@@ -175,6 +177,10 @@ def loop(
     MocapError : for frames that leave no room for the seam, another way, and with `clean` for legs that are
         not found.
 
+    Warns
+    -----
+    MocapWarning : for plants of the cycle that are let go.
+
     Examples
     --------
     >>> from mocap.datasets import sample
@@ -216,7 +222,17 @@ def _straightened(cycle: Motion) -> Motion:
 def _cleaned(cycle: Motion) -> Motion:
     """Clean up many rounds, of which the middle one has neighbours as far as any correction reaches."""
     around = int(np.ceil(MARGIN / cycle.duration))
-    rounds = repeated(replace(cycle, contacts={}), 2 * around + 1)
+    rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * around + 1))
     start = around * (len(cycle) - 1)
-    middle = clean_up(mark_plants(rounds))[start : start + len(cycle)]
-    return lay_on(middle, cycle).apply_motion(middle)
+    middle = slice(start, start + len(cycle))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # of frames in all rounds
+        cleaned = clean_up(rounds)[middle]
+    if (kept := plants_kept(cleaned, rounds[middle])) < 1:
+        warnings.warn(
+            f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go: to hold them would "
+            "move the root by more than 2 cm, stretch a leg or jolt a knee.",
+            MocapWarning,
+            stacklevel=3,
+        )
+    return lay_on(cleaned, cycle).apply_motion(cleaned)

@@ -106,14 +106,21 @@ def test_one_warning_says_that_a_body_is_lopsided(tmp_path, capsys):
         assert capsys.readouterr().err == ""
 
 
-def test_a_loop_whose_ends_are_far_apart_is_a_warning(tmp_path, capsys):
+@pytest.mark.parametrize(
+    ("held", "shortest", "said"),
+    [(0, "1.5", "cm apart: it may leap there."), (60, "0.4", "away: it may hold no whole cycle.")],
+)
+def test_a_loop_that_leaps_or_holds_a_pose_is_a_warning(held, shortest, said, tmp_path, capsys):
+    """Of an arm that swings once, and rises where it was held for some frames before."""
     body = Skeleton(["root", "arm", "hand"], [-1, 0, 1], [[0, 1, 0], [0.1, 0, 0], [0.6, 0, 0]])
-    turned = np.tile(rotations.IDENTITY, (60, 3, 1))
-    turned[:, 1] = rotations.about_y(np.linspace(0, 3, 60))
-    load_save.save(Motion(body, np.zeros((60, 3)), turned, 30.0, "arm"), tmp_path / "arm.bvh")
-    words = ["loop", str(tmp_path / "arm.bvh"), "--shortest", "1.5", "-o", str(tmp_path / "out.bvh")]
+    count = 30 if held else 60
+    turned, roots = np.tile(rotations.IDENTITY, (held + count, 3, 1)), np.zeros((held + count, 3))
+    turned[held:, 1] = rotations.about_y(np.linspace(0, 3, count))
+    roots[held:, 1] = np.linspace(0, held / 60, count)
+    load_save.save(Motion(body, roots, turned, 30.0, "arm"), tmp_path / "arm.bvh")
+    words = ["loop", str(tmp_path / "arm.bvh"), "--shortest", shortest, "-o", str(tmp_path / "out.bvh")]
     assert main(words) == 0
-    assert "cm apart: it may leap there." in capsys.readouterr().err
+    assert said in capsys.readouterr().err
 
 
 def test_bodies_that_differ_are_one_short_sentence_that_says_what_to_do(tmp_path, capsys):

@@ -11,7 +11,7 @@ from mocap.body.motion import concatenate, resample
 from mocap.body.planar import heading, lay_on
 from mocap.datasets import samples
 from mocap.editing.warping.looping import repeated
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from mocap.matching.distance_grids import distance_grid
@@ -138,6 +138,16 @@ def test_what_cannot_be_looped_is_refused():
 
 def test_the_shortest_cycle_that_may_be_asked_for_can_be_closed():
     assert loop(WALK, find_loop(WALK, seconds=(0.2, 0.2)), way="inertialize").duration == pytest.approx(0.2)
+
+
+def test_plants_that_are_let_go_are_told_as_a_share_of_the_cycle():
+    """The rounds around it are cleaned up as well, but their frames are nobody's."""
+    sway = np.outer(0.05 * np.sin(0.9 * np.arange(len(WALK))), [0, 0, 1])
+    shaken = replace(WALK, root_positions=WALK.root_positions + sway, contacts={})
+    with pytest.warns(MocapWarning) as caught:
+        loop(shaken, find_loop(shaken), clean=True)
+    (said,) = caught
+    assert str(said.message).startswith("'walk_straight_loop': 40% of the planted frames are let go")
 
 
 def test_a_clip_far_from_the_origin_has_the_same_cycle():
