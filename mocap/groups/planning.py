@@ -87,7 +87,7 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
     Raises
     ------
     MocapError : for a scene that makes no sense.
-    NoWalk : where no way was found, with how far it came and what ended the search.
+    NoWalk : where no way was found, with how far it came, what ended the search, and what would help.
 
     Examples
     --------

@@ -106,7 +106,7 @@ def _pictures(
     bodies = [_body(motion, number, len(motions), ax) for number, motion in enumerate(motions)]
     for frame in progress(range(frames)):
         look_at(ax, centres[frame], reach)
-        obstacles.set_verts(to_picture(_near(outlines, centres[frame], 2 * reach)))
+        obstacles.set_verts(to_picture(_near(outlines, centres[frame], 2.5 * reach)))
         for body, cloud in zip(bodies, clouds, strict=True):
             body.pose(cloud[frame])
         canvas.draw()

@@ -49,6 +49,16 @@ def test_the_film_is_an_mp4_where_that_can_be(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["crowd.mp4"]
 
 
+def test_the_film_shows_the_obstacles(tmp_path):
+    scene = Scene((1 + 0j,), ((0.3 + 0.5j, 0.5),))
+    for name, shown in (("bare", Scene((1 + 0j,))), ("obstacle", scene)):
+        _film([wave(9), wave(9, phase=1)], shown, tmp_path / f"{name}.gif")
+    bare, obstacle = (
+        np.asarray(Image.open(tmp_path / f"{name}.gif").convert("L")) for name in ("bare", "obstacle")
+    )
+    assert (bare.astype(int) - obstacle > 60).mean() > 0.01
+
+
 def write(folder, members, *, to="bvh", no_film=True):
     motions = [wave(10, phase=number) for number in range(members)]
     places = np.linspace(0, 1, 9)[:, None] + np.zeros(members)
