@@ -15,11 +15,12 @@ from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept, ride_of
 from mocap.editing.pins import plant_pins
 from mocap.editing.spacetime_solver import spacetime
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 
 LIMIT = float(np.radians(60))  # per second: the fastest that a walk is turned
+WILD = 2 * np.pi  # per second: faster than anybody who walks turns; walks on lines that turn fast reach 100°
 FINE = 0.01  # metres between the points of a line from which distances are measured
 # Share of the plants. With fewer, a solver over all frames helps to hold them; it takes five times the time.
 ENOUGH = 0.95
@@ -123,7 +124,8 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
 
     Warns
     -----
-    MocapWarning : for plants that are let go, as by `feet.clean_up`.
+    MocapWarning : for plants that are let go, as by `feet.clean_up`, and for a motion that hardly goes on, so
+        that it is turned by more than 360° per second.
 
     Examples
     --------
@@ -143,7 +145,15 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     frames = max(2, int(np.searchsorted(ride.along, line.along[-1], side="right")))
     motion, ride = motion[:frames], replace(ride, along=ride.along[:frames])
     laid = on_path(motion, line.path, ride)
-    return Bent(_cleaned(laid), laid, path, line, ride)
+    bent = Bent(_cleaned(laid), laid, path, line, ride)
+    if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
+        warnings.warn(
+            f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: where it "
+            "stands, or goes to and fro, its way turns at once; bend a walk that goes on.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return bent
 
 
 def _reached(path: GroundPath, ride: Ride) -> GroundPath:
