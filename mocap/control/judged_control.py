@@ -97,7 +97,6 @@ def judge_control(
     """
     if not EVERY <= seconds < np.inf:
         raise MocapError(f"A character is judged by commands for {EVERY:g} s or more, got {seconds} s.")
-    delay = measure_delay(make(), speed=speed, seed=seed)
     character = make()
     headings = command_headings(seconds, character.fps, seed)
     motion = steer(character, headings.tolist(), speed).motion
@@ -109,7 +108,7 @@ def judge_control(
     planted = [sum(int(mark.sum()) for mark in some.contacts.values()) for some in (motion, cleaned)]
     limit = np.percentile(usual.within(1)[0], USUAL)
     return ControlReport(
-        delay,
+        measure_delay(make(), speed=speed, seed=seed),
         _mean_slide(motion),
         _mean_slide(cleaned),
         planted[1] / planted[0],

@@ -115,11 +115,12 @@ def test_a_character_that_never_stands_is_refused():
         judge_control(Flier, spread(clips()), seconds=5)
 
 
-def test_a_character_without_marks_is_refused():
+def test_a_character_without_marks_is_refused_before_its_delay_is_measured(monkeypatch):
     from mocap.graphs.motion_graph import build
     from mocap.graphs.pruning import prune
 
     bare = [replace(clip, contacts={}) for clip in clips()[:1]]
     marks = compile_graph(prune(build(bare, window=10, threshold=0.04)))
+    monkeypatch.setattr("mocap.control.judged_control.measure_delay", None)
     with pytest.raises(MocapError, match="do not say when feet stand"):
         judge_control(lambda: Controller(marks), spread(clips()), seconds=5)
