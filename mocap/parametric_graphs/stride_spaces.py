@@ -172,7 +172,8 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     Raises
     ------
     MocapError : for unknown parameters, a range that is none or lies outside what the samples come to, a
-        width that is not above 0, fewer strides than d + 2, and strides that do not vary.
+        width that is not above 0, fewer strides than d + 2, or samples of two parameters, and strides that do
+        not vary.
 
     Warns
     -----
@@ -213,7 +214,10 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
             f"These strides come to a {names[number]} of {' to '.join(ends)}, outside the range asked for."
         )
     _warn_of_gaps(names, values, width, (lowest, highest))
-    return StrideSpace(strides, names, come, mixes, lowest, highest)
+    space = StrideSpace(strides, names, come, mixes, lowest, highest)
+    if count > 1 and len(space.reached) < count + NEIGHBOURS:
+        raise MocapError(f"Only {len(space.reached)} of {samples} samples lie in the range: widen it.")
+    return space
 
 
 def _check_strides(names: tuple[str, ...], values: Array, width: Array) -> None:

@@ -138,6 +138,11 @@ def test_too_few_strides_are_refused_with_what_helps():
         make_space(some(3), [0.2, 0.1], [-0.5, 0.7], [0.5, 0.9], parameters=("turn", "speed"))
 
 
+def test_a_range_of_two_parameters_that_hardly_any_sample_lies_in_is_refused():
+    with pytest.raises(MocapError, match=r"Only \d of 400 samples lie in the range: widen it"):
+        make_space(strides(), [0.2, 0.1], [0.3, 0.7], [0.301, 0.71], parameters=("turn", "speed"))
+
+
 def test_strides_that_do_not_vary_are_refused():
     straight = cut_strides([clips()[3]])
     with pytest.raises(MocapError, match=r"hardly vary in turn, from -1° to 1°: ask by something else"):
