@@ -195,7 +195,9 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     width, lowest, highest = (np.atleast_1d(np.asarray(value, float)) for value in (width, low, high))
     _check(names, width, lowest, highest)
     columns, count = [PARAMETERS.index(name) for name in names], len(names)
-    samples = samples or (120 if count == 1 else 400)
+    samples = (120 if count == 1 else 400) if samples is None else samples
+    if samples < count + NEIGHBOURS:
+        raise MocapError(f"A space keeps {count + NEIGHBOURS} samples or more, got {samples}.")
     values = strides.values[:, columns]
     _check_strides(names, values, width)
     if count == 1:
