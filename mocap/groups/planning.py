@@ -129,8 +129,9 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
 def _what_helps(graph: GroupGraph, scene: Scene, *, closed: bool) -> str:
     """Say what to change where no way was found; the gap named just lets the narrowest node through."""
     wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body
-    begin = "Start farther off or turned" if closed else "Allow more, set a point on the way"
-    return f"{begin}, take fewer members, or leave gaps of {wide:.1f} m."
+    if closed:
+        return f"Start farther off or turned, take fewer members, or leave gaps of {wide:.1f} m."
+    return f"Set a point on the way, take fewer members, leave gaps of {wide:.1f} m, or allow more states."
 
 
 def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:

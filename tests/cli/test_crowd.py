@@ -121,6 +121,19 @@ def test_where_the_way_to_the_first_point_is_closed_it_sets_out_to_a_side():
     assert abs(np.angle(start.turn / 1j)) == pytest.approx(0.5) and found.clips
 
 
+def test_sides_are_not_searched_for_long_where_the_way_ahead_is_only_long(monkeypatch):
+    asked = []
+
+    def refuse(group, scene, *, start, most=4000):
+        asked.append(most)
+        raise NoWalk(f"refused {len(asked)}")
+
+    monkeypatch.setattr("mocap.groups.plan_group", refuse)
+    with pytest.raises(NoWalk, match="refused 1"):
+        _plan(graph(3), Scene((20j,)))
+    assert asked == [4000, 400, 400, 400, 400]
+
+
 @pytest.mark.parametrize(
     ("points", "discs", "sentence"),
     [

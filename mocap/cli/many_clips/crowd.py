@@ -30,6 +30,7 @@ FILMS = ("crowd.mp4", "crowd.gif")
 OURS = re.compile(r"^(?:member-\d\d\.(?:bvh|glb)|crowd\.(?:mp4|gif))$", re.MULTILINE)
 WROTE, LONGEST = "mocap crowd wrote", 2000  # how the list of files begins, and its length at most
 TURNS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the way to the first point, tried in this order
+SOON = 400  # states; where the way ahead is closed, a side finds one soon or not at all
 
 
 def add_crowd(commands: "Commands") -> None:
@@ -79,7 +80,7 @@ def _plan(group: "GroupGraph", scene: "Scene") -> "tuple[Placed, GroupWalk]":
     for turn in TURNS:
         start = groups.Placed(0, cmath.rect(1.0, cmath.phase(scene.points[0]) + turn))
         try:
-            return start, groups.plan_group(group, scene, start=start)
+            return start, groups.plan_group(group, scene, start=start, **({"most": SOON} if turn else {}))
         except NoWalk as error:
             refused.append(error)
     raise refused[0]
