@@ -236,12 +236,12 @@ def _tabled(found: list[tuple[_Found, Array]], grid: Array, feet: str, dropped: 
         way = np.abs(np.diff(ground[zero : one + 1])).sum() / clock[one]
         speed, spin = np.gradient(ground, step) * np.exp(-1j * facing), np.gradient(facing, step)
         rows.append((clock, speed, spin, roots[:, 1], turns, contact, [facing[one] - facing[zero], way]))
-    parts = iter([np.array(part) for part in zip(*rows, strict=True)])
-    seconds, speeds, turning, heights, poses, contacts, values = parts
-    poses *= np.where((poses * poses[0]).sum(axis=-1, keepdims=True) < 0, -1, 1)  # one sign for each
-    names, own = tuple(clip.contacts), (clip.skeleton, clip.fps, grid)
-    made = Strides(*own, seconds, speeds, turning, heights, poses, contacts, names, values, dropped=dropped)
-    return _calibrated(made, steps=len(feet) < len(STRIDE))
+    seconds, speeds, turning, heights, poses, contacts, values = map(np.array, zip(*rows, strict=True))
+    flips = np.where((poses[0, 1:] * poses[0, :-1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+    poses[0, 1:] *= np.cumprod(flips, axis=0)  # one sign from phase to phase, and for all examples
+    poses *= np.where((poses * poses[0]).sum(axis=-1, keepdims=True) < 0, -1, 1)
+    own = (clip.skeleton, clip.fps, grid, seconds, speeds, turning, heights, poses, contacts)
+    return _calibrated(Strides(*own, tuple(clip.contacts), values, dropped=dropped), steps=feet != STRIDE)
 
 
 def _calibrated(strides: Strides, *, steps: bool) -> Strides:

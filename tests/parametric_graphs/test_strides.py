@@ -8,6 +8,7 @@ import pytest
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, concatenate, resample
 from mocap.body.planar import place
+from mocap.body.rotations import multiply
 from mocap.datasets.generated import generate_walk
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
@@ -149,6 +150,18 @@ def test_what_makes_no_sense_is_refused(what, sentence):
 def test_clips_of_two_rates_are_refused():
     with pytest.raises(MocapError, match="resample"):
         cut_strides([sample("walk_curve_1"), resample(sample("walk_curve_2"), 30)])
+
+
+def test_a_joint_turned_by_half_a_circle_keeps_its_sign_from_phase_to_phase():
+    """Files of Bandai-Namco hang the thighs from such a joint; between q and -q a thigh would fly round."""
+    half, (walk,) = np.array([0.0, 0, 1, 0]), clips()[:1]
+    thigh = walk.skeleton.index("lfemur")
+    turned = walk.rotations.copy()
+    turned[:, thigh] = multiply(turned[:, thigh], half)
+    turned[:, thigh] *= np.where(turned[:, thigh, :1] < 0, -1, 1)  # as a reader of angles has it
+    poses = cut_strides([replace(walk, rotations=turned)]).poses
+    assert ((turned[1:, thigh] * turned[:-1, thigh]).sum(-1) < 0).any()
+    assert ((poses[:, 1:] * poses[:, :-1]).sum(-1) > 0).all()
 
 
 def test_some_of_the_examples_can_be_taken():
