@@ -35,12 +35,12 @@ class ClassPoint(NamedTuple):
     seen: DPrime
 
 
-def read_answers(files: Iterable[str | Path]) -> list[Answer]:
+def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     """Read the files that a class saved.
 
     Parameters
     ----------
-    files : CSV files, as the blind test saves them. The same answer in two files counts once.
+    files : one CSV file or more, as the blind test saves them. The same answer in two files counts once.
 
     Returns
     -------
@@ -59,7 +59,7 @@ def read_answers(files: Iterable[str | Path]) -> list[Answer]:
     Notebooks: 09-discussion, 09b-blend-window
     """
     answers: dict[tuple[object, ...], Answer] = {}
-    paths = [Path(file) for file in files]
+    paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
     if not paths:
         raise MocapError("There are no files of answers.")
     for path in paths:
@@ -112,7 +112,7 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
 
     Raises
     ------
-    MocapError : where the other setting varies, too.
+    MocapError : where the other setting varies, too, and over something else.
 
     Examples
     --------
@@ -122,6 +122,8 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
 
     Notebooks: 09-discussion, 09b-blend-window
     """
+    if over not in ("below_cm", "window"):
+        raise MocapError(f"A curve of a class runs over 'below_cm' or 'window', got {over!r:.40}.")
     other = "window" if over == "below_cm" else "below_cm"
     held = sorted({getattr(answer, other) for answer in answers})
     if len(held) != 1:

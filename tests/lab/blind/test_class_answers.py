@@ -39,6 +39,14 @@ def test_two_tests_of_one_person_add_up_and_a_file_read_twice_counts_once(tmp_pa
     assert point == (4.0, 1, 28, 40, d_prime(28, 40))
 
 
+def test_one_file_needs_no_list_and_a_curve_runs_over_what_was_varied(tmp_path):
+    one = file(tmp_path, "a", rows("ada", 12))
+    answers = read_answers([one])
+    assert read_answers(one) == read_answers(str(one)) == answers
+    with pytest.raises(MocapError, match="runs over 'below_cm' or 'window', got 'below'"):
+        class_curve(answers, "below")
+
+
 def test_the_other_setting_must_be_one(tmp_path):
     answers = read_answers([file(tmp_path, "a", rows("a", 9)), file(tmp_path, "b", rows("b", 9, window=2))])
     with pytest.raises(MocapError, match=r"one 'window', got \[2, 10\]"):
