@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.text import Text
 from PIL import Image, ImageDraw
 
 from mocap import datasets, diagrams, graphs, matching, plotting
@@ -166,7 +165,7 @@ def board_sheet(name: str) -> Image.Image:
 
 def _unnumbered(figure: Any) -> None:  # noqa: ANN401
     """Take off the number with which a step's title begins: the disc beside it has one."""
-    for text in figure.findobj(Text):
+    for text in figure.findobj(lambda artist: hasattr(artist, "set_text")):
         text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
 
 
