@@ -124,7 +124,10 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     if not flock.places.shape[-1]:
         raise MocapError("A plan has one member or more, got none.")
     if len(flock.places) <= RATE:
-        raise MocapError(f"A plan lasts a second or more, got {(len(flock.places) - 1) / RATE:g} s.")
+        raise MocapError(
+            f"A plan that is walked lasts a second or more, got {(len(flock.places) - 1) / RATE:g} s: "
+            "does it lead away from where the group starts?"
+        )
     compiled = _with_plants(graph)
     one = partial(_walk_one, compiled, bend=bend, beam=beam)
     walked = list((pool.map if pool else map)(one, progress(list(flock.places.T))))

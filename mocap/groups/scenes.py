@@ -39,7 +39,11 @@ class Scene(NamedTuple):
         if not np.isfinite(start):
             raise MocapError(f"A group starts at a finite place, got {start}.")
         if not self.points or not np.isfinite(self.points).all():
-            raise MocapError(f"A scene has one point to pass or more, all finite; got {self.points}."[:200])
+            raise MocapError(
+                f"A scene has one point z + ix to pass or more, all finite; got {self.points}."[:200]
+            )
+        if np.ndim(self.points) != 1:
+            raise MocapError(f"A point of a scene is one complex number z + ix, got {self.points[0]}."[:200])
         if not (0 < self.near < np.inf and 0 <= self.body < np.inf):
             raise MocapError(
                 "A scene is passed within more than 0 m and kept clear of by 0 m or more; "

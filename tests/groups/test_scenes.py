@@ -16,7 +16,8 @@ from tests.groups.built import course, graph
 @pytest.mark.parametrize(
     ("scene", "sentence"),
     [
-        (Scene(()), "one point to pass or more"),
+        (Scene(()), "to pass or more"),
+        (Scene(((3, 3),)), r"one complex number z \+ ix, got \(3, 3\)"),
         (Scene((complex(np.nan),)), "all finite"),
         (Scene((9j,), ((5j, 0.0),)), "a radius above 0"),
         (Scene((9j,), ((complex(np.inf), 1.0),)), "An obstacle has a centre"),
