@@ -1,18 +1,11 @@
 """What the diagrams of quaternions show, read back from their artists."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 from mocap import datasets
 from mocap.diagrams import quaternions
 from mocap.plotting.style import CURVES
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def arrows(ax):

@@ -1,6 +1,5 @@
 """The diagrams of a transition and of a leg show the numbers that the package computes."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
@@ -11,12 +10,6 @@ from mocap.diagrams import blended_seam, knee_triangle, turning_paths
 from mocap.plotting import SOURCES
 
 ALPHA = 0.6
-
-
-@pytest.fixture(autouse=True)
-def _close():
-    yield
-    plt.close("all")
 
 
 def boxes(ax, colour):

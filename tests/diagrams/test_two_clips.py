@@ -1,6 +1,5 @@
 """What the steps from two clips to a motion graph show, read back from the artists."""
 
-import matplotlib.pyplot as plt
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
@@ -26,8 +25,7 @@ def arrows(ax, colour):
 
 @pytest.fixture
 def drawn():
-    yield lambda step: two_clips.nodes_and_edges(step).axes[0]
-    plt.close("all")
+    return lambda step: two_clips.nodes_and_edges(step).axes[0]
 
 
 @pytest.mark.parametrize(("step", "leaps"), [(0, 0), (1, 0), (2, 1), (3, 3), (4, 3)])

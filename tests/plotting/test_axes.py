@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -45,7 +44,6 @@ def test_poses_are_never_cut_off(seed, size, away):
     motion = replace(motion, root_positions=np.abs(motion.root_positions) * size + [away, 0, -away])
     points = joint_positions(motion)[[0, 2, 4]]
     seen = on_picture(axes.ground_around(points), points)
-    plt.close("all")
     assert seen.min() >= 0
     assert seen.max() <= 1
 

@@ -20,7 +20,6 @@ from tests.strategies import wave
 
 @pytest.fixture(autouse=True)
 def no_figure_stays_open():
-    plt.close("all")  # those of other tests
     yield
     assert plt.get_fignums() == []
 

@@ -1,6 +1,5 @@
 """Drawings for the board."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from PIL import Image
@@ -31,14 +30,12 @@ def test_a_step_has_one_number(monkeypatch):
     assert titles[0].startswith("Two clips: ")
     board.board_sheet("04-laid-on")
     assert any(ax.get_title().startswith("1. ") for ax in kept[-1].axes)  # which shows its steps itself
-    plt.close("all")
 
 
 @pytest.mark.parametrize("name", board.BOARD)
 def test_each_has_figures(name):
     figures = list(board.BOARD[name][1]())
     assert len(figures) in (1, 3, 4, 6)
-    plt.close("all")
 
 
 def test_there_are_ten_and_one():

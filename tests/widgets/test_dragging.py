@@ -125,7 +125,6 @@ def test_other_nonsense_is_refused():
         handles(plt.figure().add_subplot(yscale="log"), POINTS)
     with pytest.raises(MocapError, match="one control of handles"):
         explore(lambda a, b: None, alt="", a=handles(ground(), POINTS), b=handles(ground(), POINTS))
-    plt.close("all")
 
 
 def test_an_error_is_shown_in_the_pictures_place():
@@ -148,4 +147,3 @@ def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
     dragging._class.cache_clear()
     with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
         handles(ground(), POINTS)
-    plt.close("all")

@@ -56,7 +56,6 @@ def test_a_click_lays_the_two_windows_over_each_other():
 
 
 def test_the_figures_are_closed():
-    plt.close("all")  # those of other tests
     experiment().set(at=(1, 2))
     assert plt.get_fignums() == []
 
@@ -125,7 +124,6 @@ def test_the_ring_is_round_the_number_meant(origin, value):
 def test_an_image_of_colours_is_refused():
     with pytest.raises(MocapError, match="rows and columns of numbers"):
         pointer(plt.figure().add_subplot().imshow(np.zeros((4, 4, 3))))
-    plt.close("all")
 
 
 def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
@@ -133,4 +131,3 @@ def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
     pointing._pointer_class.cache_clear()
     with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
         pointer(charts.distance_image(GRID, fps=30))
-    plt.close("all")
