@@ -227,7 +227,12 @@ def test_an_interruption_is_one_sentence_and_keeps_the_marks(tmp_path):
     hand_in([START, ("exercise:speed", slow)], tmp_path / "in" / "bob" / "00.ipynb")
     command = [sys.executable, "-m", "mocap", "course", "mark", "in", "-o", "marks.csv"]
     process = subprocess.Popen(
-        command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        command,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # tests in the background ignore it
     )
     for _ in range(1200):
         if begun.exists() or process.poll() is not None:
