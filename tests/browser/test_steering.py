@@ -177,7 +177,11 @@ def test_without_an_answer_time_slows_down_and_stands_and_goes_on_afterwards(ste
 def test_when_python_has_ended_the_page_says_what_to_do(steering):
     press(steering, "ArrowUp")
     steering.evaluate(f"{MODEL}.tell('comm_live_update')")
-    wait_until(lambda: "run the cell again" in steering.locator(".message").inner_text())
+    said = steering.locator(".message")
+    wait_until(lambda: "run the cell again" in said.inner_text())
+    late = "{ view: 0, members: [], notes: ['Too fast.'] }"  # an answer that was under way
+    steering.evaluate(f"{MODEL}.tell('msg:custom', {late}, [])")
+    assert "run the cell again" in said.inner_text()
     assert not steering.evaluate(f"{IT}.playing")
 
 

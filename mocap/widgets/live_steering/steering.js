@@ -173,6 +173,7 @@ class Steering {
   }
 
   answered(content, buffers) {
+    if (this.gone) return; // an answer that was under way would take back what was said of the end
     if (content.kind === "refused") { this.say(content.why, true); this.asked.clear(); return; }
     if (content.view === this.view) this.timeTrip(content);
     content.members.forEach((member, k) => this.panels[k].walker.add(member, numbersOf(buffers[k])));
