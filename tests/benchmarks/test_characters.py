@@ -58,6 +58,7 @@ def test_steps_beside_those_of_a_character_on_a_motion_graph():
         print(f"\n{name}: {STEPS / took:.0f} poses per second, {took / times['motion graph']:.2f} ×", end="")
         print(f" the graph's time, {took / bare:.2f} × that of 250 additions", end="")
     assert times["matching"] <= times["motion graph"]
+    assert max(times["strides"], times["steps"]) <= times["motion graph"]
     assert times["strides"] <= bare and times["steps"] <= 1.7 * bare
 
 

@@ -68,6 +68,7 @@ def test_at_the_slide_of_a_graph_it_still_obeys_sooner(judged):
 def test_its_feet_slide_further_than_the_graph_s_and_can_be_cleaned(judged):
     assert judged.graph().slide < judged.matching().slide <= 3 * judged.graph().slide
     assert judged.matching().cleaned < 0.01
+    assert judged.matching().kept >= 0.95
 
 
 @pytest.mark.parametrize(("future", "least"), [(1.0, 0.94), (0.5, 0.97)])

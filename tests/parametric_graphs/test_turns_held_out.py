@@ -30,6 +30,7 @@ def test_sharper_turns_have_the_knees_and_hips_of_real_ones(strides, case):
     """And the length, unless the strides on either side are all shorter: no blend is longer than both."""
     found = turns_held_out.compare(strides, case)
     assert np.abs(found.off(CURVES)[[0, 1, 3]]).max() <= 2 and found.off(ANYWHERE)[0] < -2
+    assert np.abs(found.off(CURVES)).max() <= 3
     real, straighter, sharper, made = (
         some[:, 2].mean() for some in (found.real, found.straighter, found.sharper, found.made[CURVES])
     )
