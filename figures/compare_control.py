@@ -1,6 +1,6 @@
 """Compare six ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS]`.
 
-Writes the table `control.md` beside this script. The folder holds `hw3` and `cmu/16`; without it the bundled
+Writes the table `steering.md` beside this script. The folder holds `hw3` and `cmu/16`; without it the bundled
 clips alone are compared. Times are CPU time of one run.
 """
 
@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 
 import mocap
-from mocap import control, datasets, feet, graphs, motion_matching, parametric_graphs, quality
+from mocap import datasets, feet, graphs, quality, steering
 from mocap.body import SHAPES
 from mocap.errors import MocapError, MocapWarning
+from mocap.methods import motion_matching, parametric_graphs
 
 FOLDER = Path(__file__).parent
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
@@ -65,9 +66,9 @@ def strides(
 
 def ways(
     name: str, clips: list[mocap.Motion]
-) -> tuple[dict[str, tuple[Callable[[], control.Character], float]], dict[str, str]]:
+) -> tuple[dict[str, tuple[Callable[[], steering.Character], float]], dict[str, str]]:
     """Prepare every way of control: how to make its character, what that took, s; and why some cannot be."""
-    made: dict[str, tuple[Callable[[], control.Character], float]] = {}
+    made: dict[str, tuple[Callable[[], steering.Character], float]] = {}
     refused: dict[str, str] = {}
 
     def add(
@@ -86,8 +87,8 @@ def ways(
             made[label + by + more] = (lambda character=character: character(ready), took)
 
     parametric = ("", parametric_graphs.ParametricController)
-    add("motion graph", lambda: graph(clips, 0.04), ("", control.Controller), (", turned by 40°/s", turned))
-    add("motion graph", lambda: graph(clips, 0.08), ("", control.Controller))
+    add("motion graph", lambda: graph(clips, 0.04), ("", steering.Controller), (", turned by 40°/s", turned))
+    add("motion graph", lambda: graph(clips, 0.08), ("", steering.Controller))
     add("strides", lambda: strides(clips, ("lrl",), LIMITS[name]), parametric)
     add("steps", lambda: strides(clips, ("lr", "rl"), LIMITS[name]), parametric)
     add("matching", lambda: (motion_matching.tabulate(clips), ""), *map(_matcher, (1.0, 0.25)))
@@ -100,9 +101,9 @@ def graph(clips: list[mocap.Motion], threshold: float) -> tuple[graphs.CompiledG
     return graphs.compile_graph(found), f", {100 * threshold:g} cm"
 
 
-def turned(compiled: graphs.CompiledGraph) -> control.FootTurner:
+def turned(compiled: graphs.CompiledGraph) -> steering.FootTurner:
     """Make a character that turns about the foot that stands."""
-    return control.FootTurner(control.Controller(compiled), np.radians(40))
+    return steering.FootTurner(steering.Controller(compiled), np.radians(40))
 
 
 def _matcher(future: float) -> tuple[str, Callable[[object], object]]:
@@ -116,20 +117,20 @@ def main() -> None:
     lines = ["# Three answers to one question: how does a character obey?", "", HEAD, ""]
     for name, (clips, speed) in clip_sets().items():
         lines += [f"## {name}, asked for {speed} m/s", "", *_table(name, clips, speed), ""]
-    (FOLDER / "control.md").write_text("\n".join(lines), "utf-8")
+    (FOLDER / "steering.md").write_text("\n".join(lines), "utf-8")
 
 
 HEAD = """Written by `python figures/compare_control.py`. Sixty turns by 30 to 120 degrees, as
-`control.measure_delay` commands them: seconds until the direction of the last third of a second is
+`steering.measure_delay` commands them: seconds until the direction of the last third of a second is
 within 20 degrees, on average and for 95 %. Then a minute of such turns every two seconds
-(`control.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
+(`steering.judge_control`). Slide: how far a planted joint strays from its mean place, as it is and cleaned,
 with plants carried from the clips; how many planted frames the cleaning keeps. Jolting: frames whose velocity
 jumps further than 99.9 % of the clips' own. Wags: how the direction swings while a command stands. Pivots:
 how far a foot turns while it stands; that is what it costs to turn about it. Strides and steps are asked for
 a turn only, and go as fast as their clips. All are means of four runs with other commands, ± their standard
 deviation; of the plants kept it is the least. CPU time of a step, on average and at worst, in the quickest of
 the four runs, and of the preparation. The centimetres of a way are its threshold. Below each table: led along
-five paths by commands alone (`control.pursue`), metres from the path on average and at worst."""
+five paths by commands alone (`steering.pursue`), metres from the path on average and at worst."""
 COLUMNS = (
     "| way | obeys, s | 95 % | slide, cm | cleaned | plants kept | jolting | wags | pivots | m/s | step, ms "
     "| worst | ready, s |"
@@ -149,7 +150,7 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
         rows.append(f"| {label} | {_judged(make, usual, speed)} | {took:.2f} |")
         cells = []
         for shape in SHAPES.values():
-            along = control.pursue(make(), shape(), speed=speed)
+            along = steering.pursue(make(), shape(), speed=speed)
             part = "" if along.progress == 1 else f" ({along.progress:.0%})"
             cells.append(f"{along.off.mean():.2f}, {along.off.max():.2f}{part}")
         led.append(f"| {label} | {' | '.join(cells)} |")
@@ -160,9 +161,9 @@ def _table(name: str, clips: list[mocap.Motion], speed: float) -> list[str]:
     return [*rows, *reasons, "", *led]
 
 
-def _judged(make: Callable[[], control.Character], usual: quality.Spread, speed: float) -> str:
+def _judged(make: Callable[[], steering.Character], usual: quality.Spread, speed: float) -> str:
     """Write the cells of a character: means of four runs, and of the times the least."""
-    reports = [control.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
+    reports = [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
     delays = [report.delay for report in reports]
 
     def mean(name: str, form: str) -> str:

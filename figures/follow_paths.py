@@ -26,17 +26,18 @@ import mocap
 from mocap import datasets, graphs
 from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, circle, s_curve
-from mocap.control import Controller, measure_delay
 from mocap.graphs import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
 from mocap.quality import seam_quality, spread
 from mocap.steering import (
     Beam,
+    Controller,
     Followed,
     Prices,
     Wishes,
     follow_as_2002,
     follow_path,
+    measure_delay,
     walk_crowd,
 )
 from mocap.synthesis import Budget, with_plants

@@ -36,17 +36,11 @@ from mocap import (
     Motion,
     Skeleton,
     blending,
-    control,
     datasets,
-    diagrams,
     editing,
     feet,
     graphs,
-    groups,
-    match_webs,
     matching,
-    motion_matching,
-    parametric_graphs,
     plotting,
     resample,
     save,
@@ -55,6 +49,8 @@ from mocap import (
 )
 from mocap.body import GroundPath, arcs, figure_eight, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
+from mocap.course import diagrams
+from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
 
 Array = NDArray[np.float64]
@@ -433,7 +429,7 @@ def draw_bound() -> Figure:
 def draw_steered() -> Figure:
     """Draw the path of a steered walk, with an arrow wherever a new heading was commanded."""
     headings = np.repeat([0.0, np.pi / 2, np.pi / 6, np.pi, np.pi / 2], 105)
-    steered = control.steer(control.Controller(_graph()), headings).motion
+    steered = steering.steer(steering.Controller(_graph()), headings).motion
     figure = plt.figure(figsize=(8, 4.2), layout="constrained")
     ax = figure.add_subplot()
     plotting.path_from_above(steered, ax=ax)

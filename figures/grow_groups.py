@@ -14,9 +14,9 @@ from scipy.sparse.csgraph import min_weight_full_bipartite_matching
 from scipy.spatial import KDTree
 from scipy.spatial.distance import cdist
 
-from mocap import groups
 from mocap.errors import MocapError, MocapWarning
-from mocap.groups.group_clips import BENDS
+from mocap.methods import groups
+from mocap.methods.groups.group_clips import BENDS
 
 FOLDER = Path(__file__).parent
 SECONDS = 120.0  # simulated

@@ -16,7 +16,14 @@ import mocap
 from mocap.body import Motion, find_legs, joint_positions, place, planar, rotations
 from mocap.errors import MocapWarning
 from mocap.feet import mark_plants
-from mocap.parametric_graphs import Strides, StrideSpace, cut_strides, make_space, make_stride, mixed_way
+from mocap.methods.parametric_graphs import (
+    Strides,
+    StrideSpace,
+    cut_strides,
+    make_space,
+    make_stride,
+    mixed_way,
+)
 
 MEASURES = ("knee, °", "hip, °", "stride, cm", "sway, cm")
 WAYS = ("by curves", "by strikes", "plain, from the strike", "plain, from anywhere")

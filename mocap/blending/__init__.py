@@ -5,22 +5,27 @@ mixed, or the second clip plays with an offset that fades. Whole clips, two or m
 which of their frames belong together, and how they lie on one another there.
 
 Reading order (notebooks 04, 15)
----------------------------
-1. `weights`: how much of the first motion each frame holds
-2. `interpolation`: two motions into one, frame by frame
-3. `splicing`: lay a clip on another, and put the frames of both in a row
-4. `joining`: from clip into clip, by a blend
-5. `inertialization`: a cut whose offset dies away
-6. `matched_stretches`: many pairs to try blends on
-7. `registration`: any number of whole clips on one clock, blended by any weights
+--------------------------------
+ 1. `weights`: how much of the first motion each frame holds
+ 2. `interpolation`: two motions into one, frame by frame
+ 3. `splicing`: lay a clip on another, and put the frames of both in a row
+ 4. `joining`: from clip into clip, by a blend
+ 5. `inertialization`: a cut whose offset dies away
+ 6. `matched_stretches`: many pairs to try blends on
+ 7. `timewarps`: smooth curves over time whose slope stays within bounds
+ 8. `contact_matches`: which plants of several clips are one and the same
+ 9. `registering`: which frames of clips belong together, and how they lie on one another
+10. `clocks`: where on the common clock each frame of a blend is
+11. `mixing`: registered clips blended by weights, constant or moving
+12. `crossfades`: from one clip into another, for as long as one likes
 
 References
 ----------
-.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
-.. [WP95] A. Witkin, Z. Popović, *Motion Warping*, SIGGRAPH 1995, doi 10.1145/218380.218422.
+.. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
 .. [KG03] L. Kovar, M. Gleicher, *Flexible Automatic Motion Blending with Registration Curves*, SCA 2003,
    doi 10.5555/846276.846307.
-.. [Bol18] D. Bollo, *Inertialization: High-Performance Animation Transitions in Gears of War*, GDC 2018.
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [WP95] A. Witkin, Z. Popović, *Motion Warping*, SIGGRAPH 1995, doi 10.1145/218380.218422.
 """
 
 import lazy_loader
@@ -34,11 +39,11 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "joining": ["join"],
         "inertialization": ["inertialize"],
         "matched_stretches": ["draw_stretches"],
-        "registration.timewarps": ["Curve", "fit_curve"],
-        "registration.contact_matches": ["ContactMatch", "match_contacts", "plants_on_clock"],
-        "registration.registering": ["Registration", "Warp", "register"],
-        "registration.clocks": ["clock_speed", "frame_times"],
-        "registration.mixing": ["Course", "ground_course", "mix"],
-        "registration.crossfades": ["crossfade"],
+        "timewarps": ["Curve", "fit_curve"],
+        "contact_matches": ["ContactMatch", "match_contacts", "plants_on_clock"],
+        "registering": ["Registration", "Warp", "register"],
+        "clocks": ["clock_speed", "frame_times"],
+        "mixing": ["Course", "ground_course", "mix"],
+        "crossfades": ["crossfade"],
     },
 )

@@ -11,7 +11,10 @@ Reading order
  7. `loop`: the best cycle in a clip, closed
  8. `view`: play a clip in the browser
  9. `course`: `mocap course` hands out, marks, publishes and runs the notebooks; `mocap lab` opens them
-10. `editing`: commands that change one clip: `mocap warp`, `mocap bend`, `mocap retarget`
-11. `many_clips`: commands for many clips at once: `mocap find`, `mocap crowd`
-12. `main`: all of them under one name
+10. `main`: all of them under one name
+11. `warp`: `mocap warp`, keys out of a small text file
+12. `bend`: `mocap bend`, a walk laid on a line
+13. `retarget`: `mocap retarget`, one body wears the clips of others
+14. `find`: `mocap find`, all motions like an example
+15. `crowd`: `mocap crowd`, a group that was planned
 """

@@ -10,7 +10,7 @@ from mocap.cli.options import add_reading, bar, number, require_amc
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
-    from mocap.blending.registration.registering import Registration
+    from mocap.blending.registering import Registration
     from mocap.body.motion import Motion
     from mocap.cli.options import Commands
 

@@ -5,9 +5,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import course, marking
+from mocap import course
 from mocap._shared.atomic import require_writable, write_text
 from mocap.cli.options import bar
+from mocap.course import marking
 
 if TYPE_CHECKING:
     from mocap.cli.options import Commands
@@ -95,7 +96,7 @@ def _site(options: argparse.Namespace) -> int:
 
 
 def _slides(options: argparse.Namespace) -> int:
-    from mocap import teaching
+    from mocap.course import teaching
 
     folder, shown = course.stored(), bar("converting")
     print(f"wrote {teaching.build_slides(folder, options.out, shown, moving=options.moving)}")
@@ -103,7 +104,7 @@ def _slides(options: argparse.Namespace) -> int:
 
 
 def _film(options: argparse.Namespace) -> int:
-    from mocap import teaching
+    from mocap.course import teaching
 
     out = options.out or Path(options.notebook.with_suffix(".mp4").name)
     require_writable(out)
@@ -113,7 +114,7 @@ def _film(options: argparse.Namespace) -> int:
 
 
 def _board(options: argparse.Namespace) -> int:
-    from mocap import teaching
+    from mocap.course import teaching
 
     files = teaching.write_board(options.out, bar("drawing"))
     print(f"wrote {len(files)} pictures to {options.out}; {files[-1]} shows all")

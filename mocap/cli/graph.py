@@ -5,7 +5,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import body, datasets, files, graphs, quality, variants
+from mocap import body, datasets, editing, files, graphs, quality
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_building, bar, require_other, window_frames
 from mocap.errors import MocapError, MocapWarning
@@ -94,7 +94,7 @@ def _mirrored(clips: "list[Motion]") -> "list[Motion]":
     """Mirror all clips; where bodies are lopsided, one warning is enough."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", MocapWarning)
-        images = [variants.mirror(clip) for clip in clips]
+        images = [editing.mirror(clip) for clip in clips]
     if caught:
         more = f" So it is with {len(caught) - 1} more." if len(caught) > 1 else ""
         warnings.warn(f"{caught[0].message}{more}", MocapWarning, stacklevel=2)

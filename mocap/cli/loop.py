@@ -6,7 +6,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import editing, files, quality, variants
+from mocap import editing, files, quality
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import add_reading, number, require_amc, require_other, whole
 from mocap.errors import MocapWarning
@@ -48,7 +48,7 @@ def _loop(options: argparse.Namespace) -> int:
     require_writable(options.out)
     motion = files.load(options.clip, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
     quality.warn_of_size([motion])
-    found = variants.find_loop(motion, seconds=(options.shortest, options.longest))
+    found = editing.find_loop(motion, seconds=(options.shortest, options.longest))
     way = "inertialize" if options.inertialize else "blend"
     if found.seam > POOR:
         seam = f"the ends of the best cycle are {100 * found.seam:.0f} cm apart: it may leap there"
@@ -56,7 +56,7 @@ def _loop(options: argparse.Namespace) -> int:
     if found.missed > LITTLE:
         other = f"the clip's other poses are {100 * found.missed:.0f} cm away: it may hold no whole cycle"
         warnings.warn(f"{options.clip}: {other}.", MocapWarning, stacklevel=1)
-    cycle = variants.loop(motion, found, way=way, straight=options.straight, clean=options.clean)
+    cycle = editing.loop(motion, found, way=way, straight=options.straight, clean=options.clean)
     files.save(editing.repeated(cycle, options.times), options.out, widen=True)
     report = quality.inspect(cycle)
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])

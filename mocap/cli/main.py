@@ -9,20 +9,20 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 import mocap
+from mocap.cli.bend import add_bend
 from mocap.cli.blend import add_blend
 from mocap.cli.course import add_course, add_lab
+from mocap.cli.crowd import add_crowd
 from mocap.cli.demo import add_demo
-from mocap.cli.editing.bend import add_bend
-from mocap.cli.editing.retarget import add_retarget
-from mocap.cli.editing.warp import add_warp
 from mocap.cli.files import add_convert, add_data, add_info, add_judge
+from mocap.cli.find import add_find
 from mocap.cli.graph import ACTIONS, add_graph
 from mocap.cli.loop import add_loop
-from mocap.cli.many_clips.crowd import add_crowd
-from mocap.cli.many_clips.find import add_find
 from mocap.cli.options import as_options
+from mocap.cli.retarget import add_retarget
 from mocap.cli.view import add_view
 from mocap.cli.walk import add_walk
+from mocap.cli.warp import add_warp
 from mocap.errors import MocapError, MocapWarning, shortened
 
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed

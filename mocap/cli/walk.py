@@ -8,7 +8,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mocap import body, files, graphs, steering, synthesis, variants
+from mocap import body, editing, files, graphs, steering, synthesis
 from mocap._shared.atomic import require_writable
 from mocap.cli.options import LENGTH, SEED, SKELETON, TURN, bar, require_other, whole
 from mocap.datasets.clip_origins import find_again
@@ -158,4 +158,4 @@ def _clips(options: argparse.Namespace, found: "GraphFile") -> "list[Motion]":
     clips: list[Motion] = files.load_all(
         options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
     )
-    return clips + [variants.mirror(c) for c in clips if variants.mirrored_name(c.name) in found.names]
+    return clips + [editing.mirror(c) for c in clips if editing.mirrored_name(c.name) in found.names]

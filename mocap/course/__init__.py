@@ -1,7 +1,7 @@
 """The notebooks of the course as data, and the checks of their exercises.
 
-Teachers hand the notebooks out and publish them; `mocap.marking` marks them. Authors run them again, with
-the package's own code in their cells. The command `mocap course` does all of this. A new exercise is four
+Teachers hand the notebooks out and publish them; `marking` marks them. Authors run them again, with the
+package's own code in their cells. The command `mocap course` does all of this. A new exercise is four
 cells of a notebook, with the tags that `notebooks` lists, and a `Check` in the notebook's file of `checks`.
 
 Reading order
@@ -16,7 +16,11 @@ Reading order
 8. `ledger`: which line of which paper is where
 9. `site`: the course as HTML pages
 10. `lite`: the course in JupyterLite
-11. `lab`: the course in JupyterLab
+11. `opening`: the course in JupyterLab
+12. `diagrams`: ideas drawn step by step
+13. `lab`: what students wrote is used, and what they thought is kept
+14. `marking`: marks for notebooks handed in, whose code runs sealed
+15. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------
@@ -27,7 +31,7 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["checks", "homework_slips"],
+    submodules=["checks", "diagrams", "homework_slips", "lab", "marking", "teaching"],
     submod_attrs={
         "check": ["Check", "Mistake", "Verdict"],
         "homework_slips": [
@@ -43,6 +47,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "ledger": ["write_ledger"],
         "site": ["build_site"],
         "lite": ["build_lite"],
-        "lab": ["open_course", "stored"],
+        "opening": ["open_course", "stored"],
     },
 )

@@ -90,7 +90,7 @@ def _one_by_one(place: str) -> set[str]:
 
 def functions(package: Path) -> list[Function]:
     """List the public functions and classes whose docstrings cite a paper, by the order of their files."""
-    faces = {face.parent.name: face.read_text("utf-8") for face in package.glob("*/__init__.py")}
+    faces = {face.parent: face.read_text("utf-8") for face in package.rglob("__init__.py")}
     found = []
     for path in sorted(package.glob("*/**/*.py")):
         parts = path.relative_to(package).with_suffix("").parts
@@ -101,8 +101,8 @@ def functions(package: Path) -> list[Function]:
             if not node.name.startswith("_") and (cites := cited(text)):
                 taught = (re.findall(r"^Notebook: (\S+)$", text, re.MULTILINE) or [""])[0]
                 first, module = cited("".join(OWN.findall(text))), ".".join(parts)
-                exported = f'"{name.partition(".")[0]}"' in faces[parts[0]]
-                public = f"{parts[0] if exported else module}.{name}"
+                exported = f'"{name.partition(".")[0]}"' in faces[path.parent]
+                public = f"{'.'.join(parts[:-1]) if exported else module}.{name}"
                 found.append(Function(module, name, public, taught, cites, first))
     return found
 

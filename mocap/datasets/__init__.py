@@ -4,17 +4,20 @@ The bundled clips are generated: footsteps planned along a path, a few harmonics
 kinematics for the legs. The course does not need to know how: files 5 to 10 can be read last.
 
 Reading order (notebooks 01, 10, 11)
---------------------------------
+------------------------------------
  1. `samples`: the bundled clips by name
  2. `cmu_database`: trials of the CMU database, fetched once
- 3. `named_sets`: sets of other labs, fetched or from a copy of your own
- 4. `clip_origins`: where clips were read from, to read them again
- 5. `generated`: walks generated from tables of figures
- 6. `gait`: what a body does in one cycle, as tables
- 7. `gait_timing`: how far, in which phase and gait, frame by frame
- 8. `footsteps`: where the feet go
- 9. `walking_body`: the body that walks, and its legs
-10. `jumping`: a jump, on the same legs
+ 3. `clip_origins`: where clips were read from, to read them again
+ 4. `generated`: walks generated from tables of figures
+ 5. `gait`: what a body does in one cycle, as tables
+ 6. `gait_timing`: how far, in which phase and gait, frame by frame
+ 7. `footsteps`: where the feet go
+ 8. `walking_body`: the body that walks, and its legs
+ 9. `jumping`: a jump, on the same legs
+10. `known_sets`: licences, addresses, and which joints are hips and legs
+11. `resumed_downloads`: a download that goes on where it broke off
+12. `unpacked_clips`: the clips of an archive, and their checksums
+13. `set_clips`: fetch a set, list its clips, read one
 """
 
 import lazy_loader
@@ -23,8 +26,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "samples": ["SAMPLES", "sample"],
-        "named_sets.known_sets": ["SETS", "NamedSet"],
-        "named_sets.set_clips": ["fetch_set", "from_set", "list_set"],
+        "known_sets": ["SETS", "NamedSet"],
+        "set_clips": ["fetch_set", "from_set", "list_set"],
         "clip_origins": ["Origin"],
         "cmu_database": ["TERMS", "Trial", "cmu", "trials"],
         "generated": ["generate", "generate_walk"],

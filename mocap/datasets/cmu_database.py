@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.retargeting.retargeted import retarget
-from mocap.editing.retargeting.upright_bodies import Stance
+from mocap.editing.retargeted import retarget
+from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
 

@@ -4,30 +4,43 @@ A motion graph can only turn where its clips turn. Here a captured motion is cha
 [WP95], a walk is laid on another path [Gle01], a motion is worn by another body [Gle98], a foot steps on a
 stone [LS99]. All four add a displacement map to a motion: a smooth curve for the root and for each joint.
 
-Reading order (notebooks 11 to 14)
-----------------------------------
-1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
-2. `pins`: where joints shall be, and for how long
-3. `linear_bodies`: which joints may turn, at what price, and how pinned joints move with them
-4. `reaching`: each frame by itself brought to its pins
-5. `spacetime_solver`: all frames at once, by the smallest smooth change
-6. `edits`: one face for edits: spacetime, then feet and limbs put to their places
-7. `levels`: from coarse to fine, by inverse kinematics and splines in turn
-8. `warping`: a few poses and moments changed, and all frames follow; a folder of its own
-9. `path_editing`: the path taken off a motion, changed, and the motion put back on it
-10. `line_rounding`: a line rounded where a walk would turn too fast on it
-11. `bending`: a walk laid on any line, with feet that stand
-12. `retargeting`: a motion of one body worn by another; a folder of its own
+Reading order (notebooks 10 to 14)
+---------------------------------
+ 1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
+ 2. `pins`: where joints shall be, and for how long
+ 3. `linear_bodies`: which joints may turn, at what price, and how pinned joints move with them
+ 4. `reaching`: each frame by itself brought to its pins
+ 5. `spacetime_solver`: all frames at once, by the smallest smooth change
+ 6. `edits`: one face for edits: spacetime, then feet and limbs put to their places
+ 7. `levels`: from coarse to fine, by inverse kinematics and splines in turn
+ 8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
+ 9. `line_rounding`: a line rounded where a walk would turn too fast on it
+10. `bending`: a walk laid on any line, with feet that stand
+11. `keys`: keys, the curve through them, and a warp by offsets
+12. `posing`: a key's pose, made by dragging joints
+13. `scaling`: a warp by scale
+14. `retiming`: time keys, and motions at moments between their frames
+15. `looping`: a cycle closed by a warp
+16. `warp_plans`: a whole warp out of a small text file
+17. `body_roles`: which joint does what
+18. `upright_bodies`: how a body stands, as a value
+19. `stances`: find it, whatever the rest pose is
+20. `proportions`: a body with shorter legs or a larger head
+21. `copied_motion`: every joint looks where the same joint of the other body looks
+22. `floors`: where the new feet may be
+23. `retargeted`: all of it in one function
+24. `mirroring`: left and right swapped, by names and geometry
+25. `cycles`: the stretch of a clip that makes the best cycle, closed
 
 References
 ----------
-.. [WP95] A. Witkin, Z. Popović, *Motion Warping*, SIGGRAPH 1995, doi 10.1145/218380.218422.
+.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
 .. [Gle98] M. Gleicher, *Retargetting Motion to New Characters*, SIGGRAPH 1998, doi 10.1145/280814.280820.
 .. [LS99] J. Lee, S. Y. Shin, *A Hierarchical Approach to Interactive Motion Editing for Human-like Figures*,
    SIGGRAPH 1999, doi 10.1145/311535.311539.
 .. [LWS97] S. Lee, G. Wolberg, S. Y. Shin, *Scattered Data Interpolation with Multilevel B-Splines*, IEEE TVCG
    3(3), 1997, doi 10.1109/2945.620490.
-.. [Gle01] M. Gleicher, *Motion Path Editing*, I3D 2001, doi 10.1145/364338.364400.
+.. [WP95] A. Witkin, Z. Popović, *Motion Warping*, SIGGRAPH 1995, doi 10.1145/218380.218422.
 """
 
 import lazy_loader
@@ -45,23 +58,20 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "bending": ["LIMIT", "Bent", "bend"],
         "line_rounding": ["RoundedLine", "Rounding", "round_line"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
-        "retargeting.body_roles": ["ROLES", "roles"],
-        "retargeting.copied_motion": ["copied"],
-        "retargeting.floors": ["floor_pins"],
-        "retargeting.proportions": ["proportioned"],
-        "retargeting.retargeted": ["retarget", "standing_like"],
-        "retargeting.stances": [
-            "stance_of",
-            "stance_of_walk",
-            "stance_of_zero",
-            "standing_heights",
-        ],
-        "retargeting.upright_bodies": ["Stance"],
-        "warping.keys": ["Key", "cardinal", "keys_around", "offsets"],
-        "warping.looping": ["looped", "repeated"],
-        "warping.posing": ["posed"],
-        "warping.retiming": ["at_frames", "old_seconds", "retime"],
-        "warping.scaling": ["gains", "scaled", "scaled_height"],
-        "warping.warp_plans": ["TimeKey", "WarpPlan", "Wish", "load_plan", "warp"],
+        "body_roles": ["ROLES", "roles"],
+        "copied_motion": ["copied"],
+        "floors": ["floor_pins"],
+        "proportions": ["proportioned"],
+        "retargeted": ["retarget", "standing_like"],
+        "stances": ["stance_of", "stance_of_walk", "stance_of_zero", "standing_heights"],
+        "upright_bodies": ["Stance"],
+        "keys": ["Key", "cardinal", "keys_around", "offsets"],
+        "looping": ["looped", "repeated"],
+        "posing": ["posed"],
+        "retiming": ["at_frames", "old_seconds", "retime"],
+        "scaling": ["gains", "scaled", "scaled_height"],
+        "warp_plans": ["TimeKey", "WarpPlan", "Wish", "load_plan", "warp"],
+        "mirroring": ["Symmetry", "mirror", "mirrored_name", "symmetry"],
+        "cycles": ["Loop", "find_loop", "loop"],
     },
 )

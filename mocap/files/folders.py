@@ -6,8 +6,8 @@ from pathlib import Path
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
+from mocap.files.amass import is_amass
 from mocap.files.load_save import load
-from mocap.formats.amass import is_amass
 
 FORMATS = (".amc", ".bvh", ".npz")  # suffixes of the motion files that are found in folders
 

@@ -9,11 +9,11 @@ from mocap._shared.atomic import replacing, write_text
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
-from mocap.formats import acclaim, amass, amc, bvh, gltf
-from mocap.formats.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
-from mocap.formats.asf import read_skeleton
-from mocap.formats.rigid_bones import STRETCH
-from mocap.formats.text import read_text
+from mocap.files import acclaim, amass, amc, bvh, gltf
+from mocap.files.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
+from mocap.files.asf import read_skeleton
+from mocap.files.rigid_bones import STRETCH
+from mocap.files.text import read_text
 
 READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".amc (with .asf), .bvh, .glb and AMASS .npz"
 

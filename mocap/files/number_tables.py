@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import FormatError
-from mocap.formats.text import read_text, to_numbers
+from mocap.files.text import read_text, to_numbers
 
 
 def load_rows(path: str | Path, names: tuple[str, ...] = ("x", "z")) -> Array:

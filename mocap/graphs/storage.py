@@ -18,11 +18,11 @@ from mocap.body.motion import Motion, fingerprint
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, sample
+from mocap.editing.mirroring import mirror
 from mocap.errors import FormatError, MocapError
 from mocap.files.folders import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.variants.mirroring import mirror
 
 FORMAT = "mocap motion graph"
 VERSION = 1

@@ -19,14 +19,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
 from mocap.matching.chosen_pairs import fit, pair_distances, runs
 from mocap.matching.distance_grids import Cloud, Floats
-from mocap.matching.lower_bound import (
-    Weights,
-    evenly,
-    projections,
-    reach,
-    sample_directions,
-    whole_windows,
-)
+from mocap.matching.lower_bound import Weights, evenly, projections, reach, sample_directions, whole_windows
 from mocap.matching.minima import listed_minima
 
 Indices = NDArray[np.intp]

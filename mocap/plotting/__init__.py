@@ -5,17 +5,20 @@ it made; `show` puts the picture into a notebook with a sentence for readers who
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
-1. `style`: colours that colour-blind readers can tell apart
-2. `axes`: 3D axes with a ground
-3. `stick_figures`: bodies as lines
-4. `bodies_on_path`: a whole walk in one picture
-5. `charts`: distance images, paths from above, curves
-6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-7. `search_tree`: the walks that a search expands and cuts off
-8. `spread_charts`: medians with quartiles, and random walks as rows
-9. `storyboards`: a transition in four panels
+ 1. `style`: colours that colour-blind readers can tell apart
+ 2. `axes`: 3D axes with a ground
+ 3. `stick_figures`: bodies as lines
+ 4. `bodies_on_path`: a whole walk in one picture
+ 5. `charts`: distance images, paths from above, curves
+ 6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+ 7. `search_tree`: the walks that a search expands and cuts off
+ 8. `spread_charts`: medians with quartiles, and random walks as rows
+ 9. `storyboards`: a transition in four panels
 10. `picture`: a figure as a picture in a notebook
-11. `many_clips`: clips on one clock
+11. `registration_charts`: a grid with its time path, plants as bars, tracks over the ground
+12. `web_charts`: paths over a grid, matches step by step, samples of a space and a wish
+13. `group_plans`: where the members of a group go, seen from above
+14. `box_charts`: what may follow one source, and the boxes of all sources
 
 References
 ----------
@@ -56,9 +59,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "spread_charts": ["Band", "quartile_band", "seen_beside_measured", "walk_rows"],
         "storyboards": ["Shot", "storyboard"],
         "picture": ["Picture", "show", "stack"],
-        "many_clips.box_charts": ["box_chart", "boxes_image"],
-        "many_clips.group_plans": ["draw_group_plan"],
-        "many_clips.web_charts": ["match_tree", "space_image", "target_poses", "web_image"],
-        "many_clips.registration_charts": ["WarpPicture", "ground_tracks", "plant_bars", "warp_image"],
+        "box_charts": ["box_chart", "boxes_image"],
+        "group_plans": ["draw_group_plan"],
+        "web_charts": ["match_tree", "space_image", "target_poses", "web_image"],
+        "registration_charts": ["WarpPicture", "ground_tracks", "plant_bars", "warp_image"],
     },
 )

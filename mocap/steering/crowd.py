@@ -1,7 +1,7 @@
 """Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3].
 
 This serves a few characters whose paths are given and cross. A group that stays together and must find its
-way among obstacles is planned by `groups`.
+way among obstacles is planned by `methods.groups`.
 """
 
 import warnings

@@ -10,7 +10,7 @@ from mocap.body.motion import Motion, concatenate, turning
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError
 from mocap.feet.footskate import clean_up
-from mocap.formats import bvh, gltf
+from mocap.files import bvh, gltf
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.synthesis.random_walks import wander

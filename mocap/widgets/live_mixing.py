@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, frozen
 from mocap._shared.easing import quintic_step
-from mocap.blending.registration.clocks import checked
-from mocap.blending.registration.mixing import mix
-from mocap.blending.registration.registering import Registration
+from mocap.blending.clocks import checked
+from mocap.blending.mixing import mix
+from mocap.blending.registering import Registration
 from mocap.errors import MocapError
 from mocap.widgets.live_player import linked
 from mocap.widgets.player import play

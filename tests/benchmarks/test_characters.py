@@ -9,16 +9,17 @@ from functools import partial
 import numpy as np
 import pytest
 
-from mocap import graphs, groups
+from mocap import graphs
 from mocap.body import arcs, resample
-from mocap.control import Controller, FootTurner, command_headings, measure_delay, steer
 from mocap.datasets import generate_walk, sample
-from mocap.motion_matching import FrameSearch, MotionMatcher, tabulate
-from mocap.parametric_graphs import ParametricController, build_kinds
+from mocap.methods import groups
+from mocap.methods.motion_matching import FrameSearch, MotionMatcher, tabulate
+from mocap.methods.parametric_graphs import ParametricController, build_kinds
+from mocap.steering import Controller, FootTurner, command_headings, measure_delay, steer
 from tests.benchmarks.test_matching import fastest
 from tests.bundled import bundled
-from tests.groups.built import course, graph
-from tests.parametric_graphs.built import WALKS, clips, stepping, walking
+from tests.methods.groups.built import course, graph
+from tests.methods.parametric_graphs.built import WALKS, clips, stepping, walking
 
 pytestmark = pytest.mark.benchmark
 STEPS = 1200

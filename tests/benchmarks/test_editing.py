@@ -16,10 +16,10 @@ from mocap.editing.edits import edit
 from mocap.editing.levels import hierarchy
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, plant_pins
-from mocap.editing.retargeting.proportions import proportioned
-from mocap.editing.retargeting.retargeted import retarget
-from mocap.editing.retargeting.stances import stance_of_walk
+from mocap.editing.proportions import proportioned
+from mocap.editing.retargeted import retarget
 from mocap.editing.spacetime_solver import spacetime
+from mocap.editing.stances import stance_of_walk
 from mocap.feet.footskate import clean_up
 from tests.editing.wishes import hand_at, stone, walk
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from mocap import datasets, resample
-from mocap.match_webs import blend_of, build_web, search, weights_for
 from mocap.matching import distance_grid, point_cloud
+from mocap.methods.match_webs import blend_of, build_web, search, weights_for
 from tests.benchmarks.test_matching import fastest
-from tests.match_webs.spaces_of_walks import gait, space
+from tests.methods.match_webs.spaces_of_walks import gait, space
 
 pytestmark = pytest.mark.benchmark
 

@@ -8,9 +8,9 @@ import time
 import pytest
 
 from mocap.body.kinematics import forward_kinematics
-from mocap.editing.retargeting.copied_motion import copied
-from mocap.editing.retargeting.retargeted import retarget
-from mocap.editing.retargeting.stances import stance_of
+from mocap.editing.copied_motion import copied
+from mocap.editing.retargeted import retarget
+from mocap.editing.stances import stance_of
 from tests.editing.bodies import adult, child, walk, without
 
 pytestmark = pytest.mark.benchmark

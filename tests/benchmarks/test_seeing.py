@@ -129,10 +129,10 @@ def test_the_player_shows_55_pictures_a_second_of_twelve(page, tmp_path, view): 
 
 STEERED = """
 from mocap import motion_matching, parametric_graphs
-from mocap.control import Controller
+from mocap.steering import Controller
 from mocap.widgets import steered
 from tests.bundled import walking
-from tests.parametric_graphs.built import clips, stepping
+from tests.methods.parametric_graphs.built import clips, stepping
 page = steered({
     "motion graph": Controller(walking()),
     "steps": parametric_graphs.ParametricController(stepping()),

@@ -9,7 +9,7 @@ import pytest
 
 from mocap.body import ground_path
 from mocap.body.ground_path import s_curve
-from mocap.control import Controller, FootTurner, measure_delay
+from mocap.steering import Controller, FootTurner, measure_delay
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion

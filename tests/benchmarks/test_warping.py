@@ -10,9 +10,9 @@ import pytest
 from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
-from mocap.editing.warping.keys import keys_around, offsets
-from mocap.editing.warping.posing import posed
-from mocap.editing.warping.retiming import retime
+from mocap.editing.keys import keys_around, offsets
+from mocap.editing.posing import posed
+from mocap.editing.retiming import retime
 from tests.editing.test_posing import post
 
 pytestmark = pytest.mark.benchmark

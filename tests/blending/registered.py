@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from mocap._shared.arrays import runs
-from mocap.blending.registration.clocks import frame_times
+from mocap.blending.clocks import frame_times
 from mocap.body import rotations
 from mocap.body.ground_path import arcs
 from mocap.body.kinematics import joint_positions

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mocap.blending.registration.clocks import checked, clock_speed, frame_times
-from mocap.blending.registration.registering import register
+from mocap.blending.clocks import checked, clock_speed, frame_times
+from mocap.blending.registering import register
 from mocap.errors import MocapError
 from tests.blending.registered import walks
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mocap.blending.registration.contact_matches import match_contacts
-from mocap.blending.registration.mixing import mix
-from mocap.blending.registration.registering import register
-from mocap.blending.registration.timewarps import Curve
+from mocap.blending.contact_matches import match_contacts
+from mocap.blending.mixing import mix
+from mocap.blending.registering import register
+from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from tests.blending.registered import HALF, slides, walks

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mocap._shared.arrays import runs
+from mocap.blending.crossfades import crossfade
 from mocap.blending.joining import join
-from mocap.blending.registration.crossfades import crossfade
-from mocap.blending.registration.registering import register
+from mocap.blending.registering import register
 from mocap.errors import MocapError
 from tests.blending.registered import at_times, captured, skate, slides, turned, walks, way
 from tests.blending.test_mixing import jolts, largest_gap, of_parts

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.blending.registration.clocks import frame_times
-from mocap.blending.registration.mixing import ground_course, mix
-from mocap.blending.registration.registering import Warp, register
-from mocap.blending.registration.timewarps import fit_curve
+from mocap.blending.clocks import frame_times
+from mocap.blending.mixing import ground_course, mix
+from mocap.blending.registering import Warp, register
+from mocap.blending.timewarps import fit_curve
 from mocap.body.motion import resample
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.datasets import sample

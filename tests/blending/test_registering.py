@@ -7,9 +7,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.blending.registration.mixing import mix
-from mocap.blending.registration.registering import Registration, Warp, register
-from mocap.blending.registration.timewarps import Curve, fit_curve
+from mocap.blending.mixing import mix
+from mocap.blending.registering import Registration, Warp, register
+from mocap.blending.timewarps import Curve, fit_curve
 from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.body.skeleton import Skeleton

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
-from mocap.blending.registration.timewarps import Curve, fit_curve
+from mocap.blending.timewarps import Curve, fit_curve
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud

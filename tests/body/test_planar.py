@@ -7,15 +7,7 @@ from hypothesis import strategies as st
 
 from mocap.body import euler, rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.planar import (
-    IDENTITY,
-    PlanarTransform,
-    from_ground,
-    heading,
-    lay_on,
-    on_ground,
-    place,
-)
+from mocap.body.planar import IDENTITY, PlanarTransform, from_ground, heading, lay_on, on_ground, place
 from mocap.course.homework_slips import homework_heading
 from mocap.errors import MocapError
 from tests.strategies import planar, random_motion, seeds

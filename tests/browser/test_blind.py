@@ -6,18 +6,18 @@ import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
 from mocap import datasets
-from mocap.lab.blind.blind_tests import BlindTest
-from mocap.lab.blind.class_answers import class_curve, read_answers
-from mocap.lab.blind.pairs import Plan, make_pairs
-from mocap.lab.blind.sensitivity import d_prime
+from mocap.course.lab.blind_tests import BlindTest
+from mocap.course.lab.class_answers import class_curve, read_answers
+from mocap.course.lab.pairs import Plan, make_pairs
+from mocap.course.lab.sensitivity import d_prime
 from mocap.matching import find_transitions
 from tests.browser.conftest import wait_until
 
 PLAN = Plan(window=2, below=0.06, pairs=4)
 CELL = """
 from mocap import datasets, matching
-from mocap.lab.blind.blind_tests import BlindTest
-from mocap.lab.blind.pairs import Plan, make_pairs
+from mocap.course.lab.blind_tests import BlindTest
+from mocap.course.lab.pairs import Plan, make_pairs
 clips = [datasets.sample("walk_circle")[:2400:4]]
 found = matching.find_transitions(clips, window=10, below=0.06)
 plan = Plan(window=2, below=0.06, pairs=4)

@@ -12,7 +12,7 @@ from PIL import Image
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets import samples
-from mocap.formats import gltf
+from mocap.files import gltf
 from tests.browser.conftest import wait_until
 
 ADDRESS = "http://127.0.0.1:9"  # nobody listens there: the test itself answers

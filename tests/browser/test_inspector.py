@@ -10,8 +10,8 @@ from mocap.blending.joining import join
 from mocap.blending.weights import linear_weights
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
+from mocap.course.lab.showing import inspector
 from mocap.datasets.samples import sample
-from mocap.lab.inspecting.showing import inspector
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.quality.seam_measures import jumps

@@ -8,9 +8,9 @@ from mocap.course.site import PAGES, build_site
 from tests.browser.conftest import run_notebook, wait_until, watched_page
 
 START = """
-from mocap.lab.questions.kept_bets import asked_before, summed_up
-from mocap.lab.questions.quizzes import asked
-from mocap.lab.questions.reading import Bet, Choice, Number, Order
+from mocap.course.lab.kept_bets import asked_before, summed_up
+from mocap.course.lab.quizzes import asked
+from mocap.course.lab.reading import Bet, Choice, Number, Order
 
 share = Bet("Share of the walks", "100 * died", unit="%", low=0, high=100)
 more = Bet("How many turn?", "twice", choices=["as many", "twice"])

@@ -6,7 +6,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap.course.lab import stored
+from mocap.course.opening import stored
 from mocap.course.site import PAGES, build_site
 from tests.browser.conftest import wait_until, watched_page
 

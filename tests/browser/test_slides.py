@@ -4,8 +4,8 @@ import shutil
 
 import pytest
 
-from mocap.course.lab import stored
-from mocap.teaching import build_slides
+from mocap.course.opening import stored
+from mocap.course.teaching import build_slides
 from tests.browser.conftest import wait_until
 
 TOO_FULL = """() => {

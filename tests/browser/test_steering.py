@@ -21,7 +21,7 @@ def steering(page, tmp_path):
     """Show three characters, whose Python is a script on the page; yield the page."""
     pytest.importorskip("anywidget")
     from mocap.widgets import steered
-    from mocap.widgets.live_steering.steered_widget import script
+    from mocap.widgets.steered_widget import script
 
     live = steered({name: Dot() for name in ("graph", "steps", "matching")}, labels=("", "jog"))
     state = json.dumps({"scene": live.scene, "command": [0, 1.1, ""]})

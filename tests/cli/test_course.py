@@ -3,7 +3,7 @@
 import nbformat
 
 from mocap.cli.main import main
-from mocap.course import lab
+from mocap.course import opening
 
 
 def test_a_cell_that_fails_is_named_in_one_sentence(tmp_path, capsys):
@@ -32,9 +32,9 @@ class Started:
 def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatch, tmp_path):
     started = []
     monkeypatch.setattr(
-        lab.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
+        opening.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
     )
-    monkeypatch.setattr(lab.os, "geteuid", lambda: 0, raising=False)
+    monkeypatch.setattr(opening.os, "geteuid", lambda: 0, raising=False)
     assert (
         main(["lab", str(tmp_path), "--", "--no-browser", "--port", "8890"]) == 7
     )  # JupyterLab's own status
@@ -48,14 +48,14 @@ def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatc
 def test_without_root_jupyterlab_is_not_told_to_allow_it(monkeypatch):
     started = []
     monkeypatch.setattr(
-        lab.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
+        opening.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
     )
-    monkeypatch.setattr(lab.os, "geteuid", lambda: 1000, raising=False)
+    monkeypatch.setattr(opening.os, "geteuid", lambda: 1000, raising=False)
     assert main(["lab"]) == 7
     assert len(started[0].command) == 4
 
 
 def test_lab_says_what_to_install(monkeypatch, capsys):
-    monkeypatch.setattr(lab.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(opening.importlib.util, "find_spec", lambda name: None)
     assert main(["lab"]) == 2
     assert "pip install 'mocap[notebooks]'" in capsys.readouterr().err

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from mocap.cli.crowd import _film, _plan, _write
 from mocap.cli.main import main
-from mocap.cli.many_clips.crowd import _film, _plan, _write
 from mocap.errors import NoWalk
 from mocap.files import load_save
-from mocap.groups.group_graphs import Placed
-from mocap.groups.planning import plan_group
-from mocap.groups.scenes import Scene
-from tests.groups.built import graph
+from mocap.methods.groups.group_graphs import Placed
+from mocap.methods.groups.planning import plan_group
+from mocap.methods.groups.scenes import Scene
+from tests.methods.groups.built import graph
 from tests.strategies import wave
 
 
@@ -31,7 +31,7 @@ def crowd(*more):
 
 
 def test_a_motion_for_each_member_a_plan_and_a_film(course, capsys, monkeypatch):
-    monkeypatch.setattr("mocap.cli.many_clips.crowd.find_spec", lambda name: None)  # no imageio-ffmpeg
+    monkeypatch.setattr("mocap.cli.crowd.find_spec", lambda name: None)  # no imageio-ffmpeg
     assert crowd() == 0
     said = capsys.readouterr().out
     assert "for 3 members" in said and "3 characters" in said and "m apart at least" in said
@@ -92,9 +92,7 @@ def test_a_plan_that_is_no_crowd_s_lets_nothing_be_removed(tmp_path):
 @pytest.mark.parametrize("fails", ["files.save", "cli.many_clips.crowd._film"])
 def test_when_it_is_interrupted_nothing_is_lost_and_the_next_crowd_tidies_up(tmp_path, monkeypatch, fails):
     """Until all motions are whole the old crowd stays; until the film is whole, the old film and members."""
-    monkeypatch.setattr(
-        "mocap.cli.many_clips.crowd._film", lambda motions, scene, path: path.write_text("a film")
-    )
+    monkeypatch.setattr("mocap.cli.crowd._film", lambda motions, scene, path: path.write_text("a film"))
     write(tmp_path, 4, no_film=False)
     old = {name: (tmp_path / name).read_bytes() for name in names(tmp_path)}
 
@@ -128,7 +126,7 @@ def test_sides_are_not_searched_for_long_where_the_way_ahead_is_only_long(monkey
         asked.append(most)
         raise NoWalk(f"refused {len(asked)}")
 
-    monkeypatch.setattr("mocap.groups.plan_group", refuse)
+    monkeypatch.setattr("mocap.methods.groups.plan_group", refuse)
     with pytest.raises(NoWalk, match="refused 1"):
         _plan(graph(3), Scene((20j,)))
     assert asked == [4000, 400, 400, 400, 400]

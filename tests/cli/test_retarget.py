@@ -6,8 +6,8 @@ import pytest
 from mocap import load
 from mocap.body.kinematics import joint_positions
 from mocap.cli.main import main
-from mocap.editing.retargeting.copied_motion import copied
-from mocap.editing.retargeting.stances import stance_of
+from mocap.editing.copied_motion import copied
+from mocap.editing.stances import stance_of
 from mocap.files import load_save
 from tests.editing.bodies import adult, along_x, child, rested, walk
 

@@ -8,7 +8,7 @@ from mocap.graphs import storage
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from tests.bundled import bundled
-from tests.formats.glb_reader import Glb
+from tests.files.glb_reader import Glb
 from tests.strategies import wave
 
 

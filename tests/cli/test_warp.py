@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mocap.body.kinematics import joint_positions
 from mocap.cli.main import main
 from mocap.datasets.samples import sample
-from mocap.editing.warping.warp_plans import load_plan, warp
+from mocap.editing.warp_plans import load_plan, warp
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
 from tests.editing.test_posing import slide

@@ -11,7 +11,7 @@ import warnings
 from IPython import get_ipython
 
 from mocap import widgets
-from mocap.widgets.live_steering.company import Order
+from mocap.widgets.company import Order
 
 displayed = {}
 

@@ -7,8 +7,8 @@ import pytest
 
 from mocap.cli.main import main
 from mocap.course.handout import hand_out
-from mocap.course.lab import stored
 from mocap.course.notebooks import read, tagged
+from mocap.course.opening import stored
 from mocap.errors import MocapError
 
 

@@ -8,12 +8,7 @@ import pytest
 from mocap.body import euler, rotations
 from mocap.body.motion import concatenate
 from mocap.body.planar import PlanarTransform, lay_on
-from mocap.course.homework_slips import (
-    chain_on_last,
-    euler_from_zero_to_pi,
-    lay_in_full,
-    turn_in_place,
-)
+from mocap.course.homework_slips import chain_on_last, euler_from_zero_to_pi, lay_in_full, turn_in_place
 from mocap.datasets.samples import sample
 
 CLIP = sample("walk_straight")

@@ -51,7 +51,7 @@ def test_what_a_docstring_cites_has_a_row():
 
 
 def test_the_ten_papers_are_those_of_the_faces_references():
-    faces = "".join(path.read_text("utf-8") for path in (ROOT / "mocap").glob("*/__init__.py"))
+    faces = "".join(path.read_text("utf-8") for path in (ROOT / "mocap").rglob("__init__.py"))
     assert len(ledger.papers()) == 10
     for key, paper in ledger.papers().items():
         (reference,) = set(re.findall(rf"\.\. \[{key}\] (.+?), ", faces))

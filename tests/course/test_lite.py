@@ -5,7 +5,7 @@ import pytest
 
 from mocap.cli.main import main
 from mocap.course import lite
-from mocap.course.lab import stored
+from mocap.course.opening import stored
 from mocap.errors import MocapError
 
 

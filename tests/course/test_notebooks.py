@@ -16,8 +16,8 @@ from IPython.core.interactiveshell import InteractiveShell
 import mocap
 from mocap.cli.main import main
 from mocap.course import checks, notebooks
+from mocap.course.lab.adopting import slots
 from mocap.errors import MocapError
-from mocap.lab.adopting import slots
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"

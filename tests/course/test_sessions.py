@@ -7,7 +7,7 @@ import pytest
 from nbformat.v4 import new_markdown_cell, new_notebook
 
 from mocap.course import read
-from mocap.course.lab import stored
+from mocap.course.opening import stored
 from tests.course import test_prose
 
 PLAN = (stored() / "README.md").read_text("utf-8")

@@ -9,7 +9,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.cli.main import main
-from mocap.course.lab import stored
+from mocap.course.opening import stored
 from mocap.course.site import PAGES, STILL, build_site
 from mocap.errors import MocapError
 from mocap.widgets import reopening

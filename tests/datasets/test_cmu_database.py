@@ -12,7 +12,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import resample
 from mocap.datasets import cmu_database
-from mocap.editing.retargeting.stances import stance_of
+from mocap.editing.stances import stance_of
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.graphs.motion_graph import build
 

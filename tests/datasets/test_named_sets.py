@@ -14,9 +14,8 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.cli.main import main
-from mocap.datasets import fetch_set, from_set, list_set
-from mocap.datasets.named_sets import known_sets, resumed_downloads, set_clips
-from mocap.datasets.named_sets.known_sets import HASHES, SETS, Archive
+from mocap.datasets import fetch_set, from_set, known_sets, list_set, resumed_downloads, set_clips
+from mocap.datasets.known_sets import HASHES, SETS, Archive
 from mocap.errors import MocapError
 from mocap.files import load_save
 

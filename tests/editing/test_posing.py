@@ -11,9 +11,9 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
-from mocap.editing.warping.keys import Key, cardinal, keys_around, offsets
-from mocap.editing.warping.posing import posed
-from mocap.editing.warping.retiming import old_seconds, retime
+from mocap.editing.keys import Key, cardinal, keys_around, offsets
+from mocap.editing.posing import posed
+from mocap.editing.retiming import old_seconds, retime
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up

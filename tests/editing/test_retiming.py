@@ -11,9 +11,9 @@ from scipy.interpolate import CubicSpline
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
-from mocap.editing.warping.keys import cardinal
-from mocap.editing.warping.looping import looped, repeated
-from mocap.editing.warping.retiming import at_frames, old_seconds, retime
+from mocap.editing.keys import cardinal
+from mocap.editing.looping import looped, repeated
+from mocap.editing.retiming import at_frames, old_seconds, retime
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up

@@ -12,8 +12,8 @@ from mocap.body import euler, rotations
 from mocap.body.kinematics import joint_positions
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
-from mocap.editing.warping.keys import Key, cardinal, keys_around, offsets
-from mocap.editing.warping.scaling import gains, scaled, scaled_height
+from mocap.editing.keys import Key, cardinal, keys_around, offsets
+from mocap.editing.scaling import gains, scaled, scaled_height
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.files import load_save
 from tests.strategies import random_motion, seeds
@@ -174,7 +174,7 @@ def swing(motion, joint, about=None):
 
 
 def away(motion, joint, about=None):
-    from mocap.editing.warping.scaling import _from, _reference
+    from mocap.editing.scaling import _from, _reference
 
     reference = _reference(motion, joint, about)
     return reference, _from(reference, motion.rotations[:, motion.skeleton.index(joint)])

@@ -6,16 +6,16 @@ from scipy.ndimage import gaussian_filter1d
 
 from mocap.body.ground_path import s_curve
 from mocap.body.motion import Motion
+from mocap.editing.copied_motion import copied
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import edit
 from mocap.editing.linear_bodies import body_of
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, pin_errors, plant_pins
+from mocap.editing.proportions import proportioned
 from mocap.editing.reaching import reach
-from mocap.editing.retargeting.copied_motion import copied
-from mocap.editing.retargeting.proportions import proportioned
-from mocap.editing.retargeting.stances import stance_of
 from mocap.editing.spacetime_solver import spacetime
+from mocap.editing.stances import stance_of
 from mocap.feet.footskate import clean_up
 from tests.editing.wishes import captured, plants_kept, smoothness, walk
 

@@ -1,15 +1,15 @@
-"""The numbers in `figures/control.md` are those of today's characters; times are left out."""
+"""The numbers in `figures/steering.md` are those of today's characters; times are left out."""
 
 from pathlib import Path
 
 import compare_control
 import pytest
 
-from mocap import control, quality
+from mocap import quality, steering
 from mocap.body import SHAPES
-from mocap.motion_matching import MotionMatcher, tabulate
+from mocap.methods.motion_matching import MotionMatcher, tabulate
 
-TABLE = Path(compare_control.__file__).with_name("control.md")
+TABLE = Path(compare_control.__file__).with_name("steering.md")
 NAME = "bundled clips"
 
 
@@ -20,7 +20,7 @@ def rows(label):
 
 
 def led(make, shape, speed):
-    off = control.pursue(make(), SHAPES[shape](), speed=speed).off
+    off = steering.pursue(make(), SHAPES[shape](), speed=speed).off
     return f"{off.mean():.2f}, {off.max():.2f}"
 
 

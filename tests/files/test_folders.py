@@ -7,8 +7,7 @@ import pytest
 
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.files import conversion, folders, load_save
-from mocap.formats import amass
+from mocap.files import amass, conversion, folders, load_save
 from tests.strategies import wave
 
 

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import FormatError, MocapError
-from mocap.files import load_save
-from mocap.formats import amass
+from mocap.files import amass, load_save
 from tests.strategies import wave
 
 ASF = """:units

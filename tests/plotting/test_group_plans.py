@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import Circle
 
-from mocap.plotting.many_clips.group_plans import draw_group_plan
+from mocap.plotting.group_plans import draw_group_plan
 
 
 def test_all_are_drawn_where_they_are():

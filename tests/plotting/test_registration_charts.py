@@ -5,7 +5,7 @@ import pytest
 
 from mocap.blending import Curve, Warp, mix, plants_on_clock, register
 from mocap.matching import distance_grid, point_cloud, time_path
-from mocap.plotting.many_clips.registration_charts import ground_tracks, plant_bars, warp_image
+from mocap.plotting.registration_charts import ground_tracks, plant_bars, warp_image
 from mocap.plotting.style import COLOURS, SOURCES
 from tests.blending.registered import HALF, walks
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.colors import to_rgba
 
 from mocap import datasets
-from mocap.match_webs import Match, minima_1d
+from mocap.methods.match_webs import Match, minima_1d
 from mocap.plotting import match_tree, space_image, target_poses, web_image
 from mocap.plotting.style import ASTRAY, COLOURS, SOURCES
 

@@ -16,17 +16,17 @@ from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import samples
-from mocap.editing.warping.retiming import at_frames
+from mocap.editing.retiming import at_frames
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
-from mocap.steering.arriving.end_bending import Limits, bend_to, level_rise, played
-from mocap.steering.arriving.in_betweens import in_between
-from mocap.steering.arriving.moments import Moment, choices
-from mocap.steering.arriving.pose_fading import meet_poses
-from mocap.steering.arriving.two_sided_search import TwoSided
+from mocap.steering.end_bending import Limits, bend_to, level_rise, played
+from mocap.steering.in_betweens import in_between
+from mocap.steering.moments import Moment, choices
+from mocap.steering.pose_fading import meet_poses
+from mocap.steering.two_sided_search import TwoSided
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion, with_plants
 from mocap.synthesis.walks import require_walk

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mocap.control import Pose
 from mocap.datasets.generated import SKELETON
+from mocap.steering import Pose
 
 TURNS = np.tile([1.0, 0, 0, 0], (len(SKELETON), 1))
 

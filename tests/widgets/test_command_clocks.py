@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.control import measure_delay
-from mocap.widgets.live_steering.command_clocks import CommandClock, between
+from mocap.steering import measure_delay
+from mocap.widgets.command_clocks import CommandClock, between
 from tests.widgets.steerable import Dot
 
 

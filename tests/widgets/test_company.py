@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
-from mocap.control import as_motion
 from mocap.errors import MocapError, MocapWarning
-from mocap.widgets.live_steering.company import Company, Order
+from mocap.steering import as_motion
+from mocap.widgets.company import Company, Order
 from tests.widgets.steerable import Dot
 
 

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from mocap.lab.inspecting.showing import inspector
+from mocap.course.lab.showing import inspector
 from mocap.plotting.picture import Picture
 from mocap.widgets.embedding import Embedded
 from mocap.widgets.player import play

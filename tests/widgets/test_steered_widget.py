@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError
-from mocap.widgets.live_steering import steered_widget
-from mocap.widgets.live_steering.steered_widget import steered
+from mocap.widgets import steered_widget
+from mocap.widgets.steered_widget import steered
 from tests.widgets.steerable import Dot
 
 pytest.importorskip("anywidget")

@@ -1,0 +1,179 @@
+"""Any number of registered clips blended by any weights.
+
+Poses are averaged as they are, but the way over the ground is not: a walk to the left and one to the right
+lead to places whose mean is nowhere, so a blend of places stands still and turns around. What is averaged is
+how the clips *move*: their velocities, each turned as its clip is laid on the blend at that moment.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask, Points
+from mocap.blending.clocks import Weights, frame_times
+from mocap.blending.contact_matches import ContactMatch
+from mocap.blending.registering import Registration
+from mocap.body import rotations
+from mocap.body.motion import Motion, gather_marks, turning
+from mocap.body.planar import from_ground, on_ground
+
+
+class Course(NamedTuple):
+    """How a blend goes over the ground, frame by frame.
+
+    angles : shape (C, F), θ + φ: what turns each clip on the blend, radians.
+    centres : shape (F,), z + ix, metres: the centroid of the blend's points.
+    """
+
+    angles: Array
+    centres: Points
+
+
+def mix(
+    registration: Registration,
+    weights: Weights,
+    *,
+    fps: float | None = None,
+    pace: str = "durations",
+    rounds: int = 1,
+) -> Motion:
+    """Blend registered clips by constant weights, or by weights that move [KG03, blend].
+
+    With φ for how the blend is turned against the reference and c for a clip's centroid, from one frame to
+    the next φ falls by Σ w Δθ and the blend's centroid moves by Σ w R(θ + φ) Δc, with w, θ and φ half-way
+    between the frames. The root stands at the mean of the clips' roots as they lie around that centroid;
+    rotations are averaged by `rotations.mean`. (That the transforms' *increments* are averaged is [KG03]'s
+    idea; that they are averaged about the centroid that all clips share is ours. About the world's origin a
+    blend would depend on where its clips were captured.)
+
+    Parameters
+    ----------
+    registration : of C clips.
+    weights : shape (C,), adding up to one; or a function of the common clock u and the blend's own time t,
+        both in seconds, that gives them. A little outside of 0 … 1, say by 0.1, they exaggerate.
+    fps : frames per second; the clips' own by default.
+    pace : as for `frame_times`.
+    rounds : as for `rotations.mean`; 0 is quicker.
+
+    Returns
+    -------
+    A motion that starts where the reference does. Its plants are those that all clips have, from the mean of
+    their starts to the mean of their stops; its labels are those of the clip with the largest weight.
+
+    Raises
+    ------
+    MocapError : as by `frame_times`.
+
+    Examples
+    --------
+    >>> from mocap.blending.registering import register
+    >>> from mocap.datasets.generated import generate_walk
+    >>> walks = [generate_walk([[0, 0], [0, 4]], speed=speed) for speed in (0.8, 1.2)]
+    >>> walking = register(walks)
+    >>> walking.durations.round(2), round(mix(walking, [0.5, 0.5]).duration, 2)
+    (array([3.57, 3.21]), 3.38)
+
+    Notebook: 15-registration
+    """
+    fps = registration.clips[0].fps if fps is None else fps
+    times, shares = frame_times(registration, weights, fps=fps, pace=pace)
+    centres = np.stack([registration.centre(clip, times) for clip in range(len(registration.clips))])
+    start = 0.0, complex(centres[registration.reference, 0])
+    course = ground_course(np.stack([curve(times) for curve in registration.angles]), centres, shares, start)
+    roots, turns = poses(registration, times, shares, course, rounds=rounds)
+    clips = registration.clips
+    nearest = [np.rint(c(times) * clip.fps) for c, clip in zip(registration.times, clips, strict=True)]
+    heaviest = shares.argmax(axis=1)
+    frames = np.array(nearest)[heaviest, np.arange(len(times))].astype(np.intp)
+    return Motion(
+        clips[0].skeleton,
+        roots,
+        turns,
+        fps,
+        " + ".join(clip.name for clip in clips) if len(clips) < 4 else f"{len(clips)} clips",
+        labels=gather_marks([clip.labels for clip in clips], np.stack([heaviest, frames], axis=1)),
+        contacts=_contacts(registration.contacts, times, shares),
+    )
+
+
+def ground_course(
+    turns: Array, centres: Points, shares: Array, start: tuple[float, complex] | None = None
+) -> Course:
+    """Go over the ground with the mean of the clips' velocities, each as its clip lies on the blend.
+
+    In the paper: [KG03, blend].
+
+    Parameters
+    ----------
+    turns : shape (C, F), the angles θ that turn each clip on the reference.
+    centres : shape (C, F), the clips' centroids z + ix, where they were captured.
+    shares : shape (F, C), the weights.
+    start : φ and the centroid in the first frame; by default 0, and the first clip's.
+
+    Examples
+    --------
+    Quarters of circles to the left and the right, half and half: straight on for as long as they are.
+
+    >>> angle = np.linspace(0, np.pi / 2, 91)
+    >>> left, right = 1j * (np.exp(-1j * angle) - 1), 1j * (1 - np.exp(1j * angle))
+    >>> course = ground_course(np.stack([angle, -angle]), np.stack([left, right]), np.full((91, 2), 0.5))
+    >>> complex(course.centres[-1].round(3))
+    (1.571+0j)
+
+    Notebook: 15-registration
+    """
+    heading, place = start or (0.0, complex(centres[0, 0]))
+    halfway = (shares[1:] + shares[:-1]).T / 2
+    falls = (halfway * np.diff(turns)).sum(axis=0)
+    angles = turns + heading - np.append(0, np.cumsum(falls))
+    moves = (halfway * np.exp(0.5j * (angles[:, 1:] + angles[:, :-1])) * np.diff(centres)).sum(axis=0)
+    return Course(angles, place + np.append(0, np.cumsum(moves)))
+
+
+def poses(
+    registration: Registration, times: Array, shares: Array, course: Course, *, rounds: int = 1
+) -> tuple[Array, Array]:
+    """Average the clips' poses as they lie on a course: root positions (F, 3) and rotations (F, J, 4).
+
+    Parameters
+    ----------
+    registration, times, shares : as for `mix`.
+    course : as from `ground_course`.
+    rounds : as for `rotations.mean`.
+    """
+    root, height, laid = 0j * course.centres, np.zeros(len(times)), []
+    for number, (clip, curve) in enumerate(zip(registration.clips, registration.times, strict=True)):
+        roots, turns = _pose_at(clip, curve(times))
+        angle, share = course.angles[number], shares[:, number]
+        away = on_ground(roots) - registration.centre(number, times)
+        root += share * np.exp(1j * angle) * away
+        height += share * roots[:, 1]
+        turns[:, 0] = rotations.multiply(rotations.about_y(angle), turns[:, 0])
+        laid.append(turns)
+    every = np.stack(laid, axis=-2)  # (F, J, C, 4)
+    turned = np.any([turning(clip) for clip in registration.clips], axis=0)
+    turned[0] = True
+    mean = every[:, :, 0]
+    mean[:, turned] = rotations.mean(every[:, turned], shares[:, None], rounds=rounds)
+    mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
+    x, z = from_ground(course.centres + root).T
+    return np.stack([x, height, z], axis=-1), mean
+
+
+def _pose_at(clip: Motion, seconds: Array) -> tuple[Array, Array]:
+    """Give a clip's root positions and rotations at times that may fall between its frames."""
+    frames = np.clip(seconds * clip.fps, 0, len(clip) - 1)
+    before = np.minimum(frames.astype(np.intp), len(clip) - 2)
+    amount = (frames - before)[:, None]
+    first, second = (clip.root_positions[before + n] for n in (0, 1))
+    turns = rotations.slerp(clip.rotations[before], clip.rotations[before + 1], amount)
+    return first + amount * (second - first), turns
+
+
+def _contacts(matches: Sequence[ContactMatch], times: Array, shares: Array) -> dict[str, Mask]:
+    """Mark each matched plant from the mean of its starts to the mean of its stops."""
+    marks = {match.joint: np.zeros(len(times), bool) for match in matches}
+    for match in matches:
+        marks[match.joint] |= (times >= shares @ match.starts - 1e-9) & (times < shares @ match.stops)
+    return marks

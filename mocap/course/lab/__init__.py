@@ -1,0 +1,50 @@
+"""The notebooks as a laboratory: what a student wrote is used, and what a student thought is kept.
+
+Reading order (notebooks 00 to 19)
+----------------------------------
+ 1. `adopting`: a student's function drives the course from the exercise on; the package's stands in before
+ 2. `guarding`: the place of an exercise: whose function runs there, and the guard around it
+ 3. `kept_functions`: the file beside the notebooks that keeps what students wrote
+ 4. `plain_source`: a function's source with its imports and helpers
+ 5. `own`: a motion graph made of these functions alone, from clips to a walk along a path
+ 6. `reading`: the questions of a notebook, as its file has them
+ 7. `computed`: numbers in them that the notebook computes
+ 8. `page`: what a question shows in a browser, and where no script runs
+ 9. `quizzes`: a question with an answer and hints
+10. `kept_bets`: what a reader thought before the answer, and what came out
+11. `packing`: clips as small blocks of bytes
+12. `choices`: which two windows are looked at, and what lies around them
+13. `scenes`: all that a page needs
+14. `showing`: the widget, its picture and its sentence
+15. `sensitivity`: d′ of a person, and of a class, with confidence intervals
+16. `pairs`: films with a seam, and controls without one from the same clips at the same phase
+17. `films`: pairs as data for the browser
+18. `blind_tests`: the test in a notebook or on a page
+19. `class_answers`: the files that a class saves, as one curve
+
+References
+----------
+.. [CP34] C. J. Clopper, E. S. Pearson, *The Use of Confidence or Fiducial Limits Illustrated in the Case of
+   the Binomial*, Biometrika 26(4), 1934, doi 10.1093/biomet/26.4.404.
+.. [Hau95] M. J. Hautus, *Corrections for Extreme Proportions and Their Biasing Effects on Estimated Values of
+   d′*, Behavior Research Methods, Instruments, & Computers 27(1), 1995, doi 10.3758/BF03203619.
+.. [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002, doi 10.1145/566654.566605.
+.. [MC05] N. A. Macmillan, C. D. Creelman, *Detection Theory: A User's Guide*, 2nd edition, Lawrence Erlbaum
+   2005, chapter 7.
+"""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules=["own"],
+    submod_attrs={
+        "showing": ["Inspector", "inspector"],
+        "adopting": ["mine", "whose"],
+        "quizzes": ["quiz"],
+        "kept_bets": ["bet", "bets"],
+        "blind_tests": ["blind_test"],
+        "class_answers": ["class_curve", "read_answers"],
+        "sensitivity": ["d_prime"],
+    },
+)

@@ -1,0 +1,187 @@
+"""A student's function drives the course from the exercise on; until then the package's stands in."""
+
+from __future__ import annotations
+
+import pkgutil
+import re
+from collections.abc import Callable
+from contextlib import redirect_stdout
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from mocap.course import checks
+from mocap.course.check import Verdict
+from mocap.course.checks import all_checks
+from mocap.course.lab.guarding import Slot, Unseen
+from mocap.course.lab.kept_functions import keep, place, read_text, run_sections
+from mocap.course.lab.plain_source import plain_source
+from mocap.errors import MocapError
+
+
+def mine(what: str | Callable[..., Any] | Slot) -> Slot:
+    """Put a student's function in its place, or give what stands there: theirs, or the package's.
+
+    A function that passes its check is adopted: it is written into `my_graph.py` beside the notebook, and
+    from then on it is what all notebooks get by its name. One that does not pass leaves its place as it was.
+    Whose code stands there is printed. The environment variable MOCAP_MINE names another file; where it is
+    empty, nothing is read or written.
+
+    Parameters
+    ----------
+    what : the function that an exercise asks for, or its name.
+
+    Returns
+    -------
+    The place; call it like the function.
+
+    Raises
+    ------
+    MocapError : for a name that no exercise has.
+
+    Examples
+    --------
+    >>> def hamilton(a, b):
+    ...     return ...
+    >>> hamilton = mine(hamilton)
+    hamilton: the package's stands in until yours passes its check.
+    >>> hamilton([0, 1, 0, 0], [0, 0, 1, 0]).tolist()
+    [0.0, 0.0, 0.0, 1.0]
+
+    Notebook: 08-path-synthesis
+    """
+    if isinstance(what, Slot):
+        what = what.written if what.written is not what.stand_in else what.name
+    slot = slots(what if isinstance(what, str) else what.__name__)[0]
+    passed = callable(what) and _take(slot, what)
+    print(_whose(slot, as_it_passed=callable(what) and not passed))
+    return slot
+
+
+def slots(*names: str) -> list[Slot]:
+    """Give the places of some exercises, with what the file beside the notebook holds, and print nothing new.
+
+    Raises
+    ------
+    MocapError : for a name that no exercise has.
+    """
+    for name in names:
+        if name not in all_checks():
+            raise MocapError(f"The course has no exercise '{name[:60]}'.")
+    _refresh()
+    return [_slots()[name] for name in names]
+
+
+def whose(*names: str) -> str:
+    """Say whose functions run in some places, as a line for a caption.
+
+    Examples
+    --------
+    >>> whose("hamilton", "climb")
+    "hamilton, climb: the package's"
+
+    Notebook: 02-matching
+    """
+    found = slots(*names)
+    own = ", ".join(slot.name for slot in found if slot.yours)
+    rest = ", ".join(slot.name for slot in found if not slot.yours)
+    return " · ".join(f"{part}: {of}" for part, of in ((own, "yours"), (rest, "the package's")) if part)
+
+
+def _take(slot: Slot, written: Callable[..., Any]) -> bool:
+    """Adopt a function if it is right, and write it into the file; say whether it is right."""
+    slot.written = written
+    if not all_checks()[slot.name].again(written).right:
+        return False
+    slot.own, slot.stopped, slot.kept = written, "", False
+    if (file := place()) is None:
+        return True
+    try:
+        plain = plain_source(written, all_checks())  # type: ignore[arg-type]
+        _read[0] = keep(file, slot.name, notebook_of(slot.name), plain)
+        slot.kept = True
+    except MocapError as error:
+        print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
+    return True
+
+
+def _whose(slot: Slot, *, as_it_passed: bool = False) -> str:
+    if slot.yours:
+        kept = f", kept in {place()}" if slot.kept else ""
+        which = "; it is the one that passed, not this one" if as_it_passed else ""
+        return f"{slot.name}: yours{kept}{which}."
+    why = f"; yours {slot.stopped}." if slot.stopped else " until yours passes its check."
+    return f"{slot.name}: the package's stands in{why}"
+
+
+_read = [""]  # what the file held when it was read last
+
+
+def _refresh() -> None:
+    """Read the file anew if it has changed: what was deleted from it goes, what passes its check comes."""
+    file = place()
+    try:
+        text = read_text(file)
+    except MocapError as error:
+        text, file = "", None
+        print(error)
+    if text == _read[0]:
+        return
+    _read[0] = text
+    found, said = run_sections(file, text, _slots()) if file else ({}, [])
+    for sentence in said:
+        print(sentence)
+    for slot in _slots().values():
+        if slot.kept and slot.name not in found:
+            slot.own, slot.kept = None, False
+    for name, function in found.items():
+        _take_from_file(name, function, file)
+
+
+def _take_from_file(name: str, function: Callable[..., Any], file: Path | None) -> None:
+    if name not in all_checks():
+        print(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
+        return
+    slot, verdict = _slots()[name], _judged(name, function)
+    slot.written = function
+    slot.own, slot.stopped, slot.kept = (function, "", True) if verdict.right else (None, "", False)
+    if not verdict.right:
+        print(f"{file}: {name} does not pass its check any more, so the package's stands in.")
+        print(verdict)
+
+
+def _judged(name: str, function: Callable[..., Any]) -> Verdict:
+    """Check a function of the file, without what it prints."""
+    try:
+        with redirect_stdout(Unseen()):
+            return all_checks()[name].verdict(function)
+    except SystemExit:
+        return Verdict(False, f"{name}: your function ends Python.")
+
+
+def notebook_of(name: str) -> str:
+    """Give the number of the notebook that asks for a function.
+
+    Examples
+    --------
+    >>> notebook_of("hamilton")
+    '01'
+    """
+    return _notebooks()[name]
+
+
+@cache
+def _slots() -> dict[str, Slot]:
+    return {name: Slot(check) for name, check in all_checks().items()}
+
+
+@cache
+def _notebooks() -> dict[str, str]:
+    """Give the number of the notebook of each exercise, from the heads of the files of checks."""
+    numbers: dict[str, str] = {}
+    for file in pkgutil.iter_modules(checks.__path__):
+        module = import_module(f"{checks.__name__}.{file.name}")
+        number = re.search(r"notebook (\w+)", module.__doc__ or "")
+        numbers |= dict.fromkeys(vars(module), number[1] if number else "")
+    return numbers

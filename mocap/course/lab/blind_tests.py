@@ -1,0 +1,128 @@
+"""The blind test in a notebook or on a page; it needs nothing but a browser."""
+
+from __future__ import annotations
+
+import base64
+import html
+import io
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+
+from mocap.body.motion import Motion
+from mocap.course.lab.films import SIDES, packed
+from mocap.course.lab.pairs import Pair, Plan, make_pairs
+from mocap.course.lab.sensitivity import sentence
+from mocap.matching.transitions import Transitions
+from mocap.plotting.picture import Picture, few_colours, small_png
+from mocap.plotting.stick_figures import film_strip
+from mocap.plotting.style import COLOURS
+from mocap.widgets.embedding import PICTURE, SCENE, joined
+
+STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
+
+
+def blind_test(
+    clips: Sequence[Motion], found: Transitions, window: int = 10, below: float = 0.04, seed: int = 0
+) -> BlindTest:
+    """Let somebody choose, in twenty pairs of films, the one with a seam.
+
+    A film lasts 2.6 s. The control is one of the same two clips at the same phase, without a seam; the films
+    of a pair play side by side until the reader answers, with the arrow keys or by touch. Nothing is said
+    about single answers. At the end stands d′ with its confidence interval, as of `d_prime`, and the
+    answers can be saved as a file for `class_curve`.
+
+    Parameters
+    ----------
+    clips : of one skeleton and rate. The films stand in the notebook, so use clips that may be passed on.
+    found : matches of these, as from `find_transitions`, over windows of a third of a second.
+    window : frames of the blends.
+    below : the threshold, metres: the matches cost at most that, and at least three quarters of it.
+    seed : the same seed gives the same pairs in the same order.
+
+    Returns
+    -------
+    The test; a notebook shows it as the last line of a cell. Without a script it is a picture of one pair.
+
+    Raises
+    ------
+    MocapError : for fewer than 20 such matches, clips of several rates, and a window longer than 2 s.
+
+    Examples
+    --------
+    >>> from mocap import datasets, matching
+    >>> clips = [datasets.sample("walk_circle")[:2400:4]]
+    >>> blind_test(clips, matching.find_transitions(clips, window=10, below=0.04))
+    Blind test: 20 pairs of films, seams below 4.0 cm, blends of 10 frames, seed 0.
+
+    Notebooks: 09-discussion, 09b-blend-window
+    """
+    plan = Plan(window, below, seed)
+    return BlindTest(make_pairs(clips, found, plan), plan)
+
+
+@dataclass(frozen=True, eq=False)
+class BlindTest:
+    """What `blind_test` returns; a notebook shows it live, as a picture or a sentence."""
+
+    pairs: Sequence[Pair]
+    plan: Plan
+
+    def __repr__(self) -> str:
+        return (
+            f"Blind test: {len(self.pairs)} pairs of films, seams below {100 * self.plan.below:.1f} cm, "
+            f"blends of {self.plan.window} frames, seed {self.plan.seed}."
+        )
+
+    @property
+    def alt(self) -> str:
+        """What the picture of one pair shows."""
+        return (
+            "Two rows of stick figures that walk. In one of the two films is a seam; poses do not show which."
+        )
+
+    @cached_property
+    def picture(self) -> bytes:
+        """The first pair as a PNG, the left film above."""
+        seam, control, on_left, _ = self.pairs[0]
+        films = [seam, control] if on_left else [control, seam]
+        rows = [Image.open(io.BytesIO(small_png(film_strip([film])))) for film in films]
+        both = Image.new("RGB", (rows[0].width, sum(row.height for row in rows)), "white")
+        for row, top in zip(rows, (0, rows[0].height), strict=True):
+            both.paste(row, (0, top))
+        return few_colours(both)
+
+    @cached_property
+    def html(self) -> str:
+        """The test as part of a page; where no script runs, the picture and a sentence stay."""
+        body, films, data = packed([film for pair in self.pairs for film in (pair.seam, pair.control)])
+        spec = {
+            "plan": {
+                "below_cm": round(100 * self.plan.below, 3),
+                "window": self.plan.window,
+                "seed": self.plan.seed,
+            },
+            "onLeft": [pair.on_left for pair in self.pairs],
+            "body": body,
+            "films": films,
+            "sides": [COLOURS[side] for side in SIDES],
+            "sentences": [sentence(right, len(self.pairs)) for right in range(len(self.pairs) + 1)],
+        }
+        hidden = base64.b64encode(json.dumps(spec).encode()).decode()
+        here, text = Path(__file__).parent, html.escape(repr(self))
+        still, _ = Picture(self.picture, self.alt)._repr_mimebundle_()
+        return (
+            f'<div class="mocap-blind" data-spec="{hidden}" data-films="{data}"><p>{text}</p>'
+            f'<p class="still">{STILL}</p>'
+            f"{still['text/html']}</div>\n<style>{(here / 'blind.css').read_text('utf-8')}</style>\n"
+            f'<script type="module">\n{joined(SCENE, PICTURE, here / "blind.js")}</script>\n'
+        )
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
+        bundle, metadata = Picture(self.picture, self.alt)._repr_mimebundle_()
+        return bundle | {"text/html": self.html, "text/plain": f"{self!r} {STILL}"}, metadata

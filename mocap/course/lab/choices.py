@@ -1,0 +1,254 @@
+"""Which two windows are looked at, and what lies around them: of two clips, of a graph, of a walk."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from operator import index
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices, Mask
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, require_alike
+from mocap.course.lab.adopting import slots, whose
+from mocap.course.lab.own.matches import window_distances
+from mocap.course.lab.own.tools import tools
+from mocap.errors import MocapError
+from mocap.graphs.edge_tables import Edge, edge_table
+from mocap.graphs.motion_graph import MotionGraph
+from mocap.matching.distance_grids import distance_grid
+from mocap.matching.minima import local_minima
+from mocap.matching.point_clouds import distinct_joints
+from mocap.synthesis.walks import seams
+
+SECONDS = 0.7  # of clip that are shown before and after a window
+EACH, MOST = 4, 100  # transitions of a graph that can be pointed at: the cheapest from each clip to each clip
+MINIMA = 40  # of a grid that are marked: the lowest
+LONGEST = 6_000  # frames that a page holds; with more it would be slow to open
+
+
+class Pick(NamedTuple):
+    """Two windows: from frame `i` of clip `first`, and from frame `j` of clip `second`.
+
+    before, after : frames of clip to show around the window.
+    number : which transition of a graph; -1 for a cell of a grid.
+    seam, frame : which seam of a walk, and the walk's frame at which its window starts; -1 without a walk.
+    """
+
+    first: int
+    i: int
+    second: int
+    j: int
+    before: int
+    after: int
+    number: int = -1
+    seam: int = -1
+    frame: int = -1
+
+
+CELLS = 20  # of a distance grid on each side of a transition, which a page measures itself
+
+
+class Choices(NamedTuple):
+    """All that can be pointed at, and what is looked at first."""
+
+    clips: tuple[Motion, ...]
+    window: int
+    pick: Pick
+    grid: Array | None = None  # D of all pairs, m²
+    minima: tuple[tuple[int, int], ...] = ()  # the lowest first
+    graph: MotionGraph | None = None
+    transitions: tuple[Pick, ...] = ()
+    costs: tuple[float, ...] = ()  # metres
+    seams: tuple[Pick, ...] = ()
+    by: str = ""  # whose functions made the grid, where some are the reader's
+
+    def needed(self, clip: int) -> Mask:
+        """Mark the frames of a clip that a page may show: of a graph, those near its transitions."""
+        frames = np.full(len(self.clips[clip]), self.grid is not None)
+        fps = self.clips[clip].fps
+        margin = CELLS * max(1, round(fps / 30)) + around(fps)
+        for pick in self.transitions:
+            for number, start in ((pick.first, pick.i), (pick.second, pick.j)):
+                if number == clip:
+                    frames[max(0, start - margin) : start + self.window + margin] = True
+        return frames
+
+
+def around(fps: float) -> int:
+    """Count the frames to show before and after a window.
+
+    Examples
+    --------
+    >>> around(30.0)
+    21
+    """
+    return round(SECONDS * fps)
+
+
+def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa: ANN401 (a reader's value)
+    """Choose two windows of two clips, by default those of the lowest local minimum.
+
+    The reader's `window_sums` and `inner_minima` make the grid and its minima, if they passed their checks.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for clips that do not go together, have more than 6000 frames together or
+        fewer than a window, and windows that run off them.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")[:90]
+    >>> of_clips([walk, walk], 40, (10, 20)).pick[:4]
+    (0, 10, 1, 20)
+    """
+    require_alike(clips)
+    _require_short(len(clips[0]) + len(clips[-1]))
+    first, second = clips[0], clips[-1]
+    grid, places, by = _measured(first, second, window)
+    lowest = places[np.argsort(grid[*places.T], kind="stable")][:MINIMA]
+    minima = tuple((int(i), int(j)) for i, j in lowest)
+    i, j = minima[0] if at is None else _cell(at, grid.shape)
+    frames = around(first.fps)
+    return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima, by=by)
+
+
+def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indices, str]:
+    """Give the grid, the cells of its minima, and whose functions made them."""
+    names = "window_sums", "inner_minima"
+    sums, inner = slots(*names)
+    if sums.yours and window <= min(len(first), len(second)):
+        points = distinct_joints(first.skeleton)
+        clouds = [joint_positions(clip)[:, points] for clip in (first, second)]
+        grid = window_distances(clouds[0], clouds[1], window, tools())
+    else:
+        grid = np.asarray(distance_grid(first, second, window=window), float)
+    found = np.array(inner(grid, np.inf) if inner.yours else [], int).reshape(-1, 2)
+    by = whose(*names) if sums.yours or inner.yours else ""
+    return grid, found if len(found) else local_minima(grid), by
+
+
+def _require_short(frames: int) -> None:
+    """Raise for more frames than a page holds."""
+    if frames > LONGEST:
+        raise MocapError(f"The inspector holds {LONGEST} frames of clips, not {frames}: give shorter pieces.")
+
+
+def _cell(at: Any, shape: tuple[int, ...]) -> tuple[int, int]:  # noqa: ANN401
+    """Take a cell of the grid, or say which there are."""
+    try:
+        i, j = map(index, at)
+    except (TypeError, ValueError):
+        raise MocapError(
+            f"Two windows are chosen by their first frames, at=(i, j), not by {at!r:.80}."
+        ) from None
+    if not (0 <= i < shape[0] and 0 <= j < shape[1]):
+        raise MocapError(
+            f"Windows start at frames 0 to {shape[0] - 1} and 0 to {shape[1] - 1}, not at {i} and {j}."
+        )
+    return i, j
+
+
+def of_graph(graph: MotionGraph, at: Any) -> Choices:  # noqa: ANN401
+    """Choose a transition of a graph, by default the one of least cost; a node stands for its cheapest.
+
+    Raises
+    ------
+    MocapError : for a graph without transitions, an edge or a node that it does not have, and a node at which
+        no transition leaves or enters.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> of_graph(graphs.from_transitions([clip], [back], window=10), (0, 60)).pick[:4]
+    (0, 60, 0, 10)
+    """
+    edges = [edge for edge in graph.graph.edges(keys=True) if graph.graph.edges[edge]["kind"] == "transition"]
+    edges.sort(key=lambda edge: graph.graph.edges[edge]["cost"])
+    if not edges:
+        raise MocapError("This graph has no transitions to inspect.")
+    chosen = edges[0] if at is None else _edge(at, edges)
+    return _with(graph, _few(edges, chosen), chosen)
+
+
+def _few(edges: Sequence[Edge], chosen: Edge) -> list[Edge]:
+    """Take the cheapest from each clip to each clip, of edges in the order of cost, and the chosen one."""
+    seen: Counter[tuple[int, int]] = Counter()
+    few = []
+    for edge in edges:
+        pair = edge[0][0], edge[1][0]
+        seen[pair] += 1
+        if seen[pair] <= EACH or edge == chosen:
+            few.append(edge)
+    return [edge for n, edge in enumerate(few) if n < MOST or edge == chosen]
+
+
+def _with(graph: MotionGraph, shown: Sequence[Edge], chosen: Edge) -> Choices:
+    """Offer these transitions of a graph."""
+    frames = around(graph.fps)
+    picks = tuple(_pick(edge, graph, n)._replace(before=frames, after=frames) for n, edge in enumerate(shown))
+    costs = tuple(float(graph.graph.edges[edge]["cost"]) for edge in shown)
+    pick = picks[shown.index(chosen)]
+    choices = Choices(graph.clips, graph.window, pick, graph=graph, transitions=picks, costs=costs)
+    _require_short(sum(int(choices.needed(clip).sum()) for clip in range(len(graph.clips))))
+    return choices
+
+
+def _pick(edge: Edge, graph: MotionGraph, number: int) -> Pick:
+    """Name the windows of a transition: it enters its clip at the frame after its window."""
+    (source, leave), (target, enter), _ = edge
+    return Pick(source, leave, target, enter - graph.window, 0, 0, number)
+
+
+def _edge(at: Any, edges: Sequence[Edge]) -> Edge:  # noqa: ANN401
+    """Find an edge; or, for a node, the cheapest transition that leaves or enters there."""
+    for edge in edges if isinstance(at, tuple) else []:
+        if at in (edge, edge[:2], edge[0], edge[1]):
+            return edge
+    raise MocapError(f"No transition of this graph is {at!r:.60}, or leaves or enters there.")
+
+
+def of_walk(graph: MotionGraph, walk: Sequence[Edge], at: Any) -> Choices:  # noqa: ANN401
+    """Choose a seam of a walk by its number, by default the one of highest cost.
+
+    Raises
+    ------
+    NoWalk, MocapError : for a walk that the graph does not have, one without seams, and a seam that is not on
+        the walk.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs, matching
+    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
+    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
+    >>> graph = graphs.from_transitions([clip], [back], window=10)
+    >>> of_walk(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)], None).pick
+    Pick(first=0, i=60, second=0, j=10, before=21, after=0, number=0, seam=0, frame=40)
+    """
+    found = seams(graph, walk)
+    if not found:
+        raise MocapError("This walk takes no transition, so it has no seam to inspect.")
+    if at is None:
+        at = int(np.argmax([seam.cost for seam in found]))
+    if not isinstance(at, int | np.integer) or not 0 <= at < len(found):
+        raise MocapError(f"This walk has seams 0 to {len(found) - 1}, not {at!r:.60}.")
+    taken = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "transition"]
+    starts = [seam.frame for seam in found]
+    stops = [start + graph.window for start in starts]
+    end = int(edge_table(graph, walk).frames.sum())
+    picks = tuple(
+        _pick(edge, graph, -1)._replace(
+            seam=n,
+            frame=start,
+            before=min(around(graph.fps), start - (stops[n - 1] if n else 0)),
+            after=min(around(graph.fps), (starts[n + 1] if n + 1 < len(starts) else end) - stops[n]),
+        )
+        for n, (edge, start) in enumerate(zip(taken, starts, strict=True))
+    )
+    whole = _with(graph, list(dict.fromkeys(taken)), taken[at])
+    return whole._replace(pick=picks[at]._replace(number=whole.pick.number), seams=picks)

@@ -1,0 +1,192 @@
+"""Marks for the notebooks in a folder, exercise by exercise."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mocap.course import stored
+from mocap.course.check import Verdict
+from mocap.course.checks import all_checks
+from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, sheet_of
+from mocap.course.marking.plain_data import unpack
+from mocap.course.marking.sealed import Ended, Sealed, fonts, sealed
+from mocap.course.notebooks import library, read
+from mocap.errors import MocapError
+
+SECONDS = 30  # time limit of an exercise
+STARTING = 120  # time limit of the first cell, which imports much
+LARGEST = 50 << 20  # bytes of a notebook
+
+
+class Mark(NamedTuple):
+    """The mark of an exercise: whose notebook, which exercise, right or not, and what the check said.
+
+    Examples
+    --------
+    >>> Mark("ada/02.ipynb", "align", True, "✓ align: right on 40 random inputs.").right
+    True
+    """
+
+    handed_in: str
+    exercise: str
+    right: bool
+    said: str
+
+
+class _Handed(NamedTuple):
+    """A notebook that was handed in: its path, its cells, what the course asks for, what is wrong with it."""
+
+    path: str
+    cells: list[Cell]
+    sheet: Sheet | None
+    wrong: str
+
+
+def mark(folder: Path, progress: Callable[[Iterable[Any]], Iterable[Any]] = iter) -> Iterator[Mark]:
+    """Mark the exercises of all notebooks in a folder and in the folders inside it.
+
+    All notebooks are read before the first one runs. Each runs in a process of its own, with a new folder as
+    its home, few variables in its environment, and limits of time, memory, processes and file size; what it
+    prints is thrown away. At the end all that it started is killed. The first cell runs, then each exercise
+    with the cells that define what it uses. The checks run here, on random input of their own.
+
+    On Linux, where `offline` says so, the process has no network. This cannot keep a notebook from reading
+    what you can read, from writing where you can write, from calling the package's own functions, or from an
+    attack on this process by somebody who knows how. A container without a network can: `notebooks/README.md`
+    says how.
+
+    Parameters
+    ----------
+    folder : the notebooks handed in; the folder in it that holds a notebook says whose it is.
+    progress : wraps the notebooks while they are marked.
+
+    Yields
+    ------
+    A mark for each exercise: also for those that a notebook of the course has and a copy lacks, and for those
+    of notebooks that others handed in.
+
+    Raises
+    ------
+    MocapError : if there are no notebooks.
+
+    Examples
+    --------
+    >>> list(mark(Path("nowhere")))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder nowhere holds no notebooks.
+    """
+    handed, seed = _read_all(folder), int(np.random.default_rng().integers(2**32))
+    marked: list[Mark] = []
+    with fonts() as known:
+        for one in progress(handed):
+            marks = list(_marks(one, seed, known))
+            yield from marks
+            marked += marks
+    yield from _not_handed_in(handed, marked)
+
+
+def _read_all(folder: Path) -> list[_Handed]:
+    library()
+    files = [file for file in sorted(folder.rglob("*.ipynb")) if ".ipynb_checkpoints" not in file.parts]
+    if not files:
+        raise MocapError(f"The folder {folder} holds no notebooks.")
+    sheets = course_sheets(stored())
+    return [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
+
+
+def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
+    try:
+        if not file.is_file() or file.stat().st_size > LARGEST:
+            raise MocapError(f"{path}: is no file, or one of more than {LARGEST >> 20} MB.")
+        notebook = read(file)
+        return _Handed(path, code_cells(notebook), sheet_of(notebook, sheets), "")
+    except MocapError as error:
+        return _Handed(path, [], None, str(error).replace(str(file), path))
+    except Exception:  # nbformat lets some things pass that are no notebooks
+        return _Handed(path, [], None, f"{path}: is not a notebook.")
+
+
+def _marks(one: _Handed, seed: int, known: Path) -> Iterator[Mark]:
+    """Mark the exercises of the course's notebook, and those of others of which it has cells."""
+    tags = [name for cell in one.cells for name in cell.exercises]
+    asked = one.sheet.exercises if one.sheet else ()
+    names = [*dict.fromkeys((*asked, *tags))]
+    strange = [f"`{name}`" for name in names if name not in all_checks()]
+    also = f" The course does not know the tag {strange[0]}." if strange else ""
+    names = [name for name in names if name in all_checks()]
+    if not names:
+        yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
+    for name, verdict in _judge_all(one.cells, names, seed, known).items():
+        said = str(verdict).replace(MISSING, MISSING + also)
+        yield Mark(one.path, name, verdict.right, said)
+
+
+MISSING = "its cell is missing."
+
+
+def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> dict[str, Verdict]:
+    """Judge exercises in one process, and in a new one after an exercise that ends it."""
+    judged: dict[str, Verdict] = {}
+    while left := [name for name in names if name not in judged]:
+        with sealed(known) as student:
+            at_fault = left
+            try:
+                student.allow(STARTING)
+                student.ask("begin", [tuple(cell) for cell in cells])
+                for name in left:
+                    at_fault = [name]
+                    student.allow(SECONDS)
+                    judged[name] = _judge(student, name, seed)
+            except Ended as ended:
+                judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault}
+    return judged
+
+
+def _judge(student: Sealed, name: str, seed: int) -> Verdict:
+    rng = np.random.default_rng(seed)
+    known = all_checks()[name]
+    seconds = 2 * SECONDS  # the limit of `allow` comes first
+    check = dataclasses.replace(known, draw=lambda _: known.draw(rng), seconds=seconds)
+    prepared = student.ask("prepare", name)
+    if not prepared["found"]:
+        return Verdict(False, f"{name}: {MISSING}")
+    try:
+        with np.errstate(all="ignore"):
+            verdict = check.verdict(_Answer(student, name))
+    except Exception:  # an answer such as 10**400, which has no float
+        verdict = Verdict(False, f"{name}: your answer cannot be compared with the right one.")
+    if verdict.right or not prepared["error"]:
+        return verdict
+    return Verdict(False, f"{name}: its cells raise {prepared['error']}")
+
+
+class _Answer:
+    """A student's function as a check calls it: the call happens in the student's process."""
+
+    def __init__(self, student: Sealed, name: str) -> None:
+        self.student, self.name = student, name
+
+    def __call__(self, *arguments: Any) -> Any:  # noqa: ANN401
+        reply = self.student.ask("call", self.name, arguments)
+        if reply.get("raised") == "NotImplementedError":
+            raise NotImplementedError
+        if "raised" in reply:
+            raise type(reply["raised"], (Exception,), {})(reply["said"])
+        for number, changed in reply["changed"]:
+            np.copyto(arguments[number], unpack(changed))
+        return unpack(reply["given"])
+
+
+def _not_handed_in(handed: Iterable[_Handed], marked: Sequence[Mark]) -> Iterator[Mark]:
+    """Mark, for everybody with a folder, what others handed in and they did not."""
+    asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
+    for student in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
+        done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{student}/")}
+        for name in asked:
+            if name not in done:
+                yield Mark(f"{student}/", name, False, f"✗ {name}: not handed in.")

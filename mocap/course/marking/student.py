@@ -1,0 +1,111 @@
+"""The student's side: it runs the cells of a notebook, and calls functions with arguments from the marker.
+
+Whatever the notebook changes in this process stays in it: the marker reads answers, never verdicts.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import pickle
+import sys
+import traceback
+from collections.abc import Callable
+from typing import Any, BinaryIO
+
+import numpy as np
+from IPython.core.interactiveshell import InteractiveShell
+from traitlets.config import Config
+
+from mocap.course.marking.cells import Cell, needed
+from mocap.course.marking.plain_data import pack
+
+
+class _Shell(InteractiveShell):  # type: ignore[misc,unused-ignore]
+    def enable_gui(self, gui: str | None = None) -> None:
+        """Open no windows."""
+
+
+class Student:
+    """A notebook that runs: each request of the marker is the name of a method here, and its arguments.
+
+    Examples
+    --------
+    >>> Student.__doc__.startswith("A notebook")
+    True
+    """
+
+    def __init__(self) -> None:
+        config = Config()
+        config.HistoryManager.enabled = False
+        self.shell = _Shell.instance(config=config)
+        self.cells: list[Cell] = []
+        self.failed: dict[int, str] = {}
+        self.ran: set[int] = set()
+
+    def begin(self, cells: list[tuple[tuple[str, ...], str]]) -> None:
+        """Take the cells, and run the first."""
+        self.cells = [Cell(*cell) for cell in cells]
+        self._run(0)
+
+    def prepare(self, exercise: str) -> dict[str, Any]:
+        """Run the cells of an exercise; return whether there are any, and the first error."""
+        numbers = needed(self.cells, exercise, self.shell.transform_cell)
+        for number in numbers:
+            if number not in self.ran:
+                self._run(number)
+        errors = [self.failed[number] for number in (*numbers, 0) if number in self.failed]
+        return {"found": bool(numbers), "error": errors[0] if errors else ""}
+
+    def _run(self, number: int) -> None:
+        self.ran.add(number)
+        run: Callable[[str], Any] = self.shell.run_cell
+        done = run(self.cells[number].source)
+        error = done.error_before_exec or done.error_in_exec
+        if error:
+            self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
+
+    def call(self, name: str, arguments: tuple[Any, ...]) -> dict[str, Any]:
+        """Call a function, and return its answer, and which arrays it changed."""
+        function = self.shell.user_ns.get(name, _missing)
+        stands_in = getattr(function, "stand_in", None)  # the package's, in a place of `lab.mine`
+        function = getattr(function, "written", function)
+        if function is stands_in:
+            function = _missing
+        before = copy.deepcopy(arguments)
+        try:
+            given = pack(function(*arguments))
+        except BaseException as error:  # a student's function may raise anything
+            return {"raised": type(error).__name__, "said": f"{error}{_place(error, function)}"}
+        pairs = enumerate(zip(before, arguments, strict=True))
+        changed = [
+            [number, pack(new)]
+            for number, (old, new) in pairs
+            if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True)
+        ]
+        return {"given": given, "changed": changed}
+
+
+def _missing(*_: object) -> Any:  # noqa: ANN401
+    return ...
+
+
+def _place(error: BaseException, function: Callable[..., Any]) -> str:
+    """Say in which line of a cell an error arose."""
+    here = getattr(getattr(function, "__code__", None), "co_filename", None)
+    lines = [frame.line for frame in traceback.extract_tb(error.__traceback__) if frame.filename == here]
+    return f" (in `{lines[-1]}`)" if lines and lines[-1] else ""
+
+
+def serve(requests: BinaryIO, replies: BinaryIO) -> None:
+    """Answer the marker until it closes its end."""
+    student = Student()
+    while True:
+        try:
+            method, *arguments = pickle.load(requests)
+        except EOFError:
+            return
+        reply = getattr(student, method)(*arguments)
+        replies.write(json.dumps(reply).encode() + b"\n")
+        replies.flush()
+        sys.stdout.flush()

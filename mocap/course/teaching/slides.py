@@ -1,0 +1,161 @@
+"""The course as slides: a page for each notebook, shown by reveal.js from files beside it, without a network.
+
+reveal.js (MIT licence) is taken from the package `sphinx-revealjs`, which ships it;
+its licence is copied along.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+import shutil
+from collections.abc import Callable, Iterable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from mocap._shared.atomic import make_folder, write_text
+from mocap.course import read
+from mocap.course.site import body_of, fill_in, filled, page_title, recorded_of
+from mocap.course.teaching.deck import Slide, deck_of, numbered
+from mocap.errors import MocapError
+
+PAGE = Path(__file__).with_name("slides.html")
+NEEDED = ("LICENSE", "dist/reveal.css", "dist/reveal.js", "plugin/notes/notes.js")  # of reveal.js
+MARKER = re.compile(
+    r'<div class="cell[^>]*>(?:\s*<div[^>]*>|\s*</div>)*\s*<p>(SLIDE|NOTES)(\d+)\.</p>\s*(?:</div>\s*){3}'
+)
+LINK = re.compile(r'<a href="(?!https?:)([^"#]*)(#[^"]*)?"([^>]*)>(.*?)</a>', re.DOTALL)
+ANCHOR = re.compile(r'<a class="anchor-link".*?</a>', re.DOTALL)
+
+
+def reveal() -> Path:
+    """Find the folder of reveal.js in the installed package that ships it.
+
+    Raises
+    ------
+    MocapError : if it is not installed, or not where it was in the versions that we know.
+    """
+    found = find_spec("sphinx_revealjs")
+    folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else None
+    if folder is None or not all((folder / name).is_file() for name in NEEDED):
+        raise MocapError("Slides need reveal.js, which sphinx-revealjs ships: pip install 'mocap[slides]'.")
+    return folder
+
+
+def build_slides(
+    notebooks: Path,
+    out: Path,
+    progress: Callable[[Iterable[Path]], Iterable[Path]] = iter,
+    *,
+    moving: bool = False,
+) -> Path:
+    """Write a deck of slides for each notebook of a folder, and a page that lists them.
+
+    Parameters
+    ----------
+    notebooks : the course's folder.
+    out : the folder for the pages; reveal.js is copied into it.
+    progress : wraps the files while they are converted.
+    moving : run the notebooks, and record positions of each experiment's first control, as for the site.
+
+    Returns
+    -------
+    The page that lists the decks.
+
+    Raises
+    ------
+    MocapError : if what is needed is not installed, there are no notebooks, or one does not run.
+
+    Examples
+    --------
+    >>> build_slides(Path("nowhere"), Path("out"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder nowhere holds no notebooks.
+    """
+    files = sorted(notebooks.glob("*.ipynb"))
+    if not files:
+        raise MocapError(f"The folder {notebooks} holds no notebooks.")
+    source = reveal()
+    make_folder(out)
+    for name in NEEDED:
+        make_folder((out / "reveal" / name).parent)
+        shutil.copyfile(source / name, out / "reveal" / name)
+    titles = {}
+    for file in progress(files):
+        notebook = read(file)
+        titles[file.stem] = page_title(file.stem, notebook)
+        fill_in(notebook, recorded_of(file, notebook) if moving else {})
+        write_text(out / f"{file.stem}.html", page_of(titles[file.stem], notebook, {f.stem for f in files}))
+    write_text(out / "index.html", _list_of(titles))
+    return out / "index.html"
+
+
+def page_of(title: str, notebook: Any, names: Iterable[str]) -> str:  # noqa: ANN401
+    """Write the deck of a notebook as a page.
+
+    Parameters
+    ----------
+    title : of the page.
+    notebook : with its outputs.
+    names : of the notebooks that have a deck; links to anything else become plain text.
+    """
+    from pygments.formatters import HtmlFormatter
+
+    slides = deck_of(notebook)
+    parts = _converted(notebook, slides)
+    sections = [
+        _section(slide, count, parts["SLIDE", number], parts["NOTES", number])
+        for number, (count, slide) in enumerate(numbered(slides))
+    ]
+    body = LINK.sub(lambda link: _link(link, set(names)), ANCHOR.sub("", "\n".join(sections)))
+    code = HtmlFormatter(style="friendly").get_style_defs(".highlight")
+    return filled(PAGE, title, {"slides": body, "code": code})
+
+
+def _converted(notebook: Any, slides: list[Slide]) -> dict[tuple[str, int], str]:  # noqa: ANN401
+    """Convert the cells of all slides at once, and cut the HTML at the marks between them."""
+    from nbformat.v4 import new_markdown_cell, new_notebook
+
+    cells = []
+    for number, slide in enumerate(slides):
+        cells += [new_markdown_cell(f"SLIDE{number}."), *slide.cells]
+        cells += [new_markdown_cell(f"NOTES{number}."), new_markdown_cell("\n\n".join(slide.notes))]
+    for number, cell in enumerate(cells):
+        cell.id = f"part-{number}"
+    _, *pieces = MARKER.split(body_of(new_notebook(cells=cells, metadata=notebook.metadata)))
+    return {
+        (kind, int(number)): body
+        for kind, number, body in zip(*(pieces[n::3] for n in range(3)), strict=True)
+    }
+
+
+def _section(slide: Slide, count: int, body: str, notes: str) -> str:
+    """Write a slide; pictures and questions name the section that they stand in small letters."""
+    again = f" <small>{count}</small>" if count > 1 else ""
+    level = 1 if slide.kind == "title" else 2
+    word = {"prediction": "Predict", "answer": "Answer", "exercise": "Exercise"}.get(slide.kind)
+    label = f'<span class="kind">{word}</span> ' if word else ""
+    heading = f"<h{level}>{label}{html.escape(slide.heading)}{again}</h{level}>"
+    aside = f'<aside class="notes">{notes}</aside>' if re.sub(r"<[^>]*>|\s", "", notes) else ""
+    return f'<section class="{slide.kind}">{heading}\n<div class="inner">{body}</div>{aside}</section>'
+
+
+def _link(found: re.Match[str], names: set[str]) -> str:
+    """Keep links to other decks, and the words of links to pages that are no slides."""
+    if found[1].removesuffix(".html") in names:
+        return f'<a href="{found[1]}"{found[3]}>{found[4]}</a>'
+    return found[4]
+
+
+def _list_of(titles: dict[str, str]) -> str:
+    rows = "\n".join(
+        f'<li><a href="{name}.html">{html.escape(said)}</a></li>' for name, said in titles.items()
+    )
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width">'
+        "<title>Slides · mocap</title><style>body{font:18px/1.6 system-ui,sans-serif;max-width:46rem;"
+        "margin:2rem auto;padding:0 1rem}</style>\n<h1>Slides</h1>\n<p>Arrows or Space go on, S opens the "
+        f"notes for the speaker, O shows all slides, F fills the screen.</p>\n<ul>\n{rows}\n</ul></html>\n"
+    )

@@ -1,0 +1,238 @@
+"""The best cycle in a clip, closed: a stride that walks for ever.
+
+The pair of frames with the smallest seam is the wrong one: it lies where the body hardly moves, and the cycle
+is a held pose. So a cycle is judged by two lengths in metres: how far apart its ends are, and how far the
+other frames of the clip are from the nearest of its own, on average. The average counts a frame by how far
+the body moves there, so that a clip of somebody who mostly stands still gives a step, too. The second length
+is large for a held pose, and for half a stride. Method and measure are ours.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from mocap.blending.inertialization import inertialize
+from mocap.blending.joining import join
+from mocap.body import rotations
+from mocap.body.motion import Motion, resample
+from mocap.body.planar import PlanarTransform, heading, lay_on
+from mocap.editing.looping import repeated
+from mocap.editing.path_editing import plants_kept
+from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.feet.footplants import mark_plants
+from mocap.feet.footskate import clean_up
+from mocap.matching.distance_grids import Floats, distance_grid
+from mocap.matching.point_clouds import point_cloud
+
+COARSE = 30.0  # frames per second at which the whole clip is searched
+LONGEST = 300.0  # seconds of a clip: the grid of all its windows takes 0.3 GB
+ROWS = 600  # frames of the clip, evenly chosen, that a cycle may cover
+MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no more than these
+ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
+MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
+SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
+
+Way = Literal["blend", "inertialize"]
+WAYS: dict[str, Callable[..., Motion]] = {"blend": join, "inertialize": inertialize}
+
+
+class Loop(NamedTuple):
+    """A cycle found in a clip.
+
+    Parameters
+    ----------
+    first, last : its frames in the clip; the pose at `last` is nearly that at `first`.
+    seam : how far apart they are, RMS over the points of a window, metres.
+    missed : how far another frame of the clip is from the nearest one of the cycle, on average over the
+        motion of the clip, metres.
+    """
+
+    first: int
+    last: int
+    seam: float
+    missed: float
+
+
+def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> Loop:
+    """Find the cycle with the smallest sum of `seam` and `missed`; of all within a tenth of it, the shortest.
+
+    Parameters
+    ----------
+    motion : F frames.
+    seconds : the shortest and the longest cycle, no shorter than the seam of 0.2 s.
+
+    Raises
+    ------
+    MocapError : for a clip that has no room for such a cycle and its seam, or lasts more than five minutes,
+        and for bounds in a wrong order.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> found = find_loop(sample("walk_straight"))
+    >>> round((found.last - found.first) / 120, 1), found.seam < 0.02
+    (1.2, True)
+
+    Notebook: 10-real-data
+    """
+    slow = resample(motion, COARSE) if motion.fps > COARSE else motion
+    least, most = _lengths(motion, slow.fps, seconds)
+    window = max(2, round(SEAM * slow.fps))
+    if slow.duration > LONGEST:
+        raise MocapError(
+            f"'{shortened(motion.name)}' lasts {slow.duration:.0f} s: "
+            f"look for a cycle in {LONGEST:g} s of it."
+        )
+    most = min(most, len(slow) - window)
+    if least > most:
+        wanted = f"{seconds[0] + SEAM:g} s"
+        raise MocapError(
+            f"'{shortened(motion.name)}' lasts {motion.duration:.2g} s: a cycle takes {wanted} or more."
+        )
+    points = point_cloud(slow)
+    points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
+    grid = distance_grid(points, points, window=window)
+    np.sqrt(np.maximum(grid, 0.0, out=grid), out=grid)
+    first, length, missed = _best(grid, least, most)
+    ends = (first / slow.fps, (first + length) / slow.fps)
+    return _refined(motion, ends, seconds[0], missed)
+
+
+def _lengths(motion: Motion, fps: float, seconds: tuple[float, float]) -> tuple[int, int]:
+    """Turn the bounds of a cycle into frames."""
+    if not SEAM <= seconds[0] <= seconds[1] < np.inf:
+        raise MocapError(
+            f"A cycle lasts from one number of seconds to a larger one, {SEAM:g} or more; got {seconds}."
+        )
+    return max(2, round(seconds[0] * fps)), round(seconds[1] * fps)
+
+
+def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
+    """Find the first frame and the length of the best cycle, and what it misses."""
+    count = len(grid)
+    chosen = np.unique(np.linspace(0, count - 1, min(count, ROWS)).astype(int))
+    moved = np.append(np.diagonal(grid, 1), 0.0)[chosen]  # how far the body moves from each to the next frame
+    moved = np.minimum(moved, np.percentile(moved, MOSTLY)) + 1e-9
+    share = moved / moved.sum()
+    before = np.concatenate([[0.0], np.cumsum(np.bincount(chosen, share, count))])
+    rows = grid[chosen]
+    nearest = rows.copy()  # [f, i]: from frame f to the nearest of the cycle that starts at i
+    found = []
+    for length in range(1, most + 1):
+        starts = count - length
+        if length >= least:
+            outside = 1 - (before[length:-1] - before[:starts])
+            missed = share @ nearest[:, :starts] / np.maximum(outside, 1e-9)
+            costs = np.diagonal(grid, length) + missed
+            start = int(costs.argmin())
+            found.append((float(costs[start]), start, length, float(missed[start])))
+        np.minimum(nearest[:, :starts], rows[:, length:], out=nearest[:, :starts])
+    enough = ENOUGH * min(cost for cost, *_ in found)
+    return next(row[1:] for row in found if row[0] <= enough)
+
+
+def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed: float) -> Loop:
+    """Move both ends by less than a coarse frame to where they are closest."""
+    window, reach = max(2, round(SEAM * motion.fps)), int(np.ceil(motion.fps / COARSE))
+    around = []
+    for time in ends:
+        middle = min(round(time * motion.fps), len(motion) - window - 1)  # a frame must follow the window
+        around.append(range(max(0, middle - reach), min(middle + reach, len(motion) - window - 1) + 1))
+    parts = [motion[places[0] : places[-1] + window] for places in around]
+    grid = distance_grid(*parts, window=window)
+    grid[np.subtract.outer(*around) > -shortest * motion.fps] = np.inf
+    i, j = np.unravel_index(int(grid.argmin()), grid.shape)
+    return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
+
+
+def loop(
+    motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = False, clean: bool = False
+) -> Motion:
+    """Cut a cycle out of a clip and close it.
+
+    What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
+    graph does. So the cycle starts that much later than `found.first`, and no frame is invented.
+
+    Parameters
+    ----------
+    motion : F frames.
+    found : from `find_loop`, or frames of your own choice.
+    way : "blend", or "inertialize", which plays nothing from after the cycle but an offset that fades.
+    straight : whether to take out the turn of one round, evenly, so that the cycle goes on straight ahead.
+        Feet that stand are then turned with the body.
+    clean : whether to mark the plants anew and remove footskate, as it would be in the midst of many rounds.
+
+    Returns
+    -------
+    last - first + 1 frames. The last one is the first one, moved over the ground; `editing.repeated` lays one
+    round behind the other.
+
+    Raises
+    ------
+    MocapError : for frames that leave no room for the seam, another way, and with `clean` for legs that are
+        not found.
+
+    Warns
+    -----
+    MocapWarning : for plants of the cycle that are let go.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[120:600]
+    >>> round_ = loop(walk, find_loop(walk), straight=True)
+    >>> turn = heading(round_.rotations[[0, -1], 0])
+    >>> bool(abs(turn[1] - turn[0]) < 1e-9)
+    True
+
+    Notebook: 10-real-data
+    """
+    if way not in WAYS:
+        raise MocapError(f"A cycle is closed by one of {', '.join(WAYS)}, not by '{way}'.")
+    window = max(2, round(SEAM * motion.fps))
+    if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
+        raise MocapError(
+            f"A cycle from frame {found.first} to {found.last} leaves no room for a seam of {window} frames "
+            f"in '{shortened(motion.name, 60)}', which has {len(motion)}."
+        )
+    joined = WAYS[way](motion, found.last, motion, found.first, window)
+    cycle = joined[found.first + window : found.last + window + 1]
+    cycle = replace(cycle, name=f"{motion.name}_loop")
+    cycle = _straightened(cycle) if straight else cycle
+    return _cleaned(cycle) if clean else cycle
+
+
+def _straightened(cycle: Motion) -> Motion:
+    """Turn each step a little more than the one before, until both ends face the same way."""
+    facing = np.unwrap(heading(cycle.rotations[:, 0]))
+    back = -(facing[-1] - facing[0]) * np.linspace(0, 1, len(cycle))
+    middle = (back[1:] + back[:-1]) / 2
+    steps = PlanarTransform(middle, 0.0, 0.0).apply_points(np.diff(cycle.root_positions, axis=0))
+    roots = cycle.root_positions[:1] + np.concatenate([np.zeros((1, 3)), np.cumsum(steps, axis=0)])
+    local = cycle.rotations.copy()
+    local[:, 0] = rotations.multiply(rotations.about_y(back), local[:, 0])
+    return replace(cycle, root_positions=roots, rotations=local)
+
+
+def _cleaned(cycle: Motion) -> Motion:
+    """Clean up many rounds, of which the middle one has neighbours as far as any correction reaches."""
+    around = int(np.ceil(MARGIN / cycle.duration))
+    rounds = mark_plants(repeated(replace(cycle, contacts={}), 2 * around + 1))
+    start = around * (len(cycle) - 1)
+    middle = slice(start, start + len(cycle))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # of frames in all rounds
+        cleaned = clean_up(rounds)[middle]
+    if (kept := plants_kept(cleaned, rounds[middle])) < 1:
+        warnings.warn(
+            f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go: to hold them would "
+            "move the root by more than 2 cm, stretch a leg or jolt a knee.",
+            MocapWarning,
+            stacklevel=3,
+        )
+    return lay_on(cleaned, cycle).apply_motion(cleaned)

@@ -1,0 +1,300 @@
+"""BVH files: a hierarchy of joints, and the numbers of their channels in every frame.
+
+Position channels replace a joint's offset. Rotation channels turn about the joint's own axes in the order
+given: Zrotation Xrotation Yrotation is R = Rz Rx Ry. A file has no unit: it is `scale` metres, by default a
+centimetre. `bvh_hierarchy` says how joints are named.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterable
+from dataclasses import replace
+from decimal import Decimal
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap._shared.atomic import replacing
+from mocap.body import euler, rotations
+from mocap.body.motion import Motion, turning
+from mocap.body.skeleton import Skeleton
+from mocap.errors import FormatError, MocapError, MocapWarning, shortened
+from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
+from mocap.files.rigid_bones import STRETCH, fit
+from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers, wrong_number
+
+STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
+SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
+TIMES = re.compile(
+    r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
+)
+
+
+class Channels(NamedTuple):
+    """The contents of a BVH file: its joints, the numbers of all channels (F, channels), the frame rate."""
+
+    joints: list[Joint]
+    values: Array
+    fps: float
+
+
+def read(
+    path: str | Path, *, scale: float = 0.01, fps: float | None = None, stretch: float = STRETCH
+) -> Motion:
+    """Read a BVH file.
+
+    Position channels below the root are allowed. Where they move, and no bone's length changes by more than
+    `stretch`, the bones are fitted to rigid ones: see `rigid_bones`. If the root has only one child, and that
+    child moves (some files have a reference point above the hips), both become one joint, named as the child.
+
+    Parameters
+    ----------
+    path : the file.
+    scale : metres in one unit of the file.
+    fps : frames per second; by default from the frame time, a whole number where its digits allow it.
+    stretch : metres by which a bone's length may change.
+
+    Returns
+    -------
+    The motion, named after the file.
+
+    Raises
+    ------
+    FormatError : with the line that breaks the format.
+
+    Warns
+    -----
+    MocapWarning : where bones were fitted, with how much they stretch, and how far joints moved.
+    """
+    joints, places, local, rate = _read_poses(path, scale, fps)
+    offsets, local = _rigid(path, joints, (places, local), stretch)
+    names, parents = [joint.name for joint in joints], np.array([joint.parent for joint in joints])
+    skeleton = Skeleton(names, parents, offsets, dofs=[_turns(joint)[::-1] for joint in joints])
+    return Motion(skeleton, places[:, 0], local, rate, Path(path).stem)
+
+
+def bone_stretch(path: str | Path, *, scale: float = 0.01) -> dict[str, float]:
+    """Measure by how much each joint's bone, from its parent to it, changes its length, metres."""
+    joints, places, *_ = _read_poses(path, scale, 1.0)
+    changes = np.ptp(np.linalg.norm(places[:, 1:], axis=-1), axis=0)
+    return {joint.name: float(change) for joint, change in zip(joints[1:], changes, strict=True)}
+
+
+def _read_poses(path: str | Path, scale: float, fps: float | None) -> tuple[list[Joint], Array, Array, float]:
+    """Read joints, their places below their parents (F, J, 3), metres, rotations (F, J, 4), and the rate."""
+    joints, values, rate = read_channels(path, fps=fps)
+    places, local = _poses(joints, values)
+    if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
+        joints, places, local = _without_reference(joints, places, local)
+    return joints, scale * places, local, rate
+
+
+def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
+    """Read the contents of a BVH file; `fps` replaces its frame time."""
+    text = read_text(path)
+    start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
+    if start is None:
+        raise FormatError(path, None, "a line 'MOTION'", "none")
+    joints = read_hierarchy(path, text[: start.start()])
+    times = TIMES.match(text, start.end())
+    if times is None:
+        line = text.count("\n", 0, start.end()) + 2
+        got = f"'{' '.join(text[start.end() :][:200].split()[:4])}'"
+        raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
+    channels = [f"the {name} of '{joint.name}'" for joint in joints for name in joint.channels]
+    values = _values(path, text, times, channels)
+    check_room(path, len(values) * len(joints), values.size)
+    return Channels(joints, values, fps or _rate(path, text, times))
+
+
+def read_angles(path: str | Path) -> dict[str, Array]:
+    """Give each joint's angles, shape (F, rotation channels), in degrees, as they are in the file."""
+    joints, values, _ = read_channels(path, fps=1.0)
+    found, column = {}, 0
+    for joint in joints:
+        turns = [column + place for place, name in enumerate(joint.channels) if name in ROTATIONS]
+        found[joint.name] = values[:, turns]
+        column += len(joint.channels)
+    return found
+
+
+def _values(path: str | Path, text: str, times: re.Match[str], channels: list[str]) -> Array:
+    """Read the frames (F, channels); `times` is the match with their count."""
+    width = len(channels)
+    line = text.count("\n", 0, times.start(1)) + 1
+    count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
+    if count < 1 or width == 0:
+        raise FormatError(path, line, "one frame or more", f"{times[1]}, of {width} channels")
+    words = text[times.end() :].split()
+    if len(words) == count * width:
+        try:
+            values = np.array(words, float)
+        except ValueError:
+            values = np.array([np.nan])
+        if np.all(np.abs(values) < LARGEST):
+            return values.reshape(-1, width)
+    found = _check_rows(path, text, times.end(), channels, len(words) == count * width)
+    raise FormatError(path, line, f"'Frames: {found}', as many as follow", f"'Frames: {times[1]}'")
+
+
+def _check_rows(path: str | Path, text: str, start: int, channels: list[str], wrapped: bool) -> int:
+    """Raise at the first wrong row, else count the frames; if `wrapped`, rows may have any length."""
+    width, before = len(channels), 0
+    for number, row in enumerate(text[start:].split("\n"), text.count("\n", 0, start) + 1):
+        words = row.split()
+        if (wrapped or len(words) == width) and (place := wrong_number(words)) >= 0:
+            frame, channel = divmod(before + place, width)
+            expected = f"a number below {LARGEST:g} for {channels[channel]} in frame {frame + 1}"
+            raise FormatError(path, number, expected, f"'{shortened(words[place], 40)}'")
+        if words and not wrapped:
+            expected = f"{width} numbers after {before // width} complete frames"
+            to_numbers(path, number, words, expected, width)
+        before += len(words)
+    return before // width
+
+
+def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
+    """Read the frame rate; a whole number where the frame time is 1 / that number, rounded or cut off."""
+    line = text.count("\n", 0, times.start(2)) + 1
+    seconds = float(to_numbers(path, line, [times[2]], "seconds", 1)[0])
+    if not SHORTEST <= seconds <= LONGEST:
+        raise FormatError(path, line, f"a frame time from {SHORTEST:g} to {LONGEST:g} s", times[2])
+    last_digit = 10.0 ** int(Decimal(times[2]).as_tuple().exponent)
+    whole = max(1, round(1 / seconds))
+    return float(whole) if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12) else 1 / seconds
+
+
+def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
+    """Sort the channels into places below the parent (F, J, 3), in file units, and rotations (F, J, 4)."""
+    places = np.tile(np.array([joint.offset for joint in joints]), (len(values), 1, 1))
+    local = np.tile(rotations.IDENTITY, (len(values), len(joints), 1))
+    column = 0
+    for index, joint in enumerate(joints):
+        block = values[:, column : column + len(joint.channels)]
+        column += len(joint.channels)
+        for channel, numbers in zip(joint.channels, block.T, strict=True):
+            if channel in POSITIONS:
+                places[:, index, POSITIONS.index(channel)] = numbers
+        turning = [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
+        if turning:
+            order = _turns(joint).upper()
+            local[:, index] = euler.from_euler(order, np.radians(block[:, turning]))
+    return places, local
+
+
+def _turns(joint: Joint) -> str:
+    """Name the axes of a joint's rotation channels, in their order."""
+    return "".join(channel[0] for channel in joint.channels if channel in ROTATIONS)
+
+
+def _rigid(
+    path: str | Path, joints: list[Joint], poses: tuple[Array, Array], most: float
+) -> tuple[Array, Array]:
+    """Give the offsets of rigid bones (J, 3) and rotations (F, J, 4); bones may stretch by `most` metres."""
+    places, local = poses
+    moving = [j for j in range(1, len(joints)) if _moves(places[:, j], 1.0)]
+    if not moving:
+        return np.vstack([np.zeros((1, 3)), places[0, 1:]]), local
+    rigid = fit(np.array([joint.parent for joint in joints]), places, local)
+    worst = int(rigid.stretch.argmax())
+    if not rigid.close(most):
+        far, mover = max((float(np.ptp(places[:, j], axis=0).max()), j) for j in moving)
+        expected = f"'{joints[mover].name}' in one place below its parent, but for {most:g} m"
+        raise FormatError(path, joints[mover].line, expected, f"one that moves by {far:.2g} m")
+    warnings.warn(
+        f"{path}: bones change length by up to {1000 * rigid.stretch[worst]:.2g} mm "
+        f"({shortened(joints[worst].name, 40)}); fitted to rigid bones, joints lie up to "
+        f"{1000 * rigid.apart.max():.2g} mm from their places in the file.",
+        MocapWarning,
+        stacklevel=5,
+    )
+    return rigid.offsets, rigid.rotations
+
+
+def _moves(place: Array, scale: float) -> bool:
+    return bool(np.ptp(place, axis=0).max() * scale > STILL)
+
+
+def _without_reference(joints: list[Joint], places: Array, local: Array) -> tuple[list[Joint], Array, Array]:
+    """Put the only child in the root's place: p = p_root + R_root p_child, R = R_root R_child."""
+    places, local = places.copy(), local.copy()
+    places[:, 1] = places[:, 0] + rotations.rotate(local[:, 0], places[:, 1])
+    local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
+    kept = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
+    return kept, places[:, 1:], local[:, 1:]
+
+
+def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: int = 6) -> None:
+    """Write a BVH file.
+
+    Joints are written depth first. A leaf that never turns, and has the name that reading would give it,
+    becomes an End Site; any other leaf is a joint with an End Site of zero length. Of all equal angles the
+    nearest to those of the frame before are written, so every curve is continuous.
+
+    Parameters
+    ----------
+    motion : F frames.
+    path : the file; one that exists is replaced when the new one is whole.
+    scale : metres in one unit of the file.
+    precision : digits after the point; 6 keep joints to 1e-7 m in centimetres.
+
+    Raises
+    ------
+    MocapError : for a name or frame rate that a BVH file cannot hold, or a folder that cannot be written to.
+    """
+    write_pieces([motion], path, frames=len(motion), turns=turning(motion), printing=(scale, precision))
+
+
+def write_pieces(
+    pieces: Iterable[Motion],
+    path: str | Path,
+    *,
+    frames: int,
+    turns: NDArray[np.bool_],
+    printing: tuple[float, int] = (0.01, 6),
+) -> None:
+    """Write a BVH file of motions that follow one another, with only one of them in memory at a time.
+
+    Parameters
+    ----------
+    pieces : motions of one skeleton and rate, with `frames` frames together.
+    path : the file; it appears once it is whole.
+    frames : the count in the file's header.
+    turns : shape (J,), which joints ever turn, as by `body.turning`.
+    printing : the scale, and the digits after the point, as for `write`.
+    """
+    scale, precision = printing
+    before: Array | None = None
+    with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="\n") as file:
+        for motion in pieces:
+            if before is None:
+                header, order = _header(motion, frames, turns, printing)
+                file.write(header)
+            angles = euler.to_euler("ZXY", motion.rotations[:, order])
+            if before is not None:  # go on from the angles of the frame before
+                angles = np.concatenate([before, angles])
+            angles = euler.continuous("ZXY", angles)[-len(motion) :]
+            before = angles[-1:]
+            values = np.hstack([motion.root_positions / scale, np.degrees(angles).reshape(len(motion), -1)])
+            values = rounded(values, precision, motion.name)
+            row = " ".join([f"%.{precision}f"] * values.shape[1]) + "\n"
+            file.write((row * len(values)) % tuple(values.ravel().tolist()))
+
+
+def _header(
+    motion: Motion, frames: int, turns: NDArray[np.bool_], printing: tuple[float, int]
+) -> tuple[str, list[int]]:
+    """Write all that comes before the frames, and list the joints in the order of their channels."""
+    seconds = 1 / motion.fps
+    if not SHORTEST <= seconds <= LONGEST:
+        name = shortened(motion.name)
+        raise MocapError(f"'{name}' at {motion.fps:g} Hz does not fit a BVH file: resample it first.")
+    scale, precision = printing
+    offsets = np.round(motion.skeleton.offsets / scale, precision) + 0.0  # no -0.000000
+    hierarchy, order = write_hierarchy(motion.skeleton, offsets, turns, precision)
+    return f"{hierarchy}MOTION\nFrames: {frames}\nFrame Time: {seconds!r}\n", order

@@ -1,0 +1,149 @@
+"""A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
+
+The nodes stand at rest: no joint is turned, and the lowest is on the ground. Rotations are stored as shares
+of 32767 in 16 bits where that moves no joint by more than `CLOSE`, as glTF allows; where it would, those of
+the joints that carry most are stored as 32-bit floats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap._shared.atomic import replacing
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, turning
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError, shortened
+from mocap.files.gltf_binary import Block, to_glb
+from mocap.files.gltf_capsules import body, reaches, rest
+
+CLOSE = 5e-5  # metres that rounding may move a joint
+CARRIED = (np.inf, 0.5, 0.25, 0.0)  # metres: joints that carry more are not rounded; tried in this order
+VERTICES, CORNERS = 34962, 34963
+CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
+
+
+def write(motion: Motion, path: str | Path) -> None:
+    """Write a `.glb` file; one that exists is replaced when the new one is whole.
+
+    Parameters
+    ----------
+    motion : F frames. Joints keep their names; labels and contacts are left out.
+    path : the file.
+
+    Raises
+    ------
+    MocapError : for more bytes than the format can count, frames too short for its clock, or a folder that
+        cannot be written to.
+    """
+    data = glb(motion)
+    with replacing(path) as beside:
+        beside.write_bytes(data)
+
+
+def glb(motion: Motion) -> bytes:
+    """Build the bytes of the file.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> len(glb(sample("walk_straight"))) < 500_000
+    True
+    """
+    skeleton, block = motion.skeleton, Block()
+    joints = len(skeleton)
+    document = {
+        "asset": {"version": "2.0", "generator": "mocap"},
+        "scene": 0,
+        "scenes": [{"name": motion.name, "nodes": [0, joints]}],
+        "nodes": [*_nodes(skeleton), {"name": "body", "mesh": 0, "skin": 0}],
+        "skins": [_skin(skeleton, block)],
+        "materials": [{"name": "clay", "pbrMetallicRoughness": CLAY}],
+        "meshes": [_mesh(skeleton, block)],
+        "animations": [_animation(motion, block)],
+    }
+    return to_glb(document, block)
+
+
+def _nodes(skeleton: Skeleton) -> list[dict[str, Any]]:
+    places = skeleton.offsets.copy()
+    places[0] = [0.0, -rest(skeleton)[:, 1].min(), 0.0]
+    nodes: list[dict[str, Any]] = []
+    for joint, name in enumerate(skeleton.names):
+        node: dict[str, Any] = {"name": name, "translation": (places[joint] + 0.0).tolist()}
+        nodes.append(node | ({"children": below} if (below := skeleton.children(joint)) else {}))
+    return nodes
+
+
+def _skin(skeleton: Skeleton, block: Block) -> dict[str, Any]:
+    """Bind the body where the joints are at rest: each matrix moves a joint back to the origin."""
+    matrices = np.tile(np.eye(4, dtype=np.float32), (len(skeleton), 1, 1))
+    matrices[:, 3, :3] = -rest(skeleton)  # by columns
+    return {
+        "inverseBindMatrices": block.add(matrices.reshape(-1, 16)),
+        "joints": list(range(len(skeleton))),
+        "skeleton": 0,
+    }
+
+
+def _mesh(skeleton: Skeleton, block: Block) -> dict[str, Any]:
+    shape = body(skeleton)
+    counted = np.uint16 if len(shape.places) < 2**16 - 1 else np.uint32  # the largest number is kept free
+    carried = np.zeros((len(shape.places), 4), np.uint16)
+    carried[:, 0] = shape.joints
+    weights = np.zeros((len(shape.places), 4), np.uint8)
+    weights[:, 0] = 255  # the whole of it
+    attributes = {
+        "POSITION": block.add(shape.places.astype(np.float32), bounds=True, target=VERTICES),
+        "NORMAL": block.add(shape.normals.astype(np.float32), target=VERTICES),
+        "JOINTS_0": block.add(carried, target=VERTICES),
+        "WEIGHTS_0": block.add(weights, target=VERTICES),
+    }
+    corners = block.add(shape.corners.ravel().astype(counted), target=CORNERS)
+    return {"name": "body", "primitives": [{"attributes": attributes, "indices": corners, "material": 0}]}
+
+
+def _animation(motion: Motion, block: Block) -> dict[str, Any]:
+    times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
+    if np.any(np.diff(times) <= 0):
+        raise MocapError(
+            f"'{shortened(motion.name)}' at {motion.fps:g} Hz is too fast for a .glb: resample it."
+        )
+    clock = block.add(times, bounds=True)
+    samplers = [{"input": clock, "output": block.add(motion.root_positions.astype(np.float32))}]
+    channels = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
+    for joint, turns in _rounded(motion).items():
+        channels.append({"sampler": len(samplers), "target": {"node": joint, "path": "rotation"}})
+        samplers.append({"input": clock, "output": block.add(turns)})
+    return {"name": motion.name, "samplers": samplers, "channels": channels}
+
+
+def _rounded(motion: Motion) -> dict[int, NDArray[Any]]:
+    """Give the rotations (F, 4), as (x, y, z, w), of each joint that turns, in 16 or 32 bits."""
+    turns = _steady(motion.rotations)
+    stored = np.round(turns * 32767).astype(np.int16)
+    read = stored / np.linalg.norm(stored, axis=-1, keepdims=True)
+    exact, carries = joint_positions(motion), reaches(motion.skeleton)
+    for most in CARRIED:
+        whole = carries > most
+        seen = replace(motion, rotations=np.where(whole[:, None], turns, read))
+        if np.abs(joint_positions(seen) - exact).max() <= CLOSE:
+            break
+    order = [1, 2, 3, 0]
+    return {
+        int(joint): turns[:, joint, order].astype(np.float32) if whole[joint] else stored[:, joint, order]
+        for joint in np.flatnonzero(turning(motion))
+    }
+
+
+def _steady(quaternions: Array) -> Array:
+    """Choose between q and -q, the same rotation, so that no curve jumps."""
+    jumps = (quaternions[1:] * quaternions[:-1]).sum(-1) < 0
+    signs = np.cumprod(np.where(jumps, -1.0, 1.0), axis=0)
+    return np.concatenate([quaternions[:1], quaternions[1:] * signs[..., None]])

@@ -1,0 +1,234 @@
+"""Group motion graphs: nodes are configurations, and clips of the whole group join them [LCF05]."""
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Points
+from mocap.errors import MocapError, MocapWarning
+from mocap.methods.groups.clustering import cluster
+from mocap.methods.groups.configurations import Configuration, seen_from_itself
+from mocap.methods.groups.flocking import Flock, Trajectories, Whims, simulate
+from mocap.methods.groups.group_clips import BENDS, HARDEST, Drawn, GroupClip, clips_from, run_from
+
+
+@dataclass(frozen=True, eq=False)
+class GroupGraph:
+    """Configurations of N members as nodes, and clips that lead from one to another.
+
+    Examples
+    --------
+    >>> graph = build_group(4, nodes=3, simulated=60.0, reach=0.4)
+    >>> graph.members, len(graph.nodes), {clip.start for clip in graph.clips} == {0, 1, 2}
+    (4, 3, True)
+    """
+
+    nodes: tuple[Configuration, ...]
+    clips: tuple[GroupClip, ...]
+    drawn: Drawn
+
+    @property
+    def members(self) -> int:
+        """How many walk."""
+        return int(self.nodes[0].places.shape[-1])
+
+    def leaving(self, node: int) -> list[int]:
+        """List the numbers of the clips that leave a node."""
+        return [number for number, clip in enumerate(self.clips) if clip.start == node]
+
+    def check(self, start: "Placed") -> None:
+        """Raise MocapError for a start at no node, nowhere, or by something else than a turn."""
+        if not 0 <= start.node < len(self.nodes):
+            raise MocapError(f"There is no node {start.node}: this graph has {len(self.nodes)}.")
+        if not (np.isfinite(start.move) and abs(abs(start.turn) - 1) < 1e-6):
+            raise MocapError(f"A group starts at a finite place, by a turn of length 1; got {start[1:]}.")
+
+
+class Placed(NamedTuple):
+    """Where a group stands before its next clip: its node, and how the node lies on the ground.
+
+    Examples
+    --------
+    >>> Placed(0).turn
+    (1+0j)
+    """
+
+    node: int
+    turn: complex = 1 + 0j
+    move: complex = 0j
+
+    def sees(self, spots: Points) -> Points:
+        """Say where spots of the ground lie as the group sees them."""
+        return (spots - self.move) / self.turn
+
+
+def make_clips(
+    nodes: Sequence[Configuration],
+    *,
+    rules: Flock | None = None,
+    bends: Sequence[float] = BENDS,
+    seeds: int = 6,
+    seed: int = 0,
+) -> GroupGraph:
+    """Join nodes by clips of four seconds, one for each ordered pair and each bend [ours, after LCF05].
+
+    Parameters
+    ----------
+    nodes : configurations, each seen from itself.
+    rules : of the simulation.
+    bends : radians by which runs turn.
+    seeds : runs for each node and bend, among which each goal has its choice.
+    seed : of their whims.
+
+    Returns
+    -------
+    The graph of clips without collisions and without accelerations above 2.2 m/s².
+
+    Raises
+    ------
+    MocapError : for no nodes, bends or seeds; for a node that stands; where no clip is kept, with how many
+        collide and how many are too hard.
+
+    Warns
+    -----
+    MocapWarning : for pairs of nodes that no clip joins.
+
+    Notebook: 19-group-graphs
+    """
+    if not (len(nodes) and len(bends) and np.isfinite(bends).all() and seeds >= 1):
+        raise MocapError(
+            "Clips take a node, a bend and a seed or more, and finite bends; got "
+            f"{len(nodes)} nodes, bends {list(bends)} and {seeds} seeds."[:140]
+        )
+    for node in nodes:
+        seen_from_itself(node)  # refuses who stands
+    rules, random = rules or Flock(), np.random.default_rng(seed)
+    rules.check()
+    members = nodes[0].places.shape[-1]
+    made = [
+        one
+        for start, node in enumerate(nodes)
+        for bend in bends
+        for one in clips_from(start, nodes, run_from(node, bend, Whims((seeds, members), rules, random)))
+    ]
+    facts = zip(*(about for _, about in made), strict=True)
+    bent, before, after, hardest = (np.array(column) for column in facts)
+    drawn = Drawn(bent, np.stack([before, after], axis=-1), hardest)
+    clips = tuple(clip for clip, (_, _, collides, hard) in made if not collides and hard <= HARDEST)
+    if not clips:
+        raise MocapError(
+            f"None of {len(made)} clips can be kept: in {int(after.sum())} members collide, "
+            f"{int((hardest > HARDEST).sum())} need more than {HARDEST:g} m/s²."
+        )
+    if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
+        said = f"No clip joins {missing} of {len(nodes) ** 2} pairs of nodes."
+        warnings.warn(said, MocapWarning, stacklevel=2)
+    return GroupGraph(tuple(nodes), clips, drawn)
+
+
+def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which rules)
+    members: int,
+    *,
+    nodes: int = 8,
+    simulated: float = 300.0,
+    reach: float = 0.5,
+    rules: Flock | None = None,
+    seed: int = 0,
+) -> GroupGraph:
+    """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05, graph].
+
+    Parameters
+    ----------
+    members : from 2 on.
+    nodes, reach : as for `cluster`.
+    simulated : seconds of flocking to take the nodes from.
+    rules, seed : as for `simulate`.
+
+    Raises
+    ------
+    MocapError : as `simulate`, `cluster` and `make_clips`.
+
+    Warns
+    -----
+    MocapWarning : as `cluster` and `make_clips`.
+
+    Examples
+    --------
+    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> sorted({(clip.start, clip.end) for clip in graph.clips})
+    [(0, 0), (0, 1), (1, 0), (1, 1)]
+    """
+    flock = simulate(members, simulated, rules=rules, seed=seed)
+    return make_clips(cluster(flock, nodes=nodes, reach=reach).nodes, rules=rules, seed=seed)
+
+
+def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: int = 0) -> list[int]:
+    """Wander through the graph: the numbers of clips, each chosen evenly among those that leave its node.
+
+    Examples
+    --------
+    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> len(random_group_walk(graph, 5))
+    5
+
+    Notebook: 19-group-graphs
+    """
+    random, node, walk = np.random.default_rng(seed), start, []
+    for _ in range(clips):
+        if not (leaving := graph.leaving(node)):
+            raise MocapError(f"No clip leaves node {node}.")
+        walk.append(int(random.choice(leaving)))
+        node = graph.clips[walk[-1]].end
+    return walk
+
+
+def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = None) -> Trajectories:
+    """Put clips in a row: where every member goes, one column for each from start to end.
+
+    Places, turns *and the members' numbers* multiply up: the member in slot s of a clip's start goes on in
+    slot `order[s]` of the next. Without this members would jump by metres at each seam.
+
+    Parameters
+    ----------
+    graph : whose clips.
+    walk : numbers of clips, each leaving the node where the one before ends.
+    start : where the first configuration lies; as it is seen by itself by default.
+
+    Raises
+    ------
+    MocapError : for no clips, a number that no clip has, clips that do not follow one another, and a start
+        that makes no sense.
+
+    Examples
+    --------
+    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> play_group(graph, random_group_walk(graph, 5)).places.shape
+    (201, 3)
+
+    Notebook: 19-group-graphs
+    """
+    if not len(walk):
+        raise MocapError("A walk of a group has one clip or more, got none.")
+    if wrong := [number for number in walk if not 0 <= number < len(graph.clips)]:
+        raise MocapError(f"There is no clip {wrong[0]}: this graph has {len(graph.clips)}.")
+    clips = [graph.clips[number] for number in walk]
+    for before, after in pairwise(clips):
+        if before.end != after.start:
+            raise MocapError(f"A clip to node {before.end} is followed by one that leaves {after.start}.")
+    node, turn, move = start = start or Placed(clips[0].start)
+    graph.check(start)
+    if node != clips[0].start:
+        raise MocapError(f"A walk from node {node} starts with a clip that leaves {clips[0].start}.")
+    order, places, velocities = np.arange(graph.members), [], []
+    for clip in clips:
+        places.append((turn * clip.places + move)[:, order])
+        velocities.append((turn * clip.velocities)[:, order])
+        order = clip.order[order]
+        turn, move = turn * clip.turn, turn * clip.move + move
+    ends: list[Points] = [places[-1][-1:], velocities[-1][-1:]]
+    rows = ([frames[:-1] for frames in part] for part in (places, velocities))
+    return Trajectories(*(np.concatenate([*row, end]) for row, end in zip(rows, ends, strict=True)))

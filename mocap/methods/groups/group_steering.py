@@ -1,0 +1,70 @@
+"""The same without a plan: a flock that steers to the next point and away from obstacles, to compare with.
+
+On open ground this is all one needs. In a pocket of obstacles it stays for ever.
+"""
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.errors import MocapError
+from mocap.methods.groups.configurations import Configuration
+from mocap.methods.groups.flocking import RATE, Flock, Trajectories, Whims, advance
+from mocap.methods.groups.scenes import Scene
+
+
+def steer_group(
+    start: Configuration,
+    scene: Scene,
+    *,
+    rules: Flock | None = None,
+    seed: int = 0,
+    limit: float = 120.0,
+) -> tuple[Trajectories, int]:
+    """Simulate a flock that steers to each point in turn and away from discs [Rey87].
+
+    Parameters
+    ----------
+    start : where its members are and how they move.
+    scene : where to go.
+    rules, seed : as for `simulate`.
+    limit : seconds after which it ends.
+
+    Returns
+    -------
+    Where the members go, and how many points they passed.
+
+    Examples
+    --------
+    >>> start = Configuration(np.array([0j, 1j, -1j]), np.ones(3, complex))
+    >>> flock, passed = steer_group(start, Scene((5 + 0j,)), limit=20.0)
+    >>> passed
+    1
+
+    Notebook: 19-group-graphs
+    """
+    scene.check(complex(start.places.mean()))
+    rules = rules or Flock()
+    rules.check()
+    if not 0 < limit < np.inf:  # in a pocket it would steer for ever
+        raise MocapError(f"A flock is steered for more than 0 seconds and not for ever, got {limit}.")
+    now, goal = Trajectories(*start), 0
+    whims, frames = Whims(start.places.shape, rules, np.random.default_rng(seed)), [now]
+    while goal < len(scene.points) and len(frames) <= limit * RATE:
+        ahead = scene.points[goal] - now.places.mean()
+        now = advance(now, np.exp(1j * np.angle(ahead)) * whims.drift(), rules, scene.discs)
+        frames.append(now)
+        goal += bool(abs(now.places.mean() - scene.points[goal]) < scene.near)
+    return Trajectories(*(np.array(part) for part in zip(*frames, strict=True))), goal
+
+
+def clearances(flock: Trajectories, scene: Scene) -> Array:
+    """Measure how far the nearest member comes from each disc's rim, metres; below 0 inside it.
+
+    Examples
+    --------
+    >>> clearances(Trajectories(np.array([[0j, 3j]]), np.zeros((1, 2))), Scene((1j,), ((5j, 1.0),)))
+    array([1.])
+
+    Notebook: 19-group-graphs
+    """
+    return np.array([np.abs(flock.places - centre).min() - radius for centre, radius in scene.discs])

@@ -1,0 +1,217 @@
+"""The match web of a set of clips: all long paths of frames that are alike, found once and kept."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.arrays import Array, Indices, Mask, frozen
+from mocap._shared.progress import Progress
+from mocap.body.motion import Motion, require_alike, resample
+from mocap.errors import MocapError, MocapWarning
+from mocap.matching.distance_grids import check_window
+from mocap.matching.lower_bound import Weights
+from mocap.matching.point_clouds import distinct_joints, unit_weights
+from mocap.matching.transitions import join_clouds
+from mocap.methods.match_webs.grid_pieces import Grid, Limits
+
+OVERLAP = 10.0  # seconds that two parts of a long clip share: no query is longer
+
+
+class PathShape(NamedTuple):
+    """Which paths a web holds.
+
+    slope : frames of one clip at most in a row that lie on one frame of the other.
+    least : seconds that a path advances in each clip.
+    off_minimum : by how much a cell that is no one-dimensional minimum costs more, in units of `below`.
+    near : seconds; a path of which more than half lies so close to a better one is left out.
+    """
+
+    slope: int = 2
+    least: float = 0.3
+    off_minimum: float = 0.5
+    near: float = 0.1
+
+
+SHAPE = PathShape()
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MatchWeb:
+    """All long paths of frames that are alike in a set of clips.
+
+    Parameters
+    ----------
+    clips : the motions, each at its own rate.
+    starts : shape (C + 1,): where each clip's frames begin, at the web's rate, in the numbering of all.
+    rate, window, below, shape : how it was built, as for `build_web`.
+    cells : shape (N, 2): pairs of frames in the numbering of all, path after path, the earlier frame first.
+        A pair is the middle of two windows.
+    costs : shape (N,), the RMS distance of each pair of windows, metres.
+    offsets : shape (P + 1,): where each path begins in `cells`.
+    """
+
+    clips: tuple[Motion, ...]
+    starts: Indices
+    rate: float
+    window: int
+    below: float
+    shape: PathShape
+    cells: NDArray[np.integer[Any]]
+    costs: NDArray[np.floating[Any]]
+    offsets: Indices
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "starts", frozen(self.starts, np.intp))
+        object.__setattr__(self, "cells", frozen(self.cells, np.int32))
+        object.__setattr__(self, "costs", frozen(self.costs, np.float32))
+        object.__setattr__(self, "offsets", frozen(self.offsets, np.intp))
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __repr__(self) -> str:
+        return f"MatchWeb({len(self.clips)} clips, {len(self)} paths, below {100 * self.below:g} cm)"
+
+    @cached_property
+    def ends(self) -> tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]:
+        """The first and the last cell of each path, shape (P, 2) each."""
+        return self.cells[self.offsets[:-1]], self.cells[self.offsets[1:] - 1]
+
+    def path(
+        self, number: int | np.integer[Any]
+    ) -> tuple[NDArray[np.integer[Any]], NDArray[np.floating[Any]]]:
+        """Give the cells of a path, shape (K, 2), and their costs, shape (K,)."""
+        part = slice(self.offsets[number], self.offsets[number + 1])
+        return self.cells[part], self.costs[part]
+
+    def clip_at(self, frame: int) -> int:
+        """Say in which clip a frame of the numbering of all lies."""
+        return int(np.searchsorted(self.starts, frame, side="right")) - 1
+
+    def number(self, clip: int, frame: ArrayLike) -> Array:
+        """Give a clip's own frames in the numbering of all, which counts at the web's rate."""
+        return np.asarray(self.starts[clip] + np.asarray(frame) * (self.rate / self.clips[clip].fps))
+
+    def own_frame(self, clip: int, number: ArrayLike) -> Array:
+        """Give frames in the numbering of all as frames of a clip: the inverse of `number`."""
+        return np.asarray((np.asarray(number) - self.starts[clip]) * (self.clips[clip].fps / self.rate))
+
+
+def build_web(  # noqa: PLR0913 (what to find, how exactly, and where to work)
+    clips: Sequence[Motion],
+    *,
+    below: float = 0.12,
+    rate: float = 30.0,
+    window: int = 5,
+    shape: PathShape = SHAPE,
+    progress: Progress = iter,
+    executor: Executor | None = None,
+) -> MatchWeb:
+    """Find all long paths of frames that are alike in a set of clips [KG04, match web].
+
+    The distance is that of `find_transitions`. How paths are found, see `local_paths`: a cell that is no
+    one-dimensional minimum costs more, so that paths follow the floors of valleys. All pairs are measured: at
+    12 cm the bound of `matching.lower_bound` rules out only half of them (CMU subject 16), and a path needs
+    the cells around those that are left.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate.
+    below : the mean RMS distance that a path may have, metres. A search can ask for less, but not for more.
+    rate : frames per second at which the clips are compared.
+    window : frames in a window, at this rate.
+    shape : which paths to keep.
+    progress : wraps the pairs of pieces as they are worked through, to show a bar.
+    executor : where to work: threads, processes or a cluster, as for `find_transitions`.
+
+    Returns
+    -------
+    The web. A path stands for both of its clips, so each pair of clips is compared once. Stretches of one
+    clip that begin within `shape.least` of each other are not compared.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for no clips, different skeletons or rates, clips that are all too short,
+        a `below` or a rate that is not above 0, a window without frames, and shapes that allow no path.
+
+    Warns
+    -----
+    MocapWarning : for clips that are too short to hold a path, which are left out.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> web = build_web([sample("walk_straight")], below=0.05)
+    >>> web, bool(web.costs.mean() < 0.05)
+    (MatchWeb(1 clips, 8 paths, below 5 cm), True)
+
+    Notebook: 16-match-webs
+    """
+    _check(clips, below, shape)
+    low = [resample(clip, rate) for clip in clips]
+    limits = Limits(
+        below, shape.slope, _frames(shape.least, rate), shape.off_minimum, _frames(shape.near, rate)
+    )
+    check_window(window, max(map(len, low)), "the longest clip")
+    long = _long_enough(low, window + limits.least)
+    gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
+    weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, window))
+    ready = join_clouds([clip for clip, use in zip(low, long, strict=True) if use], weights, gap, np.float32)
+    lengths = np.array([len(clip) * use for clip, use in zip(low, long, strict=True)])
+    starts = np.cumsum([0, *lengths])
+    grid = Grid(ready, np.cumsum([0, *(lengths + gap)[long]]), weights.taper, limits)
+    paths = grid.paths(round(OVERLAP * rate), progress, executor)
+    cells = np.concatenate([np.empty((0, 3)), *paths])
+    first = np.searchsorted(grid.starts, cells[:, :2], side="right") - 1  # gaps before each cell
+    return MatchWeb(
+        tuple(clips),
+        starts,
+        float(rate),
+        window,
+        float(below),
+        shape,
+        cells[:, :2] - gap * first + window // 2,
+        cells[:, 2],
+        np.cumsum([0, *map(len, paths)]),
+    )
+
+
+def _check(clips: Sequence[Motion], below: float, shape: PathShape) -> None:
+    if not clips:
+        raise MocapError("A web needs clips, got none.")
+    require_alike(clips)
+    if not (np.isfinite(below) and below > 0):
+        raise MocapError(f"A web needs a distance above 0 m, got below={below}.")
+    if not (shape.slope >= 1 and shape.least > 0 and 0 <= shape.off_minimum < np.inf and shape.near >= 0):
+        raise MocapError(
+            f"A path needs slope 1 or more, least above 0 s, and no negative number; got {shape}."
+        )
+
+
+def _frames(seconds: float, rate: float) -> int:
+    return max(round(seconds * rate), 1)
+
+
+def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
+    """Say which clips can hold a path, and warn of the others."""
+    long = np.array([len(clip) >= frames for clip in clips])
+    short = [f"'{clip.name}'" for clip, use in zip(clips, long, strict=True) if not use]
+    needed = f"{frames / clips[0].fps:.2g} s"
+    if not long.any():
+        raise MocapError(f"No clip is long enough for a path: that takes {needed}.")
+    if short:
+        more = f" and {len(short) - 4} more" if len(short) > 4 else ""
+        warnings.warn(
+            f"Too short to hold a path of {needed}, and left out: {', '.join(short[:4])}{more}.",
+            MocapWarning,
+            stacklevel=3,
+        )
+    return long

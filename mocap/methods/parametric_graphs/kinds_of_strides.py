@@ -1,0 +1,169 @@
+"""From clips to a graph in one call: kinds of strides, changes between them, and all their edges [ours]."""
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import permutations
+from typing import TypeVar
+
+import numpy as np
+
+from mocap.body.motion import Motion
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.methods.parametric_graphs.parametric_edges import Sampling, smallest_good
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.stride_changes import changing_strides
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space
+from mocap.methods.parametric_graphs.strides import Strides, cut_strides
+
+WIDTH = np.radians(14)  # of the bell, for strides
+WIDEST = np.radians(75)  # of turn per stride, to either side
+LEAST, MOST = 0.04, 0.08  # metres: T_GOOD where none is given
+BOTH = np.radians(10)  # per stride: who turns less to one side does not obey there
+Made = TypeVar("Made")
+SLOW, TURNS = 0.35, np.radians(30)  # m/s and radians per stride, of turns on the spot
+
+
+def build_kinds(
+    kinds: Mapping[str, Sequence[Motion] | Strides],
+    changes: Sequence[tuple[str, str]] | None = None,
+    *,
+    good: float | None = None,
+    widest: float = WIDEST,
+    sampling: Sampling | None = None,
+) -> ParametricGraph:
+    """Build a graph of kinds of strides, each of which follows itself, and of changes between them [ours].
+
+    Each kind is a space asked by turn, and so is each change, under a name such as "walk to jog".
+
+    Parameters
+    ----------
+    kinds : clips by the name of their kind, or strides already cut. Of clips that have the name as a label,
+        only strides with that label are taken.
+    changes : pairs of names; by default each kind changes into each other one.
+    good : T_GOOD, metres; by default the smallest from 4 to 8 cm that gives all edges.
+    widest : radians per stride, to either side; spaces end there, or where their strides do (from the 4th to
+        the 96th percentile).
+    sampling : as for `build_edge`; by default 25 sources and 250 targets.
+
+    Returns
+    -------
+    The graph; with n kinds and c changes it has n + c nodes and n + 2 c edges.
+
+    Raises
+    ------
+    NoWalk : for an edge that cannot be had, with what would help.
+    MocapError : for no kinds, unknown names, and a kind, by name, whose strides are too few or hardly vary.
+
+    Warns
+    -----
+    MocapWarning : for a kind with hardly any stride in some part of its range, as `make_space`; and for one
+        that hardly turns to one side.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> names = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+    >>> walks = [body.resample(datasets.sample(name), 30) for name in names]
+    >>> print(build_kinds({"walk": walks}, sampling=Sampling(12, 60)).report())
+    walk → walk: boxes of ...° of turn, from ... cm on
+
+    Notebook: 17-parametric-graphs
+    """
+    if not kinds:
+        raise MocapError("A graph has one kind of strides or more, got none.")
+    sampling = sampling or Sampling(sources=25, targets=250)
+    strides = {name: _cut(name, some) for name, some in kinds.items()}
+    edges = [(name, name) for name in strides]
+    for one, other in permutations(strides, 2) if changes is None else changes:
+        if unknown := {one, other} - set(kinds):
+            raise MocapError(f"There is no kind '{min(unknown)}'; there are: {', '.join(kinds)}.")
+        name = f"{one} to {other}"
+        strides[name] = _named(name, partial(changing_strides, strides[one], strides[other]))
+        edges += [(one, name), (name, other)]
+    spaces = {name: _space(name, some, widest, warn=name in kinds) for name, some in strides.items()}
+    good = _least(spaces, edges, sampling) if good is None else good
+    return build_parametric(spaces, edges, good=good, sampling=sampling)
+
+
+def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -> Strides:
+    """Take the strides that turn on the spot: a kind of its own, where clips have it [ours].
+
+    Parameters
+    ----------
+    strides : of all kinds.
+    slow : metres per second, that they go at most.
+    turns : radians that they turn at least, to either side.
+
+    Raises
+    ------
+    MocapError : where there are none, with the nearest that there is.
+
+    Examples
+    --------
+    >>> from mocap.body import arcs, resample
+    >>> from mocap.datasets.generated import generate_walk
+    >>> circle = arcs((0, 0), 0, [(2.0, 4 * np.pi)]).points
+    >>> strides = cut_strides([resample(generate_walk(circle, speed=0.2), 30)])
+    >>> bool((on_the_spot(strides).values[:, 1] < 0.35).all())
+    True
+
+    Notebook: 17-parametric-graphs
+    """
+    angles, speeds = np.abs(strides.values[:, 0]), strides.values[:, 1]
+    if ((angles >= turns) & (speeds <= slow)).any():
+        return strides.take((angles >= turns) & (speeds <= slow))
+    turning = speeds[angles >= turns]
+    nearest = (
+        f"the slowest that turns goes at {turning.min():.2f} m/s" if len(turning) else "none turns so far"
+    )
+    raise MocapError(
+        f"None of {len(strides)} strides turns on the spot, by {np.degrees(turns):.0f}° or more at {slow:g} "
+        f"m/s at most; {nearest}: add clips of such turns."
+    )
+
+
+def _cut(name: str, kind: Sequence[Motion] | Strides) -> Strides:
+    if isinstance(kind, Strides):
+        return kind
+    label = name if any(name in clip.labels for clip in kind) else ""
+    return _named(name, lambda: cut_strides(kind, label=label))
+
+
+def _space(name: str, strides: Strides, widest: float, *, warn: bool) -> StrideSpace:
+    low, high = np.clip(np.percentile(strides.values[:, 0], [4, 96]), -widest, widest)
+    with warnings.catch_warnings():
+        if not warn:  # a change has the gaps of its kinds
+            warnings.simplefilter("ignore", MocapWarning)
+        space = _named(name, lambda: make_space(strides, WIDTH, min(low, high - 1e-6), high))
+        if max(low, -high) > -BOTH:
+            side = "left" if high < BOTH else "right"
+            warnings.warn(
+                f"{name} turns by {np.degrees(low):.0f}° to {np.degrees(high):.0f}° per stride, hardly to "
+                f"the {side}: there it does not obey; add clips, or mirror these.",
+                MocapWarning,
+                stacklevel=3,
+            )
+    return space
+
+
+def _named(name: str, make: Callable[[], Made]) -> Made:
+    """Make something for a kind, and name the kind where that is refused."""
+    try:
+        return make()
+    except MocapError as error:
+        raise type(error)(f"{name}: {error}"[:200]) from error
+
+
+def _least(spaces: Mapping[str, StrideSpace], edges: Sequence[tuple[str, str]], sampling: Sampling) -> float:
+    """Find the T_GOOD that gives all edges, with a twentieth to spare."""
+    needed = {
+        (a, b): _named(f"{a} → {b}", partial(smallest_good, spaces[a], spaces[b], sampling)) for a, b in edges
+    }
+    (one, other), worst = max(needed.items(), key=lambda item: item[1])
+    if worst > MOST:
+        raise NoWalk(
+            f"{one} → {other} needs T_GOOD = {100 * worst:.1f} cm, more than {100 * MOST:.0f}: give `good` "
+            f"to accept it, narrow the range, or leave the change out."
+        )
+    return max(LEAST, 1.05 * worst)

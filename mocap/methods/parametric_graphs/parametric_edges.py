@@ -1,0 +1,242 @@
+"""Edges of a parametric motion graph: for each source a box of targets that may follow, and when."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.errors import MocapError, NoWalk
+from mocap.methods.parametric_graphs.nearest_windows import OptimalTransitions, optimal_transitions
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, neighbours
+
+BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
+EPSILON = 0.005  # of half a range, by which a box keeps off bad targets
+
+
+class Sampling(NamedTuple):
+    """How finely an edge is sampled: how many sources and targets are drawn, and the seed [HG07: 50, 1000].
+
+    In the paper: [HG07, 4].
+
+    Examples
+    --------
+    >>> Sampling(targets=200)
+    Sampling(sources=50, targets=200, seed=0)
+
+    Notebook: 17-parametric-graphs
+    """
+
+    sources: int = 50
+    targets: int = 1000
+    seed: int = 0
+
+
+class Way(NamedTuple):
+    """What may follow a source: a box of targets, (d,) each, and the phases to leave and to enter.
+
+    Examples
+    --------
+    >>> Way(np.array([-0.1]), np.array([0.4]), 1.0, 0.0).high
+    array([0.4])
+    """
+
+    low: Array
+    high: Array
+    leave: float
+    enter: float
+
+
+@dataclass(frozen=True, eq=False)
+class ParametricEdge:
+    """For S sampled sources what may follow; `build_edge` shows an example.
+
+    Parameters
+    ----------
+    at : shape (S, d), the sources' parameters, in units of `scale` (d,).
+    low, high : shape (S, d'), the box of each.
+    leave, enter : shape (S,), phases near 1 and near 0.
+    least : metres, the smallest T_GOOD at which every source has a target.
+    """
+
+    at: Array
+    low: Array
+    high: Array
+    leave: Array
+    enter: Array
+    scale: Array
+    least: float
+
+    def look_up(self, asked: Array, count: int | None = None) -> Way:
+        """Weigh the boxes of the sources nearest to some parameters (d,) [HG07, Eq. 3]."""
+        near, shares = neighbours(asked[None], self.at, self.scale, count)
+        rows, shares = near[0], shares[0]
+        sides = (shares @ self.low[rows], shares @ self.high[rows])
+        return Way(*sides, float(shares @ self.leave[rows]), float(shares @ self.enter[rows]))
+
+
+def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> tuple[Array, Array]:
+    """Bound the good targets; for each bad one inside move the side in that loses least [HG07, 3.2].
+
+    Parameters
+    ----------
+    good, bad : parameters (A, d) and (B, d); at least one good one.
+    scale : shape (d,): what a side loses is measured in these units.
+    eps : of the scale, by which a box stays off a bad target.
+
+    Returns
+    -------
+    The low and the high corner, (d,) each. The box may be empty: a low side above its high side.
+
+    Raises
+    ------
+    MocapError : where no target is good.
+
+    Examples
+    --------
+    >>> good, bad = np.array([[0.0, 0], [10, 10]]), np.array([[9.0, 2]])
+    >>> shrink_box(good, bad, np.array([5.0, 5]), eps=0.01)
+    (array([0., 0.]), array([ 8.95, 10.  ]))
+
+    Notebook: 17-parametric-graphs
+    """
+    if not len(good):
+        raise MocapError("A box holds one good target or more, got none.")
+    low, high = good.min(axis=0).astype(float), good.max(axis=0).astype(float)
+    for sample in bad:
+        if ((sample > low - eps * scale) & (sample < high + eps * scale)).all():
+            side = int((np.concatenate([sample - low, high - sample]) / np.tile(scale, 2)).argmin())
+            number = side % len(low)
+            if side < len(low):
+                low[number] = sample[number] + eps * scale[number]
+            else:
+                high[number] = sample[number] - eps * scale[number]
+    return low, high
+
+
+class _Sampled(NamedTuple):
+    """Parameters of sources and targets, and their transitions."""
+
+    at: Array
+    to: Array
+    found: OptimalTransitions
+
+
+def require_joinable(source: StrideSpace, target: StrideSpace) -> None:
+    """Raise SkeletonMismatch or MocapError for spaces of different skeletons or rates."""
+    one, other = source.strides, target.strides
+    one.skeleton.require_same(other.skeleton)
+    if one.fps != other.fps:
+        raise MocapError(f"An edge joins spaces of one rate, got {one.fps:g} and {other.fps:g} Hz.")
+    if odd := set(one.contact_names) ^ set(other.contact_names):
+        raise MocapError(f"An edge joins spaces with the same marks; one of them lacks {min(odd)}.")
+
+
+def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sampled:
+    """Draw sources and targets, the outermost sources among them, and compare all pairs."""
+    least = len(source.parameters) + 2
+    if sampling.sources < least or sampling.targets < 1:
+        raise MocapError(f"An edge takes {least} sources and a target or more, got {sampling}.")
+    require_joinable(source, target)
+    random = np.random.default_rng(sampling.seed)
+    at = draw_parameters(source, sampling.sources, random)
+    to = draw_parameters(target, sampling.targets, random)
+    ends = _outermost(source)  # mixing cannot reach beyond them
+    at[: len(ends)] = ends
+    return _Sampled(at, to, optimal_transitions(source, target, at, to))
+
+
+def _outermost(space: StrideSpace) -> Array:
+    """Give the ends of a range; of two parameters the samples farthest out, for its corners may hold none."""
+    if len(space.parameters) == 1:
+        return np.array([space.low, space.high])
+    values = space.reached
+    return np.asarray(values[np.concatenate([values.argmin(axis=0), values.argmax(axis=0)])])
+
+
+def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling | None = None) -> float:
+    """Find the smallest T_GOOD, in metres, at which every source has a target.
+
+    As `graphs.smallest_threshold` does for motion graphs: the largest, over sources, of the least cost.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
+    >>> 0.005 < smallest_good(space, space, Sampling(targets=100)) < 0.05
+    True
+
+    Notebook: 17-parametric-graphs
+    """
+    return float(_sample(source, target, sampling or Sampling()).found.cost.min(axis=1).max())
+
+
+def build_edge(
+    source: StrideSpace,
+    target: StrideSpace,
+    *,
+    good: float,
+    bad: float | None = None,
+    sampling: Sampling | None = None,
+) -> ParametricEdge:
+    """Say for each source which box of targets may follow, and when to leave and to enter [HG07, 3.2].
+
+    Parameters
+    ----------
+    source, target : spaces; one may follow itself.
+    good : T_GOOD, metres: targets at most this far bound the box.
+    bad : T_BAD, metres: targets farther than this are kept out of it; 1.35 T_GOOD by default. Those between
+        may be in it.
+    sampling : how many sources and targets to draw.
+
+    Raises
+    ------
+    MocapError : for thresholds that are not above 0, T_BAD below T_GOOD, too few samples, and spaces of
+        different skeletons, rates or marks.
+    NoWalk : where some source has no good target: [HG07] has no edge then.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
+    >>> edge = build_edge(space, space, good=0.05, sampling=Sampling(targets=200))
+    >>> way = edge.look_up(np.array([0.0]))
+    >>> bool(way.low[0] < 0 < way.high[0])
+    True
+
+    Notebook: 17-parametric-graphs
+    """
+    bad = BAD * good if bad is None else bad
+    if not (np.isfinite([good, bad]).all() and 0 < good <= bad):
+        raise MocapError(f"Thresholds are 0 < T_GOOD <= T_BAD, got {good} and {bad} m.")
+    at, to, found = _sample(source, target, sampling or Sampling())
+    cost, least = found.cost, found.cost.min(axis=1)
+    if (least > good).any():
+        raise NoWalk(_refusal(source, at[int(least.argmax())], good, float(least.max())))
+    rows = []
+    for row in range(len(at)):
+        fine = cost[row] <= good
+        low, high = shrink_box(to[fine], to[cost[row] > bad], target.scale)
+        inside = fine & ((to >= low) & (to <= high)).all(axis=1)
+        if not inside.any():  # bad ones all around: only the best
+            best = int(cost[row].argmin())
+            low, high, inside = to[best], to[best], np.arange(len(to)) == best
+        rows.append((low, high, found.leave[row, inside].mean(), found.enter[row, inside].mean()))
+    low, high, leave, enter = (np.array(part) for part in zip(*rows, strict=True))
+    return ParametricEdge(at, low, high, leave, enter, source.scale, float(least.max()))
+
+
+def _refusal(space: StrideSpace, asked: Array, good: float, least: float) -> str:
+    """Say which source has no target, and what would help."""
+    texts = {"turn": lambda v: f"a turn of {np.degrees(v):.0f}°", "speed": lambda v: f"{v:.2f} m/s"}
+    what = " at ".join(texts[name](value) for name, value in zip(space.parameters, asked, strict=True))
+    return (
+        f"Nothing follows {what} below {100 * good:.1f} cm (the best costs {100 * least:.1f} cm): "
+        f"raise T_GOOD to {100 * np.ceil(1000 * least) / 1000:.1f} cm, or narrow the range."
+    )

@@ -1,0 +1,138 @@
+"""Parametric motion graphs: nodes are spaces of strides, edges say which targets may follow [HG07]."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+import numpy as np
+
+from mocap.errors import MocapError, NoWalk
+from mocap.methods.parametric_graphs.parametric_edges import (
+    ParametricEdge,
+    Sampling,
+    build_edge,
+    require_joinable,
+    smallest_good,
+)
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
+
+
+@dataclass(frozen=True, eq=False)
+class ParametricGraph:
+    """Spaces of strides as nodes, under names; `build_parametric` shows an example.
+
+    `graph` is a `networkx.DiGraph`, with `space` on its nodes and `edge` on its edges.
+    """
+
+    graph: nx.DiGraph
+
+    @property
+    def fps(self) -> float:
+        """Frames per second, the same for all spaces."""
+        return float(self.space(next(iter(self.graph))).strides.fps)
+
+    def space(self, node: str) -> StrideSpace:
+        """Give the space of a node."""
+        found: StrideSpace = self.graph.nodes[node]["space"]
+        return found
+
+    def edge(self, node: str, other: str) -> ParametricEdge:
+        """Give the edge from a node to another one, or to itself."""
+        found: ParametricEdge = self.graph.edges[node, other]["edge"]
+        return found
+
+    def report(self) -> str:
+        """Say in one line per edge how wide its boxes are and which cost it needs."""
+        lines = []
+        for node, other, data in self.graph.edges(data=True):
+            edge: ParametricEdge = data["edge"]
+            parts = []
+            for number, name in enumerate(self.space(other).parameters):
+                wide = float((edge.high - edge.low)[:, number].mean())
+                turns = name == "turn"
+                parts.append(f"{np.degrees(wide):.0f}° of turn" if turns else f"{wide:.2f} m/s of speed")
+            boxes = " and ".join(parts)
+            lines.append(f"{node} → {other}: boxes of {boxes}, from {100 * edge.least:.1f} cm on")
+        return "\n".join(lines)
+
+
+def build_parametric(
+    spaces: Mapping[str, StrideSpace],
+    edges: Sequence[tuple[str, str]] | None = None,
+    *,
+    good: float,
+    bad: float | None = None,
+    sampling: Sampling | None = None,
+) -> ParametricGraph:
+    """Build a parametric motion graph [HG07, graph]: an author names the spaces, and which may follow which.
+
+    Parameters
+    ----------
+    spaces : by name, of one skeleton and rate.
+    edges : pairs of names. By default all pairs that can be had: where some source has no good target, there
+        is no edge.
+    good, bad : T_GOOD and T_BAD, metres, as for `build_edge`.
+    sampling : as for `build_edge`.
+
+    Returns
+    -------
+    The graph.
+
+    Raises
+    ------
+    NoWalk : for a named edge that cannot be had, with what would help, and a node that nothing leaves.
+    MocapError : as `build_edge`, for no spaces and unknown names.
+
+    Examples
+    --------
+    A stride of the left foot follows itself:
+
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
+    >>> graph = build_parametric({"walk": space}, good=0.05)
+    >>> list(graph.graph.edges)
+    [('walk', 'walk')]
+
+    Notebook: 17-parametric-graphs
+    """
+    if not spaces:
+        raise MocapError("A parametric graph has one space or more, got none.")
+    asked = [(a, b) for a in spaces for b in spaces] if edges is None else list(edges)
+    if unknown := [name for pair in asked for name in pair if name not in spaces]:
+        raise MocapError(f"There is no space '{unknown[0]}'; there are: {', '.join(spaces)}.")
+    for space in spaces.values():  # before any edge takes its seconds
+        require_joinable(next(iter(spaces.values())), space)
+    graph = nx.DiGraph()
+    graph.add_nodes_from((name, {"space": space}) for name, space in spaces.items())
+    for name, other in asked:
+        try:
+            edge = build_edge(spaces[name], spaces[other], good=good, bad=bad, sampling=sampling)
+            graph.add_edge(name, other, edge=edge)
+        except NoWalk as error:
+            if edges is not None:
+                raise NoWalk(f"{name} → {other}: {error}") from error
+    if stuck := [name for name in spaces if not graph.out_degree(name)]:
+        raise NoWalk(f"Nothing follows '{stuck[0]}' below {100 * good:.1f} cm: raise T_GOOD, or add spaces.")
+    return ParametricGraph(graph)
+
+
+def least_thresholds(
+    spaces: Mapping[str, StrideSpace], sampling: Sampling | None = None
+) -> dict[tuple[str, str], float]:
+    """Say for each pair of spaces from which T_GOOD on, in metres, the second can follow the first.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
+    >>> least_thresholds({"walk": space})[("walk", "walk")] < 0.05
+    True
+    """
+    sampling = sampling or Sampling(sources=25, targets=200)
+    return {(a, b): smallest_good(spaces[a], spaces[b], sampling) for a in spaces for b in spaces}

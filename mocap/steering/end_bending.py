@@ -1,0 +1,227 @@
+"""A walk bent and stretched so that it ends at a place, turned by an angle, after a number of frames.
+
+As in path editing [Gle01], the body is held relative to a frame that moves along its way, and the way is
+changed. Here the frame is the root itself, and of the new way only the end is given. So the way is turned by
+φ(t) and its steps are made σ(t) times as long, both smooth, with as little of both as possible:
+
+min ∫ TURN φ̇² + STRETCH (ln σ)² dt   with   g(0) + ∫ σ exp(iφ) dg = the end's place,   φ(T) = Δ.
+
+At both ends φ̇ = 0 and σ = 1, so that the walk starts and ends as fast as before. All of it is ours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import minimize
+
+from mocap._shared.arrays import Array, Points
+from mocap.body import rotations
+from mocap.body.motion import Motion
+from mocap.body.planar import on_ground
+from mocap.editing.displacements import spline_basis
+from mocap.editing.retiming import at_frames
+from mocap.errors import MocapError
+
+# What changes cost: times the squared radians per second of the turning that is added, and times the squared
+# logarithm by which steps are lengthened or time is stretched; times seconds each.
+TURN, STRETCH = 0.5, 8.0
+WITHIN = 0.98  # of the limit of turning, because it is held at some frames only
+ROUNDS = 30  # of the solver; 5 to 15 are enough where there is a way
+KNOTS = 0.3  # seconds between the knots of φ and ln σ
+FEWEST, MOST = 10, 40  # spans between knots; three at each end are held level
+RISE = 0.15  # the share of a walk over which its time comes to the new pace, at each end
+
+
+@dataclass(frozen=True)
+class Limits:
+    """By how much a walk may be changed to arrive.
+
+    Parameters
+    ----------
+    turn : radians per second that are added to its own turning.
+    steps : times which its steps are longer, or shorter; 1.25 allows 0.8 to 1.25.
+    pace : times which it is played faster, or slower.
+    pose : metres by which joints are moved where its ends fade into the poses, the root mean square.
+
+    Raises
+    ------
+    MocapError : for a turn or a pose that is not above 0, and steps or a pace below 1.
+
+    Examples
+    --------
+    >>> Limits(pace=1.1).pace
+    1.1
+    """
+
+    turn: float = float(np.radians(60))
+    steps: float = 1.25
+    pace: float = 1.25
+    pose: float = 0.1
+
+    def __post_init__(self) -> None:
+        for name, least in (("turn", 0.0), ("pose", 0.0), ("steps", 1.0), ("pace", 1.0)):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value >= least and value > 0):
+                raise MocapError(f"The limit '{name}' must be finite and at least {least:g}, got {value}.")
+
+
+class Arrived(NamedTuple):
+    """A walk of F frames that was bent, and by how much.
+
+    `turned` (F - 1,): the turning that was added, radians per second; `steps` (F - 1,): by which steps were
+    lengthened; `lack`: the metres by which its end misses its place.
+    """
+
+    motion: Motion
+    turned: Array
+    steps: Array
+    lack: float
+
+
+def level_rise(count: int) -> Array:
+    """Rise from 0 to 1 over some frames, level at both ends and steady between them.
+
+    Examples
+    --------
+    >>> level_rise(5).round(3)
+    array([0.  , 0.24, 0.5 , 0.76, 1.  ])
+    """
+    u = (np.arange(count - 1) + 0.5) / (count - 1)
+    near = np.minimum(np.minimum(u, 1 - u) / RISE, 1.0)
+    rate = near**2 * (3 - 2 * near)
+    return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
+
+
+def played(motion: Motion, frames: int) -> tuple[Motion, Array]:
+    """Play a motion in another number of frames, at its own pace at both ends.
+
+    Parameters
+    ----------
+    motion : F frames.
+    frames : of the new motion, 2 or more.
+
+    Returns
+    -------
+    The motion, and how fast it is played from frame to frame, shape (`frames` - 1,), 1 for its own pace.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> slower, pace = played(sample("walk_straight")[:101], 111)
+    >>> len(slower), bool(0.87 < pace.min() < 0.91), pace[[0, -1]].round(2)
+    (111, True, array([1., 1.]))
+    """
+    moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
+    pace = np.diff(moments)
+    return (motion if len(motion) == frames else at_frames(motion, moments)), pace
+
+
+def bend_to(motion: Motion, end: complex, apart: float, limits: Limits) -> Arrived:
+    """Bend a walk so that its root ends at a ground point, turned by an angle.
+
+    Parameters
+    ----------
+    motion : F frames, 2 or more.
+    end : where its last root shall be, z + ix.
+    apart : radians by which its last frame is turned.
+    limits : for its turning and its steps. Where they leave no way, the end is missed, or the turning is
+        faster.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:481:4]
+    >>> bent = bend_to(walk, on_ground(walk.root_positions[-1]) + 0.5j, 0.3, Limits())
+    >>> bool(bent.lack < 1e-4), bool(np.degrees(abs(bent.turned).max()) < 30)
+    (True, True)
+    """
+    ground, fps = on_ground(motion.root_positions), motion.fps
+    problem = _Way(ground, apart, fps)
+    best = problem.solved(end, limits, held=False)
+    if np.abs(problem.turned(best)).max() > limits.turn:
+        best = problem.solved(end, limits, held=True)
+    phi, sigma, moved = problem.way(best)
+    roots = motion.root_positions.copy()
+    roots[:, 2], roots[:, 0] = moved.real, moved.imag
+    turned = motion.rotations.copy()
+    turned[:, 0] = rotations.multiply(rotations.about_y(phi), turned[:, 0])
+    bent = replace(motion, root_positions=roots, rotations=turned)
+    return Arrived(bent, np.diff(phi) * fps, sigma, float(abs(moved[-1] - end)))
+
+
+class _Way:
+    """The way of a walk as a function of x: the splines of φ, then those of ln σ."""
+
+    def __init__(self, ground: Points, apart: float, fps: float) -> None:
+        self.ground, self.fps, frames = ground, fps, len(ground)
+        spans = int(np.clip(round((frames - 1) / fps / KNOTS), FEWEST, MOST))
+        self.basis = spline_basis(frames, (frames - 1) / spans).toarray()[:, 3:-3]
+        self.middle = (self.basis[1:] + self.basis[:-1]) / 2
+        self.rate = np.diff(self.basis, axis=0)
+        self.even = apart * level_rise(frames)
+        self.count = self.basis.shape[1]
+        self.some = slice(None, None, max(1, (frames - 1) // (4 * spans)))  # four between two knots
+        self.step = np.diff(ground)
+
+    def solved(self, end: complex, limits: Limits, *, held: bool) -> Array:
+        """Find x by sequential quadratic programming; `held` says whether the turning has its limit."""
+        most = np.log(limits.steps)
+        arrive = {"type": "eq", "fun": lambda x: self.miss(x, end), "jac": self.slopes}
+        turn = {
+            "type": "ineq",
+            "fun": lambda x: self.slack(x, WITHIN * limits.turn),
+            "jac": self.slack_slopes,
+        }
+        found = minimize(
+            self.cost,
+            np.zeros(2 * self.count),
+            jac=True,
+            method="SLSQP",
+            bounds=[(None, None)] * self.count + [(-most, most)] * self.count,
+            constraints=[arrive, turn] if held else [arrive],
+            options={"maxiter": ROUNDS, "ftol": 1e-6},
+        )
+        return np.asarray(found.x)
+
+    def turned(self, x: Array) -> Array:
+        """Give the turning that is added, (F - 1,), radians per second."""
+        return np.asarray((np.diff(self.even) + self.rate @ x[: self.count]) * self.fps)
+
+    def way(self, x: Array) -> tuple[Array, Array, Points]:
+        """Give φ (F,), σ (F - 1,), and the ground points (F,)."""
+        phi = self.even + self.basis @ x[: self.count]
+        sigma = np.exp(self.middle @ x[self.count :])
+        steps = sigma * np.exp(0.5j * (phi[1:] + phi[:-1])) * self.step
+        return phi, sigma, self.ground[0] + np.concatenate([[0.0], np.cumsum(steps)])
+
+    def cost(self, x: Array) -> tuple[float, Array]:
+        """Give the cost and its gradient."""
+        rate = np.diff(self.even) + self.rate @ x[: self.count]
+        log = self.middle @ x[self.count :]
+        cost = TURN * self.fps * (rate @ rate) + STRETCH / self.fps * (log @ log)
+        slope = [TURN * self.fps * (self.rate.T @ rate), STRETCH / self.fps * (self.middle.T @ log)]
+        return float(cost), 2 * np.concatenate(slope)
+
+    def miss(self, x: Array, end: complex) -> Array:
+        """Give the vector from the end's place to where the way ends."""
+        lack = self.way(x)[2][-1] - end
+        return np.array([lack.real, lack.imag])
+
+    def slopes(self, x: Array) -> Array:
+        """Give the derivative of `miss`, shape (2, 2 K)."""
+        steps = np.diff(self.way(x)[2])
+        lean = np.concatenate([1j * (steps @ self.middle), steps @ self.middle])
+        return np.stack([lean.real, lean.imag])
+
+    def slack(self, x: Array, limit: float) -> Array:
+        """Give by how much the turning stays within its limit, on both sides."""
+        turned = self.turned(x)[self.some]
+        return np.concatenate([limit - turned, limit + turned])
+
+    def slack_slopes(self, x: Array) -> Array:
+        """Give the derivative of `slack`."""
+        rate = self.rate[self.some] * self.fps
+        return np.block([[-rate, 0 * rate], [rate, 0 * rate]])

@@ -1,0 +1,147 @@
+"""One protocol for all characters: how soon they obey, how feet slide, what jolts, what a step costs."""
+
+import warnings
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, runs
+from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import find_legs
+from mocap.body.motion import Motion
+from mocap.body.planar import on_ground
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footskate import clean_up
+from mocap.quality.seam_measures import USUAL, Spread, jumps
+from mocap.quality.standing_feet import plant_slides
+from mocap.steering.characters import Character
+from mocap.steering.obedience import Delay, measure_delay
+from mocap.steering.steered_motion import steer
+
+TURNS = np.radians([30, 120])  # of a command
+EVERY = 2.0  # seconds
+
+
+class ControlReport(NamedTuple):
+    """What a character is worth, by one protocol; `judge_control` shows an example.
+
+    `delay` is as `measure_delay` gives it. `slide` is how far a planted joint strays from its mean place, cm,
+    on average over plants, and `cleaned` the same after `feet.clean_up`, which kept the share `kept` of the
+    planted frames. `jolting` is the share of frames whose velocity jumps further than 99.9 % of the clips'
+    own. `wags` is by how many degrees the direction swings while a command stands, the RMS. `pivots` is by
+    how many degrees a foot turns while it stands, on average over plants, and `pace` the speed in m/s.
+    """
+
+    delay: Delay
+    slide: float
+    cleaned: float
+    kept: float
+    jolting: float
+    wags: float
+    pivots: float
+    pace: float
+
+
+def command_headings(seconds: float, fps: float, seed: int = 0) -> Array:
+    """Draw commands: every two seconds a turn by 30 to 120 degrees to either side, one heading per frame.
+
+    Examples
+    --------
+    >>> command_headings(4, 30).shape
+    (120,)
+
+    Notebook: 18-motion-matching
+    """
+    random, count = np.random.default_rng(seed), int(np.ceil(seconds / EVERY))
+    turns = random.choice([-1, 1], count) * random.uniform(TURNS[0], TURNS[1], count)
+    return np.repeat(np.cumsum(turns), round(EVERY * fps))[: round(seconds * fps)]
+
+
+def judge_control(
+    make: Callable[[], Character],
+    usual: Spread,
+    *,
+    speed: float = 1.1,
+    seconds: float = 60.0,
+    seed: int = 0,
+) -> ControlReport:
+    """Judge a character by the same commands as all others.
+
+    Plants are those of the clips that frames come from, carried along: plants found anew would hide the
+    fault, because a foot that slides is no plant.
+
+    Parameters
+    ----------
+    make : makes the character anew, on clips whose plants are marked; it is called twice.
+    usual : `quality.spread` of its clips.
+    speed : metres per second of all commands.
+    seconds : of steering, for feet and jolts.
+    seed : of the commands.
+
+    Raises
+    ------
+    MocapError : for a character whose clips do not say when feet stand, and less than two seconds.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs, quality
+    >>> from mocap.steering import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> report = judge_control(lambda: Controller(graph), quality.spread(clips), seconds=20)
+    >>> bool(report.slide > report.cleaned), report.kept > 0.9
+    (True, True)
+
+    Notebook: 18-motion-matching
+    """
+    if not EVERY <= seconds < np.inf:
+        raise MocapError(f"A character is judged by commands for {EVERY:g} s or more, got {seconds} s.")
+    character = make()
+    headings = command_headings(seconds, character.fps, seed)
+    motion = steer(character, headings.tolist(), speed).motion
+    if not any(mark.any() for mark in motion.contacts.values()):
+        raise MocapError("The character's clips do not say when feet stand; mark_plants finds out.")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # how much was let go is `kept`
+        cleaned = clean_up(motion)
+    planted = [sum(int(mark.sum()) for mark in some.contacts.values()) for some in (motion, cleaned)]
+    limit = np.percentile(usual.within(1)[0], USUAL)
+    return ControlReport(
+        measure_delay(make(), speed=speed, seed=seed),
+        _mean_slide(motion),
+        _mean_slide(cleaned),
+        planted[1] / planted[0],
+        float((jumps(motion)[0] > limit).mean()),
+        _wags(motion, headings),
+        _pivots(motion),
+        float(np.abs(np.diff(on_ground(motion.root_positions))).mean() * motion.fps),
+    )
+
+
+def _mean_slide(motion: Motion) -> float:
+    """Average the slides of plants, cm; two frames are too few to slide."""
+    slides = [slide.far for slide in plant_slides(motion) if slide.stop - slide.start > 2]
+    return float(np.mean(slides or [0.0]))
+
+
+def _wags(motion: Motion, headings: Array) -> float:
+    """Measure how the direction swings in the last half second of each command, degrees."""
+    back = round(motion.fps / 3)
+    x, _, z = motion.root_positions.T
+    way = np.angle((z + 1j * x)[back:] - (z + 1j * x)[:-back])
+    every, half = round(EVERY * motion.fps), round(motion.fps / 2)
+    ends = [
+        np.unwrap(way[stop - half - back : stop - back]) for stop in range(every, len(headings) + 1, every)
+    ]
+    return float(np.degrees(np.sqrt(np.mean([np.var(end) for end in ends]))))
+
+
+def _pivots(motion: Motion) -> float:
+    """Average by how many degrees feet turn on the ground, from ankle to ball, while their ankles stand."""
+    points, turned = joint_positions(motion), []
+    for leg in find_legs(motion.skeleton):
+        way = np.angle(on_ground(points[:, leg.ball] - points[:, leg.ankle]))
+        plants = runs(motion.contacts[motion.skeleton.names[leg.ankle]])
+        turned += [np.ptp(np.unwrap(way[start:stop])) for start, stop in plants if stop - start > 2]
+    return float(np.degrees(np.mean(turned))) if turned else 0.0

@@ -1,0 +1,271 @@
+"""States from the start and walks back from the end, which meet half-way.
+
+A search from one side finds many walks that pass near the end, and few that stand there as asked. So walks
+are lengthened from both sides. Every node where one of each kind stands joins two of them: n walks from each
+side give up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
+
+The walks are `search_states.States`, whose `along` are their metres and whose `hop` is their last step. All
+places are in the world: p ↦ turn · p + move lays the clip of a walk's last node. Where walk a from the
+start meets walk b from the end, b's clip lies where a's should. The difference is what must be bent.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices, Points, ranges
+from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.steering.end_bending import RISE, STRETCH, TURN, Limits
+from mocap.steering.moments import Choices
+from mocap.steering.search_states import States, prune
+
+# What a walk costs beside `TURN` and `STRETCH`: a seam costs as much as a second that is turned by 57° per
+# second.
+SEAM, MATCH = 0.5, 300.0  # for each seam, and times its squared distance in m²
+POSE = 100.0  # times the squared metres by which the ends are off the poses
+
+PEAK = 1.4  # a smooth change that is level at both ends is about so many times as large as its mean
+BEYOND = 100.0  # for each radian per second, or unit of a step's logarithm, that seems beyond its limit
+
+LAYER = 0.1  # seconds; walks in one layer compete
+WIDTH = 400  # walks that stay in a layer
+PLACE, ANGLE = 0.1, 0.15  # metres, radians: walks at one node that differ by less stand alike
+MEET = 3000  # walks from the start that are joined with those from the end
+PAIRS = 3_000_000  # joins that are compared, at most
+
+
+class Steps(NamedTuple):
+    """Edges to walk along, from the start's frames over the nodes to the end's frames: M steps.
+
+    Each `leaves` one point and `enters` another, moves the clip's frame by `turn` and `move`, plays `frames`
+    along `metres`, has a `cost`, and belongs to an `edge` of the graph, -1 for none. `at` (P,) is where the
+    root is at each point, in the clip's coordinates.
+    """
+
+    leaves: Indices
+    enters: Indices
+    turn: Points
+    move: Points
+    frames: Indices
+    metres: Array
+    cost: Array
+    edge: Indices
+    at: Points
+
+    def backwards(self) -> Steps:
+        """Give the same steps, walked from where they enter to where they leave."""
+        turn = self.turn.conj()
+        return self._replace(leaves=self.enters, enters=self.leaves, turn=turn, move=-turn * self.move)
+
+
+class Joined(NamedTuple):
+    """A walk from start to end: its edges, and the frames that it plays of them.
+
+    `edges`: numbers in the compiled graph; `first`: the frames of the first edge that it leaves out;
+    `frames`: how many there are from the start to the end; `turn`, `move`: where the first clip lies; `end`:
+    where the last frame's root must come to, a ground point; `apart`: by how much it must be turned there,
+    radians; `cost`: of its seams, and of the poses at its ends.
+    """
+
+    edges: Indices
+    first: int
+    frames: int
+    turn: complex
+    move: complex
+    end: complex
+    apart: float
+    cost: float
+
+
+class TwoSided:
+    """A search between two poses; `best` gives the walks that need the least bending and the fewest seams.
+
+    Parameters
+    ----------
+    graph : the compiled graph.
+    near : the frames that look like the start, and those that look like the end.
+    frames : from the start to the end.
+    limits : by how much walks may be changed.
+    """
+
+    def __init__(
+        self,
+        graph: CompiledGraph,
+        near: tuple[Choices, Choices],
+        frames: int,
+        limits: Limits,
+    ) -> None:
+        self.graph, self.frames, self.limits = graph, frames, limits
+        self.starts, self.ends = starts, ends = near
+        self.steps = steps_between(graph, starts, ends)
+        self.first, self.last = (len(graph.nodes) + n for n in (0, len(starts.off)))
+        moving = graph.tracks.step * graph.fps
+        self.speed = float(np.percentile(moving, 75))
+        self.here = complex(starts.move[0] + starts.turn[0] * self.steps.at[self.first])
+        self.there = complex(ends.move[0] + ends.turn[0] * self.steps.at[self.last])
+
+    def best(self, most: int) -> list[Joined]:
+        """Join the walks of both sides, and give the cheapest ones; none where no two of them meet."""
+        half, rest = self.frames / 2, (self.limits.pace - 0.5) * self.frames
+        seeds = (_seeds(self.first, self.starts), _seeds(self.last, self.ends))
+        there, middle = self.spread(self.steps, seeds[0], half, self.there)
+        middle = middle.take(np.argsort(middle.cost, kind="stable")[:MEET])
+        back, _ = self.spread(self.steps.backwards(), seeds[1], rest, self.here)
+        one, other = _meetings(middle.node, back.node)
+        price = self.prices(middle.take(one), back.take(other))
+        order = np.argsort(price, kind="stable")
+        order = order[np.isfinite(price[order])]
+        _, first = np.unique(one[order], return_index=True)  # with each walk from the start its best end
+        cheap = order[np.sort(first)[:most]]
+        return [self.trace(there, middle, back, int(one[n]), int(other[n])) for n in cheap]
+
+    def spread(self, steps: Steps, seeds: States, most: float, goal: complex) -> tuple[States, States]:
+        """Lengthen walks until they are `most` frames long: give all of those before, and all beyond."""
+        order = np.argsort(steps.leaves, kind="stable")
+        first = np.searchsorted(steps.leaves[order], np.arange(len(steps.at) + 1))
+        size = max(1, round(LAYER * self.graph.fps))
+        waiting, history, beyond, number = {0: [seeds]}, [], [], 0
+        for layer in range(int(most / size) + 1):
+            while parts := waiting.pop(layer, []):
+                walks = self.select(steps, States.join(parts), goal)
+                history.append(walks)
+                count = first[walks.node + 1] - first[walks.node]
+                of, step = np.repeat(np.arange(len(count)), count), order[ranges(first[walks.node], count)]
+                longer = _longer(steps, walks, of, step, number)
+                number += len(walks.node)
+                over = longer.frames >= most
+                beyond.append(longer.take(over))
+                longer = longer.take(~over)
+                reached = np.maximum(longer.frames // size, layer)
+                for then in np.unique(reached).tolist():
+                    waiting.setdefault(then, []).append(longer.take(reached == then))
+        return States.join(history), States.join(beyond)
+
+    def select(self, steps: Steps, walks: States, goal: complex) -> States:
+        """Of walks that stand alike keep the cheapest, and of these the best by their way still to go."""
+        place = walks.move + walks.turn * steps.at[walks.node]
+        left = np.maximum(self.frames - walks.frames, 1) / self.graph.fps
+        short = np.log(np.maximum(np.abs(goal - place) / (self.speed * left), 1.0))
+        cells = (place.real / PLACE, place.imag / PLACE, np.angle(walks.turn) / ANGLE)
+        alike = np.stack([walks.node, *(np.floor(values).astype(np.intp) for values in cells)])
+        return prune(walks, walks.cost + STRETCH * left * short**2, alike, WIDTH)
+
+    def prices(self, one: States, other: States) -> Array:
+        """Estimate what each pair of walks that meet costs with all that is left to bend.
+
+        The end is off by a turn Δ and by a vector. A turn that grows evenly takes the first away, and turns
+        the way from start to end by Δ/2. What then lies across the way, by an angle a, takes a curve there
+        and back, ∫ φ̇² = 12 a² / T. What lies along it, a share r of the metres walked, takes longer steps or
+        a bend of ∫ φ̇² = 24 r / T, as the chord of an arc of θ is shorter than the arc by θ² / 24. Only longer
+        steps lead further than the metres walked.
+        """
+        seconds, limits = self.frames / self.graph.fps, self.limits
+        turn = other.turn * one.turn.conj()
+        end = turn.conj() * (self.there - other.move) + one.move
+        apart, metres = np.angle(turn), np.maximum(one.along + other.along, 0.1)
+        way, asked = (end - self.here) * np.exp(0.5j * apart), self.there - self.here
+        across = np.abs(((asked - way) * np.exp(-1j * np.angle(way))).imag) / metres
+        along = np.abs(abs(asked) - np.abs(way)) / metres
+        further = np.log(np.maximum(abs(asked) / metres, 1.0))
+        pace = np.log(np.maximum((one.frames + other.frames) / self.frames, 1e-3))
+        price = one.cost + other.cost + STRETCH * seconds * (pace**2 + further**2)
+        price += TURN / seconds * (apart**2 + 12 * across**2)
+        price += np.minimum(STRETCH * seconds * along**2, TURN / seconds * 24 * along)
+        turning = PEAK * (np.abs(apart) + 6 * across) / seconds
+        price += BEYOND * np.maximum(turning - limits.turn, 0.0)
+        price += BEYOND * np.maximum(PEAK * further - np.log(limits.steps), 0.0)
+        return np.where(np.abs(pace) <= (1 - RISE) * np.log(limits.pace), price, np.inf)
+
+    def trace(self, there: States, middle: States, back: States, one: int, other: int) -> Joined:
+        """List the edges of two walks that meet."""
+        before, first = _trail(there, int(middle.trail[one]))
+        after, last = _trail(back, other)
+        steps = np.array([*before[::-1], int(middle.hop[one]), *after])
+        start, end = first - self.first, last - self.last
+        edges, turn = self.steps.edge[steps], complex(self.starts.turn[start])
+        laid = complex(self.ends.turn[end])
+        return Joined(
+            edges=edges,
+            first=int(self.starts.since[start]),
+            frames=int(self.steps.frames[steps].sum()),
+            turn=turn,
+            move=complex(self.starts.move[start]),
+            end=complex(self.ends.move[end] + laid * self.steps.at[last]),
+            apart=float(np.angle(laid / (turn * np.prod(self.graph.turn[edges])))),
+            cost=float(self.steps.cost[steps].sum()),
+        )
+
+
+def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> Steps:
+    """List all edges of a graph as steps, with those from each start to the next node, and to each end."""
+    number = {node: n for n, node in enumerate(graph.nodes)}
+    leaves = np.array([number[edge[0]] for edge in graph.edges])
+    first, last = len(graph.nodes), len(graph.nodes) + len(starts.off)
+    one, other = np.nonzero(  # an end on the same stretch as a start, after it
+        (starts.stretch[:, None] == ends.stretch) & (starts.since[:, None] <= ends.since)
+    )
+    rows = np.concatenate([[0.0], np.cumsum(graph.tracks.step)])
+    every = np.arange(len(leaves))
+    edge = np.concatenate([every, starts.stretch, ends.stretch, starts.stretch[one]])
+    begin = np.concatenate([0 * every, starts.since, 0 * ends.since, starts.since[one]])
+    stop = np.concatenate([graph.frames, graph.frames[starts.stretch], ends.since, ends.since[other]])
+    origin = graph.tracks.first[edge]
+    pose = [POSE * choices.off**2 for choices in (starts, ends)]
+    seam = np.where(graph.blended, SEAM + MATCH * graph.cost**2, 0.0)
+    from_start, to_end = first + np.arange(len(starts.off)), last + np.arange(len(ends.off))
+    whole = np.where(np.arange(len(edge)) < len(every), edge, -1)
+    at = [graph.tracks.ground[graph.tracks.first[c.stretch] + c.since] for c in (starts, ends)]
+    return Steps(
+        leaves=np.concatenate([leaves, from_start, leaves[ends.stretch], from_start[one]]),
+        enters=np.concatenate([graph.target, graph.target[starts.stretch], to_end, to_end[other]]),
+        turn=np.where(whole >= 0, graph.turn[whole], 1.0),
+        move=np.where(whole >= 0, graph.move[whole], 0.0),
+        frames=stop - begin,
+        metres=rows[origin + stop] - rows[origin + begin],
+        cost=np.concatenate([seam, *pose, pose[0][one] + pose[1][other]]),
+        edge=edge,
+        at=np.concatenate([graph.at, *at]),
+    )
+
+
+def _seeds(first: int, choices: Choices) -> States:
+    """Start a walk at each choice."""
+    count = len(choices.off)
+    none, nothing = np.zeros(count, np.intp), np.zeros(count)
+    node = first + np.arange(count)
+    return States(node, choices.turn, choices.move, nothing, none, nothing, none - 1, none - 1)
+
+
+def _longer(steps: Steps, walks: States, of: Indices, step: Indices, number: int) -> States:
+    """Lengthen the walks `of` by one step each; the first walk is the one with this number."""
+    turn = walks.turn[of]
+    return States(
+        node=steps.enters[step],
+        turn=turn * steps.turn[step],
+        move=walks.move[of] + turn * steps.move[step],
+        along=walks.along[of] + steps.metres[step],
+        frames=walks.frames[of] + steps.frames[step],
+        cost=walks.cost[of] + steps.cost[step],
+        trail=number + of,
+        hop=step,
+    )
+
+
+def _meetings(one: Indices, other: Indices) -> tuple[Indices, Indices]:
+    """Pair every row of one with the rows of the other that hold the same node, `PAIRS` of them at most."""
+    order = np.argsort(other, kind="stable")
+    first, stop = (np.searchsorted(other[order], one, side=side) for side in ("left", "right"))
+    count = stop - first
+    count[np.cumsum(count) > PAIRS] = 0
+    return np.repeat(np.arange(len(one)), count), order[ranges(first, count)]
+
+
+def _trail(history: States, walk: int) -> tuple[list[int], int]:
+    """List the steps of a walk from its last one to its first, and the point where it starts."""
+    steps = []
+    while history.hop[walk] >= 0:
+        steps.append(int(history.hop[walk]))
+        walk = int(history.trail[walk])
+    return steps, int(history.node[walk])

@@ -1,0 +1,108 @@
+"""The ground from above: what is drawn is what the transform does."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from mocap.body import PlanarTransform
+from mocap.course.diagrams import alignment, compass, meeting, turn_on_ground, two_ways_round
+from mocap.datasets.samples import sample
+
+CLIP = sample("walk_circle")
+TARGET, MOVING = CLIP[:200], CLIP[400:600]
+TRANSFORM = PlanarTransform(2.0, 1.5, -0.7)
+
+
+def dots(ax):
+    return [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
+
+
+@pytest.mark.parametrize("step", [0, 1, 2, 3])
+def test_each_step_draws_one_sheet_more(step):
+    titles = [ax.get_title() for ax in turn_on_ground(step=step).axes]
+    assert (
+        titles
+        == [
+            "1. as in school",
+            "2. the sheet turned by a quarter",
+            "3. the ground from above",
+        ][:step]
+    )
+
+
+@pytest.mark.parametrize("angle", [40.0, -30.0])
+def test_the_drawn_point_goes_where_the_formulas_say(angle):
+    school, _, ground = turn_on_ground(angle).axes
+    before, after = dots(school)
+    cos, sin = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    assert after == pytest.approx([before @ [cos, -sin], before @ [sin, cos]])
+    (left, z), turned = dots(ground)  # x points to the left of the page, z up
+    x, _, z = PlanarTransform(np.radians(angle), 0.0, 0.0).apply_points([-left, 0, z])
+    assert turned == pytest.approx([-x, z])
+
+
+def test_the_minus_stands_with_the_first_axis():
+    formulas = [
+        next(text.get_text() for text in ax.texts if "cos" in text.get_text()) for ax in turn_on_ground().axes
+    ]
+    assert formulas[0] == formulas[1] == "x′ = x cos θ − y sin θ\ny′ = x sin θ + y cos θ"
+    assert formulas[2] == "z′ = z cos θ − x sin θ\nx′ = z sin θ + x cos θ"
+
+
+@pytest.mark.parametrize("step", [1, 2, 3])
+def test_the_clip_is_turned_and_then_moved(step):
+    panels = alignment(TARGET, MOVING, TRANSFORM, step=step).axes
+    assert [ax.get_title()[0] for ax in panels] == ["1", "2", "3"][:step]
+    turned = PlanarTransform(TRANSFORM.angle, 0.0, 0.0)
+    places = [MOVING, turned.apply_motion(MOVING), TRANSFORM.apply_motion(MOVING)]
+    for number, ax in enumerate(panels):
+        assert dots(ax)[0] == pytest.approx(TARGET.root_positions[-1, [0, 2]])
+        assert dots(ax)[-1] == pytest.approx(places[number].root_positions[0, [0, 2]])
+        assert ax.xaxis_inverted()
+
+
+@pytest.mark.parametrize("shift_first", [False, True])
+def test_the_order_of_turn_and_shift_decides_on_the_place(shift_first):
+    panels = alignment(TARGET, MOVING, TRANSFORM, shift_first=shift_first).axes
+    turn, shift = PlanarTransform(TRANSFORM.angle, 0.0, 0.0), PlanarTransform(0.0, TRANSFORM.x, TRANSFORM.z)
+    first, second = (shift, turn) if shift_first else (turn, shift)
+    spot = MOVING.root_positions[0]
+    wanted = [spot, first.apply_points(spot), second.apply_points(first.apply_points(spot))]
+    assert [dots(ax)[-1] for ax in panels] == [pytest.approx(point[[0, 2]]) for point in wanted]
+    assert [("turned" in ax.get_title()) for ax in panels] == [False, not shift_first, shift_first]
+
+
+def test_the_turn_leads_round_the_origin():
+    way = next(line for line in alignment(TARGET, MOVING, TRANSFORM).axes[1].lines if line.get_ls() == "--")
+    distances = np.linalg.norm(way.get_xydata(), axis=1)
+    assert distances == pytest.approx(distances[0])
+
+
+def test_two_clips_meet_where_they_are():
+    (ax,) = meeting(TARGET, MOVING).axes
+    assert np.array_equal(dots(ax), [TARGET.root_positions[-1, [0, 2]], MOVING.root_positions[0, [0, 2]]])
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["walk_circle", "walk_circle"]
+
+
+def arrows(ax):
+    return [text.xy for text in ax.texts if not text.get_text()]
+
+
+def test_a_heading_points_up_the_page_at_0_and_to_the_left_at_90():
+    ax = Figure().add_subplot()
+    compass({"ahead": 0.0, "left": np.pi / 2}, ax)
+    assert arrows(ax) == [pytest.approx((0, 1), abs=1e-12), pytest.approx((-1, 0), abs=1e-12)]
+    assert [text.get_text() for text in ax.texts if ":" in text.get_text()] == ["ahead: 0°", "left: 90°"]
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "short", "long"),
+    [(170, -170, "20° to the left", "340° to the right"), (40, -20, "60° to the right", "60° to the right")],
+)
+def test_the_means_of_the_angles_may_go_the_long_way(start, end, short, long):
+    left, right = two_ways_round(start, end).axes
+    assert left.get_title() == f"slerp: {short}"
+    assert right.get_title() == f"mean of the angles: {long}"
+    ends = [[-np.sin(np.radians(a)), np.cos(np.radians(a))] for a in (start, end)]
+    for ax in (left, right):
+        assert [arrows(ax)[k] for k in (0, -1)] == [pytest.approx(e, abs=1e-9) for e in ends]

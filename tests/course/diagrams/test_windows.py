@@ -1,0 +1,130 @@
+"""What the diagrams of windows draw: the right points, the right sums, and left and right told apart."""
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.patches import Rectangle
+from mpl_toolkits.mplot3d import proj3d
+
+from mocap import datasets, resample
+from mocap.body import PlanarTransform, joint_positions
+from mocap.course import diagrams
+from mocap.course.diagrams import windows
+from mocap.errors import MocapError
+from mocap.matching import distinct_joints, point_cloud
+from mocap.plotting import COLOURS, QUIET, SOURCES
+from mocap.plotting.axes import to_picture
+
+WINDOW = 10
+
+
+@pytest.fixture(scope="module")
+def window():
+    return resample(datasets.sample("walk_straight"), 30)[100 : 100 + WINDOW]
+
+
+def dots(figure, colour):
+    return [line for line in figure.axes[0].lines if line.get_color() == colour and line.get_marker() == "."]
+
+
+def bodies(figure):
+    """Count the bodies by their heads."""
+    return sum(line.get_marker() == "o" for line in figure.axes[0].lines)
+
+
+def test_a_cloud_is_made_in_four_steps(window):
+    counts = [bodies(diagrams.window_cloud(window, step=step)) for step in (1, 2, 3, 4)]
+    assert counts == [1, WINDOW, WINDOW, 0]
+    points = [len(dots(diagrams.window_cloud(window, step=step), SOURCES[0])) for step in (1, 2, 3, 4)]
+    assert points == [0, 0, 1, 1]
+
+
+def test_the_cloud_has_a_point_on_each_joint_of_each_frame_and_a_shadow_on_the_ground(window):
+    figure = diagrams.window_cloud(window, step=4)
+    (cloud,), (shadow,) = dots(figure, SOURCES[0]), dots(figure, QUIET)
+    wanted = to_picture(point_cloud(window).reshape(-1, 3))
+    assert np.transpose(cloud.get_data_3d()) == pytest.approx(wanted)
+    assert np.transpose(shadow.get_data_3d()) == pytest.approx(wanted * [1, 1, 0])
+
+
+def test_the_shadow_of_the_cloud_is_inside_the_picture(window):
+    figure = diagrams.window_cloud(window, step=4)
+    (ax,), (shadow,) = figure.axes, dots(figure, QUIET)
+    figure.canvas.draw()
+    across, up, _ = proj3d.proj_transform(*shadow.get_data_3d(), ax.get_proj())
+    assert ax.bbox.contains(*ax.transData.transform(np.stack([across, up], axis=-1)).min(axis=0))
+
+
+@pytest.mark.parametrize("step", [0, 5])
+def test_a_step_that_is_not_there_is_named(window, step):
+    with pytest.raises(MocapError, match=f"steps 1 to 4, got {step}"):
+        diagrams.window_cloud(window, step=step)
+
+
+def test_threads_lead_from_each_joint_to_its_partner(window):
+    moved = PlanarTransform(0.0, 0.3, 0.4).apply_motion(window)
+    figure = diagrams.matched_windows(window, moved)
+    joints = distinct_joints(window.skeleton)
+    for ax, frame in zip(figure.axes, (0, WINDOW - 1), strict=True):
+        assert ax.get_title().endswith(": 50.0 cm RMS")
+        (threads,) = [
+            part for part in ax.collections if to_hex(part.get_colors()[0]).upper() == QUIET.upper()
+        ]
+        starts, ends = (to_picture(joint_positions(motion)[frame][joints]) for motion in (window, moved))
+        assert np.array(threads._segments3d) == pytest.approx(np.stack([starts, ends], axis=1))
+
+
+def test_left_and_right_keep_their_colours_in_both_bodies(window):
+    ax = diagrams.matched_windows(window, window).axes[0]
+    styles = {}
+    for part in ax.collections:
+        styles.setdefault(to_hex(part.get_colors()[0]).upper(), []).append(part.get_linestyle()[0][1])
+    for side in ("left", "right", "middle"):
+        solid, dashed = styles[COLOURS[side].upper()]
+        assert solid is None
+        assert dashed is not None
+
+
+def test_sums_along_diagonals_are_those_of_the_formula():
+    products = np.random.default_rng(0).integers(0, 10, (7, 9))
+    for step in (1, 2, 3, 4):
+        frames, sums = diagrams.diagonal_sums(products, window=4, step=step).axes
+        wanted = sum(products[f : f + 4, f : f + 6] for f in range(step))
+        assert [int(text.get_text()) for text in sums.texts] == wanted.ravel().tolist()
+        boxes = [patch for patch in frames.patches if isinstance(patch, Rectangle) and not patch.get_fill()]
+        assert [(box.get_x(), box.get_y(), box.get_width(), box.get_height()) for box in boxes] == [
+            (step - 1.5, step - 1.5, 6, 4)
+        ]
+        marked = [patch for patch in frames.patches if to_hex(patch.get_facecolor()) == SOURCES[4].lower()]
+        assert [patch.get_x() + 0.5 for patch in marked] == list(range(step))
+
+
+def test_windows_that_do_not_fit_are_refused():
+    with pytest.raises(MocapError, match=r"Windows of 4 frames do not fit into an array of shape \(3, 3\)"):
+        diagrams.diagonal_sums(np.ones((3, 3)), window=4, step=1)
+
+
+def test_the_steps_have_names():
+    assert len(windows.WINDOW_STEPS) == 4
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.0, -2.5])
+def test_the_gaps_between_circles_are_the_same_however_a_window_is_turned(turn):
+    first, second = (resample(datasets.sample(name), 30)[60:70] for name in ("walk_curve_1", "jog"))
+    moved = PlanarTransform(turn, 3.0, -1.0).apply_motion(second)
+    figure = diagrams.radius_gaps(first, moved, ["lfoot", "rhand", "head"], step=3)
+    assert (
+        figure.axes[0].get_title()
+        == diagrams.radius_gaps(first, second, ["lfoot", "rhand", "head"], step=3).axes[0].get_title()
+    )
+    assert len(figure.axes[0].patches) == 6
+
+
+def test_circles_and_gaps_come_one_after_the_other():
+    window = resample(datasets.sample("jog"), 30)[:10]
+    drawn = [diagrams.radius_gaps(window, window, ["lfoot", "head"], step=step).axes[0] for step in (1, 2, 3)]
+    assert [len(ax.patches) for ax in drawn] == [0, 4, 4]
+    assert [len(ax.lines) for ax in drawn] == [3, 3, 5]
+    assert drawn[2].get_title() == "what no turn can remove: lfoot 0 cm, head 0 cm"
+    with pytest.raises(MocapError, match="steps 1 to 3, got 4"):
+        diagrams.radius_gaps(window, window, ["head"], step=4)

@@ -1,0 +1,185 @@
+import numpy as np
+import pytest
+
+from mocap.course import checks, lab
+from mocap.errors import MocapError
+from tests.course.lab.conftest import new_kernel
+from tests.course.lab.students import solutions, written
+
+X, Y, Z = np.eye(4)[1:]
+COUNTED = """
+def hamilton(a, b):
+    called.append(a)
+    return multiply(a, b)
+"""
+
+
+def test_before_an_exercise_is_solved_the_packages_function_stands_in(capsys, fresh):
+    hamilton = lab.mine("hamilton")
+    assert hamilton(X, Y).tolist() == Z.tolist()
+    assert capsys.readouterr().out == "hamilton: the package's stands in until yours passes its check.\n"
+    assert not fresh.exists()
+
+
+def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file(capsys, fresh):
+    own = written("hamilton")
+    hamilton = lab.mine(own)
+    assert capsys.readouterr().out == "hamilton: yours, kept in my_graph.py.\n"
+    assert hamilton.own is own
+    assert lab.mine("hamilton") is hamilton
+    assert hamilton(X, Y).tolist() == Z.tolist()
+    text = fresh.read_text()
+    assert "import numpy as np\n" in text
+    assert "\n\n\n\n" not in text
+    assert f"# ---- hamilton (notebook 01) ----\n\n{solutions()['hamilton'][1]}" in text
+    assert lab.whose("hamilton", "climb") == "hamilton: yours · climb: the package's"
+
+
+def test_it_survives_a_restart_and_goes_when_it_is_deleted(capsys, fresh):
+    lab.mine(written("hamilton"))
+    lab.mine(written("short_way"))
+    new_kernel()
+    assert lab.mine("hamilton").yours
+    assert lab.mine("short_way").yours
+    head, _, rest = fresh.read_text().partition("# ---- hamilton")
+    fresh.write_text(head + "# ----" + rest.split("# ----", 1)[1])
+    assert not lab.mine("hamilton").yours
+    assert lab.mine("short_way").yours
+    fresh.unlink()
+    assert not lab.mine("short_way").yours
+
+
+def test_a_wrong_function_leaves_the_place_as_it_was(capsys, fresh):
+    lab.mine(written("hamilton"))
+    wrong = written("hamilton", "def hamilton(a, b):\n    return a * b\n")
+    assert lab.mine(wrong).own is not wrong
+    assert lab.mine("hamilton").yours
+    assert "a * b" not in fresh.read_text()
+
+
+def test_a_wrong_version_after_a_right_one_is_not_called_the_readers(capsys):
+    lab.mine(written("hamilton"))
+    lab.mine(written("hamilton", "def hamilton(a, b):\n    return a * b\n"))
+    lab.mine("hamilton")
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "hamilton: yours, kept in my_graph.py; it is the one that passed, not this one.",
+        "hamilton: yours, kept in my_graph.py.",
+    ]
+
+
+def test_a_check_cell_calls_a_slow_function_once_for_each_input():
+    called = []
+    own = written("hamilton", others={"called": called}, source=COUNTED)
+    checks.hamilton(own)
+    lab.mine(own)
+    assert len(called) == checks.hamilton.trials
+    lab.mine(own)  # a helper of it may have changed since
+    assert len(called) == 2 * checks.hamilton.trials
+
+
+def test_the_check_judges_what_was_written_when_its_cell_runs_again(capsys):
+    hamilton = lab.mine(written("hamilton", "def hamilton(a, b):\n    return a * b\n"))
+    assert "multiplies number by number" in checks.hamilton.verdict(hamilton).message
+    assert not lab.mine(hamilton).yours
+    assert checks.hamilton.verdict(lab.mine("climb")).right is False
+
+
+def test_a_function_uses_the_other_exercises_by_their_names(fresh):
+    short_way = lab.mine(written("short_way"))
+    source = """
+def mix(a, b, alpha):
+    pairs = zip(b.rotations, a.rotations, alpha)
+    turns = [[short_way(q, r, t) for q, r in zip(qs, rs)] for qs, rs, t in pairs]
+    roots = [t * p + (1 - t) * q for p, q, t in zip(a.root_positions, b.root_positions, alpha)]
+    return np.array(roots), np.array(turns)
+"""
+    lab.mine(written("mix", source, {"short_way": short_way}))
+    new_kernel()
+    assert lab.mine("mix").yours
+    arguments = checks.mix.draw(np.random.default_rng(1))
+    lab.mine("mix")(*arguments)
+    assert lab.mine("short_way").calls > 0
+    assert "short_way" not in fresh.read_text().partition("# ----")[0]
+
+
+def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
+    lab.mine(written("hamilton"))
+    kept = fresh.read_text()
+    monkeypatch.setenv("MOCAP_MINE", "")
+    new_kernel()
+    assert not lab.mine("hamilton").yours
+    lab.mine(written("short_way"))
+    assert capsys.readouterr().out.endswith("short_way: yours.\n")
+    assert fresh.read_text() == kept
+
+
+def test_a_name_that_no_exercise_has_is_refused():
+    with pytest.raises(MocapError, match=r"no exercise 'hamiltion'\.$"):
+        lab.mine("hamiltion")
+    with pytest.raises(MocapError, match="no exercise '<lambda>'"):
+        lab.mine(lambda a, b: a)
+
+
+def test_what_cannot_be_kept_is_used_until_the_kernel_ends(capsys, fresh):
+    source = "def hamilton(a, b):\n    return table['product'](a, b)\n"
+    own = written("hamilton", source, {"table": {"product": written("hamilton")}})
+    assert lab.mine(own).yours
+    said = capsys.readouterr().out
+    assert "not kept. It uses `table`, a dict that no short text can make.\n" in said
+    assert not fresh.exists()
+
+
+def test_a_file_that_cannot_be_written_is_no_obstacle(monkeypatch, capsys, tmp_path):
+    monkeypatch.setenv("MOCAP_MINE", str(tmp_path / "nowhere" / "my_graph.py"))
+    assert lab.mine(written("hamilton")).yours
+    assert "adopted until this kernel ends, but not kept." in capsys.readouterr().out
+
+
+def test_a_function_in_the_file_that_no_longer_passes_is_not_used(capsys, fresh):
+    lab.mine(written("hamilton"))
+    unknown = "# ---- hmilton ----\n\ndef hmilton(): ...\n"
+    fresh.write_text(fresh.read_text().replace("- a[1:]", "+ a[1:]") + unknown)
+    new_kernel()
+    assert not lab.mine("hamilton").yours
+    said = capsys.readouterr().out
+    assert "my_graph.py: hamilton does not pass its check any more, so the package's stands in.\n" in said
+    assert "✗ hamilton: " in said  # and why
+    assert "my_graph.py: the course has no exercise 'hmilton'; it is not used.\n" in said
+
+
+@pytest.mark.parametrize("change", [b"\xef\xbb\xbf", b"\r\n"])
+def test_a_file_that_was_saved_on_windows_is_read(change, capsys, fresh):
+    lab.mine(written("hamilton"))
+    text = fresh.read_bytes()
+    fresh.write_bytes(text.replace(b"\n", change) if change == b"\r\n" else change + text)
+    new_kernel()
+    assert lab.mine("hamilton").yours
+    lab.mine(written("quintic"))
+    new_kernel()
+    assert lab.whose("hamilton", "quintic") == "hamilton, quintic: yours"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("import numpy", "exit()\nimport numpy"), ("return", "exit()\n    return")]
+)
+def test_a_file_that_ends_python_does_not(old, new, capsys, fresh):
+    lab.mine(written("hamilton"))
+    fresh.write_text(fresh.read_text().replace(old, new))
+    new_kernel()
+    assert not lab.mine("hamilton").yours
+    assert "does not pass its check any more" in capsys.readouterr().out
+
+
+def test_what_a_kept_function_prints_is_not_shown_when_the_file_is_read(capsys, fresh):
+    lab.mine(written("hamilton"))
+    fresh.write_text(fresh.read_text().replace("return", "print('here')\n    return"))
+    new_kernel()
+    capsys.readouterr()
+    assert lab.mine("hamilton").yours
+    assert "here" not in capsys.readouterr().out
+
+
+def test_a_folder_in_place_of_the_file_is_said(capsys, fresh):
+    fresh.mkdir()
+    assert not lab.mine("hamilton").yours
+    assert "my_graph.py: cannot be read" in capsys.readouterr().out

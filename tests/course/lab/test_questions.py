@@ -1,0 +1,301 @@
+"""Quizzes and bets: their data, what they show, and where they stand in the notebooks."""
+
+import ast
+import base64
+import json
+import re
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mocap.course import lab, notebooks
+from mocap.course.lab.computed import computed, filled
+from mocap.course.lab.kept_bets import asked_before, summed_up
+from mocap.course.lab.page import to_html, to_text
+from mocap.course.lab.quizzes import asked
+from mocap.course.lab.reading import TEXTS, Choice, Order, file_of, read_questions
+from mocap.errors import MocapError
+from tests.course.test_prose import PER, UNUSUAL
+
+FOLDER = Path(__file__).parents[3] / "notebooks"
+FILES = sorted(TEXTS.glob("*.toml"))
+
+NOTEBOOKS = [path.stem for path in sorted(FOLDER.glob("*.ipynb"))]
+
+GOOD = """
+[quiz.more]
+kind = "choice"
+question = "Is `D < 4` *always* {{limit:.0f}}?"
+right = "yes"
+because = "It is."
+wrong = { no = "Look again.", "at times" = "Not at times." }
+
+[quiz.height]
+kind = "number"
+question = "How high?"
+answer = "2 * limit"
+tolerance = 0.5
+unit = "cm"
+too_low = "Higher."
+too_high = "Lower."
+because = "Twice."
+slips = [["limit", "Twice that."], [1, "No."]]
+
+[quiz.steps]
+kind = "order"
+question = "Put in order."
+steps = ["first", "second", "third"]
+hints = ["first before second", "second before third"]
+because = "So."
+
+[bet.share]
+ask = "Share"
+unit = "%"
+low = 0
+high = 100
+came_out = "100 / limit"
+
+[bet.which]
+ask = "Which?"
+choices = ["this", "that"]
+came_out = "that"
+holds = "limit > 3"
+"""
+
+
+def questions(tmp_path, text=GOOD):
+    file = tmp_path / "99-test.toml"
+    file.write_text(text)
+    return read_questions(file)
+
+
+def data(shown):
+    return json.loads(base64.b64decode(re.search(r'data-spec="([^"]*)"', shown.html)[1]))
+
+
+def seen(shown):
+    """Give what is read where no script runs."""
+    return re.sub(r"(?s)<(script|style)>.*?</\1>|<[^>]*>", " ", shown.html)
+
+
+# What they show
+
+
+def test_a_choice_shows_its_choices_and_hides_which_is_right(tmp_path):
+    shown = asked("99-more", questions(tmp_path).quizzes["more"], {"limit": 4.2})
+    spec = data(shown)
+    choices = re.findall(r"^[a-z]\) (.*)$", shown.text, re.MULTILINE)
+    assert sorted(choices) == ["at times", "no", "yes"]
+    assert spec["hints"][choices.index("yes")] == ""
+    assert spec["hints"][choices.index("no")] == "Look again."
+    assert "Is <code>D &lt; 4</code> <em>always</em> 4?" in shown.html
+    assert repr(shown).startswith("Is D < 4 always 4?\n")
+    for form in (shown.text, seen(shown)):
+        assert "It is." not in form
+        assert "Look again" not in form
+    assert shown._repr_mimebundle_() == {"text/html": shown.html, "text/plain": shown.text}
+
+
+@pytest.mark.parametrize("place", [1, 2, 3])
+def test_the_right_choice_stands_where_it_is_asked_to(place):
+    quiz = Choice("?", "yes", {"no": "x", "never": "y"}, "so", place=place)
+    assert data(asked("99-more", quiz, {}))["hints"].index("") == place - 1
+
+
+def test_the_right_choices_do_not_stand_all_at_one_place():
+    quiz = Choice("?", "yes", {"no": "x", "never": "y"}, "so")
+    places = [data(asked(f"99-{number}", quiz, {}))["hints"].index("") for number in range(30)]
+    assert set(places) == {0, 1, 2}
+
+
+def test_a_number_is_computed_with_the_names_of_the_notebook(tmp_path):
+    shown = asked("99-height", questions(tmp_path).quizzes["height"], {"limit": 1 / 3})
+    spec = data(shown)
+    assert spec["answer"] == 0.666667  # to six digits, the same on every machine
+    assert spec["slips"] == [[0.333333, "Twice that."], [1, "No."]]
+    assert shown.text == "How high?\n- ______ cm"
+    assert "0.66" not in seen(shown)
+
+
+def test_steps_are_mixed_the_same_way_each_time_and_never_in_order():
+    quiz = Order("?", ["a", "b", "c"], ["x", "y"], "so")
+    for key in map(str, range(20)):
+        shown = asked(key, quiz, {})
+        spec = data(shown)
+        assert spec == data(asked(key, quiz, {}))
+        assert sorted(spec["order"]) == [0, 1, 2]
+        assert spec["order"] != [0, 1, 2]
+        assert shown.text.splitlines()[1:] == [f"- {quiz.steps[number]}" for number in spec["order"]]
+
+
+def test_a_bet_asks_and_the_summary_says_what_came_out(tmp_path):
+    bets = {f"99-{name}": bet for name, bet in questions(tmp_path).bets.items()}
+    shown = asked_before(bets, {})
+    assert shown.text == "Share: ______ %\nWhich? this / that"
+    assert [one["key"] for one in data(shown)["bets"]] == ["99-share", "99-which"]
+    assert "25" not in seen(shown) and "<li>Which? this / that</li>" in shown.html
+    summary = summed_up(bets, {"limit": 4})
+    assert summary.text == "Share: 25 %\nWhich? that"
+    assert [row["value"] for row in data(summary)["rows"]] == [25, None]
+    with pytest.raises(MocapError, match="Bet 99-which: the answer is no longer right: 'limit > 3' is false"):
+        summed_up(bets, {"limit": 2})
+
+
+def test_what_needs_captured_clips_is_left_open_without_them(tmp_path):
+    bets = questions(tmp_path).bets
+    bets = {"99-share": bets["share"]._replace(real=True)}
+    assert summed_up(bets, {}).text == "Share: "
+    assert data(summed_up(bets, {}))["rows"][0]["value"] is None
+    with pytest.raises(MocapError, match="Bet 99-share: '100 / limit' fails with ZeroDivisionError"):
+        summed_up(bets, {"limit": 0})
+
+
+def test_an_answer_that_is_no_longer_right_is_an_error(tmp_path):
+    quiz = questions(tmp_path).quizzes["more"]._replace(holds="limit > 3")
+    assert asked("99-more", quiz, {"limit": np.float64(4)})
+    for names, said in [({"limit": 2}, "no longer right"), ({}, "name 'limit' is not defined")]:
+        with pytest.raises(MocapError, match=said):
+            asked("99-more", quiz, names)
+
+
+def test_marks_of_text():
+    assert to_html("`a*b*c` and *so* 2 * 3 * 4 <x>") == (
+        "<code>a*b*c</code> and <em>so</em> 2 * 3 * 4 &lt;x&gt;"
+    )
+    assert to_text("`a*b*c` and *so* 2 * 3") == "a*b*c and so 2 * 3"
+    assert filled("{{x[0:2][1]:.1f}} and {{x[0]}} {y}", {"x": [1, 2]}) == "2.0 and 1 {y}"
+    assert computed("x", {"x": np.float32(2)}) == 2
+
+
+# Data that are not whole
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('kind = "choice"', 'kind = "essay"', "a quiz has a kind: choice, number, order"),
+        ('kind = "choice"', "kind = []", "a quiz has a kind"),
+        ('right = "yes"\n', "", "'right' is missing"),
+        ('right = "yes"', 'right = "no"', "the right choice is among the wrong ones"),
+        ('right = "yes"', 'right = ""', "'right' is empty"),
+        ('right = "yes"', "right = 3", "'right' cannot be 3"),
+        ('no = "Look again."', 'no = ""', "no hint for the choice 'no'"),
+        ('no = "Look again."', "no = 3", "no hint for the choice 'no'"),
+        ('{ no = "Look again.", "at times" = "Not at times." }', "{}", "it needs a wrong choice"),
+        ('because = "It is."', 'because = "It is."\nplace = 4', "its place is not among the choices"),
+        ("tolerance = 0.5", "tolerance = 0", "its tolerance is not above 0"),
+        ("tolerance = 0.5", "tolerance = nan", "its tolerance is not above 0"),
+        ("tolerance = 0.5", "tolerance = true", "'tolerance' cannot be True"),
+        ('[1, "No."]', "[1]", "a slip is a pair of a number and its hint"),
+        ('[1, "No."]', "3", "a slip is a pair of a number and its hint"),
+        ('"third"]', '"second"]', "it needs at least 3 steps, all different"),
+        ('"third"]', "3]", "a step or a hint is no text"),
+        (', "second before third"]', "]", "it needs a hint for each two steps"),
+        ('choices = ["this", "that"]', 'choices = ["that"]', "it needs at least 2 choices"),
+        ('choices = ["this", "that"]', 'choices = ["that", 3]', "a choice is no text"),
+        ('came_out = "that"', 'came_out = "those"', "what came out is none of its choices: 'those'"),
+        ("high = 100\n", "", "a slider goes from low to high"),
+        ("high = 100", "high = -1", "a slider's low is below its high"),
+        ("low = 0", "low = 0\nstep = 0", "a slider goes from low to high, in steps above 0"),
+        ('ask = "Share"', 'ask = "Share"\nanswer = 3', "no field 'answer'; there are ask, came_out"),
+        ("[bet.share]", "[bets.share]", "a table is called quiz.NAME or bet.NAME, got 'bets'"),
+        ("[bet.which]", "[bet.share]", "Cannot declare"),
+        ("[quiz.more]", "[quiz.more", "99-test.toml: "),
+        ("\n[quiz.more]", 'bet = 3\nquiz.b = "x"\n[quiz.more]', "99-test.toml"),
+    ],
+)
+def test_what_is_not_whole_is_said_in_a_sentence(old, new, said, tmp_path):
+    assert GOOD.count(old) == 1 or old == "\n[quiz.more]"
+    with pytest.raises(MocapError) as caught:
+        questions(tmp_path, GOOD.replace(old, new))
+    assert said in str(caught.value)
+    assert str(caught.value).startswith("99-test.toml")
+    assert len(str(caught.value)) <= 200
+
+
+@pytest.mark.parametrize("text", ["quiz = 3", "[quiz]\nmore = 3", "[bet]\nshare = 3", "bet = []"])
+def test_what_is_no_table_is_said(text, tmp_path):
+    with pytest.raises(MocapError, match=r"99-test\.toml"):
+        questions(tmp_path, text)
+
+
+def test_a_file_that_is_no_text_is_said(tmp_path):
+    (tmp_path / "99-test.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(MocapError, match=r"99-test\.toml: 'utf-8' codec"):
+        read_questions(tmp_path / "99-test.toml")
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: lab.quiz("09-none"), "No quiz 'none' in 09-discussion.toml."),
+        (lambda: lab.quiz("none"), "There are no questions for a notebook 'none'."),
+        (lambda: lab.quiz("*-none"), r"There are no questions for a notebook '\*'."),
+        (lambda: lab.bet("09-none"), "No bet 'none' in 09-discussion.toml."),
+        (lambda: lab.bet(), "A bet needs a key"),
+        (lambda: lab.bets("99"), "There are no questions for a notebook '99'."),
+        (lambda: lab.bets("09"), "Bet 09-transitions-per-step: .* fails with NameError"),
+    ],
+)
+def test_what_is_not_there_is_said(call, said):
+    with pytest.raises(MocapError, match=said):
+        call()
+
+
+def test_names_are_those_of_the_caller():
+    space = {}
+    exec("from mocap.course import lab\ndied, exact = {185: 0.59}, {185: 0.55}\nimport numpy as np", space)
+    assert "59 % die; the matrix gives 55 %" in eval("lab.quiz('09-exact-or-sample')", space).text
+    assert eval("lab.bet('09-die-at-185')", space).text == "Share of the walks that die at 185: ______ %"
+
+
+# All files, and the notebooks
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_a_file_is_whole_and_belongs_to_a_notebook(file):
+    found = read_questions(file)
+    assert found.quizzes or found.bets
+    assert (FOLDER / f"{file.stem}.ipynb").exists()
+    assert file_of(file.stem.partition("-")[0]) == file
+    assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words
+
+
+def test_the_right_choice_is_not_the_longest_more_often_than_by_chance():
+    quizzes = [quiz for file in FILES for quiz in read_questions(file).quizzes.values()]
+    choices = [quiz for quiz in quizzes if isinstance(quiz, Choice)]
+    longest = sum(len(quiz.right) > max(map(len, quiz.wrong)) for quiz in choices)
+    assert longest < sum(1 / (1 + len(quiz.wrong)) for quiz in choices)
+
+
+def calls(source):
+    """List the questions that a cell asks, as pairs of the function's name and a key."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in ("lab.quiz", "lab.bet", "lab.bets"):
+            yield from ((node.func.attr, argument.value) for argument in node.args)
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_a_notebook_asks_five_to_eight_quizzes_and_a_bet_for_each_of_its_file(name):
+    cells = notebooks.read(FOLDER / f"{name}.ipynb").cells
+    code = [cell for cell in cells if cell.cell_type == "code"]
+    found = [pair for cell in code for pair in calls(cell.source)]
+    number, all_of_it = name.partition("-")[0], read_questions(TEXTS / f"{name}.toml")
+    quizzes = [key for kind, key in found if kind == "quiz"]
+    assert 5 <= len(quizzes) <= 8
+    assert sorted(quizzes) == sorted(f"{number}-{key}" for key in all_of_it.quizzes)
+    assert sorted(key for kind, key in found if kind == "bet") == sorted(
+        f"{number}-{key}" for key in all_of_it.bets
+    )
+    assert [*calls(code[-1].source)] == [("bets", number)]  # when all else has run
+    for cell, after in zip(cells, [*cells[1:], SimpleNamespace(source="")], strict=True):
+        if "prediction" in cell.metadata.get("tags", ()):
+            assert after.source.startswith("lab.bet("), cell.source[:60]
+            assert "<details>" not in cell.source
+    for cell in code:
+        if cell.source.startswith("lab.bet("):
+            answer = cells[cells.index(cell) + 1]
+            assert "answer" in answer.metadata.get("tags", ())
+            assert answer.source.startswith("<details><summary>Answer</summary>\n\n")

@@ -1,0 +1,53 @@
+"""Which cells an exercise needs, and which notebook of the course a copy is of."""
+
+import nbformat
+import pytest
+
+from mocap.course import read, stored
+from mocap.course.marking.cells import Cell, code_cells, course_sheets, needed, sheet_of
+from mocap.course.marking.marks import all_checks
+
+
+@pytest.fixture(scope="module")
+def sheets():
+    return course_sheets(stored())
+
+
+def test_the_sheets_ask_for_each_check_of_the_course_once(sheets):
+    names = [name for sheet in sheets for name in sheet.exercises]
+    assert sorted(names) == sorted(all_checks())
+
+
+def test_a_copy_is_recognised_without_its_name_its_tags_and_its_exercises(sheets):
+    for sheet in sheets[:3]:
+        copy = read(stored() / f"{sheet.name}.ipynb")
+        copy.cells = [cell for cell in copy.cells if "exercise:" not in str(cell.metadata)]
+        for cell in copy.cells:
+            cell.metadata = {}
+        assert sheet_of(copy, sheets) == sheet
+
+
+@pytest.mark.parametrize(
+    ("sources", "wanted"),
+    [
+        (["a = 1", "def f(): return g()", "def g(): return a"], [0, 1, 2]),  # a helper of a helper, behind
+        (["a = 1", "a = 2", "def f(): return a", "a = 3"], [0, 1, 2]),  # those before it count
+        (["x = 1", "def f(x):\n    y = x\n    return y", "y = 2"], [1]),  # its own names
+        (["import numpy as np", "def f(): return [np.sin(i) for i in range(3)]", "i = 1"], [0, 1]),
+        (["x = (", "def f(): return x"], [1]),  # a cell that is no Python
+        (["class x: ...", "def f(): return x()"], [0, 1]),
+        (["def f(): return g()", "def g(): return f()"], [0, 1]),  # a circle
+    ],
+)
+def test_an_exercise_needs_the_cells_that_define_what_it_uses(sources, wanted):
+    cells = [Cell((), source) for source in sources]
+    assert needed(cells, "f") == wanted
+
+
+def test_nothing_is_needed_for_what_is_not_there():
+    assert needed([Cell((), "f(1)")], "f") == []
+
+
+def test_a_cell_may_hold_two_exercises():
+    cell = nbformat.v4.new_code_cell("", metadata={"tags": ["exercise:a", "exercise:b"]})
+    assert code_cells(nbformat.v4.new_notebook(cells=[cell])) == [Cell(("a", "b"), "")]

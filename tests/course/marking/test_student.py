@@ -1,0 +1,104 @@
+"""The way of a call: arguments to the student, an answer back, and the same sentence as in the notebook."""
+
+import json
+import pickle
+from types import SimpleNamespace
+
+import pytest
+
+from mocap.course import lab
+from mocap.course.check import Check
+from mocap.course.checks import all_checks
+from mocap.course.marking.marks import _Answer
+from mocap.course.marking.student import Student
+
+
+def over_the_channel(function):
+    """Give a function as the marker sees it, without the process between."""
+    here = SimpleNamespace(shell=SimpleNamespace(user_ns={"f": function}))
+
+    def ask(method, *arguments):
+        arguments = pickle.loads(pickle.dumps(arguments))
+        return json.loads(json.dumps(getattr(Student, method)(here, *arguments)))
+
+    return _Answer(SimpleNamespace(ask=ask), "f")
+
+
+@pytest.mark.parametrize("name", all_checks())
+def test_a_check_says_the_same_as_in_the_notebook(name):
+    check = all_checks()[name]
+    for answer in (check.truth, *(mistake.answer for mistake in check.mistakes)):
+        assert check.verdict(over_the_channel(answer)) == check.verdict(answer)
+
+
+DOUBLE = Check(
+    name="double",
+    asks="twice the numbers",
+    start="What is 2 times x?",
+    draw=lambda rng: (rng.normal(size=3),),
+    truth=lambda x: 2 * x,
+    mistakes=[],
+)
+
+
+def in_place(x):
+    x *= 2
+    return x
+
+
+def unfinished(x):
+    raise NotImplementedError
+
+
+@pytest.mark.parametrize(
+    "answer", [in_place, unfinished, lambda x: ..., lambda x: None, lambda x: (2 * x).tolist(), lambda x: len]
+)
+def test_what_students_do_is_said_as_in_the_notebook(answer):
+    assert DOUBLE.verdict(over_the_channel(answer)) == DOUBLE.verdict(answer)
+
+
+def test_an_error_is_said_with_its_line():
+    def fails(x):
+        return x[7]
+
+    assert DOUBLE.verdict(over_the_channel(fails)).message == (
+        "double: your function raises IndexError: "
+        "index 7 is out of bounds for axis 0 with size 3 (in `return x[7]`)"
+    )
+
+
+@pytest.mark.parametrize("ending", [SystemExit, KeyboardInterrupt, GeneratorExit])
+def test_a_function_that_ends_python_only_raises(ending):
+    def ends(x):
+        raise ending("now")
+
+    assert f"your function raises {ending.__name__}: now" in DOUBLE.verdict(over_the_channel(ends)).message
+
+
+def test_a_reply_that_is_none_is_no_answer():
+    for reply in ({}, {"given": 1}, {"given": ["eval", "1"], "changed": []}, [], 3):
+        answer = _Answer(SimpleNamespace(ask=lambda *_, reply=reply: reply), "f")
+        assert not DOUBLE.verdict(answer).right
+
+
+def test_a_changed_array_of_another_shape_is_no_answer():
+    reply = {"given": 1, "changed": [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]]}
+    assert not DOUBLE.verdict(_Answer(SimpleNamespace(ask=lambda *_: reply), "f")).right
+
+
+def test_what_stands_in_for_a_wrong_function_gets_no_mark(tmp_path, monkeypatch):
+    """The notebook goes on with the package's function; the marker judges what the student wrote."""
+    monkeypatch.chdir(tmp_path)
+    hamilton = lab.mine(multiplied_number_by_number)
+    assert all_checks()["hamilton"].verdict(hamilton.stand_in).right
+    verdict = all_checks()["hamilton"].verdict(over_the_channel(hamilton))
+    assert not verdict.right
+    assert "multiplies number by number" in verdict.message
+    assert list(tmp_path.iterdir()) == []
+
+
+def multiplied_number_by_number(a, b):
+    return a * b
+
+
+multiplied_number_by_number.__name__ = "hamilton"

@@ -1,0 +1,66 @@
+"""Drawings for the board."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from mocap.cli.main import main
+from mocap.course.opening import stored
+from mocap.course.teaching import board
+
+
+@pytest.mark.parametrize("name", ["04-laid-on", "05-alpha", "08-tarjan", "11-pinned"])
+def test_a_drawing_has_its_steps_with_numbers(name):
+    page = np.asarray(board.board_sheet(name))
+    count = len(list(board.BOARD[name][1]()))
+    blue = tuple(int(board.DISC[at : at + 2], 16) for at in (1, 3, 5))
+    for number in range(count if count > 1 else 0):
+        columns = 2 if count == 4 else 3
+        x = board.GAP + number % columns * (board.PANEL[0] + board.GAP)
+        y = board.HEAD + number // columns * (board.PANEL[1] + board.GAP)
+        assert tuple(page[y + 5, x + 24]) == blue
+    assert (page[:, -board.GAP // 2 :] == 255).all()  # no heading is cut
+
+
+def test_a_step_has_one_number(monkeypatch):
+    kept = []
+    monkeypatch.setattr(board, "_panel", lambda figure, *_: kept.append(figure) or Image.new("RGB", (9, 9)))
+    board.board_sheet("07-graph")
+    titles = [figure.axes[0].get_title(loc="left") for figure in kept]
+    assert titles[0].startswith("Two clips: ")
+    board.board_sheet("04-laid-on")
+    assert any(ax.get_title().startswith("1. ") for ax in kept[-1].axes)  # which shows its steps itself
+
+
+@pytest.mark.parametrize("name", board.BOARD)
+def test_each_has_figures(name):
+    figures = list(board.BOARD[name][1]())
+    assert len(figures) in (1, 3, 4, 6)
+
+
+def test_there_are_ten_and_one():
+    assert len(board.BOARD) == 11
+    assert len({heading for heading, _ in board.BOARD.values()}) == 11
+
+
+def test_the_command_writes_them_and_a_sheet_of_all(tmp_path, monkeypatch, capsys):
+    few = {name: board.BOARD[name] for name in ("04-laid-on", "11-pinned")}
+    monkeypatch.setattr(board, "BOARD", few)
+    assert main(["course", "board", "-o", str(tmp_path)]) == 0
+    assert capsys.readouterr().out.startswith("wrote 3 pictures to")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "04-laid-on.png",
+        "11-pinned.png",
+        "board.png",
+    ]
+
+
+def test_the_sheet_beside_the_course_shows_all():
+    wide, high = Image.open(stored().parent / "figures" / "board.png").size
+    assert wide > 1800
+    assert high > 1200
+
+
+@pytest.mark.exhaustive
+def test_all_are_drawn(tmp_path):
+    assert len(board.write_board(tmp_path)) == 12

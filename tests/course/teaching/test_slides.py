@@ -1,0 +1,89 @@
+"""The decks as pages."""
+
+import re
+import shutil
+
+import pytest
+
+from mocap.cli.main import main
+from mocap.course.opening import stored
+from mocap.course.site import MOVING
+from mocap.course.teaching import slides
+from mocap.errors import MocapError
+
+NAMES = ("00-quickstart", "06-pruning")
+
+
+@pytest.fixture(scope="module")
+def decks(tmp_path_factory):
+    folder, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("slides")
+    for name in NAMES:
+        shutil.copy(stored() / f"{name}.ipynb", folder)
+    slides.build_slides(folder, out)
+    return out
+
+
+def test_there_is_a_deck_per_notebook_and_a_page_that_lists_them(decks):
+    listed = re.findall(r'href="([^"]*)"', (decks / "index.html").read_text("utf-8"))
+    assert listed == [f"{name}.html" for name in NAMES]
+    for name in NAMES:
+        page = (decks / f"{name}.html").read_text("utf-8")
+        assert page.count("<section") == page.count("</section>") > 20
+        assert page.count("<div") == page.count("</div>")
+        assert not re.search(r"SLIDE\d|NOTES\d", page)
+
+
+def test_a_deck_loads_only_what_lies_beside_it(decks):
+    for name in NAMES:
+        page = (decks / f"{name}.html").read_text("utf-8")
+        for found in re.findall(r'<(?:script|link|img)[^>]* (?:src|href)="([^"]*)"', page):
+            assert found.startswith("data:") or (decks / found).is_file()
+    assert "MIT" in (decks / "reveal/dist/reveal.js").read_text("utf-8")[:300]
+    assert "Permission is hereby granted" in (decks / "reveal/LICENSE").read_text("utf-8")
+
+
+def test_recordings_move_on_slides_by_the_script_that_moves_them_on_the_site(decks):
+    page = (decks / "06-pruning.html").read_text("utf-8")
+    assert page.count(MOVING.read_text("utf-8")) == 1
+
+
+def test_links_lead_to_decks_or_are_words(decks):
+    for name in NAMES:
+        page = (decks / f"{name}.html").read_text("utf-8")
+        for link in re.findall(r'<a [^>]*href="([^"]*)"', page):
+            assert link.startswith("https://") or (decks / link).is_file()
+
+
+def test_the_speaker_reads_what_the_slide_leaves_out(decks):
+    page = (decks / "06-pruning.html").read_text("utf-8")
+    shown = re.sub(r'<aside class="notes">.*?</aside>', "", page, flags=re.DOTALL)
+    said = "Then through this node each node of the first could reach each node of the second"
+    assert said in page
+    assert said not in shown
+
+
+def test_what_is_missing_is_one_sentence(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(slides, "find_spec", lambda name: None)
+    assert main(["course", "slides", "-o", str(tmp_path / "out")]) == 2
+    assert "pip install 'mocap[slides]'" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_package_without_the_files_is_not_taken(monkeypatch, tmp_path):
+    class Found:
+        origin = str(tmp_path / "__init__.py")
+
+    monkeypatch.setattr(slides, "find_spec", lambda name: Found)
+    with pytest.raises(MocapError, match="sphinx-revealjs"):
+        slides.reveal()
+
+
+def test_the_command_writes_the_course(tmp_path, monkeypatch, capsys):
+    from mocap import course
+
+    folder = tmp_path / "notebooks"
+    folder.mkdir()
+    shutil.copy(stored() / "06-pruning.ipynb", folder)
+    monkeypatch.setattr(course, "stored", lambda: folder)
+    assert main(["course", "slides", "-o", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().out == f"wrote {tmp_path / 'out' / 'index.html'}\n"

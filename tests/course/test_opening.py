@@ -1,0 +1,17 @@
+"""The notebooks of an installed package."""
+
+from mocap.course import opening
+
+
+def test_an_installed_package_copies_its_notebooks_and_keeps_edited_ones(monkeypatch, tmp_path):
+    package = tmp_path / "site" / "mocap"
+    (package / "notebooks").mkdir(parents=True)
+    for name in ("00-quickstart.ipynb", "01-next.ipynb"):
+        (package / "notebooks" / name).write_text("{}")
+    monkeypatch.setattr(opening, "PACKAGE", package)
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "01-next.ipynb").write_text("edited")
+    assert opening.course_folder(mine) == mine
+    assert (mine / "00-quickstart.ipynb").read_text() == "{}"
+    assert (mine / "01-next.ipynb").read_text() == "edited"

@@ -1,0 +1,149 @@
+"""Turns copied from body to body."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.body.skeleton import Skeleton
+from mocap.editing.body_roles import ancestors
+from mocap.editing.copied_motion import copied
+from mocap.editing.proportions import proportioned
+from mocap.editing.stances import stance_of, stance_of_walk
+from mocap.errors import MocapError, SkeletonMismatch
+from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
+
+
+def farthest(a: Motion, b: Motion) -> float:
+    return float(np.linalg.norm(joint_positions(a) - joint_positions(b), axis=-1).max())
+
+
+def rms(errors: np.ndarray) -> float:
+    return float(np.sqrt((errors**2).mean()))
+
+
+def test_onto_itself_nothing_moves():
+    assert farthest(copied(walk(), adult(), adult()), walk()) < 1e-12
+
+
+@settings(max_examples=5)
+@given(share=st.floats(0.2, 3))
+def test_onto_a_scaled_copy_all_places_are_scaled(share):
+    """About the ground below the hips of the first frame."""
+    smaller = proportioned(adult(), legs=share, trunk=share, arms=share, head=share)
+    there = joint_positions(copied(walk(1.0), adult(), smaller))
+    here = joint_positions(walk(1.0))
+    centre = here[0, [adult().roles["left hip"], adult().roles["right hip"]]].mean(axis=0) * [1, 0, 1]
+    assert np.allclose(there - centre, share * (here - centre), atol=1e-12)
+
+
+@settings(max_examples=5)
+@given(angle=st.floats(-3, 3), x=st.floats(-9, 9), z=st.floats(-9, 9))
+def test_a_copy_is_carried_over_the_ground_with_its_source(angle, x, z):
+    carry = PlanarTransform(angle, x, z)
+    moved = copied(carry.apply_motion(walk(1.0)), adult(), child())
+    assert farthest(moved, carry.apply_motion(copied(walk(1.0), adult(), child()))) < 1e-11
+
+
+def test_the_rest_pose_does_not_matter():
+    """Bones along +x at rest, as in Bandai-Namco's files; copied angle by angle the figure would fold."""
+    other = rested(walk(), along_x(walk().skeleton))
+    onto = stance_of(other)
+    assert farthest(copied(walk(), stance_of_walk(walk()), onto), walk()) < 1e-12
+    who = adult().roles
+    apart = bends(copied(walk(), adult(), onto), who) - bends(walk(), who)
+    assert rms(apart) < 5  # the rest pose against the mean over the walk, at the elbows
+    naive = Motion(other.skeleton, walk().root_positions, walk().rotations, walk().fps)
+    wrong = bends(naive, who) - bends(walk(), who)
+    assert min(rms(wrong[:, [2, 6]]), rms(wrong[:, [3, 7]])) > 90  # hips, shoulders
+
+
+def test_arms_that_rest_another_way_keep_their_hands():
+    """Arms out at rest, as in the CMU files, on arms that rest hanging: hands go with their forearms."""
+    turns = np.tile([1.0, 0, 0, 0], (len(walk().skeleton), 1))
+    for side, sign in (("l", -1), ("r", 1)):
+        arm = walk().skeleton.index(f"{side}humerus")
+        below = [j for j in range(len(turns)) if arm in ancestors(walk().skeleton, j)]
+        turns[below] = rotations.from_rotvec([0, 0, sign * np.pi / 2])
+    out = rested(walk(), turns)
+    assert farthest(copied(walk(), adult(), stance_of(out)), walk()) < 1e-12
+    assert farthest(copied(out, stance_of(out), adult()), walk()) < 1e-12
+
+
+def test_there_and_back():
+    there = copied(walk(), adult(), child())
+    assert farthest(copied(there, child(), adult()), walk()) < 1e-12
+    fewer = without(walk(), "lowerback", "upperback", "lclavicle", "rclavicle", "lowerneck")
+    there = copied(walk(), adult(), stance_of(fewer))
+    back = copied(there, stance_of(fewer), adult())
+    apart = joint_positions(back) - joint_positions(walk())
+    assert 0.001 < rms(np.linalg.norm(apart, axis=-1)) < 0.025  # the turns of joints that it lacks are lost
+    legs = [
+        joint for role, joint in adult().roles.items() if role.split()[-1] in ("hip", "knee", "ankle", "ball")
+    ]
+    assert np.abs(apart[:, legs]).max() < 1e-12
+
+
+def test_joints_that_one_body_lacks_bend_the_others_as_in_the_source():
+    fewer = without(walk(), "lowerback", "upperback", "lclavicle", "rclavicle", "lowerneck")
+    there = copied(walk(), adult(), stance_of(fewer))
+    apart = bends(there, stance_of(fewer).roles) - bends(walk(), adult().roles)
+    assert rms(apart[:, [0, 4]]) < 0.01  # knees
+    assert rms(apart) < 4
+
+
+def test_names_labels_and_contacts_come_along():
+    other = renamed(walk(), LONG)
+    there = copied(walk(), adult(), stance_of(other))
+    assert there.name == walk().name
+    assert list(there.labels) == list(walk().labels)
+    assert np.array_equal(there.contacts["LeftFoot"], walk().contacts["lfoot"])
+    assert set(there.contacts) == {"LeftFoot", "RightFoot", "LeftToeBase", "RightToeBase"}
+
+
+def test_a_root_above_the_pelvis_turns_with_the_heading_only():
+    old = walk().skeleton
+    body = type(old)(
+        ["ground", *old.names], [-1, *(old.parents + 1)], np.r_[[[0.0, 0, 0], [0, 0.9, 0]], old.offsets[1:]]
+    )
+    roots = walk().root_positions - [0, 0.9, 0]
+    turns = np.concatenate([np.tile([1.0, 0, 0, 0], (len(walk()), 1, 1)), walk().rotations], axis=1)
+    clip = Motion(body, roots, turns, walk().fps, contacts=walk().contacts)
+    there = copied(walk(), adult(), stance_of(clip))
+    assert np.abs(joint_positions(there)[:, 1:] - joint_positions(walk())).max() < 1e-12
+    assert np.abs(there.rotations[:, 0, [1, 3]]).max() < 1e-9  # about the vertical
+
+
+def test_longer_steps_are_asked_by_scale():
+    ways = [np.ptp(copied(walk(), adult(), child(), scale=s).root_positions[:, 2]) for s in (0.55, 1.1)]
+    assert ways[1] == pytest.approx(2 * ways[0], rel=1e-3)
+
+
+def test_bad_input():
+    with pytest.raises(SkeletonMismatch):
+        copied(walk(), child(), adult())
+    for scale in (0, -1, np.nan, np.inf):
+        with pytest.raises(MocapError, match="needs a scale above 0"):
+            copied(walk(), adult(), child(), scale=scale)
+
+
+def test_one_frame():
+    assert farthest(copied(walk()[5:6], adult(), adult()), walk()[5:6]) < 1e-12
+
+
+def test_bones_that_lie_on_one_line_or_have_no_length():
+    """The smallest turn is taken where the bones leave a choice."""
+    flat = without(walk(), "lhipjoint", "rhipjoint")
+    offsets = flat.skeleton.offsets.copy()
+    for name in ("lfemur", "rfemur"):
+        offsets[flat.skeleton.index(name)] *= [1, 0, 0]
+    offsets[flat.skeleton.index("lowerback")] = [0, 0, 0]
+    body = Skeleton(flat.skeleton.names, flat.skeleton.parents, offsets)
+    clip = Motion(body, flat.root_positions, flat.rotations, flat.fps, contacts=flat.contacts)
+    there = copied(walk(), adult(), stance_of(clip))
+    level = np.degrees(np.arccos(np.clip(there.rotations[:, 0, 0], -1, 1))) * 2
+    assert level.max() < 30

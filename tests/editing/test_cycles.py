@@ -1,0 +1,166 @@
+"""The best cycle in a clip: a stride, not a held pose; closed without a jump."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import concatenate, resample
+from mocap.body.planar import heading, lay_on
+from mocap.datasets import samples
+from mocap.editing.cycles import Loop, find_loop, loop
+from mocap.editing.looping import repeated
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footplants import mark_plants
+from mocap.files import load_save
+from mocap.matching.distance_grids import distance_grid
+from mocap.quality.blend_measures import ground_slides
+from mocap.quality.seam_measures import jumps
+from tests.strategies import wave
+
+WALK = resample(samples.sample("walk_straight"), 60)
+
+
+def standing_then_walking():
+    """Somebody who walks, and then holds the pose they end in for five seconds."""
+    held = replace(WALK[-1:], rotations=WALK.rotations[-1:], labels={}, contacts={})
+    still = concatenate([held] * 300)
+    return concatenate([replace(WALK, contacts={}, labels={}), still], name="mostly held")
+
+
+def smallest_seam(motion, seconds=0.4, window=12):
+    """Return the cycle that the smallest seam alone would choose."""
+    grid = np.sqrt(distance_grid(motion, motion, window=window))
+    near = np.abs(np.subtract.outer(*map(np.arange, grid.shape))) < seconds * motion.fps
+    first, last = sorted(np.unravel_index(np.where(near, np.inf, grid).argmin(), grid.shape))
+    return Loop(int(first), int(last), float(grid[first, last]), 0.0)
+
+
+def travelled(motion):
+    """Return how far hands and feet go, seen from the root, metres."""
+    places = joint_positions(motion) - motion.root_positions[:, None]
+    ends = [motion.skeleton.index(name) for name in ("lfoot", "rfoot", "lhand", "rhand")]
+    return np.linalg.norm(np.diff(places[:, ends], axis=0), axis=-1).sum()
+
+
+def test_the_smallest_seam_alone_finds_a_held_pose():
+    clip = standing_then_walking()
+    naive, found = smallest_seam(clip), find_loop(clip)
+    assert naive.seam < 1e-3 < found.seam
+    held, stride = (travelled(clip[c.first : c.last + 1]) for c in (naive, found))
+    assert held < 0.05
+    assert stride > 2.0
+
+
+@pytest.mark.parametrize("name", ["walk_straight", "walk_circle", "jog", "stop_and_go"])
+def test_one_stride_is_found(name):
+    clip = resample(samples.sample(name), 60)[:900]
+    found = find_loop(clip)
+    left = clip.contacts["lfoot"][found.first : found.last]
+    steps = np.flatnonzero(np.diff(np.concatenate([left, left[:1]]).astype(int)) == 1)
+    assert len(steps) == 1  # the left foot comes down once
+    assert found.seam < 0.03
+
+
+@pytest.mark.parametrize("way", ["blend", "inertialize"])
+@pytest.mark.parametrize("clean", [False, True])
+@pytest.mark.parametrize("straight", [False, True])
+def test_rounds_go_on_without_a_jump(way, straight, clean):
+    clip = resample(samples.sample("walk_circle"), 60)
+    cycle = loop(clip, find_loop(clip), way=way, straight=straight, clean=clean)
+    first, last = lay_on(cycle, cycle, len(cycle) - 1).apply_motion(cycle[:1]), cycle[-1:]
+    assert np.abs(joint_positions(first) - joint_positions(last)).max() < 1e-9
+    rounds = repeated(cycle, 4)
+    assert all(mine.max() < 1.1 * clips.max() for mine, clips in zip(jumps(rounds), jumps(clip), strict=True))
+    turn = np.unwrap(heading(cycle.rotations[:, 0]))
+    assert (abs(turn[-1] - turn[0]) < 1e-9) == straight
+    if straight:  # four rounds go four times as far, in one line
+        ends = [np.subtract(*c.root_positions[[-1, 0]][:, [0, 2]]) for c in (cycle, rounds)]
+        assert np.allclose(4 * ends[0], ends[1], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["walk_circle", "sneak"])
+def test_feet_that_a_straight_path_turns_are_put_back(name):
+    clip = resample(samples.sample(name), 30)
+    found = find_loop(clip)
+    slides = {
+        clean: ground_slides(mark_plants(repeated(loop(clip, found, straight=True, clean=clean), 3))).sum()
+        for clean in (False, True)
+    }
+    assert slides[False] > 3  # cm, all joints of the feet together
+    assert slides[True] < 0.1 * slides[False]
+
+
+def test_the_path_is_kept_where_it_is_not_made_straight():
+    clip = resample(samples.sample("walk_circle"), 60)
+    found = find_loop(clip)
+    cycle = loop(clip, found)
+    window = round(0.2 * clip.fps)
+    same = clip[found.first + window : found.last]
+    assert np.array_equal(cycle.root_positions[: len(same)], same.root_positions)
+    assert len(cycle) == found.last - found.first + 1
+
+
+def test_a_cycle_can_be_found_where_it_is_put():
+    swing = wave(400, period=37)
+    found = find_loop(swing, seconds=(0.5, 2.0))
+    assert found.last - found.first == 37
+    assert found.seam < 0.01
+
+
+def test_real_walks_and_runs(real_data):
+    for name, least, most in (("02/02_01", 0.9, 1.4), ("16/16_35", 0.5, 1.0), ("16/16_15", 0.9, 2.6)):
+        clip = load_save.load(real_data / f"cmu/{name}.amc")
+        found = find_loop(clip)
+        assert least < (found.last - found.first) / clip.fps < most
+        rounds = repeated(loop(clip, found), 3)
+        assert jumps(rounds)[0].max() < 1.1 * jumps(clip)[0].max()
+
+
+def test_what_cannot_be_looped_is_refused():
+    with pytest.raises(MocapError, match=r"'wave' lasts 0\.47 s: a cycle takes 0\.6 s or more"):
+        find_loop(wave(15))
+    with pytest.raises(MocapError, match=r"'wave' lasts 0 s: a cycle takes 0\.6 s or more"):
+        find_loop(wave(1))
+    with pytest.raises(MocapError, match="'wave' lasts 303 s: look for a cycle in 300 s of it"):
+        find_loop(wave(9100))
+    for seconds in ((2.0, 1.0), (0.0, 1.0), (0.1, 1.0), (1.0, np.inf), (np.nan, 1.0)):
+        with pytest.raises(MocapError, match="from one number of seconds to a larger one"):
+            find_loop(wave(200), seconds=seconds)
+    with pytest.raises(MocapError, match="closed by one of blend, inertialize, not by 'magic'"):
+        loop(wave(200), Loop(0, 40, 0, 0), way="magic")
+    for first, last in ((-1, 40), (40, 40), (0, 3), (0, 195), (50, 40)):
+        with pytest.raises(MocapError, match=f"from frame {first} to {last} leaves no room for a seam of 6"):
+            loop(wave(200), Loop(first, last, 0, 0))
+
+
+def test_the_shortest_cycle_that_may_be_asked_for_can_be_closed():
+    assert loop(WALK, find_loop(WALK, seconds=(0.2, 0.2)), way="inertialize").duration == pytest.approx(0.2)
+
+
+def test_plants_that_are_let_go_are_told_as_a_share_of_the_cycle():
+    """The rounds around it are cleaned up as well, but their frames are nobody's."""
+    sway = np.outer(0.05 * np.sin(0.9 * np.arange(len(WALK))), [0, 0, 1])
+    shaken = replace(WALK, root_positions=WALK.root_positions + sway, contacts={})
+    with pytest.warns(MocapWarning) as caught:
+        loop(shaken, find_loop(shaken), clean=True)
+    (said,) = caught
+    assert str(said.message).startswith("'walk_straight_loop': 40% of the planted frames are let go")
+
+
+def test_a_clip_far_from_the_origin_has_the_same_cycle():
+    """As recorded by a satellite's coordinates, 900 km from where they begin."""
+    far = replace(WALK, root_positions=WALK.root_positions + np.array([5e5, 0, 9e5]))
+    assert find_loop(far)[:2] == find_loop(WALK)[:2]
+    assert find_loop(far)[2:] == pytest.approx(find_loop(WALK)[2:], rel=1e-4)
+
+
+def test_a_clip_without_any_motion_has_a_cycle():
+    still = replace(
+        wave(100), root_positions=np.ones((100, 3)), rotations=np.tile(rotations.IDENTITY, (100, 4, 1))
+    )
+    found = find_loop(still)
+    assert found.seam < 1e-6
+    assert found.last - found.first == 12

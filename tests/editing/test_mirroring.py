@@ -1,0 +1,170 @@
+"""Left and right swapped: against geometry, on bodies of any axes, and what it is good for."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from mocap.body import rotations
+from mocap.body.ground_path import GroundPath, s_curve
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.body.planar import heading
+from mocap.body.skeleton import Skeleton
+from mocap.datasets import samples
+from mocap.editing.mirroring import mirror, mirrored_name, symmetry
+from mocap.errors import MocapError, MocapWarning
+from mocap.feet.footplants import mark_plants
+from mocap.files import load_save
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.steering.path_following import follow_path
+from tests.strategies import random_quaternions, seeds
+
+WALK = resample(samples.sample("walk_curve_1"), 30)[:150]
+
+
+def reflected(motion):
+    """Return where the joints of a mirror image must be: those of the partners, with x the other way."""
+    return joint_positions(motion)[:, symmetry(motion.skeleton).partners] * [-1, 1, 1]
+
+
+def with_other_axes(motion, seed):
+    """Describe the same motion by a skeleton in which each joint's axes point anywhere."""
+    return with_axes(motion, random_quaternions(np.random.default_rng(seed), len(motion.skeleton)))
+
+
+def with_axes(motion, axes):
+    """Describe the same motion by a skeleton in which each joint's axes are turned."""
+    skeleton = motion.skeleton
+    above = np.concatenate([[rotations.IDENTITY], axes[skeleton.parents[1:]]])
+    offsets = rotations.rotate(rotations.inverse(above), skeleton.offsets)
+    local = rotations.multiply(rotations.inverse(above), rotations.multiply(motion.rotations, axes))
+    turned = Skeleton(skeleton.names, skeleton.parents, offsets)
+    return Motion(turned, motion.root_positions, local, motion.fps, motion.name)
+
+
+def naive(motion):
+    """Mirror by names alone: x, and the two components of a quaternion that a reflection turns round."""
+    found = symmetry(motion.skeleton)
+    local = motion.rotations[:, found.partners] * [1, 1, -1, -1]
+    return replace(motion, root_positions=motion.root_positions * [-1, 1, 1], rotations=local, contacts={})
+
+
+def test_joints_are_where_a_mirror_shows_them():
+    assert np.abs(joint_positions(mirror(WALK)) - reflected(WALK)).max() < 1e-12
+
+
+@given(seeds)
+@settings(max_examples=15)
+def test_twice_is_the_identity(seed):
+    for motion in (WALK, with_other_axes(WALK, seed)):
+        twice = mirror(mirror(motion))
+        assert np.abs(joint_positions(twice) - joint_positions(motion)).max() < 1e-12
+        assert np.abs(np.abs((twice.rotations * motion.rotations).sum(-1)) - 1).max() < 1e-12
+        assert twice.name == motion.name
+
+
+@given(seeds)
+@settings(max_examples=15)
+def test_axes_may_point_anywhere_and_names_alone_do_not_do(seed):
+    odd = with_other_axes(WALK, seed)
+    assert np.abs(joint_positions(odd) - joint_positions(WALK)).max() < 1e-9
+    assert np.abs(joint_positions(mirror(odd)) - reflected(WALK)).max() < 1e-9
+    assert np.abs(joint_positions(naive(odd)) - reflected(WALK)).max() > 0.3
+    assert np.abs(joint_positions(naive(WALK)) - reflected(WALK)).max() < 1e-9  # they do where axes agree
+
+
+def test_where_all_axes_of_a_side_point_the_other_way_a_knee_bends_as_its_partner_does():
+    """By other angles it would bend the same, but a blend of both would turn it round."""
+    leg = ("rfemur", "rtibia", "rfoot", "rtoes", "rtoes_end")
+    axes = np.tile(rotations.IDENTITY, (len(WALK.skeleton), 1))
+    axes[[WALK.skeleton.index(name) for name in leg]] = [0.0, 1.0, 0.0, 0.0]
+    there, here = with_axes(mirror(WALK), axes), mirror(with_axes(WALK, axes))
+    assert rotations.angle_between(there.rotations, here.rotations).max() < 1e-6
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_a_walk_and_its_mirror_image_turn_their_joints_alike(real_data):
+    for name in (
+        "bandai_namco/dataset-2_walk_normal_001",
+        "pymo/AV_8Walk_Meredith_HVHA_Rep1",
+        "imusim/16_15",
+    ):
+        walk = load_save.load(real_data / "bvh" / f"{name}.bvh")
+        even = np.full(len(walk), 1 / len(walk))
+        means = [rotations.mean(clip.rotations[:, 1:].swapaxes(0, 1), even) for clip in (walk, mirror(walk))]
+        assert np.degrees(rotations.angle_between(*means)).max() < 60
+
+
+def test_plants_and_words_change_sides():
+    left = np.arange(len(WALK)) % 2 == 0
+    marked = replace(WALK, labels={"turn left": left, "Right": ~left, "walk": True})
+    image = mirror(marked)
+    assert np.array_equal(image.labels["turn right"], left)
+    assert np.array_equal(image.labels["Left"], ~left)
+    for one, other in (("lfoot", "rfoot"), ("ltoes", "rtoes")):
+        assert np.array_equal(image.contacts[one], WALK.contacts[other])
+    found = mark_plants(replace(image, contacts={}))  # they are there, as the feet stand, not only by name
+    assert (found.contacts["lfoot"] == image.contacts["lfoot"]).mean() > 0.97
+
+
+def test_a_turn_to_the_left_becomes_one_to_the_right():
+    turns = [np.unwrap(heading(clip.rotations[:, 0])) for clip in (WALK, mirror(WALK))]
+    assert np.allclose(turns[0] - turns[0][0], -(turns[1] - turns[1][0]))
+    assert mirrored_name(mirrored_name("a")) == "a"
+
+
+def test_a_lopsided_body_is_mirrored_with_a_sentence():
+    offsets = WALK.skeleton.offsets.copy()
+    offsets[WALK.skeleton.index("ltibia")] *= 1.1
+    lopsided = replace(WALK, skeleton=replace(WALK.skeleton, offsets=offsets))
+    with pytest.warns(MocapWarning, match=r"bones differ by up to 43 mm \(ltibia\)") as caught:
+        image = mirror(lopsided)
+    assert len(str(caught[0].message)) <= 200
+    assert np.allclose(image.skeleton.offsets, offsets)
+    assert np.abs(joint_positions(image) - reflected(lopsided)).max() < 0.06
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mirror(WALK)
+
+
+def test_what_has_no_sides_is_refused():
+    arm = Skeleton(["root", "elbow", "hand"], [-1, 0, 1], np.eye(3))
+    with pytest.raises(MocapError, match="No left and right joints here: root, elbow, hand"):
+        symmetry(arm)
+    odd = Skeleton(["root", "lhip", "rhip", "lknee", "rknee"], [-1, 0, 0, 1, 0], np.eye(5)[:, :3])
+    with pytest.raises(MocapError, match="'lknee' has no mirror image: its side has other joints"):
+        symmetry(odd)
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_files_of_many_programs(real_data):
+    clips = {
+        "bvh/bandai_namco/dataset-2_walk-turn-left_normal_001.bvh": 1e-3,  # all bones along their own x
+        "bvh/20tab/test_freebvh.bvh": 1e-3,
+        "bvh/puppy0512_motion_graph/walk_normal_left_45.bvh": 1e-3,
+        "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh": 1e-3,
+        "cmu/16/16_17.amc": 0.04,  # captured: left and right bones differ
+    }
+    for name, close in clips.items():
+        clip = load_save.load(real_data / name)
+        image = mirror(clip)
+        assert np.abs(joint_positions(image) - reflected(clip)).max() < close, name
+        assert np.abs(joint_positions(mirror(image)) - joint_positions(clip)).max() < 1e-12
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_the_mirrored_s_is_followed_as_well_as_the_s():
+    clips = [resample(samples.sample(name), 30) for name in ("walk_circle", "walk_straight")]
+    ahead = s_curve(12.0)
+    image = GroundPath(ahead.points * [-1, 1])
+    one_sided = prune(build(clips, window=10, threshold=0.04))
+    both = prune(build([*clips, *map(mirror, clips)], window=10, threshold=0.04))
+    errors = np.array(
+        [[follow_path(g, path).off.mean() for path in (ahead, image)] for g in (one_sided, both)]
+    )
+    assert abs(errors[1, 0] - errors[1, 1]) < 1e-6  # metres: the two graphs are mirror images of themselves
+    assert errors[1].max() < errors[0].min()

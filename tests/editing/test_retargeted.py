@@ -1,0 +1,337 @@
+"""Motions worn by other bodies: feet planted, nothing slides, sinks or jolts."""
+
+import warnings
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap import load, load_skeleton
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.editing.body_roles import FEET
+from mocap.editing.copied_motion import copied
+from mocap.editing.floors import dips_of, floor_pins
+from mocap.editing.pins import pin, pin_errors
+from mocap.editing.proportions import proportioned
+from mocap.editing.reaching import reach
+from mocap.editing.retargeted import retarget, standing_like
+from mocap.editing.spacetime_solver import spacetime
+from mocap.editing.stances import stance_of, stance_of_walk
+from mocap.editing.upright_bodies import Stance
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.feet.footplants import mark_plants, runs
+from mocap.feet.footskate import clean_up
+from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
+
+MM = 1000
+
+
+def slide(motion: Motion, stance: Stance) -> float:
+    """Measure how far planted joints stray from their mean places, millimetres."""
+    positions, far = joint_positions(motion), [0.0]
+    for joint in (joint for leg in stance.legs for joint in leg[2:]):
+        for start, stop in runs(motion.contacts[motion.skeleton.names[joint]]):
+            places = positions[start:stop, joint]
+            far.append(np.linalg.norm(places - places.mean(axis=0), axis=-1).max())
+    return MM * max(far)
+
+
+def sinks(motion: Motion, stance: Stance, clip: Motion, source: Stance) -> float:
+    """Measure by how much feet are deeper in the floor than the source's, for their size; millimetres."""
+    allowed, deepest = dips_of(clip, source), dips_of(motion, stance)
+    return MM * max(deepest[role] - allowed[role] * stance.leg / source.leg for role in FEET)
+
+
+def jolts(motion: Motion, base: Motion, stance: Stance) -> float:
+    """Compare the 99th percentiles of accelerations, without hands and head."""
+    joints = [joint for role, joint in stance.roles.items() if role != "head"]
+    tops = [
+        np.percentile(np.linalg.norm(np.diff(joint_positions(clip)[:, joints], 2, axis=0), axis=-1), 99)
+        for clip in (motion, base)
+    ]
+    return float(tops[0] / tops[1])
+
+
+def kept(motion: Motion, base: Motion) -> float:
+    names = [name for name in base.contacts if name in motion.contacts]
+    return sum(motion.contacts[n].sum() for n in names) / sum(base.contacts[n].sum() for n in names)
+
+
+def bent_off(motion: Motion, base: Motion, stance: Stance) -> list[float]:
+    """Measure by how much knees, elbows, hips and shoulders are bent otherwise, rms degrees."""
+    off = bends(motion, stance.roles) - bends(base, stance.roles)
+    return [float(np.sqrt((off[:, [k, k + 4]] ** 2).mean())) for k in range(4)]
+
+
+def held_to_the_bars(clip, source, target, *, scale=None, smooth=1.05, deep=3.0):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # nothing is let go
+        worn = retarget(clip, target, source, scale=scale)
+    base = copied(clip, source, target, scale=scale)
+    knees, *others = bent_off(worn, base, target)
+    assert slide(worn, target) <= 1e-3
+    assert kept(worn, base) >= 0.99
+    assert sinks(worn, target, clip, source) <= deep
+    assert jolts(worn, base, target) <= smooth
+    assert knees <= 3
+    if scale is None:
+        assert max(others) <= 7
+    bones = np.linalg.norm(
+        joint_positions(worn)[:, 1:] - joint_positions(worn)[:, worn.skeleton.parents[1:]], axis=-1
+    )
+    assert np.abs(bones - np.linalg.norm(worn.skeleton.offsets[1:], axis=-1)).max() <= 1e-12
+    return worn
+
+
+def broad() -> Stance:
+    """Make a body with short shanks and broad hips, whose feet stand higher."""
+    old = adult().skeleton
+    offsets = old.offsets.copy()
+    for side in "lr":
+        offsets[old.index(f"{side}femur"), 0] *= 1.3
+        offsets[old.index(f"{side}foot")] *= 0.85
+    heights = {
+        role: height + 0.03 * role.endswith("ankle") + 0.01 for role, height in adult().heights.items()
+    }
+    body = replace(old, offsets=offsets)
+    return replace(adult(), skeleton=body, heights=heights)
+
+
+BODIES = {
+    "child": child,
+    "broad": broad,
+    "other names": lambda: stance_of(renamed(walk(), LONG)),
+    "a rest pose that means nothing": lambda: stance_of(rested(walk(), along_x(walk().skeleton))),
+    "fewer joints": lambda: stance_of(
+        without(walk(), "lowerback", "upperback", "lclavicle", "rclavicle", "lowerneck")
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_bodies_made_of_the_bundled_one(name):
+    held_to_the_bars(walk(), adult(), BODIES[name]())
+
+
+@pytest.mark.parametrize("fps", [30, 60])
+def test_other_rates(fps):
+    clip = clean_up(resample(walk(), fps))
+    held_to_the_bars(clip, stance_of(clip), broad())
+
+
+@settings(max_examples=5)
+@given(shares=st.tuples(*[st.floats(0.4, 1.3)] * 4))
+def test_bodies_of_any_proportions_stand(shares):
+    legs, trunk, arms, head = shares
+    body = proportioned(adult(), legs=legs, trunk=trunk, arms=arms, head=head)
+    worn = retarget(walk(1.5), body, adult())
+    assert slide(worn, body) <= 1e-3
+    assert sinks(worn, body, walk(1.5), adult()) <= 3
+    assert kept(worn, copied(walk(1.5), adult(), body)) >= 0.99
+
+
+def test_onto_itself_nothing_moves():
+    worn = retarget(walk(), adult(), adult())
+    assert (
+        np.abs(joint_positions(worn) - joint_positions(walk())).max() <= 1e-6
+    )  # the file's feet slip by less
+    assert slide(worn, adult()) <= 1e-3
+
+
+def test_the_naive_ways_slide_sink_and_jolt():
+    """Copied alone, feet slide and sink; each frame brought to its pins by itself, they jolt."""
+    base = copied(walk(), adult(), broad())
+    assert slide(base, broad()) > 5
+    floating = np.median(joint_positions(base)[base.contacts["ltoes"], broad().roles["left ball"], 1])
+    assert abs(floating - broad().heights["left ball"]) > 0.005
+    pins = floor_pins(base, broad())
+    framewise = reach(base, pins).motion
+    smooth = spacetime(base, pins).motion
+    assert MM * pin_errors(smooth, pins).max() <= 2
+    assert jolts(framewise, base, broad()) > 1.5 > 1.1 > jolts(smooth, base, broad())
+
+
+@pytest.mark.parametrize(("gain", "smooth"), [(1.2, 1.1), (1.4, 1.2), (1.8, 1.4)])
+def test_a_child_with_long_steps(gain, smooth):
+    """Smooth to 1.35 for a captured walk, below; a generated one has less to drown a change in."""
+    worn = held_to_the_bars(walk(), adult(), child(), scale=0.55 * gain, smooth=smooth)
+    assert bends(worn, child().roles)[:, [0, 4]].min() > 2  # no knee straightens
+
+
+def test_a_body_of_legs_alone():
+    legs = stance_of(without(walk(), *walk().skeleton.names[13:]))
+    worn = retarget(walk(2.0), legs, adult())
+    assert slide(worn, legs) <= 1e-3
+    there = retarget(worn, adult(), legs)  # arms hang as in the stance
+    assert slide(there, adult()) <= 1e-3
+    assert np.ptp(there.rotations[:, there.skeleton.index("lradius")], axis=0).max() < 1e-9
+
+
+def test_steps_that_no_leg_takes_are_said():
+    with pytest.warns(Warning) as said:
+        retarget(walk(2.0), child(), adult(), scale=0.55 * 4)
+    assert any("let go" in str(one.message) or "off its pin" in str(one.message) for one in said)
+
+
+def test_a_rail_for_a_hand():
+    base = copied(walk(), adult(), child())
+    hand = base.skeleton.index("rwrist")
+    when = slice(150, 270)
+    place = joint_positions(base)[210, hand] + [-0.05, 0.1, 0]
+    rail = pin(base, hand, when, [*place[:2], -np.inf], [*place[:2], np.inf])
+    assert MM * pin_errors(base, rail).max() > 100
+    worn = retarget(walk(), child(), adult(), pins=rail)
+    assert MM * pin_errors(worn, rail).max() <= 0.1
+    assert slide(worn, child()) <= 1e-3
+    assert kept(worn, base) >= 0.99
+
+
+def test_a_hand_is_reached_by_the_arm_more_than_by_the_trunk():
+    base = copied(walk(), adult(), child())
+    place = joint_positions(base)[210, base.skeleton.index("rwrist")] + [-0.05, 0.1, 0]
+    rail = pin(base, "rwrist", range(150, 270), [*place[:2], -np.inf], [*place[:2], np.inf])
+    worn = retarget(walk(), child(), adult(), pins=rail)
+    spine = joint_positions(worn)[210, child().roles["neck"]] - worn.root_positions[210]
+    assert np.degrees(np.arctan2(abs(spine[0]), spine[1])) < 14
+
+
+def test_a_skeleton_alone_stands_as_high_as_the_source():
+    body = child().skeleton
+    stance = standing_like(body, adult())
+    assert stance.height("ball") == pytest.approx(0.55 * adult().height("ball"))
+    worn = retarget(walk(2.0), body)
+    assert slide(worn, stance) <= 1e-3
+    assert np.allclose(joint_positions(worn), joint_positions(retarget(walk(2.0), stance, adult())))
+
+
+def test_plants_that_are_not_marked_are_found():
+    bare = replace(walk(2.0), contacts={})
+    assert kept(retarget(bare, child()), copied(mark_plants(bare), adult(), child())) > 0.95
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3])
+def test_short_clips(frames):
+    worn = retarget(walk()[100 : 100 + frames], child(), adult())
+    assert len(worn) == frames
+
+
+def test_bad_input():
+    with pytest.raises(MocapError, match=r"does not stand.*give stance_of_walk"):
+        retarget(walk(), rested(walk(), along_x(walk().skeleton)).skeleton)
+    with pytest.raises(MocapError, match="No legs found"):
+        retarget(walk(), renamed(walk(), {"lfoot": "fin"}).skeleton)
+    with pytest.raises(SkeletonMismatch):
+        retarget(walk(), child(), child())
+    with pytest.raises(MocapError, match="same number of frames"):
+        retarget(walk(2.0), child(), adult(), pins=pin(walk(), "lwrist", [0], [0, 1, 0]))
+
+
+@cache
+def captured(real_data, name: str, first: int = 0, last: int | None = None) -> Motion:
+    """Give a real clip with its plants marked and its feet clean."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return clean_up(mark_plants(load(real_data / name)[first:last]))
+
+
+REAL_BODIES = {
+    "CMU 02": "cmu/02/02_01.amc",
+    "CMU 49": "cmu/49/49_01.amc",
+    "Bandai-Namco": "bvh/bandai_namco/dataset-1_walk_normal_001.bvh",
+    "puppy": "bvh/puppy0512_motion_graph/walk_normal_stright.bvh",
+    "imusim": "bvh/imusim/16_15.bvh",
+    "cgspeed": "bvh/cmu_cgspeed_bvh11/131_01.bvh",
+}
+
+
+@cache
+def stance_in(real_data, name: str) -> Stance:
+    """Say how the body in a real file stands."""
+    scale = 0.0564444 if name == "cgspeed" else None
+    return stance_of(mark_plants(load(real_data / REAL_BODIES[name], scale=scale)))
+
+
+@pytest.mark.parametrize("name", REAL_BODIES)
+def test_a_captured_walk_on_captured_bodies(real_data, name):
+    if not (real_data / REAL_BODIES[name]).exists():
+        pytest.skip(f"no {REAL_BODIES[name]} among the real clips")
+    clip = captured(real_data, "cmu/16/16_15.amc", 12)
+    target = stance_in(real_data, name)
+    source = stance_of_walk(clip) if name == "Bandai-Namco" else stance_of(clip)
+    held_to_the_bars(clip, source, target)
+
+
+@pytest.mark.parametrize(("gain", "smooth"), [(1.2, 1.1), (1.4, 1.15), (1.6, 1.3), (1.82, 1.35)])
+def test_a_captured_walk_on_a_child_with_long_steps(real_data, gain, smooth):
+    clip = captured(real_data, "cmu/16/16_15.amc", 12)
+    source = stance_of(clip)
+    small = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    worn = held_to_the_bars(clip, source, small, scale=0.55 * gain, smooth=smooth)
+    assert bends(worn, small.roles)[:, [0, 4]].min() > 2
+
+
+def test_angles_copied_one_by_one_fold_other_bodies(real_data):
+    """Shoulders are 81° off and hips 101° on Bandai-Namco's body; on CMU 02's and 49's feet slide."""
+    clip = captured(real_data, "cmu/16/16_15.amc", 12)
+    source = stance_of(clip)
+    other = stance_in(real_data, "Bandai-Namco")
+    turns = np.tile([1.0, 0, 0, 0], (len(clip), len(other.skeleton), 1))
+    for role in source.roles.keys() & other.roles.keys():
+        turns[:, other.roles[role]] = clip.rotations[:, source.roles[role]]
+    naive = Motion(other.skeleton, clip.root_positions, turns, clip.fps)
+    off = bends(naive, other.roles) - bends(clip, source.roles)
+    knees, _, hips, shoulders = (np.sqrt((off[:, [k, k + 4]] ** 2).mean()) for k in range(4))
+    assert knees > 20
+    assert min(hips, shoulders) > 75
+    for person in ("02", "49"):
+        body = load_skeleton(real_data / f"cmu/{person}/{person}.asf")
+        same = Motion(body, clip.root_positions, clip.rotations, clip.fps, contacts=clip.contacts)
+        assert 4 < slide(same, replace(source, skeleton=body)) < 15
+
+
+@pytest.mark.parametrize("name", ["16_17", "16_35", "16_05", "16_03", "02_04", "127_25", "49_02"])
+def test_turns_runs_and_jumps_on_a_child_and_on_another_tree(real_data, name):
+    clip = captured(real_data, f"cmu/{name.split('_')[0]}/{name}.amc", 4, 604)
+    source = stance_of(clip)
+    small = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    held_to_the_bars(clip, source, small, smooth=1.07, deep=10)
+    walked = stance_of_walk(captured(real_data, "cmu/16/16_15.amc", 12))
+    other = stance_in(real_data, "Bandai-Namco")
+    upright = Stance(clip.skeleton, source.roles, walked.turns, source.heights)
+    held_to_the_bars(clip, upright, other, smooth=1.07, deep=10)
+
+
+@pytest.mark.parametrize("name", ["cmu/16/16_31.amc", "cmu/16/16_22.amc", "hw3/walk_fwd_curve1.AMC"])
+@pytest.mark.filterwarnings("ignore:.*let go")
+def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_data, name):
+    clip = mark_plants(load(real_data / name)[12:1000])
+    source, target = stance_of(clip), stance_in(real_data, "Bandai-Namco")
+    worn, own = retarget(clip, target, source), clean_up(clip)
+    assert slide(clip, source) > 1 > 1e-3 >= slide(worn, target)
+    assert kept(worn, copied(clip, source, target)) == kept(own, clip) > 0.94
+
+
+def test_there_and_back_between_real_bodies(real_data):
+    clip = captured(real_data, "cmu/16/16_15.amc", 12)
+    for name, far in (("CMU 49", 0.1), ("Bandai-Namco", 10), ("puppy", 25)):
+        target = stance_in(real_data, name)
+        source = stance_of_walk(clip) if name == "Bandai-Namco" else stance_of(clip)
+        back = copied(copied(clip, source, target), target, source)
+        joints = list(source.roles.values())
+        apart = np.linalg.norm(joint_positions(back) - joint_positions(clip), axis=-1)[:, joints]
+        assert MM * np.sqrt((apart**2).mean()) <= far
+
+
+def test_a_small_body_falls_slowly(real_data):
+    """The child's jump falls at the legs' ratio of gravity; played 1 / √ratio times as fast, at gravity."""
+    clip = mark_plants(load(real_data / "cmu/16/16_03.amc"))
+    source = stance_of(clip)
+    small = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    base = copied(clip, source, small)
+    flight = slice(190, 240)
+    falls = [np.polyfit(np.arange(50) / 120, m.root_positions[flight, 1], 2)[0] for m in (clip, base)]
+    assert falls[1] / falls[0] == pytest.approx(0.55, abs=0.03)

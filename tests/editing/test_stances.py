@@ -1,0 +1,180 @@
+"""How bodies stand: rest poses that stand, and means over a walk."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap import load
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.planar import PlanarTransform
+from mocap.editing.body_roles import FEET, roles
+from mocap.editing.stances import heading_by_hips, stance_of, stance_of_walk, stance_of_zero, standing_heights
+from mocap.editing.upright_bodies import Stance
+from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
+from tests.editing.bodies import adult, along_x, renamed, rested, walk
+
+
+def degrees_apart(a, b):
+    return np.degrees(rotations.angle_between(a, b))
+
+
+def test_the_bundled_rest_pose_stands_on_flat_feet():
+    stance = adult()
+    for side in ("left", "right"):
+        ankle, ball = (stance.points[stance.roles[f"{side} {part}"]] for part in ("ankle", "ball"))
+        drop = stance.heights[f"{side} ankle"] - stance.heights[f"{side} ball"]
+        assert ankle[1] - ball[1] == pytest.approx(drop)
+    assert stance.height("ankle") == pytest.approx(0.068, abs=0.001)
+    assert stance.leg == pytest.approx(0.491 * 1.75)
+
+
+def test_feet_that_hang_at_rest_are_laid_flat():
+    hanging = np.tile([1.0, 0, 0, 0], (len(walk().skeleton), 1))
+    for foot in ("lfoot", "ltoes"):
+        hanging[walk().skeleton.index(foot)] = rotations.from_rotvec([-0.9, 0, 0])
+    clip = rested(walk(), hanging)
+    stance = stance_of(clip)
+    assert np.allclose(stance.points, adult().points)
+    straight_down = np.tile([1.0, 0, 0, 0], (len(walk().skeleton), 1))
+    bone = clip.skeleton.offsets[clip.skeleton.index("ltoes")]
+    straight_down[clip.skeleton.index("lfoot")] = rotations.between([0, -1, 0], walk().skeleton.offsets[5])
+    down = stance_of_zero(rested(walk(), straight_down).skeleton, standing_heights(walk()))
+    foot = down.points[down.roles["left ball"]] - down.points[down.roles["left ankle"]]
+    assert foot[2] > 0.9 * np.linalg.norm(bone)  # a foot that points nowhere is laid ahead
+
+
+def test_a_number_stands_for_both_balls():
+    stance = stance_of_zero(walk().skeleton, 0.03)
+    rest = walk().skeleton.offsets[stance.roles["left ball"]]
+    assert stance.heights["right ball"] == pytest.approx(0.03)
+    assert stance.heights["left ankle"] == pytest.approx(0.03 - rest[1])
+    assert np.allclose(stance.turns, [1, 0, 0, 0])
+
+
+def test_a_walk_gives_the_stance_that_the_rest_pose_gives():
+    mean = stance_of_walk(walk())
+    arms_and_legs = [
+        joint for role, joint in mean.roles.items() if role.split()[-1] not in ("elbow", "wrist")
+    ]
+    assert degrees_apart(mean.turns, adult().turns)[arms_and_legs].max() < 30
+    assert degrees_apart(mean.turns, adult().turns)[mean.roles["pelvis"]] < 5
+    feet = [mean.roles[role] for role in FEET]
+    assert degrees_apart(mean.turns, adult().turns)[feet].max() < 5
+    assert mean.heights == adult().heights
+
+
+@settings(max_examples=5)
+@given(angle=st.floats(-3, 3), x=st.floats(-9, 9))
+def test_where_a_walk_heads_does_not_matter(angle, x):
+    moved = PlanarTransform(angle, x, 1.0).apply_motion(walk(2.0))
+    here, there = stance_of_walk(walk(2.0)), stance_of_walk(moved)
+    assert degrees_apart(here.turns, there.turns).max() < 1e-5
+
+
+def test_signs_of_quaternions_do_not_matter():
+    signs = np.where(np.random.default_rng(0).random((len(walk()), len(walk().skeleton), 1)) < 0.5, -1, 1)
+    flipped = replace(walk(), rotations=walk().rotations * signs)
+    assert degrees_apart(stance_of_walk(flipped).turns, stance_of_walk(walk()).turns).max() < 1e-5
+
+
+def test_a_rest_pose_that_means_nothing_is_not_believed():
+    clip = rested(walk(), along_x(walk().skeleton))
+    with pytest.raises(
+        MocapError, match=r"does not stand: its hips are .*; give stance_of_walk of a clip"
+    ) as error:
+        stance_of_zero(clip.skeleton, 0.03)
+    assert len(str(error.value)) <= 200
+    assert np.allclose(stance_of(clip).points, stance_of_walk(walk()).points)
+    backwards = np.tile(rotations.about_y(np.pi), (len(walk().skeleton), 1))
+    with pytest.raises(MocapError, match="180° off level"):
+        stance_of_zero(rested(walk(), backwards).skeleton, 0.03)
+
+
+def test_heights_that_no_foot_has_are_refused():
+    body, who = walk().skeleton, roles(walk().skeleton)
+    turns = np.tile([1.0, 0, 0, 0], (len(body), 1))
+    with pytest.raises(MocapError, match="'right ball' is missing"):
+        Stance(body, who, turns, dict.fromkeys(FEET[:3], 0.05))
+    with pytest.raises(MocapError, match="left ankle would stand 20 cm over its ball; the foot is 13"):
+        Stance(body, who, turns, {role: 0.2 * role.endswith("ankle") for role in FEET})
+
+
+def test_a_stance_needs_legs_and_turns():
+    body, heights = walk().skeleton, adult().heights
+    who, turns = dict(adult().roles), adult().turns
+    with pytest.raises(MocapError, match=r"4\) of length 1, got \(3, 4\)"):
+        Stance(body, who, turns[:3], heights)
+    with pytest.raises(MocapError, match="of length 1"):
+        Stance(body, who, 2 * turns, heights)
+    del who["right knee"]
+    with pytest.raises(MocapError, match="the right knee is missing"):
+        Stance(body, who, turns, heights)
+
+
+def test_a_stance_keeps_its_own_values():
+    who, heights = dict(adult().roles), dict(adult().heights)
+    stance = Stance(walk().skeleton, who, adult().turns, heights)
+    who.clear()
+    heights.clear()
+    assert stance.roles == adult().roles
+    assert stance.height("ball") == adult().height("ball")
+    assert not stance.turns.flags.writeable
+    assert repr(stance).startswith("Stance(38 joints, legs 0.86 m")
+
+
+def test_plants_are_marked_where_they_are_not_yet():
+    bare = replace(walk(), contacts={})
+    marked = standing_heights(mark_plants(bare))
+    assert standing_heights(bare) == marked
+    assert marked == pytest.approx(standing_heights(walk()), abs=0.002)
+
+
+def test_feet_that_never_stand_flat_and_feet_that_never_stand():
+    never = np.zeros(len(walk()), bool)
+    tiptoe = {**walk().contacts, "lfoot": walk().contacts["rfoot"], "ltoes": never, "rfoot": never}
+    with pytest.raises(MocapError, match="In 'walk_straight' the left ball never stands"):
+        standing_heights(replace(walk(), contacts=tiptoe))
+    apart = {**walk().contacts, "ltoes": walk().contacts["ltoes"] & ~walk().contacts["lfoot"]}
+    loose = replace(walk(), contacts=apart)
+    assert standing_heights(loose)["left ball"] == pytest.approx(0.026, abs=0.003)
+    assert np.isfinite(stance_of_walk(loose).turns).all()
+
+
+def test_the_hips_say_where_the_body_heads():
+    positions = joint_positions(walk())
+    facing = heading_by_hips(positions, adult().roles)
+    turned = PlanarTransform(0.5, 0.0, 0.0).apply_motion(walk())
+    assert np.allclose(heading_by_hips(joint_positions(turned), adult().roles), facing + 0.5)
+
+
+def test_names_can_be_told():
+    clip = renamed(walk(), {"head": "crown"})
+    assert "head" not in stance_of(clip).roles
+    assert stance_of(clip, told={"head": "crown"}).roles == adult().roles
+
+
+@pytest.mark.parametrize(
+    ("name", "stands"),
+    [
+        ("cmu/16/16_15.amc", True),
+        ("bvh/puppy0512_motion_graph/walk_normal_stright.bvh", True),
+        ("bvh/olaf_bvh_toolbox/walk01.bvh", True),
+        ("bvh/imusim/16_15.bvh", True),
+        ("bvh/bandai_namco/dataset-1_walk_normal_001.bvh", False),
+    ],
+)
+def test_which_rest_poses_stand(real_data, name, stands):
+    clip = load(real_data / name)
+    zero = stance_of(clip)
+    if stands:
+        assert stance_of_zero(clip.skeleton, 0.03).skeleton is clip.skeleton
+    else:
+        with pytest.raises(MocapError, match="hips are 90° off level, its thighs 90° off hanging"):
+            stance_of_zero(clip.skeleton, 0.03)
+        assert zero.height("ankle") == pytest.approx(0.117, abs=0.002)
+        assert zero.height("ball") == pytest.approx(0.042, abs=0.002)

@@ -1,0 +1,253 @@
+"""Acclaim motions, against kinematics by hand straight from the files' own numbers."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.errors import FormatError, MocapError
+from mocap.files import acclaim, amc
+from mocap.files.asf import read_skeleton
+from tests.files.acclaim_clips import AMC, ASF, read_clip
+
+
+def where(motion, frame):
+    return dict(zip(motion.skeleton.names, joint_positions(motion)[frame].round(9) + 0.0, strict=True))
+
+
+def close(points, expected):
+    return all(np.allclose(points[name], expected[name], atol=1e-8) for name in expected)
+
+
+def test_positions_worked_out_by_hand(write):
+    motion = read_clip(write)
+    assert (len(motion), motion.fps, motion.name) == (2, 120.0, "a")
+    rest = {
+        "root": [0, 5, 0],
+        "thigh": [0, 4, 0],
+        "thigh_end": [0, 2, 0],
+        "arm": [0, 5, 0],
+        "arm_end": [1, 5, 0],
+    }
+    assert close(where(motion, 0), rest)
+    # The thigh's own x axis points along +y (its axis is z by 90°): 90° about y leaves -y as it is.
+    # The arm: 90° about z takes +x to +y, where 90° about y does nothing. The root: 90° about y, moved by x.
+    assert close(
+        where(motion, 1),
+        {"root": [1, 5, 0], "thigh": [1, 4, 0], "thigh_end": [1, 2, 0], "arm_end": [1, 6, 0]},
+    )
+
+
+@pytest.mark.parametrize(("order", "tip"), [("rz ry", [0, 1, 0]), ("ry rz", [-1, 0, 0])])
+def test_dofs_turn_in_the_order_listed(write, order, tip):
+    """Along +x, by 90° each: z first leaves +y; y first leaves -z, which the root takes to -x."""
+    points = where(read_clip(write, ASF.replace("dof rz ry", f"dof {order}")), 1)
+    assert np.allclose(points["arm_end"] - points["root"], tip)
+
+
+def test_bones_outside_the_hierarchy_are_left_out(write):
+    with_stray = AMC.replace("arm 0 0", "stray 5\narm 0 0").replace("arm 90 90", "arm 90 90\nstray 5")
+    for text in (AMC, with_stray, AMC.replace("arm 0 0", "stray 5\narm 0 0")):
+        motion = read_clip(write, amc_text=text)
+        assert "stray" not in motion.skeleton.names
+        assert np.array_equal(motion.rotations, read_clip(write).rotations)
+
+
+def test_units(write):
+    metres, inches = (read_clip(write, ASF.replace("0.0254", length)) for length in ("0.0254", "1"))
+    assert np.allclose(joint_positions(inches), 0.0254 * joint_positions(metres))
+    asf = read_skeleton(write("a.asf", ASF), scale=0.5)
+    assert np.allclose(asf.skeleton.offsets[3], [0, -1, 0])
+    bare = ASF.replace("  length 0.0254   # so that a unit is a metre\n", "")
+    assert np.allclose(joint_positions(read_clip(write, bare)), joint_positions(inches))
+
+
+def test_degrees_and_radians(write):
+    expected = read_clip(write).rotations
+    radians = AMC.replace("90", repr(math.pi / 2))
+    in_radians = ASF.replace("angle deg", "angle rad").replace("0 0 90 XYZ", f"0 0 {math.pi / 2!r} XYZ")
+    for asf, text in [
+        (ASF, radians.replace(":DEGREES", ":RADIANS")),
+        (in_radians, AMC),
+        (in_radians, radians.replace(":DEGREES\n", "")),
+        (in_radians.replace("rad\n", "Radians\n"), AMC),
+        (ASF.replace("angle deg", "angle degrees"), AMC),
+        (ASF, AMC.replace(":DEGREES\n", "")),
+    ]:
+        assert np.allclose(read_clip(write, asf, text).rotations, expected)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda asf, text: (asf.replace("\n", "\r\n"), text.replace("\n", "\r\n")),
+        lambda asf, text: (asf.replace(" ", "\t"), text.replace(" ", "\t  ")),
+        lambda asf, text: (asf, "1\n" + text.split("1\n", 1)[1]),
+        lambda asf, text: (asf, text.rstrip()),
+        lambda asf, text: (
+            asf,
+            text.replace("root", "\n# here\nroot").replace("arm 90 90", "arm 90 90 # up"),
+        ),
+        lambda asf, text: (asf, text.replace("\n1\n", "\n1 # first\n")),
+        lambda asf, text: (asf, text.replace("thigh 90 0\narm 90 90", "arm 90 90\nthigh 90 0")),
+        lambda asf, text: (asf, text.replace("90", "9.0e+001")),
+        lambda asf, text: (asf, text.replace("\n1\n", "\n41\n").replace("\n2\n", "\n42\n")),
+        lambda asf, text: (asf.replace("0 0 90 XYZ", "-7.6e-016, 0 90   xyz"), text),
+        lambda asf, text: (asf.replace(":hierarchy", ":namespace x\n:hierarchy"), text),
+        lambda asf, text: (asf.replace("TX TY TZ RX RY RZ", "rx ry rz tz ty tx"), flipped(text)),
+    ],
+)
+def test_the_same_motion_written_otherwise(write, change):
+    expected = read_clip(write)
+    motion = read_clip(write, *change(ASF, AMC))
+    assert np.allclose(motion.rotations, expected.rotations, atol=1e-12)
+    assert np.allclose(motion.root_positions, expected.root_positions)
+
+
+def flipped(text):
+    return text.replace("root 0 5 0 0 0 0", "root 0 0 0 0 5 0").replace(
+        "root 1 5 0 0 90 0", "root 0 90 0 0 5 1"
+    )
+
+
+def test_the_root_at_rest_offsets_the_motion(write):
+    asf = ASF.replace("position 0 0 0", "position 0 0 2").replace("orientation 0 0 0", "orientation 90 0 0")
+    points = where(read_clip(write, asf), 0)
+    assert close(
+        points, {"root": [0, 5, 2], "thigh": [0, 5, 1], "thigh_end": [0, 5, -1], "arm_end": [1, 5, 2]}
+    )
+
+
+def test_bones_that_would_stretch_are_refused(write):
+    asf = ASF.replace("dof rz ry", "dof rz l")
+    assert len(read_clip(write, asf, AMC.replace("arm 90 90", "arm 90 0"))) == 2
+    with pytest.raises(
+        FormatError, match="0 for 'l' of 'arm', since bones keep their lengths, got 90 in frame 1"
+    ):
+        read_clip(write, asf)
+
+
+# Forward kinematics by hand: nothing of mocap, no NumPy.
+
+
+def product(a, b):
+    return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+
+def turned(a, v):
+    return [sum(a[i][k] * v[k] for k in range(3)) for i in range(3)]
+
+
+def transposed(a):
+    return [list(row) for row in zip(*a, strict=True)]
+
+
+def turn(axis, degrees):
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return {
+        "x": [[1, 0, 0], [0, c, -s], [0, s, c]],
+        "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]],
+        "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]],
+    }[axis]
+
+
+def turns(order, angles):
+    """The first letter's turn happens first, so it stands on the right."""
+    whole = turn("x", 0)
+    for axis, angle in zip(order.lower(), angles, strict=True):
+        whole = product(turn(axis, angle), whole)
+    return whole
+
+
+def by_hand(asf, amc_text, frame):
+    """Where every bone ends, in metres, for files as plain as CMU's (in degrees, no section at the end)."""
+    bones, head = {}, asf[: asf.index(":bonedata")]
+    for block in asf[asf.index(":bonedata") : asf.index(":hierarchy")].split("begin")[1:]:
+        fields = {line.split()[0]: line.split()[1:] for line in block.splitlines() if line.strip()}
+        bones[fields["name"][0]] = fields
+    unit = 0.0254 / float(head.split("length")[1].split()[0])
+    lines = amc_text.split(f"\n{frame + 1}\n")[1].split(f"\n{frame + 2}\n")[0].splitlines()
+    numbers = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in lines}
+    x, y, z, *angles = numbers["root"]
+    ends, globals_ = {"root": [x * unit, y * unit, z * unit]}, {"root": turns("xyz", angles)}
+    for line in asf[asf.index(":hierarchy") :].splitlines()[2:]:
+        parent, *children = line.split() or [""]
+        for name in children:
+            *axis, order = bones[name]["axis"]
+            c = turns(order, [float(axis["XYZ".index(letter)]) for letter in order])
+            m = turns("".join(dof[1] for dof in bones[name].get("dof", [])), numbers.get(name, []))
+            globals_[name] = product(globals_[parent], product(product(c, m), transposed(c)))
+            length = float(bones[name]["length"][0]) * unit
+            vector = turned(globals_[name], [float(word) * length for word in bones[name]["direction"]])
+            ends[name] = [a + b for a, b in zip(ends[parent], vector, strict=True)]
+    return ends
+
+
+def gap(motion, frame, ends):
+    """The largest distance between the bones' ends and our joints there."""
+    skeleton, points = motion.skeleton, joint_positions(motion)[frame]
+    return max(
+        math.dist(points[child], ends[name])
+        for index, name in enumerate(skeleton.names)
+        for child in skeleton.children(index)
+    )
+
+
+@pytest.mark.parametrize("axes", ["XYZ", "ZYX", "YZX", "XZY", "ZXY", "YXZ"])
+def test_any_order_of_axes_agrees_with_kinematics_by_hand(write, axes):
+    asf = ASF.replace("0 0 90 XYZ", f"20 -130 70 {axes}").replace(":skin none.obj", "")
+    text = AMC.replace("thigh 90 0", "thigh 33 -71").replace("root 1 5 0 0 90 0", "root 1 5 2 -40 110 25")
+    assert gap(read_clip(write, asf, text), 1, by_hand(asf, text, 1)) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("asf", "clip", "frames"),
+    [
+        ("hw3/walker.ASF", "hw3/walk_fwd_circle.AMC", [0, 2500, 5307]),
+        ("cmu/16/16.asf", "cmu/16/16_15.amc", [0, 250]),
+        ("cmu/49/49.asf", "cmu/49/49_08.amc", [300]),
+        ("cmu/127/127.asf", "cmu/127/127_13.amc", [77]),
+    ],
+)
+def test_real_clips_agree_with_kinematics_by_hand(real_data, asf, clip, frames):
+    texts = [(real_data / name).read_text() for name in (asf, clip)]
+    motion = acclaim.read_amc(real_data / clip, read_skeleton(real_data / asf))
+    assert len(motion.skeleton) == 38
+    assert max(gap(motion, frame, by_hand(*texts, frame)) for frame in frames) < 1e-9
+
+
+MUTATION = st.tuples(
+    st.integers(0, 10_000),
+    st.integers(0, 40),
+    st.sampled_from([*" \n\t#:.-19xe", "", "nan", "\n2\n", "begin\n", "root ", "arm 1 2\n"]),
+)
+
+
+def mutate(text, mutations):
+    for place, length, new in mutations:
+        place %= len(text) + 1
+        text = text[:place] + new + text[place + length % 7 :]
+    return text
+
+
+@given(st.lists(MUTATION, min_size=1, max_size=3), st.lists(MUTATION, max_size=3), st.booleans())
+@settings(max_examples=300, deadline=None)
+def test_whatever_is_in_the_files_the_answer_is_a_motion_or_a_sentence(tmp_path_factory, first, second, swap):
+    folder = tmp_path_factory.getbasetemp()
+    asf, text = mutate(ASF, second if swap else first), mutate(AMC, first if swap else second)
+    (folder / "m.asf").write_text(asf)
+    (folder / "m.amc").write_text(text)
+    try:
+        skeleton = read_skeleton(folder / "m.asf")
+        motion = acclaim.read_amc(folder / "m.amc", skeleton)
+    except MocapError as error:
+        assert "\n" not in str(error)
+        return
+    assert isinstance(motion, Motion)
+    slow = amc._read_lines("m.amc", text, skeleton.dofs(), skeleton.needed())
+    fast = amc.read_frames(folder / "m.amc", skeleton.dofs(), skeleton.needed()).numbers
+    assert all(np.array_equal(fast[name], slow[name]) for name in slow)

@@ -1,0 +1,182 @@
+"""AMASS archives against SMPL's own rule for joints, written out by hand; and what is refused."""
+
+import warnings
+import zipfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from scipy.spatial.transform import Rotation
+
+from mocap.body import limbs, rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.errors import FormatError, MocapError, MocapWarning
+from mocap.files import amass
+from tests.strategies import random_motion, seeds, wave
+
+
+def numbers(frames=4, seed=0, width=156):
+    random = np.random.default_rng(seed)
+    return {
+        "poses": random.normal(size=(frames, width)) * 0.4,
+        "trans": random.normal(size=(frames, 3)),
+        "betas": np.zeros(16),
+        "mocap_framerate": 120.0,
+        "gender": "neutral",
+    }
+
+
+@pytest.fixture
+def archive(tmp_path):
+    """Return a function that writes an archive with some arrays changed, or left out by None."""
+
+    def write(**changes):
+        arrays = {key: value for key, value in (numbers() | changes).items() if value is not None}
+        np.savez(tmp_path / "walk.npz", **arrays)
+        return tmp_path / "walk.npz"
+
+    return write
+
+
+def by_hand(poses, trans):
+    """Place SMPL's joints with z up: each turns about itself, and `trans` moves the whole body."""
+    rest = amass.SKELETON.offsets.copy()
+    rest[0] = amass.PELVIS
+    turns, places = [], []
+    for joint, parent in enumerate(amass.SKELETON.parents):
+        own = Rotation.from_rotvec(poses[3 * joint : 3 * joint + 3])
+        turns.append(own if joint == 0 else turns[parent] * own)
+        places.append(rest[0] + trans if joint == 0 else places[parent] + turns[parent].apply(rest[joint]))
+    return np.array(places)
+
+
+@given(seeds)
+def test_joints_are_where_smpl_puts_them(tmp_path_factory, seed):
+    path, arrays = tmp_path_factory.getbasetemp() / "a.npz", numbers(2, seed, width=66 + seed % 100)
+    np.savez(path, **arrays)
+    motion = amass.read(path)
+    x, z, y = np.moveaxis(joint_positions(motion), -1, 0) * np.array([1, 1, -1])[:, None, None]
+    ours = np.stack([x, y, z], axis=-1)  # back to z up
+    for frame in range(2):
+        assert np.allclose(ours[frame], by_hand(arrays["poses"][frame], arrays["trans"][frame]), atol=1e-12)
+    assert motion.fps == 120.0
+
+
+@given(seeds)
+def test_a_round_trip_changes_nothing(tmp_path_factory, seed):
+    motion = random_motion(seed, skeleton=amass.SKELETON)
+    path = tmp_path_factory.getbasetemp() / "b.npz"
+    amass.write(motion, path)
+    again = amass.read(path)
+    assert np.abs(joint_positions(again) - joint_positions(motion)).max() < 1e-12
+    assert np.abs(rotations.angle_between(again.rotations, motion.rotations)).max() < 1e-7
+    with np.load(path) as file:
+        assert file["poses"].shape == (len(motion), 156)
+
+
+def test_the_body_stands_upright_and_faces_where_the_archive_says(archive):
+    upright = np.zeros((1, 66))
+    upright[0, :3] = [np.pi / 2, 0, 0]  # SMPL's T-pose looks along +z, and has y up; archives turn it to z up
+    motion = amass.read(archive(poses=upright, trans=np.array([[2.0, 3.0, 1.2]])))
+    at = dict(zip(motion.skeleton.names, joint_positions(motion)[0], strict=True))
+    assert at["head"][1] - at["left_ankle"][1] > 1.2
+    assert at["left_wrist"][0] > at["right_wrist"][0]
+    assert at["left_foot"][2] > at["left_ankle"][2]
+    left, right = limbs.find_legs(motion.skeleton)
+    assert motion.skeleton.names[left.ball] == "left_foot"
+    assert np.allclose(left.lengths(motion.skeleton), right.lengths(motion.skeleton))
+
+
+def test_older_and_newer_names_of_the_rate(archive):
+    assert amass.read(archive(mocap_framerate=None, mocap_frame_rate=np.array([60]))).fps == 60.0
+    assert amass.read(archive(mocap_framerate=None), fps=25.0).fps == 25.0
+
+
+def test_betas_are_ignored_with_a_sentence(archive):
+    path = archive(betas=np.ones(16))
+    with pytest.warns(MocapWarning, match="betas, the shape of the body, are ignored") as caught:
+        shaped = amass.read(path)
+    assert len(str(caught[0].message).replace(str(path), "")) <= 200
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        plain = amass.read(archive())
+    assert np.array_equal(shaped.rotations, plain.rotations)
+
+
+BAD = [
+    ({"poses": None}, "no 'poses'"),
+    ({"trans": None}, "no 'trans'"),
+    ({"poses": np.zeros((4, 63))}, r"66 numbers for each frame in 'poses', got float64\(4, 63\)"),
+    ({"poses": np.zeros(4)}, r"66 numbers .* got float64\(4,\)"),
+    ({"poses": np.full((4, 66), "x")}, "66 numbers"),
+    ({"trans": np.zeros((3, 3))}, "as many rows of trans as of poses, 4, got 3"),
+    ({"poses": np.zeros((0, 66)), "trans": np.zeros((0, 3))}, "one frame or more in 'poses', got none"),
+    ({"trans": np.array([[0, 0, 0], [0, np.nan, 0]] * 2)}, "below 1e6 in 'trans', got others in frame 1"),
+    ({"poses": np.full((4, 66), 1e300)}, "below 1e6 in 'poses', got others in frame 0"),
+    ({"mocap_framerate": 0.0}, "one number above 0 in 'mocap_framerate', got 0.0"),
+    ({"mocap_framerate": np.nan}, "one number above 0 in 'mocap_framerate', got nan"),
+    ({"mocap_framerate": np.ones(2)}, "one number above 0"),
+    ({"mocap_framerate": "fast"}, "one number above 0"),
+    ({"mocap_framerate": None}, "'mocap_framerate', got none: give fps="),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), BAD)
+def test_a_broken_archive_is_refused(archive, changes, message):
+    path = archive(**changes)
+    with pytest.raises(FormatError, match=message) as error:
+        amass.read(path)
+    assert len(str(error.value).replace(str(path), "")) <= 200
+
+
+def test_files_of_other_kinds_are_refused(tmp_path, monkeypatch):
+    with pytest.raises(MocapError, match=r"Cannot read .*gone.npz: No such file"):
+        amass.read(tmp_path / "gone.npz")
+    with pytest.raises(MocapError, match=r"Cannot read .*: Is a directory"):
+        amass.read(tmp_path)
+    for name, data in (("a.npz", b"PK\3\4 no archive"), ("b.npz", b"")):
+        (tmp_path / name).write_bytes(data)
+        with pytest.raises(FormatError, match="got a file of another kind, or a damaged one"):
+            amass.read(tmp_path / name)
+        assert not amass.is_amass(tmp_path / name)
+    np.savez(tmp_path / "c.npz", poses=np.array([{}], object), trans=np.zeros((1, 3)))
+    with pytest.raises(FormatError, match="of another kind"):  # no code of a file is run
+        amass.read(tmp_path / "c.npz")
+    monkeypatch.setattr(amass, "MOST", 1000)
+    np.savez_compressed(tmp_path / "d.npz", **numbers(1000))
+    with pytest.raises(FormatError, match=r"expected arrays below 0\.0 GB, got a larger 'poses.npy'"):
+        amass.read(tmp_path / "d.npz")
+
+
+def test_a_header_that_promises_more_than_there_is_takes_no_memory(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        header = "{'descr': '<f8', 'fortran_order': False, 'shape': (9999999999999, 66), }"
+        for name in ("poses", "trans"):
+            archive.writestr(f"{name}.npy", b"\x93NUMPY\x01\x00" + bytes([len(header), 0]) + header.encode())
+    with pytest.raises(FormatError, match="damaged"):
+        amass.read(tmp_path / "a.npz")
+
+
+def test_other_skeletons_are_not_written(tmp_path):
+    with pytest.raises(MocapError, match=r"22 joints of SMPL; 'wave' has others: write \.bvh\."):
+        amass.write(wave(3), tmp_path / "a.npz")
+    other = replace(amass.SKELETON, offsets=2 * amass.SKELETON.offsets)  # an archive holds no bones
+    amass.write(
+        Motion(other, np.zeros((1, 3)), np.tile([1.0, 0, 0, 0], (1, 22, 1)), 30.0), tmp_path / "a.npz"
+    )
+    assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
+
+
+def test_broken_bytes_are_read_or_refused(archive, tmp_path):
+    whole, random = archive().read_bytes(), np.random.default_rng(0)
+    for number in range(150):
+        data = bytearray(whole)
+        for at in random.integers(0, len(data), 1 + number % 5):
+            data[at] = random.integers(256)
+        (tmp_path / "b.npz").write_bytes(bytes(data[: len(data) - (number % 3) * 400]))
+        try:
+            assert isinstance(amass.read(tmp_path / "b.npz"), Motion)
+        except MocapError as error:
+            assert len(str(error).replace(str(tmp_path / "b.npz"), "")) <= 200

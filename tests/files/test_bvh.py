@@ -1,0 +1,380 @@
+"""BVH files: small ones worked out by hand, round trips, and files that others wrote."""
+
+import csv
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.body import euler, rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.errors import FormatError, MocapError
+from mocap.files import bvh
+
+BVH = """HIERARCHY
+ROOT hips
+{
+	OFFSET 1 2 3
+	CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+	JOINT left leg
+	{
+		OFFSET 10 0 0
+		CHANNELS 3 Zrotation Xrotation Yrotation
+		End Site
+		{
+			OFFSET 0 -50 0
+		}
+		End Site
+		{
+			OFFSET 0 -50 20
+		}
+	}
+	JOINT head
+	{
+		OFFSET 0 40 0
+		CHANNELS 3 Yrotation Zrotation Xrotation
+		End Site
+		{
+			OFFSET 0 0 0
+		}
+	}
+}
+MOTION
+Frames: 2
+Frame Time: 0.0333333
+0 100 0 0 0 0 0 0 0 0 0 0
+0 100 50 0 0 90 90 90 0 0 0 0
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    def file(text):
+        (tmp_path / "a.bvh").write_bytes(text.encode())
+        return tmp_path / "a.bvh"
+
+    return file
+
+
+def where(motion, frame):
+    return dict(zip(motion.skeleton.names, joint_positions(motion)[frame], strict=True))
+
+
+def test_positions_worked_out_by_hand(write):
+    motion = bvh.read(write(BVH))
+    assert motion.skeleton.names == ("hips", "left leg", "left leg_end", "left leg_end2", "head")
+    assert motion.skeleton.parents.tolist() == [-1, 0, 1, 1, 0]
+    assert (len(motion), motion.fps, motion.name) == (2, 30.0, "a")
+    points = where(motion, 0)
+    assert np.allclose(points["hips"], [0, 1, 0])
+    assert np.allclose(points["left leg_end2"], [0.1, 0.5, 0.2])
+    # The leg's R = Rz Rx takes -y to -z, and that stays under z; +z to -y, and that to +x. Then the hips' Ry.
+    points = where(motion, 1)
+    assert np.allclose(points["left leg"], [0, 1, 0.4])
+    assert np.allclose(points["left leg_end"], [-0.5, 1, 0.4])
+    assert np.allclose(points["left leg_end2"], [-0.5, 1, 0.2])
+
+
+def test_scale_and_fps(write):
+    path = write(BVH)
+    metres = bvh.read(path, scale=1.0, fps=24.0)
+    assert metres.fps == 24.0
+    assert np.allclose(joint_positions(metres), 100 * joint_positions(bvh.read(path)))
+
+
+def in_frames(text, old, new):
+    hierarchy, frames = text.split("MOTION")
+    return f"{hierarchy}MOTION{frames.replace(old, new)}"
+
+
+ROOT = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: text.replace("\t", "  "),
+        lambda text: text.rstrip(),
+        lambda text: text.replace("\n{", " {").replace("}\n", "} \n\n"),
+        lambda text: text.replace(" 90", " 9.0e+001").replace(": ", ":\t"),
+        lambda text: text.replace("Frames: 2", "Frames : 2").replace("Frame Time", "frame  time"),
+        lambda text: text.replace("100 50 0 0 90", "100 50\n0 0 90"),
+        lambda text: text.replace("OFFSET 1 2 3", "OFFSET 0 0 0"),
+        lambda text: (
+            text.replace(ROOT, "CHANNELS 6 Zrotation Xrotation Yrotation Zposition Xposition Yposition")
+            .replace("\n0 100 0 0 0 0 ", "\n0 0 0 0 0 100 ")
+            .replace("\n0 100 50 0 0 90 ", "\n0 0 90 50 0 100 ")
+        ),
+        lambda text: in_frames(text.replace("3 Yrotation Zrotation Xrotation", "0"), " 0 0 0\n", "\n"),
+        lambda text: in_frames(
+            text.replace("OFFSET 0 40 0", "OFFSET 9 9 9").replace(
+                "3 Yr", "6 Xposition Yposition Zposition Yr"
+            ),
+            " 0 0 0\n",
+            " 0 40 0 0 0 0\n",
+        ),
+        lambda text: in_frames(
+            text.replace("OFFSET 0 40 0", "OFFSET 0 9 0").replace("3 Yr", "4 Yposition Yr"),
+            " 0 0 0\n",
+            " 40 0 0 0\n",
+        ),
+    ],
+)
+def test_the_same_motion_written_otherwise(write, change):
+    expected = bvh.read(write(BVH))
+    motion = bvh.read(write(change(BVH)))
+    expected.skeleton.require_same(motion.skeleton)
+    assert motion.fps == expected.fps
+    assert np.allclose(joint_positions(motion), joint_positions(expected), atol=1e-12)
+
+
+@pytest.mark.parametrize("order", ["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XY", "Z"])
+def test_any_order_of_channels(write, order):
+    names = " ".join(f"{axis}rotation" for axis in order)
+    angles = dict(zip("XYZ", [20.0, -130.0, 70.0], strict=True))
+    text = BVH.replace("3 Yrotation Zrotation Xrotation", f"{len(order)} {names}")
+    numbers = " ".join(str(angles[axis]) for axis in order)
+    motion = bvh.read(write(in_frames(text, " 0 0 0\n", f" {numbers}\n")))
+    expected = np.eye(3)
+    for axis in order:  # the first stands on the left
+        expected = expected @ rotations.to_matrix(euler.from_euler(axis, [np.radians(angles[axis])]))
+    head = motion.skeleton.index("head")
+    assert np.allclose(rotations.to_matrix(motion.rotations[1, head]), expected)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "fps"),
+    [
+        ("0.0333333", 30.0),
+        ("0.033333", 30.0),
+        ("0.033", 30.0),
+        ("0.008333", 120.0),
+        ("8.33333e-03", 120.0),
+        ("0.0416667", 24.0),
+        ("0.01666", 60.0),
+        ("0.016667", 60.0),
+        ("0.04", 25.0),
+        (repr(1 / 30), 30.0),
+        (repr(1 / 59.94), 59.94),
+        ("0.4", 2.5),
+        ("10", 0.1),
+    ],
+)
+def test_frame_rates(write, seconds, fps):
+    assert bvh.read(write(BVH.replace("0.0333333", seconds))).fps == pytest.approx(fps, rel=1e-12)
+
+
+def with_reference(second_root):
+    """A still point that carries the hips, as Bandai Namco's files have it."""
+    text = BVH.replace("ROOT hips", "ROOT world\n{\nOFFSET 0 0 0\n" + ROOT + "\nJOINT hips")
+    text = text.replace("\nMOTION", "\n}\nMOTION")
+    text = text.replace("\n0 100 0 ", "\n0 0 0 0 0 0 0 100 0 ")
+    return text.replace("\n0 100 50 ", f"\n{second_root} 0 100 50 ")
+
+
+def test_a_reference_that_carries_the_hips_is_left_out(write):
+    expected = bvh.read(write(BVH))
+    motion = bvh.read(write(with_reference("0 0 0 0 0 0")))
+    expected.skeleton.require_same(motion.skeleton)
+    assert np.allclose(joint_positions(motion), joint_positions(expected))
+    turned = bvh.read(write(with_reference("7 0 0 0 0 90")))  # +z becomes +x
+    start = where(expected, 1)
+    for name, point in where(turned, 1).items():
+        x, y, z = start[name]
+        assert np.allclose(point, [z + 0.07, y, -x])
+
+
+def test_joints_that_move_in_their_parent_are_refused(write):
+    text = BVH.replace("OFFSET 10 0 0\n\t\tCHANNELS 3", "OFFSET 10 0 0\n\t\tCHANNELS 4 Xposition")
+    text = text.replace("0 0 0 0 0 0 0 0 0\n", "0 0 0 10 0 0 0 0 0 0\n").replace(
+        "90 90 90 0", "90 13 90 90 0"
+    )
+    with pytest.raises(FormatError, match=r"line 6: expected 'left leg' in one place .*moves by 0.03 m"):
+        bvh.read(write(text))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("Frames: 2", "Frames: 3", r"line 30: expected 'Frames: 2', as many as follow, got 'Frames: 3'"),
+        ("Frames: 2", "Frames: 1", r"line 30: expected 'Frames: 2', as many as follow, got 'Frames: 1'"),
+        ("Frames: 2", "Frames: 999999999", r"line 30: expected 'Frames: 2'"),
+        ("Frames: 2", "Frames: 1e300", r"line 30: expected a number of frames, all below"),
+        ("Frames: 2", "Frames: 0", r"line 30: expected one frame or more, got 0"),
+        ("Frames: 2", "Frames: -2", r"line 30: expected one frame or more"),
+        ("Frames: 2", "Frames: two", r"line 30: expected a number of frames, got 'two'"),
+        (
+            "Frames: 2\n",
+            "",
+            r"line 30: expected 'Frames: <count>' and 'Frame Time: <seconds>', got 'Frame Time",
+        ),
+        ("0.0333333", "0", r"line 31: expected a frame time from 1e-05 to 10 s, got 0"),
+        ("0.0333333", "-0.03", r"line 31: expected a frame time"),
+        ("0.0333333", "30", r"line 31: expected a frame time"),
+        ("0.0333333", "nan", r"line 31: expected seconds, all below"),
+        (
+            "90 90 0",
+            "90 nan 0",
+            r"line 33: expected a number below 1e\+09 for the xrotation of 'left leg' in frame 2, got 'nan'",
+        ),
+        ("90 90 0", "90 x 0", r"line 33: expected a number .* 'left leg' in frame 2, got 'x'"),
+        ("90 90 0 0 0 0", "90 9", r"line 33: expected 12 numbers after 1 complete frames, got 8"),
+        ("MOTION\n", "", r"expected a line 'MOTION'"),
+        ("ROOT hips", "ROOT", r"line 2: expected a name after ROOT"),
+        ("ROOT hips", "JOINT hips", r"line 2: expected HIERARCHY or ROOT, got 'JOINT'"),
+        ("JOINT head", "ROOT head", r"line 19: expected OFFSET or .*, got 'ROOT'"),
+        ("JOINT head", "JOINT left leg", r"line 19: expected a new joint's name"),
+        ("JOINT head", "JOINT left leg_end", r"line 19: expected a new joint's name"),
+        ("OFFSET 10 0 0", "OFFSET 10 0", r"line 8: expected 3 numbers, got 2"),
+        ("OFFSET 10 0 0", "", r"line 18: expected an OFFSET before"),
+        ("3 Yrotation", "4 Yrotation", r"line 22: expected the number of channels and their names"),
+        ("3 Yrotation", "3 Wrotation", r"line 22: expected the number of channels"),
+        ("3 Yrotation", "3 Xrotation", r"line 22: expected the number of channels"),
+        ("}\nMOTION", "MOTION", r"line 27: expected .*, got the end of the hierarchy"),
+        ("}\nMOTION", "}\n}\nMOTION", r"line 29: expected MOTION, got '}'"),
+        ("End Site\n\t\t{", "End Site\n\t\t", r"line 12: expected {, got 'OFFSET'"),
+    ],
+)
+def test_a_broken_file_is_refused_at_its_line(write, old, new, message):
+    assert old in BVH
+    with pytest.raises(FormatError, match=message):
+        bvh.read(write(BVH.replace(old, new, 1)))
+
+
+NAMES = st.text(
+    st.characters(codec="utf-8", exclude_categories=["C", "Z"], exclude_characters="{}"),
+    min_size=1,
+    max_size=9,
+)
+
+
+@st.composite
+def motions(draw):
+    count = draw(st.integers(1, 9))
+    names = draw(st.lists(NAMES, min_size=count, max_size=count, unique=True))
+    parents = [-1, *(draw(st.integers(0, joint - 1)) for joint in range(1, count))]
+    for joint in range(1, count):  # leaves called as End Sites are, sometimes rightly
+        name = f"{names[parents[joint]]}_end{draw(st.sampled_from(['', '2', '3']))}"
+        if draw(st.booleans()) and name not in names:
+            names[joint] = name
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    offsets = random.normal(size=(count, 3)) * (random.random((count, 1)) < 0.8)
+    frames = draw(st.integers(1, 6))
+    turns = random.normal(size=(frames, count, 4))
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    fps = draw(st.sampled_from([24.0, 30.0, 59.94, 60.0, 120.0, 0.1, 7.3]))
+    return Motion(Skeleton(names, parents, offsets), random.normal(size=(frames, 3)), turns, fps, "a")
+
+
+@given(motions())
+@settings(max_examples=150, deadline=None)
+def test_what_is_written_reads_back(tmp_path_factory, motion):
+    path = tmp_path_factory.getbasetemp() / "a.bvh"
+    bvh.write(motion, path, precision=11)
+    back = bvh.read(path)
+    assert set(back.skeleton.names) == set(motion.skeleton.names)
+    order = [back.skeleton.index(name) for name in motion.skeleton.names]
+    assert np.abs(joint_positions(back)[:, order] - joint_positions(motion)).max() < 1e-9
+    assert rotations.angle_between(back.rotations[:, order], motion.rotations).max() < 1e-9  # ends, too
+    parents = [motion.skeleton.names[parent] for parent in motion.skeleton.parents[1:]]
+    assert [back.skeleton.names[back.skeleton.parents[joint]] for joint in order[1:]] == parents
+    assert back.fps == pytest.approx(motion.fps, rel=1e-12)
+    bvh.write(back, path)
+    assert bvh.read(path).skeleton.names == back.skeleton.names  # depth first by now
+
+
+def spinning(axes, angles):
+    """One joint that turns about all axes at once."""
+    turns = euler.from_euler(axes, np.radians(angles))[:, None]
+    return Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((len(angles), 3)), turns, 30.0)
+
+
+@pytest.mark.parametrize("axes", ["ZXY", "XYZ"])
+def test_curves_are_continuous(tmp_path, axes):
+    steps = np.arange(400)[:, None] * [3.0, 2.0, -1.0] + [
+        0.3,
+        0.7,
+        0.2,
+    ]  # x goes through ±90° again and again
+    bvh.write(spinning(axes, steps), tmp_path / "a.bvh")
+    written = np.loadtxt((tmp_path / "a.bvh").read_text().split("Frame Time")[1].splitlines()[1:])[:, 3:]
+    back = bvh.read(tmp_path / "a.bvh")
+    assert rotations.angle_between(back.rotations, spinning(axes, steps).rotations).max() < 1e-6
+    if axes == "ZXY":  # what was put in, up to whole turns, comes out
+        assert np.allclose(written - steps, (written - steps)[0], atol=1e-5)
+    else:
+        assert np.abs(np.diff(written, axis=0)).max() < 180
+
+
+@pytest.mark.parametrize("name", ["a{b", " a", "a\nb", "a\tb", ""])
+def test_names_that_would_break_the_file_are_refused(tmp_path, name):
+    motion = Motion(Skeleton([name], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], 30.0)
+    with pytest.raises(MocapError, match="cannot hold a joint called"):
+        bvh.write(motion, tmp_path / "a.bvh")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("fps", [1e-3, 1e6])
+def test_rates_that_would_not_read_back_are_refused(tmp_path, fps):
+    motion = Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], fps)
+    with pytest.raises(MocapError, match="resample it first"):
+        bvh.write(motion, tmp_path / "a.bvh")
+
+
+def test_marks_do_not_matter_and_precision_does(tmp_path, write):
+    motion = bvh.read(write(BVH))
+    bvh.write(motion, tmp_path / "b.bvh", precision=2)
+    assert "0.00 100.00 50.00" in (tmp_path / "b.bvh").read_text()
+
+
+def test_world_positions_that_others_found(real_data):
+    folder = real_data / "bvh/olaf_bvh_toolbox"
+    motion = bvh.read(folder / "walk01.bvh", scale=1.0)
+    with (folder / "walk01_pos.csv").open() as file:
+        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    assert len(rows) == len(motion)
+    names = {key[:-2] for key in rows[0]} - {"ti"}
+    assert {name.replace("_end", "_End") for name in motion.skeleton.names} == names
+    for index, name in enumerate(motion.skeleton.names):
+        name = name.replace("_end", "_End")
+        expected = [[row[f"{name}.{axis}"] for axis in "xyz"] for row in rows]
+        assert (
+            np.abs(joint_positions(motion)[:, index] - expected).max() < 2e-4
+        )  # centimetres, printed to 5 digits
+
+
+MUTATION = st.tuples(
+    st.integers(0, 10_000),
+    st.integers(0, 6),
+    st.sampled_from([*" \n\t{}.-19xe", "", "nan", "End Site\n", "JOINT a\n", "CHANNELS 0\n"]),
+)
+
+
+@given(st.lists(MUTATION, min_size=1, max_size=4))
+@settings(max_examples=300, deadline=None)
+def test_whatever_is_in_the_file_the_answer_is_a_motion_or_a_sentence(tmp_path_factory, mutations):
+    path, text = tmp_path_factory.getbasetemp() / "m.bvh", BVH
+    for place, length, new in mutations:
+        place %= len(text) + 1
+        text = text[:place] + new + text[place + length :]
+    path.write_text(text)
+    try:
+        assert isinstance(bvh.read(path), Motion)
+    except MocapError as error:
+        assert "\n" not in str(error)
+
+
+def test_a_wrong_number_is_found_by_its_channel_and_frame(write):
+    """In a file whose frames go over several lines, too; the message never quotes the whole frame."""
+    numbers = ["0"] * 24
+    numbers[18] = "nan"  # the seventh of the second frame: the first channel below the root
+    wrapped = "\n".join(" ".join(numbers[start : start + 5]) for start in range(0, 24, 5))
+    text = f"{BVH.split('0.0333333')[0]}0.0333333\n{wrapped}\n"
+    with pytest.raises(FormatError) as raised:
+        bvh.read(write(text))
+    expected = "a number below 1e+09 for the zrotation of 'left leg' in frame 2"
+    assert str(raised.value).endswith(f"a.bvh, line 35: expected {expected}, got 'nan'")

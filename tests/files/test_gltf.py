@@ -1,0 +1,194 @@
+"""A `.glb` read back by a reader of our own, by trimesh, and by the validator of those who made the format.
+
+The validator runs where Node finds it: npm install --no-save gltf-validator.
+"""
+
+import io
+import json
+import shutil
+import subprocess
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.body.skeleton import Skeleton
+from mocap.datasets import samples
+from mocap.errors import MocapError
+from mocap.files import bvh, gltf, gltf_binary, gltf_capsules, load_save
+from tests.files.glb_reader import Glb
+from tests.strategies import random_motion, seeds, wave
+
+VALIDATE = """
+const validator = require("gltf-validator");
+const read = require("fs").readFileSync;
+Promise.all(process.argv.slice(1).map((path) => validator.validateBytes(new Uint8Array(read(path)))))
+  .then((reports) => console.log(JSON.stringify(reports)));
+"""
+
+
+def walk():
+    return resample(samples.sample("walk_circle"), 30)[:200]
+
+
+def gap(motion):
+    """Return how far joints of the file are from ours, metres."""
+    read = Glb(gltf.glb(motion))
+    exact = joint_positions(motion)
+    assert [read.nodes[joint]["name"] for joint in read.joints] == list(motion.skeleton.names)
+    frames = range(0, len(motion), max(1, len(motion) // 7))
+    return max(np.abs(read.poses(f / motion.fps)[:, :3, 3] - exact[f]).max() for f in frames)
+
+
+def test_all_joints_are_where_ours_are():
+    assert gap(walk()) < 1e-4
+
+
+@given(seeds)
+@settings(max_examples=10)
+def test_any_motion_of_any_skeleton(seed):
+    motion = random_motion(seed, joints=int(seed % 9) + 1)
+    assert gap(motion) < 1e-4
+
+
+def test_real_clips(real_data):
+    for name in ("cmu/16/16_17.amc", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", "hw3/walk_fwd_circle.AMC"):
+        assert gap(load_save.load(real_data / name)) < 1e-4
+
+
+def test_sixteen_bits_are_taken_where_they_are_enough_and_no_further():
+    motion = walk()
+    turns = gltf._rounded(motion)
+    behind = gltf_capsules.reaches(motion.skeleton)
+    rounded = {joint for joint, values in turns.items() if values.dtype == np.int16}
+    assert len(rounded) > len(turns) / 2
+    assert max(behind[list(rounded)]) <= min(behind[list(set(turns) - rounded)])
+    giant = replace(motion, skeleton=replace(motion.skeleton, offsets=1000 * motion.skeleton.offsets))
+    assert sum(values.dtype == np.int16 for values in gltf._rounded(giant).values()) <= 6  # leaves
+    all_rounded = replace(
+        motion,
+        rotations=(q := np.round(motion.rotations * 32767)) / np.linalg.norm(q, axis=-1, keepdims=True),
+    )
+    assert np.abs(joint_positions(all_rounded) - joint_positions(motion)).max() > gltf.CLOSE
+
+
+def test_between_frames_no_joint_turns_the_long_way_round():
+    motion = walk()
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], size=(len(motion), len(motion.skeleton), 1))
+    read = Glb(gltf.glb(replace(motion, rotations=motion.rotations * signs)))
+    for (_, path), (_, values) in read.curves().items():
+        if path == "rotation":
+            assert np.all((values[1:] * values[:-1]).sum(-1) > 0)
+
+
+def test_at_rest_nothing_is_turned_and_the_lowest_joint_is_on_the_ground():
+    motion = walk()
+    rest = Glb(gltf.glb(motion)).poses(0, rest=True)
+    assert np.array_equal(rest[:, :3, :3], np.broadcast_to(np.eye(3), rest[:, :3, :3].shape))
+    assert abs(rest[:, 1, 3].min()) < 1e-12
+    offsets = rest[1:, :3, 3] - rest[motion.skeleton.parents[1:], :3, 3]
+    assert np.allclose(offsets, motion.skeleton.offsets[1:])
+
+
+def test_the_body_moves_with_its_bones():
+    motion = walk()
+    read, shape = Glb(gltf.glb(motion)), gltf_capsules.body(motion.skeleton)
+    rest, exact = gltf_capsules.rest(motion.skeleton), joint_positions(motion)[50]
+    moved = read.skinned(50 / motion.fps)
+    before = np.linalg.norm(shape.places - rest[shape.joints], axis=-1)
+    after = np.linalg.norm(moved - exact[shape.joints], axis=-1)
+    assert np.abs(before - after).max() < 1e-4
+    assert 1.6 < np.ptp(moved[:, 1]) < 2.0  # the size of a person, metres
+    assert moved[:, 1].min() > -0.06
+
+
+def test_capsules_are_closed_and_face_outwards():
+    for bone in ([0, 0.4, 0], [0, -0.4, 0], [0.3, 0.1, -0.2], [0, 0, 0]):
+        shape = gltf_capsules.body(Skeleton(["a", "b"], [-1, 0], [[0, 0, 0], bone]))
+        sides = shape.places[shape.corners]
+        normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
+        assert np.linalg.norm(normals, axis=-1).min() > 1e-9
+        assert np.all((normals * shape.normals[shape.corners].mean(axis=1)).sum(-1) > 0)
+        assert np.allclose(np.linalg.norm(shape.normals, axis=-1), 1)
+        # Closed: each side of a triangle, by place, is met once in each direction.
+        places = {tuple(place): number for number, place in enumerate(np.round(shape.places, 9).tolist())}
+        number = [places[tuple(place)] for place in np.round(shape.places, 9).tolist()]
+        edges = [
+            (number[a], number[b]) for t in shape.corners for a, b in zip(t, np.roll(t, -1), strict=True)
+        ]
+        assert len(set(edges)) == len(edges)
+        assert {(b, a) for a, b in edges} == set(edges)
+
+
+def test_a_head_is_a_ball_whether_a_bone_starts_there_or_not():
+    neck = ["hips", "neck", "Head"]
+    for names, parents in ((neck, [-1, 0, 1]), ([*neck, "Head_end"], [-1, 0, 1, 2])):
+        offsets = [[0, 0, 0], [0, 0.6, 0], [0, 0.1, 0], [0, 0.15, 0]][: len(names)]
+        shape = gltf_capsules.body(Skeleton(names, parents, offsets))
+        ball = shape.places[shape.joints == 2]
+        width, height = np.ptp(ball, axis=0)[[0, 1]]
+        assert 0.08 < width < height < 2 * width
+
+
+def test_a_large_skeleton_counts_corners_in_32_bits():
+    count = 1200
+    chain = Skeleton([f"j{n}" for n in range(count)], np.arange(count) - 1, np.eye(3)[np.zeros(count, int)])
+    still = Motion(chain, np.zeros((1, 3)), np.tile([1.0, 0, 0, 0], (1, count, 1)), 30.0)
+    read = Glb(gltf.glb(still))
+    index = read.document["meshes"][0]["primitives"][0]["indices"]
+    assert read.arrays[index].dtype == np.uint32
+    assert read.arrays[index].max() > 65535
+
+
+def test_frames_too_short_for_its_clock_and_files_too_large_are_refused(tmp_path, monkeypatch):
+    with pytest.raises(MocapError, match=r"'wave' at 1e\+50 Hz is too fast for a \.glb: resample it\."):
+        gltf.write(replace(wave(300), fps=1e50), tmp_path / "a.glb")
+    monkeypatch.setattr(gltf_binary, "MOST", 10_000)
+    with pytest.raises(MocapError, match=r"A \.glb file holds 0\.0 GB at most, not 0\.0: write \.bvh\."):
+        gltf.write(wave(300), tmp_path / "a.glb")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_odd_names_are_kept():
+    motion = wave(3, name='w"\n\u2028\ud800')
+    skeleton = replace(motion.skeleton, names=['"root"', "ellenbogen-ä", "\0", "{}"])
+    assert gap(replace(motion, skeleton=skeleton, contacts={})) < 1e-4
+
+
+def test_a_minute_takes_less_than_half_of_a_bvh(tmp_path):
+    motion = resample(samples.sample("walk_circle"), 30)
+    bvh.write(motion, tmp_path / "a.bvh")
+    assert len(gltf.glb(motion)) < 0.5 * (tmp_path / "a.bvh").stat().st_size
+
+
+def test_the_validator_finds_nothing(tmp_path):
+    """Neither errors nor warnings, and no hint either."""
+    if not shutil.which("node"):
+        pytest.skip("no Node here")
+    motions = [walk(), wave(1), wave(50), random_motion(1), random_motion(2, joints=1)]
+    paths = [tmp_path / f"{number}.glb" for number in range(len(motions))]
+    for motion, path in zip(motions, paths, strict=True):
+        gltf.write(motion, path)
+    done = subprocess.run(["node", "-e", VALIDATE, *paths], capture_output=True, text=True, check=False)
+    if "Cannot find module" in done.stderr:
+        pytest.skip("no gltf-validator here: npm install --no-save gltf-validator")
+    for report in json.loads(done.stdout):
+        assert report["issues"]["messages"] == []
+        assert report["info"]["animationCount"] == 1
+
+
+def test_trimesh_reads_the_body_and_the_joints():
+    trimesh = pytest.importorskip("trimesh", reason="pip install trimesh")
+    motion = walk()
+    scene = trimesh.load(io.BytesIO(gltf.glb(motion)), file_type="glb")
+    shape = gltf_capsules.body(motion.skeleton)
+    (mesh,) = scene.geometry.values()
+    assert len(mesh.faces) == len(shape.corners)
+    assert np.allclose(mesh.bounds, [shape.places.min(0), shape.places.max(0)], atol=1e-6)
+    rest = gltf_capsules.rest(motion.skeleton)
+    for joint, name in enumerate(motion.skeleton.names):
+        place = scene.graph.get(name)[0][:3, 3]
+        assert np.abs(place - rest[joint] + [0, rest[:, 1].min(), 0]).max() < 1e-4

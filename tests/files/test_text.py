@@ -1,0 +1,54 @@
+"""Text is read whole or refused, and its numbers are numbers."""
+
+import pytest
+
+from mocap.errors import FormatError, MocapError
+from mocap.files.text import lines, read_text, to_numbers
+
+
+@pytest.mark.parametrize(
+    ("data", "text"),
+    [
+        (b"a\r\nb\r\n", "a\nb\n"),
+        (b"a\rb", "a\nb"),
+        (b"\xef\xbb\xbfa\n", "a\n"),
+        ("Hüfte".encode(), "Hüfte"),
+        ("Hüfte".encode("latin-1"), "Hüfte"),
+    ],
+)
+def test_read_text(tmp_path, data, text):
+    (tmp_path / "file").write_bytes(data)
+    assert read_text(tmp_path / "file") == text
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"a\nb\0c", "line 2: expected text, got a zero byte"),
+        (b" \r\n", "got an empty file"),
+        (b"a\n<<<<<<< HEAD\nb", "line 2: .*merge"),
+    ],
+)
+def test_what_is_no_text_is_refused(tmp_path, data, message):
+    (tmp_path / "file").write_bytes(data)
+    with pytest.raises(FormatError, match=message):
+        read_text(tmp_path / "file")
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path):
+    with pytest.raises(MocapError, match=r"Cannot read .*gone: No such file"):
+        read_text(tmp_path / "gone")
+    with pytest.raises(MocapError, match=r"Cannot read .*: Is a directory"):
+        read_text(tmp_path)
+
+
+def test_lines_keep_their_numbers():
+    assert list(lines("# all\n\na b\t c # d\n")) == [(3, ["a", "b", "c"])]
+
+
+@pytest.mark.parametrize(
+    "words", [["1"], ["1", "x"], ["1", "nan"], ["1", "inf"], ["1", "-1e9"], ["1", "2", "3"]]
+)
+def test_numbers_that_are_none_are_refused(words):
+    with pytest.raises(FormatError, match=r"a.bvh, line 3: expected a pair"):
+        to_numbers("a.bvh", 3, words, "a pair", 2)

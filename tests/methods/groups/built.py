@@ -1,0 +1,46 @@
+"""Groups that several tests walk with."""
+
+from functools import cache
+
+import numpy as np
+
+from mocap.methods.groups.flocking import Trajectories, simulate
+from mocap.methods.groups.group_graphs import GroupGraph, build_group
+from mocap.methods.groups.planning import Scene
+
+
+@cache
+def flock(count: int = 12, seconds: float = 120.0) -> Trajectories:
+    return simulate(count, seconds)
+
+
+@cache
+def graph(count: int = 12, nodes: int = 8) -> GroupGraph:
+    return build_group(count, nodes=nodes)
+
+
+def course(seed: int, points: int = 5, discs: int = 8) -> Scene:
+    """Draw legs of 8 to 12 m that turn by up to 100 degrees, and discs beside and on the way."""
+    random = np.random.default_rng(seed)
+    heading, here, way = 0.0, 0j, []
+    for leg in range(points):
+        heading += random.uniform(-1.7, 1.7) if leg else 0.0
+        here = here + random.uniform(8, 12) * np.exp(1j * heading)
+        way.append(complex(here))
+    corners, rocks = [0j, *way], []
+    while len(rocks) < discs:
+        leg = random.integers(points)
+        spot = corners[leg] + random.uniform(0.25, 0.75) * (corners[leg + 1] - corners[leg])
+        spot += random.normal(0, 2.5) * np.exp(2j * np.pi * random.random())
+        radius = random.uniform(0.4, 1.0)
+        clear = all(abs(spot - corner) > radius + 3.5 for corner in corners)
+        if clear and all(abs(spot - rock) > radius + size + 1.0 for rock, size in rocks):
+            rocks.append((complex(spot), float(radius)))
+    return Scene(tuple(way), tuple(rocks))
+
+
+def pocket(depth: float) -> Scene:
+    """A U of discs, open towards the start, with the goal behind it."""
+    back = [14 + 1.5j * k for k in range(-3, 4)]
+    arms = [14 - 1.5 * k + 4.5j * side for k in range(1, round(depth / 1.5) + 1) for side in (-1, 1)]
+    return Scene((24 + 0j,), tuple((complex(centre), 0.8) for centre in back + arms))

@@ -1,0 +1,127 @@
+"""A flock walks as people do: at their pace, apart, each with a will of its own; and a seed is a seed."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.errors import MocapError
+from mocap.methods.groups.configurations import Configuration, compare, seen_from_itself
+from mocap.methods.groups.flocking import (
+    APART,
+    RATE,
+    Flock,
+    Trajectories,
+    advance,
+    nearest_two,
+    push_apart,
+    simulate,
+    steering_force,
+)
+from tests.methods.groups.built import flock
+
+
+def test_a_flock_keeps_its_pace_and_its_distance():
+    for count in (6, 12, 24):
+        places, velocities = flock(count)
+        speeds = np.abs(velocities)
+        assert 0.9 < speeds.mean() < 1.2
+        assert np.percentile(speeds, 1) > 0.5 and np.percentile(speeds, 99) < 1.6
+        assert nearest_two(places).min() > APART
+        assert np.abs(places - places.mean(axis=1, keepdims=True)).max() < 7  # it stays together
+
+
+def test_velocities_are_those_of_the_places():
+    places, velocities = flock(6)
+    np.testing.assert_allclose(np.diff(places, axis=0) * RATE, velocities[1:], atol=1e-9)
+
+
+def test_a_seed_gives_the_same_flock_again_and_another_gives_another():
+    one, again, other = (simulate(5, 5, seed=seed).places for seed in (3, 3, 4))
+    np.testing.assert_array_equal(one, again)
+    assert np.abs(one - other).max() > 0.1
+
+
+def test_without_whims_it_settles_into_a_lattice():
+    """Any two configurations are then far more alike: nothing to build a graph of."""
+
+    def spread(whim):
+        walked = simulate(12, 120, rules=Flock(whim=whim))
+        seen, _, _ = seen_from_itself(Configuration(walked.places[::60], walked.velocities[::60]))
+        pairs = Configuration(seen.places[:, None], seen.velocities[:, None])
+        return np.median(compare(pairs, Configuration(seen.places[None], seen.velocities[None])).rms)
+
+    assert spread(0.0) < 0.7 * spread(0.5)
+
+
+def test_each_rule_pulls_where_it_should():
+    quiet = dict.fromkeys(("separate", "gather", "align", "steer", "keep"), 0.0)
+    two = Trajectories(np.array([0j, 1 + 0j]), np.array([1 + 0j, 1j]))
+    wish = np.array([1 + 0j, 1 + 0j])
+
+    def force(**weights):
+        return steering_force(two, wish, Flock(**{**quiet, **weights}))
+
+    assert force(separate=1)[0].real < 0 < force(separate=1)[1].real
+    np.testing.assert_allclose(force(gather=1), [1, -1])
+    np.testing.assert_allclose(force(align=1), [1j - 1, 1 - 1j])
+    np.testing.assert_allclose(force(steer=1), [0, 1 - 1j])
+    np.testing.assert_allclose(force(keep=1), [0.1, 0.1j])
+    assert np.abs(force(gather=100)).max() == pytest.approx(Flock().accelerate)
+
+
+def test_who_sees_nobody_is_pulled_by_nobody():
+    far = Trajectories(np.array([0j, 100 + 0j]), np.ones(2, complex))
+    alone = steering_force(far, np.ones(2, complex), Flock(keep=0))
+    np.testing.assert_allclose(alone, 0, atol=1e-12)
+
+
+def test_a_disc_pushes_away():
+    at = Trajectories(np.array([0j, 50j]), np.ones(2, complex))
+    pushed = steering_force(at, np.ones(2, complex), Flock(keep=0), [(1.5 + 0j, 0.5)])
+    assert pushed[0].real < 0 and abs(pushed[1]) < 1e-12
+
+
+def test_runs_side_by_side_are_the_runs_one_by_one():
+    random = np.random.default_rng(1)
+    places = random.normal(size=(4, 5)) + 1j * random.normal(size=(4, 5))
+    velocities = np.exp(1j * random.normal(size=(4, 5)))
+    wish = np.exp(1j * random.normal(size=(4, 5)))
+    together = advance(Trajectories(places, velocities), wish, Flock())
+    for row in range(4):
+        alone = advance(Trajectories(places[row], velocities[row]), wish[row], Flock())
+        np.testing.assert_allclose(together.places[row], alone.places, atol=1e-12)
+        np.testing.assert_allclose(together.velocities[row], alone.velocities, atol=1e-12)
+
+
+@given(st.complex_numbers(min_magnitude=0.01, max_magnitude=2.0))
+def test_two_are_pushed_just_apart(gap):
+    places = np.array([1 + 1j, 1 + 1j + gap])
+    moved = places + push_apart(places, 0.6)
+    assert np.abs(moved[1] - moved[0]) == pytest.approx(max(abs(gap), 0.6))
+    assert moved.mean() == pytest.approx(places.mean())
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        ({"count": 1}, "two members or more, got 1"),
+        ({"seconds": 0.0}, "more than 0 seconds"),
+        ({"seconds": np.nan}, "more than 0 seconds"),
+        ({"seconds": 1e-9}, "more than 0 seconds"),
+        ({"count": 2.5}, "two members or more, got 2.5"),
+        ({"settle": -1.0}, "got -1.0 s and 5.0 s"),
+        ({"rules": Flock(space=-1.0)}, "not below 0; space is -1.0"),
+        ({"rules": Flock(pace=np.nan)}, "finite and not below 0; pace is nan"),
+        ({"count": np.nan}, "two members or more, got nan"),
+        ({"rules": Flock(space=0.0)}, "a space above 0 m, .* got 0.0 m"),
+        ({"rules": Flock(slowest=2.0)}, "got 1.4 m, 2.0 and 1.6 m/s"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(wrong, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        simulate(**{"count": 4, "seconds": 5.0, **wrong})
+
+
+def test_who_is_alone_has_nobody_near():
+    assert nearest_two(np.zeros((2, 1), complex)).tolist() == [np.inf, np.inf]

@@ -1,0 +1,121 @@
+"""Places, turns and members' numbers multiply up: hours of a crowd, smooth at each seam."""
+
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError, MocapWarning
+from mocap.methods.groups.configurations import Configuration
+from mocap.methods.groups.flocking import APART, nearest_two
+from mocap.methods.groups.group_clips import accelerations
+from mocap.methods.groups.group_graphs import (
+    GroupGraph,
+    Placed,
+    build_group,
+    make_clips,
+    play_group,
+    random_group_walk,
+)
+from tests.methods.groups.built import flock, graph
+
+every_graph = pytest.mark.parametrize(("count", "nodes"), [(12, 8), (6, 6)])
+
+
+@every_graph
+def test_400_seconds_at_random_never_collide_and_seams_are_as_smooth_as_all_else(count, nodes):
+    group = graph(count, nodes)
+    walk = random_group_walk(group, 100, seed=3)
+    played = play_group(group, walk)
+    assert len(played.places) == 4001
+    assert nearest_two(played.places).min() >= APART
+    hard = accelerations(played.places).max(axis=1)
+    seams = np.arange(40, 4000, 40) - 1
+    assert hard[seams].max() <= max(accelerations(clip.places).max() for clip in group.clips)
+    np.testing.assert_allclose(np.abs(np.diff(played.places, axis=0)).max(), 0.15, atol=0.05)
+
+
+def test_members_that_are_not_renumbered_jump():
+    group = graph()
+    walk = random_group_walk(group, 20, seed=3)
+    same = [clip.__class__(**{**vars(clip), "order": np.arange(12)}) for clip in group.clips]
+    careless = play_group(GroupGraph(group.nodes, tuple(same), group.drawn), walk)
+    assert np.abs(np.diff(careless.places, axis=0)).max() > 2.0
+
+
+def test_a_walk_starts_where_it_is_placed():
+    group = graph(6, 6)
+    walk = random_group_walk(group, 3)
+    here, there = play_group(group, walk), play_group(group, walk, Placed(0, 1j, 5 + 2j))
+    np.testing.assert_allclose(there.places, 1j * here.places + 5 + 2j, atol=1e-9)
+    np.testing.assert_allclose(there.velocities, 1j * here.velocities, atol=1e-9)
+
+
+def test_playing_is_far_cheaper_than_simulating():
+    """Counted in work, not in time: one product per clip instead of N² gaps in each frame."""
+    group = graph()
+    clip = group.clips[0]
+    assert clip.places.size == 41 * 12  # all that a clip's playing touches
+
+
+def test_a_node_that_no_clip_leaves_ends_a_random_walk():
+    group = graph(6, 6)
+    only = GroupGraph(group.nodes, tuple(c for c in group.clips if c.end == 1 and c.start == 0), group.drawn)
+    with pytest.raises(MocapError, match="No clip leaves node 1"):
+        random_group_walk(only, 5)
+
+
+@pytest.mark.parametrize(
+    ("walk", "sentence"),
+    [([], "one clip or more"), ([10**6], "There is no clip 1000000"), ([-1], "There is no clip -1")],
+)
+def test_walks_that_are_none_are_refused(walk, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        play_group(graph(6, 6), walk)
+
+
+def test_clips_that_do_not_follow_one_another_are_refused():
+    group = graph(6, 6)
+    to_one = next(n for n, clip in enumerate(group.clips) if clip.end == 1)
+    from_two = next(n for n, clip in enumerate(group.clips) if clip.start == 2)
+    with pytest.raises(MocapError, match="A clip to node 1 is followed by one that leaves 2"):
+        play_group(group, [to_one, from_two])
+
+
+def test_a_walk_from_another_node_than_its_first_clip_s_is_refused():
+    group = graph(6, 6)
+    with pytest.raises(MocapError, match="A walk from node 1 starts with a clip that leaves 0"):
+        play_group(group, [0], Placed(1))
+    with pytest.raises(MocapError, match="starts at a finite place"):
+        play_group(group, [0], Placed(0, 1 + 0j, complex(np.inf)))
+
+
+@pytest.mark.parametrize(
+    ("nodes", "wrong"), [(0, {}), (1, {"bends": []}), (1, {"bends": [np.nan]}), (1, {"seeds": 0})]
+)
+def test_what_makes_no_clips_is_refused(nodes, wrong):
+    with pytest.raises(MocapError, match=r"Clips take a node, .* got \d nodes, bends"):
+        make_clips(graph(6, 6).nodes[:nodes], **wrong)
+
+
+def test_bends_that_are_too_sharp_leave_no_clip_and_it_says_why():
+    nodes = graph(6, 6).nodes
+    close = Configuration(nodes[0].places * 0.1, nodes[0].velocities)
+    with pytest.raises(MocapError, match=r"None of 1 clips can be kept: in 1 members collide, \d need more"):
+        make_clips([close], bends=[0.0], seeds=1)
+
+
+def test_pairs_without_a_clip_are_warned_of():
+    nodes = graph(6, 6).nodes
+    far = Configuration(nodes[1].places * 8.0, nodes[1].velocities)
+    with pytest.warns(MocapWarning, match=r"No clip joins \d of 4 pairs of nodes"):
+        make_clips([nodes[0], far], bends=[0.0], seeds=2)
+
+
+def test_a_seed_gives_the_same_graph():
+    one, again = (build_group(4, nodes=2, simulated=40.0, reach=0.8, seed=5) for _ in range(2))
+    np.testing.assert_array_equal(one.clips[0].places, again.clips[0].places)
+    assert one.members == 4 and len(flock(4).places) == 1200
+
+
+def test_a_node_that_stands_is_refused():
+    with pytest.raises(MocapError, match=r"moves by 0\.00 m/s on average has no direction"):
+        make_clips([Configuration(np.array([0j, 5j]), np.zeros(2, complex))])

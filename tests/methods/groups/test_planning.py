@@ -1,0 +1,176 @@
+"""Plans pass all points and clear all obstacles; a pocket holds who only steers."""
+
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError, NoWalk
+from mocap.methods.groups.flocking import APART, RATE, Trajectories, nearest_two
+from mocap.methods.groups.group_graphs import Placed, play_group
+from mocap.methods.groups.group_steering import clearances, steer_group
+from mocap.methods.groups.planning import _Course, _State, plan_group
+from mocap.methods.groups.scenes import Exits, Obstacles, Scene
+from tests.methods.groups.built import course, graph, pocket
+
+
+def walked(found, start=None):
+    """What the group does until it passes the last point."""
+    played = play_group(graph(), found.clips, start)
+    frames = round(found.seconds * RATE) + 1
+    return Trajectories(played.places[:frames], played.velocities[:frames])
+
+
+def passed(flock, scene):
+    """Count the points that the middle passes, in order."""
+    middle, goal = flock.places.mean(axis=1), 0
+    for place in middle:
+        while goal < len(scene.points) and abs(place - scene.points[goal]) < scene.near:
+            goal += 1
+    return goal
+
+
+@pytest.mark.parametrize(
+    ("seeds", "least"),
+    [(range(5, 9), 4), pytest.param(range(12), 10, marks=pytest.mark.exhaustive)],
+    ids=["four", "twelve"],
+)
+def test_courses_are_found_and_every_one_is_clear(seeds, least):
+    """Ten of twelve; in seed 0 discs close every way from the start."""
+    found = 0
+    for seed in seeds:
+        scene = course(seed)
+        try:
+            flock = walked(plan_group(graph(), scene))
+        except NoWalk:
+            continue
+        found += 1
+        assert passed(flock, scene) == len(scene.points)
+        assert clearances(flock, scene).min() >= scene.body - 1e-9
+        assert nearest_two(flock.places).min() >= APART
+    assert found >= least
+
+
+@pytest.mark.parametrize("seed", [5, 8])
+def test_bounds_spare_most_tests_and_change_nothing(seed):
+    quick, slow = (plan_group(graph(), course(seed), bounds=bounds) for bounds in (True, False))
+    assert quick.clips == slow.clips and slow.spared == 0
+    assert quick.spared >= 0.7 * (quick.spared + quick.tested)
+    assert quick.spared + quick.tested >= slow.tested
+
+
+def beam_of(width, scene, clips=25):
+    """Keep the most promising states after each clip: what one might do instead."""
+    group, course, obstacles = graph(), _Course.of(scene, 2.0), Obstacles(scene)
+    exits = [Exits(group, node) for node in range(len(group.nodes))]
+    states = [_State(Placed(0), 0, 0, 0.0, None, -1)]
+    for _ in range(clips):
+        onward = []
+        for state in states:
+            leaving = exits[state.at.node]
+            onward += course.go_on(leaving, obstacles.free(leaving, state.at, state.frames), state)
+        states = [state for _, state in sorted(onward, key=lambda one: one[0])[:width]]
+        if any(state.goal == len(scene.points) for state in states):
+            return True
+    return False
+
+
+@pytest.mark.exhaustive
+def test_a_beam_runs_into_obstacles_with_all_its_walks_and_no_weight_finds_nothing():
+    found = [seed for seed in range(1, 12) if beam_of(40, course(seed))]
+    assert len(found) <= 8
+    with pytest.raises(NoWalk, match="the limit of 4000 states"):
+        plan_group(graph(), course(1), weight=1.0)
+
+
+@pytest.mark.parametrize("depth", [4.5, 7.0])
+def test_a_plan_leaves_the_pocket_that_steering_never_leaves(depth):
+    scene = pocket(depth)
+    flock = walked(plan_group(graph(), scene))
+    assert passed(flock, scene) == 1 and clearances(flock, scene).min() >= scene.body - 1e-9
+    stuck, points = steer_group(graph().nodes[0], scene, limit=60.0)
+    assert points == 0 and stuck.places[-1].real.mean() < 16
+
+
+def test_on_open_ground_steering_is_enough():
+    scene = Scene((10 + 2j, 18 - 3j))
+    flock, points = steer_group(graph().nodes[0], scene)
+    assert points == 2 and passed(flock, scene) == 2
+
+
+def test_more_weight_finds_a_way_with_fewer_states():
+    few, many = (plan_group(graph(), course(5), weight=weight).expanded for weight in (3.0, 1.5))
+    assert few < many
+
+
+def test_two_groups_pass_each_other():
+    """The second plans around the first, frame by frame, and needs more than the bounds to know."""
+    first = walked(plan_group(graph(), Scene((24 + 0j,))))
+    back = Placed(0, -1 + 0j, 24 + 0j)
+    alone = plan_group(graph(), Scene((0j,)), start=back)
+    careful = plan_group(graph(), Scene((0j,), others=tuple(first.places.T[:, :, None])), start=back)
+
+    def gap(found):
+        flock = walked(found, back)
+        frames = np.minimum(np.arange(len(flock.places)), len(first.places) - 1)
+        return np.abs(flock.places[:, :, None] - first.places[frames][:, None]).min()
+
+    assert gap(alone) < APART <= gap(careful)
+    assert careful.spared > 0
+
+
+def test_the_goal_may_be_passed_within_the_first_clip():
+    found = plan_group(graph(), Scene((1.5 + 0j,)))
+    assert len(found.clips) == 1 and found.seconds < 4
+
+
+def test_where_no_way_is_found_it_says_how_far_it_came():
+    ring = tuple((3.5 * np.exp(2j * np.pi * k / 16), 0.8) for k in range(16))
+    with pytest.raises(NoWalk, match=r"No way past point 1 of 1 was found: obstacles closed every way"):
+        plan_group(graph(), Scene((20 + 0j,), ring))
+    with pytest.raises(NoWalk, match=r"past point 1 of 1 was found: the limit of 5 states"):
+        plan_group(graph(), Scene((60 + 0j,)), most=5)
+
+
+def wall(gap):
+    """Discs in a row from side to side, with one gap in the middle."""
+    return tuple((12 + 1j * side * (gap / 2 + 0.8 + 1.2 * k), 0.8) for side in (-1, 1) for k in range(12))
+
+
+def test_what_a_refusal_advises_helps():
+    """Turned by half a radian, past a point beside the pocket, through a gap as it says, or as fewer."""
+    with pytest.raises(NoWalk, match=r"closed every way .* Start farther off or turned, take fewer members"):
+        plan_group(graph(), course(0))
+    assert plan_group(graph(), course(0), start=Placed(0, np.exp(-0.5j)))
+    with pytest.raises(NoWalk, match="Set a point on the way, take fewer members"):
+        plan_group(graph(), pocket(4.5), most=100)
+    scene = pocket(4.5)
+    assert plan_group(graph(), Scene((10 + 8j, *scene.points), scene.discs), most=100)
+    with pytest.raises(NoWalk, match=r"leave gaps of 3.9 m, or allow more states\.$"):
+        plan_group(graph(), Scene((24 + 0j,), wall(3.2)), most=700)
+    assert plan_group(graph(), Scene((24 + 0j,), wall(3.9)), most=700)
+    assert plan_group(graph(3), Scene((24 + 0j,), wall(3.2)), most=700)
+
+
+@pytest.mark.parametrize("limit", [np.nan, 0.0, np.inf])
+def test_steering_takes_some_time_and_ends(limit):
+    with pytest.raises(MocapError, match=f"more than 0 seconds and not for ever, got {limit}"):
+        steer_group(graph().nodes[0], Scene((9 + 0j,)), limit=limit)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        ({"start": Placed(99)}, "There is no node 99"),
+        ({"start": Placed(0, 1 + 0j, complex(np.nan))}, "starts at a finite place"),
+        ({"start": Placed(0, 2j)}, "a turn of length 1"),
+        ({"weight": np.nan}, "weighs what is left by 0 or more, got nan"),
+    ],
+)
+def test_starts_and_weights_that_make_no_sense_are_refused(wrong, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        plan_group(graph(), Scene((9 + 0j,)), **wrong)
+
+
+def test_a_member_that_starts_on_a_disc_is_named():
+    spot = complex(graph().nodes[0].places[3])
+    with pytest.raises(NoWalk, match=r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least"):
+        plan_group(graph(), Scene((9 + 0j,), ((spot, 0.2),)))

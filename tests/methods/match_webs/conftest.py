@@ -1,0 +1,100 @@
+"""Clips, labels and truths that the tests of match webs share."""
+
+from itertools import pairwise
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mocap import datasets, resample
+from mocap._shared.arrays import runs
+from mocap.body import find_legs, joint_positions
+from mocap.feet import mark_plants
+from mocap.methods.match_webs import build_web
+
+BUNDLED = ("walk_straight", "walk_circle", "sneak", "jog", "stop_and_go")
+
+
+def strikes(motion, side=0):
+    """Frames at which a foot comes down, by the motion's own marks."""
+    leg, names = find_legs(motion.skeleton)[side], motion.skeleton.names
+    stands = motion.contacts[names[leg.ankle]] | motion.contacts[names[leg.ball]]
+    return [int(start) for start, _ in runs(stands) if start > 0]
+
+
+def cycles(motion, shortest, longest):
+    """Strike to strike of the left foot, as slices of so many seconds."""
+    found = (slice(a, b) for a, b in pairwise(strikes(motion)))
+    return [part for part in found if shortest <= (part.stop - part.start) / motion.fps <= longest]
+
+
+def flights(motion):
+    """Where both feet are in the air for more than 0.1 s, with 0.4 s before and after."""
+    feet = [joint for leg in find_legs(motion.skeleton) for joint in (leg.ankle, leg.ball)]
+    heights = joint_positions(motion)[:, feet, 1]
+    air = (heights - np.percentile(heights, 5, axis=0) > 0.04).all(axis=1)
+    return [slice(int(a) - 48, int(b) + 48) for a, b in runs(air) if b - a > 12]
+
+
+def common(match, clip, part):
+    """Give what a match and a stretch have in common, as a share of their union."""
+    if match.clip != clip:
+        return 0.0
+    both = min(match.stop, part.stop) - max(match.start, part.start)
+    return max(both, 0) / (max(match.stop, part.stop) - min(match.start, part.start))
+
+
+def judge(found, truth, share=0.5, forgiven=lambda match: False):
+    """Count the true stretches (clip, slice) that were found, and the matches that are none of them."""
+    hit = sum(any(common(match, *true) > share for match in found) for true in truth)
+    wrong = sum(
+        not forgiven(match) and all(common(match, *true) <= share for true in truth) for match in found
+    )
+    return hit, wrong
+
+
+@pytest.fixture(scope="session")
+def bundled():
+    """Five generated clips with a web below 8 cm, and the walking cycles in them by labels and plants."""
+    clips = [datasets.sample(name) for name in BUNDLED]
+    truth = [
+        (number, part)
+        for number, clip in enumerate(clips)
+        for part in cycles(clip, 2 / 3, 13 / 6)
+        if clip.labels["walk"][part].all()
+    ]
+    return SimpleNamespace(clips=clips, web=build_web(clips, below=0.08), truth=truth)
+
+
+@pytest.fixture(scope="session")
+def subject16(real_data):
+    """All 58 trials of subject 16, with a web below 12 cm, their walking cycles and their jumps."""
+    trials = datasets.trials(16)
+    clips = [datasets.cmu(trial.name) for trial in trials]
+    names = [trial.name for trial in trials]
+    walking = {n for n, trial in enumerate(trials) if "walk" in trial.description}
+    running = {n for n, trial in enumerate(trials) if "run" in trial.description}
+    jumping = [n for n, trial in enumerate(trials) if "jump" in trial.description]
+    steps = [(n, part) for n in sorted(walking) for part in cycles(mark_plants(clips[n]), 0.75, 5 / 3)]
+    jumps = [(n, part) for n in jumping for part in flights(clips[n])]
+
+    def cut_off(match):
+        """A cycle that the clip's start or end cuts off, in a trial of that kind."""
+        return match.clip in walking and (match.start <= 12 or match.stop >= len(clips[match.clip]) - 16)
+
+    return SimpleNamespace(
+        clips=clips,
+        names=names,
+        web=build_web(clips),
+        steps=steps,
+        jumps=jumps,
+        running=running,
+        walking=walking,
+        cut_off=cut_off,
+    )
+
+
+@pytest.fixture(scope="session")
+def low(bundled):
+    """The five clips at the web's rate."""
+    return [resample(clip, 30) for clip in bundled.clips]

@@ -1,0 +1,88 @@
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocap.errors import MocapError
+from mocap.methods.match_webs import apart, local_paths
+
+
+def path_sum(costs, path):
+    """Add up costs, each by the frames that its step advances; the first cell counts 2."""
+    advance = np.append(2, np.abs(np.diff(path, axis=0)).sum(axis=1))
+    return float((costs[tuple(path.T)] * advance).sum())
+
+
+def longest_run(path):
+    steps = np.diff(path, axis=0).tolist()
+    longest = run = 0
+    for before, step in zip([None, *steps], steps, strict=False):
+        run = 0 if step == [1, 1] else run + 1 if step == before else 1
+        longest = max(longest, run)
+    return longest
+
+
+def lowest_sum(costs, slope):
+    """Find the lowest sum of any path, cell by cell and state by state: slow and plain."""
+
+    @cache
+    def ending(i, j, down, right):
+        if min(i, j) < 0:
+            return np.inf
+        if down:
+            return costs[i, j] + ending(i - 1, j, down - 1, 0)
+        if right:
+            return costs[i, j] + ending(i, j - 1, 0, right - 1)
+        return 2 * costs[i, j] + min(0, best(i - 1, j - 1))
+
+    def best(i, j):
+        states = [(0, 0), *((k, 0) for k in range(1, slope + 1)), *((0, k) for k in range(1, slope + 1))]
+        return min(ending(i, j, *state) for state in states)
+
+    return min(best(i, j) for i, j in np.ndindex(costs.shape))
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 10_000), st.integers(1, 3))
+def test_the_first_path_has_the_lowest_sum_of_all(seed, slope):
+    costs = np.random.default_rng(seed).normal(0.4, 1, (9, 11))
+    paths = list(local_paths(costs, slope=slope, least=0))
+    assert path_sum(costs, paths[0]) == pytest.approx(lowest_sum(costs, slope))
+    sums = [path_sum(costs, path) for path in paths]
+    assert sums == sorted(sums) and sums[-1] < 0
+    assert len({tuple(path[0]) for path in paths}) == len(paths)
+    for path in paths:
+        steps = np.diff(path, axis=0)
+        assert np.isin(steps, (0, 1)).all() and steps.any(axis=1).all()
+        assert longest_run(path) <= slope
+
+
+def test_a_path_crosses_a_gap_that_it_has_earned_and_no_longer_one():
+    costs = np.full((30, 30), 1.0)
+    valley = np.arange(30)
+    costs[valley, valley] = -0.2
+    costs[valley[10:13], valley[10:13]] = 0.3  # 3 cells cost what 4.5 of the valley earn
+    assert len(next(local_paths(costs))) == 30
+    costs[valley[10:13], valley[10:13]] = 2.0  # ... and now 30
+    assert [len(path) for path in apart(local_paths(costs), near=1)] == [17, 10]
+
+
+def test_short_paths_are_left_out():
+    costs = np.full((8, 8), 1.0)
+    costs[[0, 1, 2], [0, 1, 2]] = -1
+    assert [len(path) for path in local_paths(costs, least=2)] == [3]
+    assert not list(local_paths(costs, least=3))
+
+
+def test_an_infinite_cell_is_never_crossed():
+    costs = np.full((6, 6), -1.0)
+    costs[3] = np.inf
+    assert all(len(set(path[:, 0]) & {3}) == 0 for path in local_paths(costs))
+
+
+@pytest.mark.parametrize("grid", [np.zeros(4), np.array([[0, np.nan]])])
+def test_hostile_grids_are_refused(grid):
+    with pytest.raises(MocapError, match="Paths need a grid of two dimensions without NaN"):
+        next(local_paths(grid))

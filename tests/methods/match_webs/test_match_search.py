@@ -1,0 +1,194 @@
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from mocap import datasets
+from mocap.body import Skeleton
+from mocap.body.motion import Motion
+from mocap.errors import MocapError, MocapWarning
+from mocap.methods.match_webs import build_web, cut_out, search
+from tests.methods.match_webs.conftest import common, cycles, judge
+
+PUNCHES = (
+    42,
+    85,
+    130,
+    173,
+    216,
+    259,
+    301,
+    346,
+    392,
+)  # seconds · 30: where the hand of 02_05 is at the target
+
+
+def test_a_walking_cycle_finds_the_others_in_steps_and_no_sneaking_or_jogging(bundled):
+    query = cycles(bundled.clips[0], 2 / 3, 13 / 6)[2]
+    one = search(bundled.web, 0, query, below=0.03, steps=1)
+    every = search(bundled.web, 0, query, below=0.03)
+    wider = search(bundled.web, 0, query, below=0.05)
+    assert len(bundled.truth) == 68
+    assert judge(one, bundled.truth, 0.6)[0] <= 10
+    assert judge(every, bundled.truth, 0.6)[0] >= 50
+    assert judge(wider, bundled.truth, 0.6)[0] >= 65
+    for match in (*every, *wider):
+        assert bundled.clips[match.clip].labels["walk"][match.start : match.stop].mean() > 0.5
+
+
+def test_matches_hang_together_and_differ(bundled):
+    query = bundled.truth[2][1]
+    found = search(bundled.web, 0, query, below=0.04)
+    assert (found[0].clip, found[0].start, found[0].stop) == (0, query.start, query.stop)
+    for number, match in enumerate(found[1:], 1):
+        assert match.via < number and match.generation == found[match.via].generation + 1
+        assert match.cost <= 0.04
+        assert 3 / 4 - 0.05 <= (match.stop - match.start) / (query.stop - query.start) <= 4 / 3 + 0.05
+        assert all(common(match, other.clip, other) <= 0.52 for other in found[:number])
+    for generation in range(1, found[-1].generation + 1):
+        costs = [match.cost for match in found if match.generation == generation]
+        assert costs == sorted(costs)
+
+
+def test_the_frames_that_lie_on_one_another_are_composed_without_drift(bundled):
+    """A match's first plant is the query's first plant, in generations 1, 2, 3 … alike."""
+    query = bundled.truth[2][1]
+    off = {}
+    for match in search(bundled.web, 0, query, below=0.04)[1:]:
+        clip = bundled.clips[match.clip]
+        strikes = [part.start for part in cycles(clip, 0, 9)]
+        middle = np.interp(query.start + 4, match.rows, match.frames)
+        off.setdefault(match.generation, []).append(np.abs(np.array(strikes) - middle).min() / clip.fps)
+        assert (np.diff(match.frames) >= 0).all() and (np.diff(match.rows) > 0).all()
+    assert len(off) >= 3
+    assert all(np.median(each) <= 0.05 for each in off.values())
+
+
+def test_the_search_is_symmetric(bundled):
+    """What a cycle finds in one step finds the cycle."""
+    query = bundled.truth[2]
+    for match in search(bundled.web, query[0], query[1], below=0.04, steps=1)[1:8]:
+        back = search(bundled.web, match.clip, slice(match.start, match.stop), below=0.042, steps=1)
+        assert max(common(other, *query) for other in back) > 0.6
+
+
+def test_a_match_is_cut_out_of_its_clip(bundled):
+    match = search(bundled.web, 0, bundled.truth[2][1], below=0.03)[1]
+    motion = cut_out(bundled.web, match)
+    assert len(motion) == match.stop - match.start
+    assert np.array_equal(motion.root_positions[0], bundled.clips[match.clip].root_positions[match.start])
+
+
+@pytest.fixture(scope="module")
+def restless():
+    """One joint that turns now and then, and stands still for long."""
+    rng = np.random.default_rng(0)
+    angle = np.zeros(900)
+    for start in range(50, 850, 100):
+        angle[start : start + 30] = np.sin(np.linspace(0, np.pi, 30)) * rng.uniform(0.8, 1)
+    turns = np.roll(Rotation.from_rotvec(angle[:, None] * [[1.0, 0, 0]]).as_quat(), 1, axis=1)
+    bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 0.5, 0]])
+    pose = np.stack([turns, np.tile([1.0, 0, 0, 0], (900, 1))], axis=1)
+    return Motion(bone, np.zeros((900, 3)), pose, 30.0, "restless")
+
+
+def test_standing_still_is_not_searched_from(restless):
+    web = build_web([restless], below=0.05)
+    with pytest.warns(MocapWarning, match="only itself"), pytest.warns(match="1 of 1 matches hardly move"):
+        assert len(search(web, 0, slice(0, 40), lengths=(1 / 2, 2))) == 1
+    assert len(search(web, 0, slice(0, 40), lengths=(1 / 2, 2), still=0)) >= 5
+
+
+def test_a_query_like_nothing_else_says_so(bundled):
+    with pytest.warns(MocapWarning, match=r"^The query found only itself: raise the limit, or take another"):
+        search(bundled.web, 0, slice(240, 370), below=0.001)
+
+
+def test_a_search_that_explodes_says_so(bundled, recwarn):
+    """Half a cycle is found in steps of its own size, then a flood: a hint, no verdict."""
+    query = cycles(bundled.clips[0], 2 / 3, 13 / 6)[2]
+    search(bundled.web, 0, query, below=0.021)
+    floods = [w for w in recwarn if "more than 5 times the step before" in str(w.message)]
+    counts = np.bincount([m.generation for m in search(bundled.web, 0, query, below=0.021)])
+    assert bool(floods) == bool((counts[2:] > np.maximum(5 * counts[1:-1], 20)).any())
+
+
+@pytest.mark.parametrize(
+    ("clip", "frames", "settings", "message"),
+    [
+        (7, slice(0, 100), {}, "This web has clips 0 to 4, got 7."),
+        (0, slice(-5, 100), {}, "'walk_straight' has frames 0 to 1200, got -5:100."),
+        (0, slice(0, 5000), {}, "has frames 0 to 1200, got 0:5000"),
+        (0, slice(100, 100), {}, "got 100:100"),
+        (0, slice(100, 120), {}, "A query must last 0.3 s or more"),
+        (0, slice(0, 130), {"below": 0.16}, "This web holds paths up to 8 cm: build another for 16 cm."),
+        (0, slice(0, 130), {"below": 0}, "A match needs a distance above 0 m"),
+        (0, slice(0, 130), {"below": np.nan}, "A match needs a distance above 0 m"),
+        (0, slice(0, 130), {"lengths": (2, 3)}, "Lengths are shares from up to 1 to 1 or more"),
+        (0, slice(0, 130), {"steps": 0}, "A search takes 1 step or more, got 0."),
+    ],
+)
+def test_hostile_queries_are_one_sentence(bundled, clip, frames, settings, message):
+    with pytest.raises(MocapError, match=message) as caught:
+        search(bundled.web, clip, frames, **settings)
+    assert len(str(caught.value)) <= 200
+
+
+# Real people.
+
+
+@pytest.mark.exhaustive
+def test_one_step_finds_a_few_walking_cycles_and_all_steps_find_all(subject16):
+    web, truth = subject16.web, subject16.steps
+    assert len(truth) == 50
+
+    def ask(name, number, below, steps):
+        clip = subject16.names.index(name)
+        query = [part for n, part in truth if n == clip][number]
+        return search(web, clip, query, below=below, steps=steps)
+
+    one, every = ask("16_27", 0, 0.05, 1), ask("16_27", 0, 0.05, None)
+    assert judge(one, truth, 0.6, subject16.cut_off)[0] <= 5
+    assert judge(every, truth, 0.6, subject16.cut_off) == (50, 0)
+    hit, wrong = judge(ask("16_15", 1, 0.04, None), truth, 0.6, subject16.cut_off)
+    assert hit >= 40 and wrong == 0
+    all_of_them = ask("16_15", 1, 0.06, None)
+    assert {match.clip for match in all_of_them} == subject16.walking
+    starts = {n: [part.start for m, part in truth if m == n] for n in subject16.walking}
+    for generation in (1, 2, 3):
+        off = [
+            np.abs(np.array(starts[match.clip]) - match.start).min() / 120
+            for match in all_of_them
+            if match.generation == generation and starts[match.clip] and not subject16.cut_off(match)
+        ]
+        assert np.median(off) <= 0.05
+
+
+@pytest.mark.exhaustive
+def test_a_jump_finds_the_others_and_a_leak_finds_hundreds_of_other_things(subject16):
+    truth = subject16.jumps
+    assert len(truth) == 9
+    number = subject16.names.index("16_03")
+    [query] = [part for n, part in truth if n == number]
+    assert judge(search(subject16.web, number, query, steps=1), truth) == (2, 0)
+    hit, wrong = judge(search(subject16.web, number, query), truth)
+    assert hit >= 7 and wrong == 0
+    web = build_web(subject16.clips, below=0.16)
+    assert judge(search(web, number, query), truth) == (9, 0)
+    with pytest.warns(MocapWarning, match="one wrong match may have led to others"):
+        hit, wrong = judge(search(web, number, query, lengths=(1 / 2, 2), still=0), truth)
+    assert hit == 9 and wrong > 100
+    with pytest.warns(MocapWarning, match="hardly move"):  # either bound stops it
+        hit, wrong = judge(search(web, number, query, lengths=(1 / 2, 2)), truth)
+    assert hit == 9 and wrong <= 2
+    hit, wrong = judge(search(web, number, query, steps=1, lengths=(1 / 2, 2)), truth)
+    assert hit < 9  # a larger limit does not do what more steps do
+
+
+def test_a_punch_finds_all_nine_by_way_of_those_in_between(real_data):
+    clips = [datasets.cmu(trial.name) for trial in datasets.trials(2)]
+    web = build_web(clips, below=0.16)
+    truth = [(4, slice(4 * (peak - 18), 4 * (peak + 18))) for peak in PUNCHES]
+    one, every = (search(web, *truth[8], steps=steps) for steps in (1, None))
+    assert judge(one, truth) == (2, 0)
+    assert judge(every, truth) == (9, 0)
+    assert every[-1].generation >= 3

@@ -1,0 +1,217 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
+
+from mocap import datasets
+from mocap.blending.registering import register
+from mocap.errors import MocapError
+from mocap.methods.match_webs import (
+    MotionSpace,
+    blend_of,
+    hand_target,
+    neighbour_weights,
+    random_weights,
+    sample_space,
+    weights_for,
+)
+from tests.methods.match_webs.spaces_of_walks import gait, space
+
+METHODS = ("convex", "neighbours")
+
+
+def linear_space(numbers=2, seed=0, count=120):
+    """A space whose values are a linear map of the weights."""
+    rng = np.random.default_rng(seed)
+    examples = rng.normal(size=(numbers + 4, numbers))
+    weights = np.concatenate([np.eye(len(examples)), random_weights(examples, count, seed=seed)])
+    return MotionSpace(None, weights, weights @ examples, np.ones(numbers))
+
+
+@settings(max_examples=15)
+@given(st.integers(1, 3), st.integers(0, 99), st.sampled_from(METHODS))
+def test_weights_add_up_to_one_and_stay_in_range_for_every_wish(numbers, seed, method):
+    made = linear_space(numbers, seed)
+    reach = 10 * np.abs(made.values).max()
+    for wish in np.random.default_rng(seed).uniform(-reach, reach, (70, numbers)):
+        weights = weights_for(made, wish, method=method)
+        assert abs(weights.sum() - 1) < 1e-12
+        assert weights.min() >= -0.1 - 1e-12 and weights.max() <= 1.1 + 1e-12
+
+
+def test_convex_weights_are_exact_for_a_linear_measure_and_those_of_neighbours_are_not():
+    made = linear_space()
+    rng = np.random.default_rng(5)
+    off = {method: [] for method in METHODS}
+    for _ in range(40):
+        near = made.tree.query(made.values[rng.integers(6, 126)], k=12)[1]
+        wish = rng.dirichlet(np.ones(4)) @ made.values[near[:4]]  # inside the hull of the nearest
+        for method in METHODS:
+            got = weights_for(made, wish, method=method) @ made.values[:6]
+            off[method].append(np.linalg.norm(got - wish))
+    assert max(off["convex"]) < 1e-6
+    assert np.mean(off["neighbours"]) > 1e-2
+
+
+def test_a_hit_gives_that_sample():
+    made = linear_space()
+    for number in (0, 7, 50):
+        for method in METHODS:
+            got = weights_for(made, made.values[number], method=method)
+            assert got @ made.values[:6] == pytest.approx(made.values[number], abs=1e-5)
+    assert np.array_equal(weights_for(made, made.values[50], method="neighbours"), made.weights[50])
+
+
+def test_the_weights_of_neighbours_are_those_of_the_paper():
+    assert neighbour_weights([1, 2, 4]) == pytest.approx([3 / 4, 1 / 4, 0])
+    assert neighbour_weights([2, 2, 2]).tolist() == [1, 0, 0]
+    assert neighbour_weights([3]).tolist() == [1]
+    plain = 1 / np.array([0.01, 1, 1])
+    assert (plain / plain.sum())[0] < 0.99  # 1 / d is never exact at a sample, nor is it smooth at the last
+    assert neighbour_weights([0.01, 1, 1])[0] == 1
+
+
+def test_with_d_plus_one_neighbours_one_number_makes_a_staircase():
+    made = linear_space(1, count=20)
+    wishes = np.linspace(*np.quantile(made.values, [0.1, 0.9]), 60)
+
+    def results(**how):
+        got = [weights_for(made, wish, **how) @ made.values[:5, 0] for wish in wishes]
+        return len(np.unique(np.round(got, 6)))
+
+    assert results(method="neighbours", k=2) <= 20
+    assert results(method="neighbours") > 40 and results(method="convex") > 40
+
+
+def obtained(made, wishes, **how):
+    """Scaled distances from wishes to what the blends do."""
+    got = [gait(blend_of(made.registration, weights_for(made, wish, **how), fps=30)) for wish in wishes]
+    return np.linalg.norm((np.array(got) - wishes) / made.scale, axis=1)
+
+
+def test_walks_turn_and_go_as_asked():
+    """Wishes are what other blends do; the unit is 10° and 0.1 m/s."""
+    made = space(100)
+    examples = len(made.registration.clips)
+    rows = random_weights(made.values[:examples], 25, spread=0, seed=9)
+    wishes = np.array([gait(blend_of(made.registration, row, fps=30)) for row in rows])
+    convex, plain = (obtained(made, wishes, method=method).mean() for method in METHODS)
+    assert convex <= 0.1
+    assert plain >= 3 * convex
+
+
+def test_degrees_and_metres_per_second_need_a_scale():
+    """Without one, 0.1 m/s counts as a tenth of a degree: the nearest samples go at any speed."""
+    made = space(100)
+    raw = MotionSpace(made.registration, made.weights, made.values, [1, 1])
+    rng = np.random.default_rng(2)
+    wishes = rng.uniform([-20, 0.8], [20, 1.3], (25, 2))
+    off = {}
+    for name, each in (("scaled", made), ("raw", raw)):
+        rows = [weights_for(each, wish, method="neighbours") for wish in wishes]
+        speeds = [gait(blend_of(made.registration, row, fps=30))[1] for row in rows]
+        off[name] = np.abs(speeds - wishes[:, 1]).mean()
+    assert off["raw"] > 2 * off["scaled"]
+
+
+def test_out_of_reach_the_blend_stays_at_the_edge():
+    made = space(100)
+    wishes = np.array([[90.0, 1.1], [0, 2.2], [-70, 0.4], [60, 2.0]])
+    nearest, _ = made.tree.query(wishes / made.scale)
+    for method in METHODS:
+        assert (obtained(made, wishes, method=method) <= 1.1 * nearest).all()
+
+
+def test_asked_without_an_example_the_others_turn_as_it_does():
+    """Leave one out: each example that the others enclose is asked for, and got within 2° on average."""
+    made = space(100)
+    count = len(made.registration.clips)
+    off = []
+    for out in range(count):
+        keep = np.abs(made.weights[:, out]) < 1e-12
+        others = MotionSpace(made.registration, made.weights[keep], made.values[keep], made.scale)
+        weights = weights_for(others, made.values[out])
+        assert weights[out] == 0
+        off.append(gait(blend_of(made.registration, weights, fps=30))[0] - made.values[out, 0])
+    assert np.abs(off).mean() <= 2
+
+
+@pytest.mark.parametrize(
+    ("wish", "how", "message"),
+    [
+        ([1.0], {}, r"This space is asked for 2 finite numbers, got \[1.0\]"),
+        ([1.0, np.nan], {}, "asked for 2 finite numbers"),
+        ([1.0, 2.0], {"k": 0}, "Take 1 nearest sample or more, got 0"),
+        ([1.0, 2.0], {"method": "rbf"}, 'A method is "convex" or "neighbours", got \'rbf\''),
+    ],
+)
+def test_hostile_wishes_are_one_sentence(wish, how, message):
+    with pytest.raises(MocapError, match=message):
+        weights_for(linear_space(), wish, **how)
+
+
+# Real people.
+
+PEAKS = (42, 85, 130, 173, 216, 259, 301, 346, 392)  # seconds · 30: about where the hand is at the target
+
+
+def centimetres(motion):
+    return 100 * hand_target(motion)
+
+
+@pytest.fixture(scope="module")
+def punches(real_data):
+    """The nine punches of 02_05, from 0.6 s before the arm is longest to 0.6 s after."""
+    clip = datasets.cmu("02_05")
+    cut = []
+    for peak in PEAKS:
+        part = clip[4 * peak - 16 : 4 * peak + 17]
+        reach = [hand_target(part[frame : frame + 1]) for frame in range(len(part))]
+        shoulder = [hand_target(part[f : f + 1], "rhumerus") for f in range(len(part))]
+        middle = 4 * peak - 16 + int(np.linalg.norm(np.subtract(reach, shoulder), axis=1).argmax())
+        cut.append(clip[middle - 72 : middle + 73])
+    with pytest.warns(match="may not be the same kind of motion"):
+        return register(cut, reference=4, slack=0)
+
+
+def shepard(values, wishes):
+    share = cdist(wishes, values) ** -2
+    return share / share.sum(axis=1, keepdims=True)
+
+
+def radial(values, wishes):
+    """Weights by a linear map and radial functions |r| through the examples, without bounds."""
+    count, numbers = values.shape
+    flat = np.column_stack([np.ones(count), values])
+    matrix = np.block([[cdist(values, values), flat], [flat.T, np.zeros((numbers + 1, numbers + 1))]])
+    shares = np.linalg.lstsq(matrix, np.eye(len(matrix))[:, :count], rcond=None)[0]
+    return np.column_stack([cdist(wishes, values), np.ones(len(wishes)), wishes]) @ shares
+
+
+def test_punches_reach_their_targets(punches):
+    made = sample_space(punches, centimetres, count=400, scale=[1, 1, 1])
+    few = MotionSpace(punches, made.weights[:109], made.values[:109], made.scale)
+
+    def reached(rows):
+        return np.array([centimetres(blend_of(punches, row, fps=30)) for row in rows])
+
+    wishes = reached(random_weights(made.values[:9], 40, spread=0, seed=99))
+
+    def off(rows):
+        return np.linalg.norm(reached(rows) - wishes, axis=1).mean()
+
+    convex, plain = (off([weights_for(few, wish, method=method) for wish in wishes]) for method in METHODS)
+    assert convex <= 0.8
+    assert plain >= 3 * convex
+    assert off([weights_for(made, wish, method="neighbours") for wish in wishes]) <= 1.8
+    assert off(shepard(made.values[:9], wishes)) > 4  # the examples alone, by 1 / d²
+
+    far = np.array([[75.0, 158, 30], [10, 160, 60], [50, 60, 60], [60, 130, 110]])
+    nearest = cKDTree(few.values).query(far)[0]
+    for method in METHODS:
+        rows = [weights_for(few, wish, method=method) for wish in far]
+        assert np.min(rows) >= -0.1 - 1e-12 and np.max(rows) <= 1.1 + 1e-12
+        assert (np.linalg.norm(reached(rows) - far, axis=1) <= 1.1 * nearest).all()
+    assert radial(made.values[:9], far).min() < -1  # unbounded: a body of less than minus one punch

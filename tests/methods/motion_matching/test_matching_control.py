@@ -1,0 +1,110 @@
+"""A character by motion matching: it obeys sooner than a graph, and its cuts do not jolt."""
+
+import warnings
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mocap.body.kinematics import joint_positions
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.methods.motion_matching.frame_features import GROUPS
+from mocap.methods.motion_matching.matching_control import MotionMatcher
+from mocap.methods.motion_matching.nearest_frames import Wants
+from mocap.methods.motion_matching.pose_database import tabulate
+from mocap.steering import measure_delay, steer
+from tests.methods.motion_matching.matched import clips, walks
+
+SPEED = 0.8
+
+
+@cache
+def delay(future=1.0):
+    return measure_delay(MotionMatcher(walks(), Wants(future=future)), speed=SPEED)
+
+
+def headings(seconds=40, seed=1):
+    """A new direction every two seconds, 30 to 120 degrees to either side."""
+    random = np.random.default_rng(seed)
+    turns = random.choice([-1, 1], seconds // 2) * random.uniform(np.pi / 6, 2 * np.pi / 3, seconds // 2)
+    return np.repeat(np.cumsum(turns), 60)
+
+
+def test_the_weight_of_the_future_buys_quickness():
+    assert delay(0.1).mean > delay(1.0).mean
+
+
+def test_the_tree_plays_what_the_product_plays():
+    one, two = (
+        steer(MotionMatcher(walks(), tree=tree), headings(20), SPEED).motion for tree in (False, True)
+    )
+    np.testing.assert_allclose(one.root_positions, two.root_positions, atol=1e-9)
+
+
+def test_offsets_die_away_so_that_it_plays_the_clips_own_poses():
+    """Asked for what the clip does, it does not cut, and moves as the clip."""
+    table = tabulate(clips("walk_straight"))
+    matcher = MotionMatcher(table, Wants(bonus=1e9), start=40)
+    walked = steer(matcher, [0.0] * 60, 1.0).motion
+    assert matcher.cuts == []
+    np.testing.assert_allclose(walked.rotations[:, 1:], table.turns[40:100, 1:], atol=1e-12)
+
+
+def test_a_cut_keeps_place_and_velocity():
+    """In a stream with 20 cuts no joint moves further per frame than in the clips, by a fifth at most."""
+    matcher = MotionMatcher(walks())
+    walked = steer(matcher, headings(20), SPEED).motion
+    assert len(matcher.cuts) > 20
+    fastest = max(np.linalg.norm(np.diff(joint_positions(c), axis=0), axis=-1).max() for c in walks().clips)
+    assert np.linalg.norm(np.diff(joint_positions(walked), axis=0), axis=-1).max() < 1.2 * fastest
+
+
+def test_it_goes_where_it_is_asked_to_go():
+    walked = steer(MotionMatcher(walks()), [1.0] * 300, SPEED).motion
+    way = walked.root_positions[-1] - walked.root_positions[90]
+    assert np.arctan2(way[0], way[2]) == pytest.approx(1.0, abs=0.15)
+
+
+def test_a_label_keeps_it_among_its_frames():
+    table = tabulate(clips("walk_curve_1", "sneak"))
+    assert {"walk", "sneak"} <= set(table.labels)
+    matcher = MotionMatcher(table)
+    for _ in range(90):
+        matcher.step(0.0, 0.7, "sneak")
+    assert table.labels["sneak"][matcher.frame]
+    with pytest.raises(NoWalk, match="No clip has the label 'fly'; there are: walk"):
+        matcher.step(0.0, 0.7, "fly")
+
+
+def test_at_the_end_of_a_clip_it_must_cut():
+    """A start in the last second, which no search finds, plays to the end and goes on elsewhere."""
+    table = walks()
+    matcher = MotionMatcher(table, Wants(bonus=1e9), start=int(table.last[0]) - 2)
+    for _ in range(10):
+        matcher.step(0.0, SPEED)
+    assert len(matcher.cuts) == 1 and table.usable[matcher.frame]
+
+
+@pytest.mark.parametrize(("heading", "speed"), [(np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)])
+def test_a_command_that_is_no_number_is_refused(heading, speed):
+    with pytest.raises(MocapError, match="A command is a finite heading"):
+        MotionMatcher(walks()).step(heading, speed)
+
+
+@pytest.mark.parametrize("start", [-1, 10**6])
+def test_a_start_that_is_no_frame_is_refused(start):
+    with pytest.raises(MocapError, match="The start is a frame from 0 to"):
+        MotionMatcher(walks(), start=start)
+
+
+def test_a_speed_that_no_clip_has_is_warned_of_once():
+    matcher = MotionMatcher(walks())
+    with pytest.warns(MocapWarning, match=r"3 m/s is outside the clips' 0.\d to \d.\d m/s: the nearest"):
+        matcher.step(0.0, 3.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        matcher.step(0.5, 3.0)
+
+
+def test_the_groups_cover_all_features():
+    assert sum(len(range(27)[columns]) for columns in GROUPS.values()) == walks().values.shape[1] == 27

@@ -1,0 +1,96 @@
+"""The table of all frames: one scale per group, ends left out, what makes no sense refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocap.body.motion import concatenate, resample
+from mocap.datasets.samples import sample
+from mocap.errors import MocapError, SkeletonMismatch
+from mocap.methods.motion_matching.frame_features import GROUPS, features
+from mocap.methods.motion_matching.pose_database import WEIGHTS, standardise, tabulate, turn_speeds
+from tests.methods.motion_matching.matched import clips, walks
+
+
+@given(st.fixed_dictionaries({name: st.floats(0.1, 10) for name in GROUPS}))
+def test_each_group_spreads_as_its_weight(weights):
+    values, mean, scale = standardise(np.asarray(walks().values), weights)
+    for name, columns in GROUPS.items():
+        assert values[:, columns].std(axis=0).mean() == pytest.approx(weights[name])
+        assert len(set(scale[columns])) == 1
+    np.testing.assert_allclose(values * scale + mean, walks().values, atol=1e-9)
+
+
+def test_a_group_without_weight_says_nothing():
+    values, _, _ = standardise(np.asarray(walks().values), {**WEIGHTS, "feet": 0.0})
+    assert not values[:, GROUPS["feet"]].any()
+
+
+def test_rows_are_the_frames_of_the_clips_and_the_last_second_of_each_is_left_out():
+    table = walks()
+    lengths = [len(clip) for clip in table.clips]
+    assert len(table) == sum(lengths)
+    start = lengths[0] + 7
+    np.testing.assert_array_equal(table.turns[start], table.clips[1].rotations[7])
+    assert table.last[start] == lengths[0] + lengths[1] - 1
+    assert (np.flatnonzero(~table.usable)[:30] == np.arange(lengths[0] - 30, lengths[0])).all()
+    np.testing.assert_allclose(
+        table.values[start], (features(table.clips[1])[7] - table.mean) / table.scale, atol=1e-12
+    )
+
+
+def test_marks_that_a_clip_lacks_are_off_there():
+    bare, marked = (replace(clip, contacts={}, labels={}) for clip in clips("walk_circle", "walk_curve_1"))
+    marked = replace(marked, labels={"odd": np.ones(len(marked), bool)})
+    table = tabulate([bare, marked])
+    assert table.labels["odd"].sum() == len(marked) and not table.labels["odd"][: len(bare)].any()
+
+
+def test_turn_speeds_are_those_of_a_steady_turn():
+    (clip,) = clips("walk_circle")
+    spun = replace(clip, rotations=np.tile([1.0, 0, 0, 0], (*clip.rotations.shape[:2], 1)))
+    angle = np.arange(len(clip)) * 0.1 / 2
+    turns = spun.rotations.copy()
+    turns[:, 3] = np.stack([np.cos(angle), 0 * angle, np.sin(angle), 0 * angle], axis=-1)
+    speeds = turn_speeds(replace(spun, rotations=turns))
+    np.testing.assert_allclose(speeds[:, 3], [[0, 0.1 * clip.fps, 0]] * len(clip), atol=1e-9)
+    assert not speeds[:, 4].any()
+
+
+@pytest.mark.parametrize(
+    ("what", "sentence"),
+    [
+        (lambda c: tabulate([]), "at least one clip"),
+        (lambda c: tabulate([c[:25]]), r"longest, 'walk_circle', lasts 0.8"),
+        (lambda c: tabulate([c, c[:1]]), "has one frame"),
+        (lambda c: tabulate([c], weights={"feet": 1.0}), "Weights are numbers"),
+        (lambda c: tabulate([c], weights={**WEIGHTS, "feet": -1.0}), "Weights are numbers"),
+        (lambda c: tabulate([c], weights={**WEIGHTS, "feet": np.nan}), "Weights are numbers"),
+        (lambda c: tabulate([c], weights=dict.fromkeys(WEIGHTS, 0.0)), "All weights are 0"),
+        (lambda c: tabulate([concatenate([c[:1]] * 60)]), "never vary"),
+        (lambda c: tabulate([c], smooth=np.nan), "Seconds are from 0 on, .*got smooth=nan, end=1"),
+        (lambda c: tabulate([c], smooth=1e9), "Seconds are from 0 on"),
+        (lambda c: tabulate([c], end=-1.0), "Seconds are from 0 on"),
+        (lambda c: tabulate([c], end=np.nan), "Seconds are from 0 on"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_one_sentence(what, sentence):
+    (clip,) = clips("walk_circle")
+    with pytest.raises(MocapError, match=sentence) as caught:
+        what(clip)
+    assert len(str(caught.value)) <= 200
+
+
+def test_clips_of_two_rates_are_refused():
+    with pytest.raises(MocapError, match="resample"):
+        tabulate([sample("walk_circle"), resample(sample("walk_curve_1"), 30)])
+
+
+def test_clips_of_two_skeletons_are_refused():
+    (clip,) = clips("walk_circle")
+    other = replace(clip, skeleton=replace(clip.skeleton, offsets=clip.skeleton.offsets * 1.1))
+    with pytest.raises(SkeletonMismatch):
+        tabulate([clip, other])

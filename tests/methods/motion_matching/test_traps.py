@@ -1,0 +1,168 @@
+"""The naive ways, each shown to fail by numbers: on generated clips, and on a captured walker on request."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mocap.feet.footplants import mark_plants
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.methods.motion_matching.matching_control import MotionMatcher
+from mocap.methods.motion_matching.nearest_frames import Wants
+from mocap.methods.motion_matching.pose_database import WEIGHTS, tabulate
+from mocap.quality.seam_measures import jumps, spread
+from mocap.quality.standing_feet import plant_slides
+from mocap.steering import Controller, command_headings, measure_delay, steer
+from tests.methods.motion_matching.matched import WALKS, clips, walks
+from tests.methods.motion_matching.people import ALL, WALKER, captured
+
+UNITS = np.where(np.arange(27) < 21, 100.0, 1.0)  # lengths in centimetres, directions as they are
+SPEED, BRISK = 0.8, 1.1  # of the generated clips, and of the captured walker
+
+
+class Walked:
+    """A minute of commands: what a character makes of them."""
+
+    def __init__(self, character, speed):
+        frames = command_headings(60, character.fps)
+        self.motion = steer(character, frames.tolist(), speed).motion
+        self.cuts = len(character.cuts) / 60
+        self.slide = np.mean([slide.far for slide in plant_slides(self.motion)])
+        steps = np.abs(np.diff(self.motion.root_positions[:, [0, 2]] @ [1j, 1]))
+        self.speed = steps.mean() * self.motion.fps
+
+    def jolting(self, some):
+        limit = np.percentile(spread(some).within(1)[0], 99.9)
+        return 100 * float((jumps(self.motion)[0] > limit).mean())
+
+
+@cache
+def walked(**wants):
+    return Walked(MotionMatcher(walks(), Wants(**wants)), SPEED)
+
+
+@cache
+def without(*groups):
+    return tabulate(walks().clips, weights={**WEIGHTS, **dict.fromkeys(groups, 0.0)})
+
+
+def delay(table, speed=SPEED, turns=60, **wants):
+    return measure_delay(MotionMatcher(table, Wants(**wants)), speed=speed, turns=turns)
+
+
+def ahead(character, speed, seconds):
+    """Walk straight ahead, and give the speed over all but the first three seconds."""
+    track = steer(character, [0.0] * round(seconds * 30), speed).motion.root_positions[90:, [0, 2]]
+    return float(np.hypot(*(track[-1] - track[0])) / (seconds - 3))
+
+
+def test_to_search_in_every_frame_gains_nothing_and_a_new_command_searches_at_once():
+    usual = delay(walks()).mean
+    assert delay(walks(), every=1 / 30).mean == pytest.approx(usual, abs=0.15)
+    assert delay(walks(), every=20 / 30).mean == pytest.approx(usual, abs=0.15)
+
+
+def test_a_short_fade_jolts_and_a_cut_without_the_offset_s_velocity_jolts_further(monkeypatch):
+    assert walked(fade=0.02).jolting(walks().clips) > 5 * walked().jolting(walks().clips)
+    worst = jumps(walked().motion)[0].max()
+    monkeypatch.setattr(
+        "mocap.methods.motion_matching.matching_control._turned", lambda speed, place: 0 * speed
+    )
+    table = replace(walks(), turn_speeds=0 * walks().turn_speeds)
+    bare = Walked(MotionMatcher(table), SPEED)
+    assert jumps(bare.motion)[0].max() > 1.3 * worst
+    assert bare.jolting(walks().clips) > 1.2 * walked().jolting(walks().clips)
+
+
+def test_without_the_feet_they_slide_and_without_their_velocities_it_jolts():
+    assert Walked(MotionMatcher(without("feet")), SPEED).slide > 1.15 * walked().slide
+    jolting = Walked(MotionMatcher(without("foot velocities")), SPEED).jolting(walks().clips)
+    assert jolting > 1.5 * walked().jolting(walks().clips)
+
+
+def test_without_directions_and_places_ahead_it_is_deaf():
+    assert delay(without("places ahead", "directions ahead"), turns=10).mean > 2 * delay(walks()).mean
+
+
+@pytest.mark.filterwarnings("ignore:0 m/s is outside")
+def test_it_stands_where_a_clip_stands_and_shuffles_where_none_does():
+    def stopped(table):
+        character = MotionMatcher(table)
+        steer(character, [0.0] * 90, SPEED)
+        return ahead(character, 0.0, 10)
+
+    assert stopped(walks()) > 0.1
+    assert stopped(tabulate(clips(*WALKS, "stop_and_go"))) < 0.01
+
+
+@pytest.fixture(scope="module")
+def people(real_data):
+    return [mark_plants(clip) for clip in captured(real_data, WALKER)]
+
+
+@pytest.mark.exhaustive
+def test_a_walker_in_centimetres_or_without_directions_is_deaf(people):
+    table = tabulate(people)
+    usual = delay(table, BRISK)
+    centimetres = replace(
+        table, values=table.values * table.scale * UNITS, mean=0 * table.mean, scale=1 / UNITS
+    )
+    blind = tabulate(people, weights={**WEIGHTS, "directions ahead": 0.0})
+    assert usual.never == 0
+    for deaf in (delay(centimetres, BRISK), delay(blind, BRISK)):
+        assert deaf.mean > 1.7 * usual.mean and deaf.never >= 3
+
+
+@pytest.mark.exhaustive
+def test_a_walker_without_places_runs_off_and_without_feet_slides(people):
+    usual = Walked(MotionMatcher(tabulate(people)), BRISK)
+
+    def lacks(group):
+        return Walked(MotionMatcher(tabulate(people, weights={**WEIGHTS, group: 0.0})), BRISK)
+
+    assert lacks("places ahead").speed > 1.3 * usual.speed
+    assert lacks("feet").slide > 1.2 * usual.slide
+
+
+@pytest.mark.exhaustive
+def test_a_walker_cuts_to_its_neighbours_where_they_are_not_left_out(people):
+    near, far = (Walked(MotionMatcher(tabulate(people), Wants(near=near)), BRISK) for near in (0.0, 0.2))
+    assert near.cuts > 1.15 * far.cuts
+
+
+@pytest.mark.exhaustive
+def test_a_walker_s_short_fades_jolt_and_long_ones_slide(people):
+    short, usual, long = (
+        Walked(MotionMatcher(tabulate(people), Wants(fade=fade)), BRISK) for fade in (0.02, 0.1, 0.4)
+    )
+    assert short.jolting(people) > 2 and usual.jolting(people) < 0.5 and long.jolting(people) < 0.5
+    assert long.slide > 1.2 * usual.slide
+
+
+@pytest.mark.exhaustive
+def test_greedy_means_habits(people):
+    """Asked for a brisk walk it stays slower, because each single cut costs more; the graph looks ahead."""
+    table = tabulate(people)
+    slow, usual, heeding = (ahead(MotionMatcher(table, Wants(future=f)), 1.6, 30) for f in (0.25, 1.0, 4.0))
+    graph = compile_graph(prune(build(people, window=10, threshold=0.04)))
+    assert slow < usual < 1.4
+    assert heeding > 1.5 and ahead(Controller(graph), 1.6, 30) > 1.5
+
+
+@pytest.mark.exhaustive
+def test_amid_all_clips_it_runs_where_the_graph_has_no_runs(real_data):
+    """Asked for 3 m/s among walks, runs and stops, it runs within 1.5 s; the graph has lost its runs."""
+    everything = captured(real_data, ALL)
+    character = MotionMatcher(tabulate(everything))
+    steer(character, [0.0] * 120, BRISK)
+    track = steer(character, [0.0] * 150, 3.0).motion.root_positions[:, [0, 2]]
+    third = 3 * np.hypot(*(track[10:] - track[:-10]).T)
+    assert (third > 2.4).argmax() + 10 <= 45 and third[-60:].mean() > 2.4
+    kept = {clip for clip, _ in prune(build(list(everything), window=10, threshold=0.04)).graph.nodes}
+    speeds = [
+        np.hypot(*np.ptp(clip.root_positions[:, [0, 2]], axis=0)) / clip.duration for clip in everything
+    ]
+    assert not [number for number, speed in enumerate(speeds) if speed > 2 and number in kept]

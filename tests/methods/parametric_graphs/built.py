@@ -1,0 +1,44 @@
+"""Spaces and graphs that several tests walk with."""
+
+from functools import cache
+
+import numpy as np
+
+from mocap.body.motion import Motion, resample
+from mocap.datasets import samples
+from mocap.methods.parametric_graphs.parametric_edges import Sampling
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space
+from mocap.methods.parametric_graphs.strides import Strides, cut_strides
+
+WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+SMALL = Sampling(sources=12, targets=120)
+SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
+
+
+@cache
+def clips() -> tuple[Motion, ...]:
+    return tuple(resample(samples.sample(name), 30) for name in WALKS)
+
+
+@cache
+def strides(feet: str = "lrl", by: str = "strikes") -> Strides:
+    return cut_strides(clips(), feet=feet, by=by)
+
+
+@cache
+def space(feet: str = "lrl", by: str = "strikes") -> StrideSpace:
+    width, high = np.radians([12, 75]) * SHARE[feet]
+    return make_space(strides(feet, by), width, -high, high)
+
+
+@cache
+def walking(good: float = 0.03) -> ParametricGraph:
+    return build_parametric({"walk": space()}, good=good)
+
+
+@cache
+def stepping(good: float = 0.03) -> ParametricGraph:
+    spaces = {"left": space("lr"), "right": space("rl")}
+    few = Sampling(sources=30, targets=300)
+    return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good, sampling=few)

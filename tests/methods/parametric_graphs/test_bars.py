@@ -1,0 +1,208 @@
+"""What a parametric graph of walks is held to: on the bundled clips, and on the homework's walker.
+
+The same for strides and for steps. A graph of the bundled clips has T_GOOD = 3 cm, of the homework's 5.5 cm
+for strides and 4 cm for steps.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from mocap.body.motion import resample
+from mocap.errors import MocapWarning, NoWalk
+from mocap.feet.footplants import mark_plants
+from mocap.files.load_save import load
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
+from mocap.methods.parametric_graphs.parametric_control import ParametricController
+from mocap.methods.parametric_graphs.parametric_edges import BAD, Sampling, build_edge
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space, measure_mixes
+from mocap.methods.parametric_graphs.strides import cut_strides
+from mocap.quality import plant_slides
+from mocap.steering import Controller, command_headings, measure_delay, steer
+from tests.bundled import bundled
+from tests.methods.parametric_graphs import built
+from tests.methods.parametric_graphs.built import SHARE, space
+
+SPEED = 0.8
+STRIDES, STEPS = ("lrl",), ("lr", "rl")
+
+
+class Walks(NamedTuple):
+    """A parametric graph, and T_GOOD in metres."""
+
+    graph: ParametricGraph
+    good: float
+
+    @property
+    def edges(self):
+        return [
+            (self.graph.space(a), self.graph.space(b), self.graph.edge(a, b))
+            for a, b in self.graph.graph.edges
+        ]
+
+
+def walks(spaces, kinds, good):
+    following = [(kind, kinds[(number + 1) % len(kinds)]) for number, kind in enumerate(kinds)]
+    return Walks(build_parametric(spaces, following, good=good), good)
+
+
+def of_bundled(kinds, good=0.03):
+    if kinds == STRIDES:
+        return Walks(built.walking(good), good)
+    return walks({kind: space(kind) for kind in kinds}, kinds, good)
+
+
+def of_homework(some, kinds):
+    spaces = {}
+    for kind in kinds:
+        width, high = np.radians([14, 120]) * SHARE[kind]
+        spaces[kind] = make_space(cut_strides(some, feet=kind), width, -high, high)
+    return walks(spaces, kinds, 0.055 if kinds == STRIDES else 0.04)
+
+
+@pytest.fixture(scope="module")
+def homework(real_data):
+    paths = sorted((real_data / "hw3").glob("*.AMC"))
+    return tuple(mark_plants(resample(load(path), 30)) for path in paths)
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
+        ("bundled", STRIDES),
+        pytest.param(("bundled", STEPS), marks=pytest.mark.exhaustive),
+        pytest.param(("homework", STRIDES), marks=pytest.mark.exhaustive),
+        pytest.param(("homework", STEPS), marks=pytest.mark.exhaustive),
+    ],
+    ids=["bundled strides", "bundled steps", "homework strides", "homework steps"],
+)
+def walking(request):
+    name, kinds = request.param
+    if name == "bundled":
+        return of_bundled(kinds)
+    return of_homework(request.getfixturevalue("homework"), kinds)
+
+
+def test_what_is_asked_is_got(walking):
+    for tested, _, _ in walking.edges:
+        goals = draw_parameters(tested, 300, np.random.default_rng(5))
+        off = np.degrees(np.abs(measure_mixes(tested.strides, tested.weights(goals))[:, :1] - goals))
+        assert off.max() <= 1 and off.mean() <= 0.3
+
+
+def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside(walking):
+    """A box of no width holds none of the fresh targets and seems perfect: so draw inside each one, too."""
+    for source, target, edge in walking.edges:
+        random = np.random.default_rng(0)
+        at, to = draw_parameters(source, 100, random), draw_parameters(target, 300, random)
+        ways = [edge.look_up(asked) for asked in at]
+        cost = optimal_transitions(source, target, at, to).cost
+        inside = np.array([((to >= way.low) & (to <= way.high)).all(axis=1) for way in ways])
+        bad = (cost > BAD * walking.good) & inside
+        assert bad.any(axis=1).mean() <= 0.1 and bad.sum() <= 0.01 * inside.sum()
+        within = [
+            optimal_transitions(source, target, a[None], _inside(w)).cost
+            for a, w in zip(at, ways, strict=True)
+        ]
+        assert (np.array(within) > BAD * walking.good).mean() <= 0.02
+
+
+def _inside(way, count=20):
+    return np.linspace(np.minimum(way.low, way.high), np.maximum(way.low, way.high), count)
+
+
+def test_seams_of_300_random_targets_cost_what_the_edges_promise(walking):
+    """And at the looked-up phases nearly as little as at the best ones."""
+    random, character = np.random.default_rng(4), ParametricController(walking.graph)
+    pairs = []
+
+    def anywhere(space, heading, speed):
+        way = next(iter(character.way.values()))
+        pairs.append((character.node, character.parameters))
+        return random.uniform(np.minimum(way.low, way.high), np.maximum(way.low, way.high))
+
+    character._wish = anywhere
+    while len(character.chosen) < 300:
+        character.step(0.0, SPEED)
+    cost = np.array([chosen.cost for chosen in character.chosen])
+    bad = BAD * walking.good
+    assert cost.max() <= bad + 0.01 and (cost > bad).mean() <= 0.02
+    best = [
+        optimal_transitions(
+            walking.graph.space(node), walking.graph.space(chosen.node), at[None], chosen.taken[None]
+        ).cost[0, 0]
+        for (node, at), chosen in zip(pairs[:60], character.chosen, strict=False)
+    ]
+    assert cost[:60].mean() <= 1.15 * np.mean(best)
+
+
+def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle(walking):
+    """Seams are aligned by the whole body, and turn it: up to some degrees a stride."""
+    character = ParametricController(walking.graph)
+    tested = walking.graph.space(character.node)
+    character._wish = lambda space, heading, speed: np.full(1, np.radians(20))
+    facing = []
+    while len(character.chosen) < 12:
+        before = len(character.chosen)
+        character.step(0.0, SPEED)
+        if len(character.chosen) > before:
+            facing.append(character.place.angle)
+    got = np.degrees([chosen.got[0] for chosen in character.chosen[3:]])
+    assert np.abs(got - np.degrees(character.chosen[-1].taken[0])).max() <= 1
+    assert tested.parameters == ("turn",)
+    turned = np.degrees(np.diff(np.unwrap(facing)))[3:]
+    assert np.abs(turned[-8:].mean() - 20) < 8
+
+
+def slide(character):
+    """How far planted joints stray from their mean place in 30 s of turns; plants as the clips say."""
+    headings = command_headings(30, character.fps).tolist()
+    plants = plant_slides(steer(character, headings, SPEED).motion)
+    return np.mean([plant.far for plant in plants if plant.stop - plant.start > 2])
+
+
+def test_feet_slide_no_more_than_those_of_a_motion_graph_of_the_same_clips():
+    plain = slide(Controller(bundled(*built.WALKS)))
+    for graph in (built.walking(), built.stepping(0.04)):
+        assert slide(ParametricController(graph)) <= 1.3 * plain
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize(("kinds", "slower"), [(STRIDES, 1.7), (STEPS, 1.2)])
+def test_on_the_homeworks_clips_it_obeys_nearly_as_soon_as_the_motion_graph(homework, kinds, slower):
+    character = of_homework(homework, kinds).graph
+    graph = prune(build(list(homework), window=10, threshold=0.04))
+    plain = measure_delay(Controller(graph), speed=SPEED).mean
+    assert measure_delay(ParametricController(character), speed=SPEED).mean <= slower * plain
+    assert slide(ParametricController(character)) <= 1.3 * slide(Controller(graph))
+
+
+def test_bad_thresholds_twice_the_good_ones_cut_no_box():
+    """Between T_GOOD and 1.35 T_GOOD a target may be in a box; with 2 T_GOOD none is ever cut off."""
+    source = space()
+    thresholds, few = (0.03, BAD * 0.03, 0.06, 1.0), Sampling(targets=300)
+    edges = [build_edge(source, source, good=0.03, bad=bad, sampling=few) for bad in thresholds]
+    widths = [(edge.high - edge.low).mean() for edge in edges]
+    assert widths[0] < widths[1] <= widths[2] == pytest.approx(widths[3], rel=0.01)
+
+
+@pytest.mark.exhaustive
+def test_straight_walks_by_speed_of_subject_16_are_a_node_and_by_turn_and_speed_none(real_data):
+    """CMU 16's single turns fill no space of turns and speeds; its straight walks fill one of speeds."""
+    some = [
+        mark_plants(resample(load(real_data / "cmu" / "16" / f"16_{n:02}.amc"), 30))
+        for n in (*range(11, 35), 47, 58)
+    ]
+    cut = cut_strides(some)
+    straight = cut.take(np.abs(cut.values[:, 0]) < np.radians(10))
+    with pytest.warns(MocapWarning, match="near a speed of 1.6"):
+        by_speed = make_space(straight, 0.15, 0.95, 1.65, parameters=("speed",))
+    edge = build_edge(by_speed, by_speed, good=0.04)
+    assert edge.least < 0.03 and (edge.high - edge.low).mean() > 0.3
+    both = make_space(cut, [np.radians(14), 0.15], [-1.3, 0.8], [1.3, 1.7], parameters=("turn", "speed"))
+    with pytest.raises(NoWalk, match=r"Nothing follows a turn of 74° at 1.46 m/s below 8.0 cm"):
+        build_edge(both, both, good=0.08)

@@ -1,0 +1,197 @@
+"""A graph of kinds from clips in one call, turns on the spot among them, and refusals that help."""
+
+import time
+
+import numpy as np
+import pytest
+
+from mocap.body import arcs
+from mocap.body.motion import resample
+from mocap.datasets import samples
+from mocap.datasets.generated import generate_walk
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.feet.footplants import mark_plants
+from mocap.files.load_save import load
+from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, on_the_spot
+from mocap.methods.parametric_graphs.parametric_control import ParametricController
+from mocap.methods.parametric_graphs.parametric_edges import Sampling
+from mocap.methods.parametric_graphs.stride_changes import changing_strides
+from mocap.methods.parametric_graphs.strides import cut_strides
+from tests.methods.parametric_graphs.built import SMALL, clips, strides
+
+SPIN = ((0.1, 0.1), (0.15, 0.15), (0.2, 0.2), (0.3, 0.2))  # metres, m/s
+
+
+def named(name):
+    return [resample(samples.sample(name), 30)]
+
+
+def spins():
+    """Turns on the spot: walks around circles of a few centimetres, to both sides."""
+    circles = [(r, v, side) for r, v in SPIN for side in (1, -1)]
+    return cut_strides(
+        [
+            resample(generate_walk(arcs((0, 0), 0, [(6 * np.pi * r, 6 * np.pi * side)]).points, speed=v), 30)
+            for r, v, side in circles
+        ]
+    )
+
+
+@pytest.mark.exhaustive
+def test_nine_nodes_and_fifteen_edges_from_the_bundled_clips_in_seconds():
+    kinds = {"walk": clips(), "sneak": named("sneak"), "jog": named("jog")}
+    begun = time.process_time()
+    with pytest.warns(MocapWarning, match="strides are near a turn of"):
+        graph = build_kinds(kinds)
+    print(f"built in {time.process_time() - begun:.1f} s")
+    assert len(graph.graph) == 9 and graph.graph.number_of_edges() == 15
+    character = ParametricController(graph, start="walk")
+    for label in ("jog", "sneak", "walk"):
+        for _ in range(150):
+            character.step(0.3, 1.0, label)
+        assert character.chosen[-1].node == label
+
+
+def test_walk_and_jog_of_the_bundled_clips_with_both_changes():
+    with pytest.warns(MocapWarning, match="of 19 strides are near a turn of"):
+        graph = build_kinds({"walk": clips(), "jog": named("jog")}, sampling=SMALL)
+    assert set(graph.graph) == {"walk", "jog", "walk to jog", "jog to walk"}
+    assert graph.graph.number_of_edges() == 6
+
+
+def test_turns_on_the_spot_are_a_kind_where_clips_have_them():
+    spot = on_the_spot(spins())
+    assert len(spot) > 20 and np.ptp(np.sign(spot.values[:, 0])) == 2
+    with pytest.warns(
+        MocapWarning, match=r"Only \d of 78 strides are near a turn of -?\d+°"
+    ):  # between left and right is nothing
+        graph = build_kinds({"walk": clips(), "spot": spot}, sampling=SMALL)
+    character = ParametricController(graph, start="walk")
+    for _ in range(240):
+        last = character.step(3.0, 0.2, "spot")
+    assert character.chosen[-1].node == "spot"
+    before = last.root_position
+    for frame in range(120):
+        last = character.step(0.05 * frame, 0.2, "spot")
+    assert np.linalg.norm(last.root_position - before) < 1  # 4 s of walking would be 3 m
+
+
+def test_where_clips_have_no_turns_on_the_spot_the_nearest_is_said():
+    with pytest.raises(
+        MocapError, match=r"None of \d+ strides turns on the spot.*that turns goes at 0.58 m/s"
+    ):
+        on_the_spot(strides())
+    with pytest.raises(MocapError, match="none turns so far: add clips of such turns"):
+        on_the_spot(cut_strides([clips()[3]]))
+
+
+def test_strides_may_be_given_and_a_threshold():
+    graph = build_kinds({"walk": strides()}, good=0.03, sampling=SMALL)
+    assert list(graph.graph.edges) == [("walk", "walk")]
+    wide = build_kinds({"walk": strides()}, good=0.03, widest=2.0, sampling=SMALL)
+    assert wide.space("walk").high > graph.space("walk").high
+
+
+@pytest.mark.parametrize(("side", "hardly"), [(1, "left"), (-1, "right")])
+def test_a_kind_that_turns_to_one_side_only_is_said(side, hardly):
+    some = strides().take(side * strides().values[:, 0] < np.radians(2))
+    with pytest.warns(
+        MocapWarning, match=f"hardly to the {hardly}: there it does not obey; add clips, or mir"
+    ):
+        build_kinds({"walk": some}, good=0.05, sampling=SMALL)
+
+
+@pytest.mark.parametrize(
+    ("kinds", "changes", "error", "sentence"),
+    [
+        (lambda: {"walk": [clips()[3]]}, None, MocapError, "walk: 7 strides hardly vary in turn"),
+        (lambda: {"walk": [clips()[3][:60]]}, None, MocapError, "walk: No example of 'lrl'"),
+        (lambda: {"walk": strides()}, [("walk", "fly")], MocapError, "no kind 'fly'; there are: walk"),
+        (dict, None, MocapError, "one kind of strides or more, got none"),
+    ],
+)
+def test_what_cannot_be_built_is_refused_by_name(kinds, changes, error, sentence):
+    with pytest.raises(error, match=sentence) as caught:
+        build_kinds(kinds(), changes, sampling=SMALL)
+    assert len(str(caught.value)) <= 200
+
+
+def test_no_change_between_two_kinds_is_refused_with_both_names():
+    turns = strides().values[:, 0]
+    kinds = {"left": strides().take(turns > 0.6), "right": strides().take(turns < -0.6)}
+    with pytest.raises(MocapError, match=r"left to right: The two kinds have no turn in common"):
+        build_kinds(kinds, sampling=SMALL)
+
+
+def test_windows_that_run_off_the_margins_are_refused_with_the_names():
+    lines = [[[0, 0], [side, 6], [5 * side, 12]] for side in (-2, 0, 2)]
+    jogs = cut_strides([resample(generate_walk(line, style="jog"), 30) for line in lines], margin=0.3)
+    with pytest.raises(MocapError, match=r"jog → jog: A window runs 0.\d+ s off"):
+        build_kinds({"jog": jogs}, sampling=SMALL)
+
+
+def test_a_kind_that_cannot_follow_itself_is_refused_with_what_would_help():
+    """Strides that begin as walk and end as jog."""
+    faster = changing_strides(strides(), cut_strides(named("jog"), label="jog"))
+    needs = r"faster → faster needs T_GOOD = \d+.\d cm, more than 8: give `good`"
+    with pytest.warns(MocapWarning), pytest.raises(NoWalk, match=needs):
+        build_kinds({"faster": faster}, sampling=SMALL)
+
+
+# Real people: what their clips give, and what they cannot
+
+
+@pytest.fixture(scope="module")
+def subject16(real_data):
+    def cmu(*trials):
+        return [
+            mark_plants(resample(load(real_data / "cmu" / trial[:2] / f"{trial}.amc"), 30))
+            for trial in trials
+        ]
+
+    return cmu
+
+
+WALKS_16 = tuple(f"16_{n}" for n in (*range(11, 35), 47, 58))
+
+
+@pytest.mark.parametrize("margin", [0.38, 0.5])
+def test_runs_of_subject_16_are_no_node(subject16, margin):
+    """Nine strides in 22 short clips; the windows of the quickest run off them."""
+    runs = cut_strides(subject16(*(f"16_{n}" for n in range(35, 58) if n != 47)), margin=margin)
+    assert len(runs) < 12
+    with (
+        pytest.warns(MocapWarning),
+        pytest.raises((MocapError, NoWalk), match=r"quick ones out|needs T_GOOD"),
+    ):
+        build_kinds({"run": runs})
+
+
+def test_takes_of_single_turns_are_a_poor_node(subject16):
+    """CMU 16's walks turn once in each clip: strides need nearly 8 cm, and none turns on the spot."""
+    walks = cut_strides(subject16(*WALKS_16))
+    with pytest.warns(MocapWarning, match=r"Only \d of 25 strides are near a turn of"):
+        graph = build_kinds({"walk": walks})
+    assert 0.06 < graph.edge("walk", "walk").least < 0.1
+    with (
+        pytest.warns(MocapWarning),
+        pytest.raises(NoWalk, match=r"walk → walk: Nothing follows a turn of -?\d+° below 4.0 cm"),
+    ):
+        build_kinds({"walk": walks}, good=0.04)
+    with pytest.raises(MocapError, match=r"None of 25 strides turns on the spot.*0.79 m/s"):
+        on_the_spot(walks)
+
+
+def test_two_short_walks_of_subject_02_are_no_node(subject16):
+    with pytest.raises(MocapError, match=r"walk: A space asked by turn takes 3 strides or more, got 1"):
+        build_kinds({"walk": subject16("02_01", "02_02")})
+
+
+def test_the_homeworks_walker_turns_on_the_spot(real_data):
+    walks = [mark_plants(resample(load(path), 30)) for path in sorted((real_data / "hw3").glob("*.AMC"))]
+    spot = on_the_spot(cut_strides(walks))
+    assert len(spot) >= 5 and np.abs(spot.values[:, 0]).max() > 2
+    few = Sampling(sources=12, targets=120)
+    with pytest.warns(MocapWarning):
+        graph = build_kinds({"walk": walks, "spot": spot}, good=0.12, sampling=few)
+    assert len(graph.graph) == 4 and graph.graph.number_of_edges() == 6

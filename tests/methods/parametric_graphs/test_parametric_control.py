@@ -1,0 +1,173 @@
+"""A character that decides once per stride obeys nearly as soon as one that searches a motion graph."""
+
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from mocap.body.planar import heading
+from mocap.errors import MocapError, NoWalk
+from mocap.methods.parametric_graphs.parametric_control import ParametricController
+from mocap.methods.parametric_graphs.parametric_edges import BAD
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
+from mocap.methods.parametric_graphs.stride_spaces import make_space
+from mocap.quality.seam_measures import jumps, spread
+from mocap.steering import Controller, measure_delay, steer
+from tests.bundled import bundled
+from tests.methods.parametric_graphs.built import SMALL, WALKS, clips, stepping, strides, walking
+from tests.methods.parametric_graphs.kinds import many_kinds
+
+SPEED = 0.8
+
+
+def headings(seconds=40, seed=1):
+    random = np.random.default_rng(seed)
+    turns = random.choice([-1, 1], seconds // 2) * random.uniform(np.pi / 6, 2 * np.pi / 3, seconds // 2)
+    return np.repeat(np.cumsum(turns), 60)
+
+
+def test_it_obeys_nearly_as_soon_as_the_motion_graph_of_the_same_clips():
+    graph = measure_delay(Controller(bundled(*WALKS)), speed=SPEED).mean
+    strides = measure_delay(ParametricController(walking()), speed=SPEED)
+    steps = measure_delay(ParametricController(stepping(0.04)), speed=SPEED)
+    assert strides.mean <= 1.7 * graph and steps.mean <= 1.2 * graph
+    assert max(strides.slowest, steps.slowest) < 8
+
+
+def test_a_stricter_threshold_costs_quickness():
+    strict, loose = (
+        measure_delay(ParametricController(stepping(good)), speed=SPEED).mean for good in (0.02, 0.04)
+    )
+    assert strict > loose
+
+
+@pytest.mark.parametrize("built", [walking, stepping])
+def test_seams_cost_what_the_edge_promises(built):
+    """Targets drawn anywhere in the boxes, 120 of them."""
+    random, character = np.random.default_rng(4), ParametricController(built())
+
+    def anywhere(space, heading, speed):
+        way = next(iter(character.way.values()))
+        return random.uniform(np.minimum(way.low, way.high), np.maximum(way.low, way.high))
+
+    character._wish = anywhere
+    while len(character.chosen) < 120:
+        character.step(0.0, SPEED)
+    cost = np.array([chosen.cost for chosen in character.chosen])
+    assert cost.max() <= 1.35 * 0.03 + 0.01 and (cost > 1.35 * 0.03).mean() <= 0.02
+
+
+def test_seams_between_kinds_cost_what_their_edges_promise():
+    """Each is left when its own edge says so: left when the first of them may, one costs 10 cm."""
+    random, character = np.random.default_rng(0), ParametricController(many_kinds())
+    for _ in range(60):
+        label, heading = ("walk", "sneak", "jog")[random.integers(3)], random.uniform(-3, 3)
+        for _ in range(60):
+            character.step(heading, 1.0, label)
+    assert {chosen.node for chosen in character.chosen} == set(many_kinds().graph)
+    assert max(chosen.cost for chosen in character.chosen) <= BAD * 0.055
+
+
+def test_no_frame_jolts_more_than_the_clips():
+    walked = steer(ParametricController(walking()), headings(), SPEED).motion
+    limit = np.percentile(spread(clips()).within(1)[0], 99.9)
+    assert (jumps(walked)[0] > limit).mean() < 0.02
+
+
+def test_it_goes_where_it_is_asked_to_go():
+    walked = steer(ParametricController(walking()), [1.0] * 300, SPEED).motion
+    way = walked.root_positions[-1] - walked.root_positions[150]
+    assert np.arctan2(way[0], way[2]) == pytest.approx(1.0, abs=0.1)
+    assert abs(heading(walked.rotations[-60:, 0]).mean() - 1.0) < 0.2
+
+
+def test_the_wish_is_cut_by_the_box_and_both_are_kept():
+    character = ParametricController(walking())
+    for _ in range(60):
+        character.step(3.0, SPEED)
+    first = character.chosen[0]
+    assert first.wished[0] > first.taken[0] > 0 and first.node == "walk"
+
+
+def test_frames_left_count_down_to_a_decision():
+    character = ParametricController(walking())
+    left, decided = [], []
+    for _ in range(80):
+        left.append(character.frames_left)
+        before = len(character.chosen)
+        character.step(0.0, SPEED)
+        decided.append(len(character.chosen) > before)
+    assert all(decided[frame] == (left[frame] == 0) for frame in range(80))
+    assert sum(decided) >= 2
+
+
+def test_most_steps_only_read():
+    """One stride of work per stride: the rest are look-ups, counted by how many strides are made."""
+    character = ParametricController(walking())
+    steer(character, headings(20), SPEED)
+    assert len(character.chosen) <= 600 / 20
+
+
+def test_it_goes_from_kind_to_kind_by_the_changes_between():
+    character = ParametricController(many_kinds(), start="walk")
+    for label in ("jog", "walk", "sneak", "walk"):
+        for _ in range(150):
+            character.step(0.4, 1.0, label)
+        assert character.chosen[-1].node == label
+    seen = [chosen.node for chosen in character.chosen]
+    for a, b in pairwise(seen):
+        assert character.graph.graph.has_edge(a, b)
+    assert {"walk to jog", "jog to walk", "walk to sneak", "sneak to walk"} <= set(seen)
+
+
+def test_in_a_change_it_comes_back_to_the_label_asked_for():
+    character = ParametricController(many_kinds(), start="walk to jog")
+    for _ in range(200):
+        character.step(0.0, 1.0, "walk to jog")
+    seen = [chosen.node for chosen in character.chosen]
+    assert seen.count("walk to jog") >= 1 and seen[0] == "jog"
+
+
+@pytest.mark.parametrize(("heading", "speed"), [(np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)])
+def test_a_command_that_is_no_number_is_refused(heading, speed):
+    with pytest.raises(MocapError, match="A command is a finite heading"):
+        ParametricController(walking()).step(heading, speed)
+
+
+def test_unknown_nodes_are_refused():
+    with pytest.raises(MocapError, match="There is no node 'fly'; there are: walk"):
+        ParametricController(walking(), start="fly")
+    character = ParametricController(walking())
+    with pytest.raises(NoWalk, match="There is no node 'fly'"):
+        for _ in range(60):
+            character.step(0.0, 1.0, "fly")
+
+
+def test_a_node_that_no_stride_leads_to_is_refused():
+    apart = nx.DiGraph(walking().graph)
+    apart.add_node("far", space=walking().space("walk"))
+    character = ParametricController(ParametricGraph(apart))
+    with pytest.raises(NoWalk, match="No strides lead from 'walk' to 'far'"):
+        for _ in range(60):
+            character.step(0.0, 1.0, "far")
+
+
+def test_asked_by_turn_and_speed_it_walks_as_fast_as_told_and_says_where_no_clip_does():
+    """Where no clip goes straight on at a speed, what a stride comes to is not what was taken."""
+    both = make_space(strides(), [0.2, 0.1], [-0.6, 0.7], [0.6, 0.85], parameters=("turn", "speed"))
+    graph = build_parametric({"walk": both}, good=0.06, sampling=SMALL)
+    for speed in (0.7, 0.75, 0.8):
+        character = ParametricController(graph)
+        track = steer(character, [0.0] * 450, speed).motion.root_positions[150:, [0, 2]] @ [1j, 1]
+        assert 30 * np.abs(np.diff(track)).mean() == pytest.approx(speed, abs=0.03)
+        taken, got = (np.array([part[place] for part in character.chosen]) for place in (2, 3))
+        assert np.abs(got - taken)[:, 1].max() < 0.05 < np.abs(got - taken)[:, 0].max()
+
+
+def test_without_a_label_the_kind_follows_the_speed():
+    character = ParametricController(many_kinds(), start="walk")
+    for speed, kind in ((2.5, "jog"), (1.1, "walk")):
+        for _ in range(200):
+            character.step(0.0, speed)
+        assert character.chosen[-1].node == kind

@@ -1,0 +1,158 @@
+"""Boxes hold good targets, on samples that the edge has never seen; refusals say what would help."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from mocap.errors import MocapError, NoWalk, SkeletonMismatch
+from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
+from mocap.methods.parametric_graphs.parametric_edges import Sampling, build_edge, shrink_box, smallest_good
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space, measure_mixes
+from tests.methods.parametric_graphs.built import SMALL, space, stepping, strides, walking
+
+PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
+
+
+def fresh(source, target, edge, bad, seed=99):
+    """Test boxes on fresh samples: the shares of boxes with a bad target, and of bad ones inside."""
+    random = np.random.default_rng(seed)
+    at, to = draw_parameters(source, 100, random), draw_parameters(target, 300, random)
+    ways = [edge.look_up(asked) for asked in at]
+    cost = optimal_transitions(source, target, at, to).cost
+    inside = np.array([((to >= way.low) & (to <= way.high)).all(axis=1) for way in ways])
+    worst = (cost > bad) & inside
+    return worst.any(axis=1).mean(), worst.sum() / inside.sum()
+
+
+def test_boxes_hold_next_to_no_bad_target():
+    """As in [HG07, 4]."""
+    built = stepping()
+    for a, b in (("left", "right"), ("right", "left")):
+        boxes, share = fresh(built.space(a), built.space(b), built.edge(a, b), 1.35 * 0.03)
+        assert boxes <= 0.10 and share <= 0.01
+
+
+def test_without_bad_targets_boxes_hold_more_of_them():
+    source, few = space(), Sampling(targets=300)
+    careful = build_edge(source, source, good=0.03, sampling=few)
+    careless = build_edge(source, source, good=0.03, bad=10.0, sampling=few)
+    assert (careful.high - careful.low).mean() <= (careless.high - careless.low).mean()
+    shares = [fresh(source, source, edge, 0.04)[1] for edge in (careful, careless)]
+    assert shares[0] <= shares[1]
+
+
+def test_few_sources_leave_bad_targets_in_the_boxes_between_them():
+    """Of 100 fresh boxes 18 hold a bad one where five sources were drawn, one or none where 50 were."""
+    one = space()
+    few, many = (
+        build_edge(one, one, good=0.03, sampling=Sampling(sources, targets=300)) for sources in (5, 50)
+    )
+    boxes = [fresh(one, one, edge, 1.35 * 0.03)[0] for edge in (few, many)]
+    assert boxes[0] > 0.12 > 0.03 > boxes[1]
+
+
+def test_with_d_plus_1_neighbours_boxes_jump():
+    """The paper's k gives the nearest sample alone; one more makes boxes continuous [HG07, Eqs. 1-2]."""
+    edge = walking().edge("walk", "walk")
+    fine = np.linspace(-1.2, 1.2, 1201)[:, None]
+    sides = {k: np.array([edge.look_up(asked, k).low[0] for asked in fine]) for k in (2, 3, 4)}
+    jumps = {k: np.degrees(np.abs(np.diff(side)).max()) for k, side in sides.items()}
+    assert len(np.unique(sides[2].round(9))) <= 50 < 500 < len(np.unique(sides[3].round(9)))
+    assert jumps[2] > 2 * jumps[3] and jumps[2] > 10
+
+
+def test_a_box_reaches_further_to_the_side_one_turns_to():
+    edge = walking().edge("walk", "walk")
+    left, right = (edge.look_up(np.array([side])) for side in (0.7, -0.7))
+    assert left.low + left.high > right.low + right.high
+
+
+def test_costs_at_the_looked_up_phases_are_nearly_the_best():
+    """As in [HG07, Eq. 3]."""
+    source = space()
+    edge, random = walking().edge("walk", "walk"), np.random.default_rng(3)
+    at = draw_parameters(source, 30, random)
+    leave = np.array([edge.look_up(asked).leave for asked in at])
+    best = optimal_transitions(source, source, at, np.zeros((1, 1))).leave[:, 0]
+    assert np.abs(leave - best).mean() < 0.06  # phases: two frames
+
+
+@given(arrays(float, (6, 2), elements=PLACES), arrays(float, (4, 2), elements=PLACES))
+def test_a_shrunk_box_holds_no_bad_target_and_lies_in_the_good_ones(good, bad):
+    scale = np.array([2.0, 5.0])
+    low, high = shrink_box(good, bad, scale, eps=0.01)
+    assert (low >= good.min(axis=0)).all() and (high <= good.max(axis=0)).all()
+    if (low <= high).all():
+        assert not ((bad > low) & (bad < high)).all(axis=1).any()
+
+
+def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
+    good, bad = np.array([[0.0, 0], [10, 1]]), np.array([[5.0, 0.9]])
+    _, high = shrink_box(good, bad, np.array([5.0, 0.5]))
+    assert high[1] < 0.9 and high[0] == 10  # of the second half range 0.2 is lost, of the first 1
+    low, _ = shrink_box(good, bad, np.array([500.0, 0.5]))
+    assert low[0] > 5  # the first is measured in hundreds
+
+
+def test_the_outermost_sources_are_among_those_drawn():
+    """Of two parameters they are strides that the space comes to; corners of its range may be none."""
+    one = space()
+    edge = build_edge(one, one, good=0.05, sampling=SMALL)
+    np.testing.assert_array_equal(edge.at[:2], [one.low, one.high])
+    both = make_space(strides(), [0.2, 0.1], [-1.2, 0.6], [1.2, 1.1], parameters=("turn", "speed"))
+    at = build_edge(both, both, good=0.2, sampling=SMALL).at
+    np.testing.assert_allclose(measure_mixes(both.strides, both.weights(at)), at, atol=np.radians(2))
+    np.testing.assert_array_equal(at.min(axis=0), both.reached.min(axis=0))
+    np.testing.assert_array_equal(at.max(axis=0), both.reached.max(axis=0))
+
+
+def test_the_smallest_threshold_is_the_smallest():
+    source = space()
+    least = smallest_good(source, source, SMALL)
+    build_edge(source, source, good=1.001 * least, sampling=SMALL)
+    with pytest.raises(NoWalk, match=r"Nothing follows a turn of -?\d+° below 1.0 cm \(the best costs"):
+        build_edge(source, source, good=0.01, sampling=SMALL)
+    assert build_edge(source, source, good=0.05, sampling=SMALL).least == pytest.approx(least)
+
+
+def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
+    source = space()
+    least = smallest_good(source, source, SMALL)
+    tight = build_edge(source, source, good=1.0001 * least, bad=1.0001 * least, sampling=SMALL)
+    assert (tight.low <= tight.high + 1e-9).all()
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"good": 0.0}, "0 < T_GOOD <= T_BAD"),
+        ({"good": 0.04, "bad": 0.03}, "0 < T_GOOD <= T_BAD"),
+        ({"good": np.nan}, "0 < T_GOOD <= T_BAD"),
+        ({"good": 0.04, "sampling": Sampling(sources=2)}, "An edge takes 3 sources and a target or more"),
+        ({"good": 0.04, "sampling": Sampling(targets=0)}, "An edge takes 3 sources"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(settings, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        build_edge(space(), space(), **settings)
+
+
+def test_spaces_of_other_rates_marks_and_bodies_are_refused():
+    source = space()
+    fewer = ("lfoot", "rfoot", "ltoes", "head")
+    marked = replace(source, strides=replace(source.strides, contact_names=fewer))
+    with pytest.raises(MocapError, match="the same marks; one of them lacks head"):
+        build_edge(source, marked, good=0.04)
+    slow = replace(source, strides=replace(source.strides, fps=60.0))
+    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
+        build_edge(source, slow, good=0.04)
+    bones = replace(source.strides.skeleton, offsets=1.2 * source.strides.skeleton.offsets)
+    tall = replace(source, strides=replace(source.strides, skeleton=bones))
+    with pytest.raises(SkeletonMismatch):
+        build_edge(source, tall, good=0.04)
+    with pytest.raises(MocapError, match="one good target or more"):
+        shrink_box(np.empty((0, 1)), np.empty((0, 1)), np.ones(1))

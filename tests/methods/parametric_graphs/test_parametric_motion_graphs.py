@@ -1,0 +1,75 @@
+"""Nodes and edges under names: seven kinds of strides in one graph, and refusals that help."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.errors import MocapError, NoWalk
+from mocap.methods.parametric_graphs.parametric_motion_graphs import build_parametric, least_thresholds
+from tests.methods.parametric_graphs.built import SMALL, space, stepping, walking
+from tests.methods.parametric_graphs.kinds import kinds, many_kinds
+
+
+def test_seven_kinds_and_eleven_edges():
+    graph = many_kinds()
+    assert len(graph.graph) == 7 and graph.graph.number_of_edges() == 11
+    assert graph.graph.has_edge("walk to jog", "jog") and not graph.graph.has_edge("walk", "jog")
+    assert graph.fps == 30
+
+
+def test_no_threshold_joins_walk_and_jog_but_a_change_does():
+    """The paper's own limit: if any source cannot, there is no edge."""
+    some = {name: kinds()[name] for name in ("walk", "walk to jog", "jog")}
+    least = least_thresholds(some, SMALL)
+    assert least["walk", "jog"] > 0.12
+    assert max(least["walk", "walk to jog"], least["walk to jog", "jog"]) < 0.06
+
+
+def test_by_default_all_edges_that_can_be_had_are_there():
+    some = {name: kinds()[name] for name in ("walk", "jog")}
+    graph = build_parametric(some, good=0.05, sampling=SMALL)
+    assert set(graph.graph.edges) == {("walk", "walk"), ("jog", "jog")}
+
+
+def test_the_report_names_each_edge_and_its_boxes():
+    assert walking().report().startswith("walk → walk: boxes of 8")
+    assert "of turn, from 1." in walking().report()
+    assert len(stepping().report().splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("spaces", "edges", "good", "error", "sentence"),
+    [
+        ([], None, 0.03, MocapError, "one space or more, got none"),
+        (["walk"], [("walk", "run")], 0.03, MocapError, "There is no space 'run'; there are: walk"),
+        (
+            ["walk"],
+            [("walk", "walk")],
+            0.005,
+            NoWalk,
+            r"walk → walk: Nothing follows a turn .* raise T_GOOD to 1.\d cm",
+        ),
+        (["walk"], None, 0.005, NoWalk, "Nothing follows 'walk' below 0.5 cm"),
+    ],
+)
+def test_what_cannot_be_built_is_refused(spaces, edges, good, error, sentence):
+    with pytest.raises(error, match=sentence) as caught:
+        build_parametric({name: space() for name in spaces}, edges, good=good, sampling=SMALL)
+    assert len(str(caught.value)) <= 200
+
+
+def test_spaces_of_two_rates_are_no_graph_even_without_an_edge_between_them():
+    slow = replace(space(), strides=replace(space().strides, fps=60.0))
+    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
+        build_parametric({"a": space(), "b": slow}, [("a", "a"), ("b", "b")], good=0.05, sampling=SMALL)
+
+
+def test_a_space_asked_by_speed_says_so():
+    from mocap.methods.parametric_graphs.stride_spaces import make_space
+    from tests.methods.parametric_graphs.built import strides
+
+    by_speed = make_space(strides(), [0.2, 0.1], [-0.6, 0.7], [0.6, 0.85], parameters=("turn", "speed"))
+    graph = build_parametric({"walk": by_speed}, good=0.06, sampling=SMALL)
+    assert "m/s of speed" in graph.report()
+    assert np.isfinite(graph.edge("walk", "walk").least)

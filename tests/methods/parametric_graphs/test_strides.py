@@ -1,0 +1,181 @@
+"""Strides are cut where feet strike, and mixed by what the body feels, not by where it is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, concatenate, resample
+from mocap.body.planar import place
+from mocap.body.rotations import multiply
+from mocap.datasets.generated import generate_walk
+from mocap.datasets.samples import sample
+from mocap.errors import MocapError
+from mocap.methods.parametric_graphs.strides import MARGIN, cut_strides, mixed_way
+from tests.methods.parametric_graphs.built import clips, strides
+
+
+def test_phases_0_and_1_are_strikes_of_one_foot():
+    cut = strides()
+    zero, one = cut.ends
+    assert cut.grid[zero] == pytest.approx(0) and cut.grid[one] == pytest.approx(1)
+    assert np.abs(cut.seconds[:, zero]).max() == 0
+    assert cut.grid[0] == pytest.approx(-MARGIN, abs=0.02) and cut.grid[-1] == pytest.approx(
+        1 + MARGIN, abs=0.02
+    )
+    left = cut.contact_names.index("lfoot")
+    assert not cut.contacts[:, zero - 3, left].any()  # in the air before it strikes
+    assert cut.contacts[:, zero + 3, left].all() and cut.contacts[:, one + 3, left].all()
+
+
+@pytest.mark.parametrize("feet", ["lrl", "lr", "rl"])
+def test_times_rise_and_steps_are_half_of_strides(feet):
+    cut = strides(feet)
+    assert (np.diff(cut.seconds, axis=1) > 0).all()
+    lasts = np.median(cut.seconds[:, cut.ends[1]])
+    assert lasts == pytest.approx(1.2 if feet == "lrl" else 0.6, abs=0.1)
+    assert len(cut) > 80
+
+
+def test_an_example_by_itself_is_the_clip():
+    """Weight 1 on one example gives back its own way over the ground, to a centimetre of interpolation."""
+    cut = strides()
+    ground, heading = mixed_way(cut, np.eye(len(cut)))
+    zero, one = cut.ends
+    turn = heading[:, one] - heading[:, zero]
+    np.testing.assert_allclose(turn, cut.values[:, 0], atol=np.radians(0.5))
+    length = np.abs(np.diff(ground[:, zero : one + 1], axis=1)).sum(axis=1)
+    np.testing.assert_allclose(length / cut.seconds[:, one], cut.values[:, 1], rtol=0.01)
+
+
+def test_it_does_not_matter_where_clips_were_captured():
+    (clip,) = clips()[:1]
+    here, there = cut_strides([clip]), cut_strides([place(clip, 2.0, [50.0, -7.0])])
+    for part in ("seconds", "speeds", "turning", "heights", "values"):
+        np.testing.assert_allclose(getattr(here, part), getattr(there, part), atol=1e-6)
+
+
+@pytest.mark.parametrize("turn", [45, 60])
+def test_places_mixed_instead_of_velocities_shorten_the_way(turn):
+    """Half left, half right: velocities keep the length; places lose as sin α / α says of two arcs."""
+    cut = strides()
+    pair = [int(np.abs(cut.values[:, 0] - np.radians(side)).argmin()) for side in (-turn, turn)]
+    half = np.zeros((1, len(cut)))
+    half[0, pair] = 0.5
+    zero, one = cut.ends
+    each, _ = mixed_way(cut, np.eye(len(cut))[pair])
+
+    def length(ground):
+        return np.abs(np.diff(ground[zero : one + 1])).sum()
+
+    wanted = np.mean([length(ground) for ground in each])
+    assert length(mixed_way(cut, half)[0][0]) == pytest.approx(wanted, rel=0.02)
+    assert length(each.mean(axis=0)) < 0.97 * wanted
+
+
+def test_a_straight_step_turns_by_nothing_though_the_pelvis_swings():
+    left, right = strides("lr"), strides("rl")
+    assert abs(np.median(left.values[:, 0])) < np.radians(4)
+    assert left.sway * right.sway < 0  # one swings to the left, the other to the right
+    assert strides().sway == 0
+
+
+def test_where_the_way_leads_is_told_by_strides_that_go_straight_somewhere():
+    """A walk in circles leads aside of where the body faces; steps on the spot lead anywhere."""
+    circle = cut_strides(clips()[:1])
+    assert np.abs(circle.values[:, 0]).min() > np.radians(20) and circle.offset == 0
+    straight = cut_strides(clips()[3:4])
+    (walk,) = clips()[3:4]
+    roots = walk.root_positions.copy()
+    roots[:, [0, 2]] *= -0.02
+    spot = replace(walk, root_positions=roots, name="spot")
+    assert abs(cut_strides([spot]).offset) == 0
+    assert cut_strides([walk, *[spot] * 2]).offset == pytest.approx(straight.offset)
+
+
+def test_by_curves_examples_are_more_alike_at_one_phase_than_by_strikes():
+    gaps = []
+    for by in ("strikes", "curves"):
+        cut = strides("lrl", by)
+        calm = np.flatnonzero(np.abs(cut.values[:, 0]) < np.radians(40))[:30]
+        some = np.arange(*cut.ends, 6)
+        roots = np.zeros((len(calm) * len(some), 3))
+        poses = cut.poses[calm][:, some].reshape(len(roots), -1, 4)
+        points = joint_positions(Motion(cut.skeleton, roots, poses, cut.fps)).reshape(
+            len(calm), len(some), -1
+        )
+        apart = np.sqrt(((points[:, None] - points[None]) ** 2).sum(-1) / len(cut.skeleton))
+        gaps.append(apart[np.triu_indices(len(calm), 1)].mean())
+    assert gaps[1] < gaps[0] < 0.06  # 4.6 and 5.1 cm
+
+
+def test_what_is_no_stride_is_left_out():
+    """A clip that limps twice on one foot has other strikes between."""
+    (clip,) = clips()[3:4]
+    contacts = {name: mark.copy() for name, mark in clip.contacts.items()}
+    first = np.flatnonzero(np.diff(contacts["rfoot"].astype(int)) == 1)[2] + 1
+    contacts["rfoot"][first : first + 30] = False
+    limping = cut_strides([replace(clip, contacts=contacts)])
+    assert limping.dropped > cut_strides([clip]).dropped
+
+
+def test_feet_that_are_not_marked_are_marked():
+    (clip,) = clips()[1:2]
+    bare = cut_strides([replace(clip, contacts={})])
+    assert len(bare) == pytest.approx(len(cut_strides([clip])), abs=3)
+
+
+@pytest.mark.parametrize(
+    ("what", "sentence"),
+    [
+        (lambda c: cut_strides([]), "one clip or more, got none"),
+        (lambda c: cut_strides([c], feet="ll"), "'lrl', 'lr' or 'rl', got 'll'"),
+        (lambda c: cut_strides([c], by="ear"), "by 'strikes' or by 'curves', got 'ear'"),
+        (lambda c: cut_strides([c], margin=0.7), "above 0 and at most 0.5 of a stride, got 0.7"),
+        (lambda c: cut_strides([c], label="jog"), "No example of 'lrl' labelled 'jog' in 1 clips; 0 were"),
+        (lambda c: cut_strides([c[:40]]), r"No example of 'lrl' in 1 clips; \d were left out"),
+        (
+            lambda c: cut_strides([replace(c, contacts={"head": np.ones(len(c), bool)})]),
+            "mark_plants finds out",
+        ),
+        (lambda c: cut_strides([c]).take(np.zeros(len(cut_strides([c])), bool)), "None of"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(what, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        what(clips()[1])
+
+
+def test_clips_of_two_rates_are_refused():
+    with pytest.raises(MocapError, match="resample"):
+        cut_strides([sample("walk_curve_1"), resample(sample("walk_curve_2"), 30)])
+
+
+def test_a_joint_turned_by_half_a_circle_keeps_its_sign_from_phase_to_phase():
+    """Files of Bandai-Namco hang the thighs from such a joint; between q and -q a thigh would fly round."""
+    half, (walk,) = np.array([0.0, 0, 1, 0]), clips()[:1]
+    thigh = walk.skeleton.index("lfemur")
+    turned = walk.rotations.copy()
+    turned[:, thigh] = multiply(turned[:, thigh], half)
+    turned[:, thigh] *= np.where(turned[:, thigh, :1] < 0, -1, 1)  # as a reader of angles has it
+    poses = cut_strides([replace(walk, rotations=turned)]).poses
+    assert ((turned[1:, thigh] * turned[:-1, thigh]).sum(-1) < 0).any()
+    assert ((poses[:, 1:] * poses[:, :-1]).sum(-1) > 0).all()
+
+
+def test_some_of_the_examples_can_be_taken():
+    cut = strides()
+    some = cut.take(np.arange(len(cut)) < 5)
+    assert len(some) == 5
+    np.testing.assert_array_equal(some.poses, cut.poses[:5])
+    joined = concatenate([resample(generate_walk([[0, 0], [0, 5]]), 30)])
+    assert len(cut_strides([joined])) > 1
+
+
+def test_only_strides_with_a_label_are_cut():
+    clip = resample(sample("sneak"), 30)
+    sneaks, all_ = cut_strides([clip], label="sneak"), cut_strides([clip])
+    assert 3 < len(sneaks) < len(all_) / 2
+    assert sneaks.values[:, 1].max() < 0.62 < all_.values[:, 1].max()
+    assert len(cut_strides([clip], margin=0.2)) >= len(all_)

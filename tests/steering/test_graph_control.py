@@ -1,0 +1,91 @@
+"""A character does what it is told, smoothly and in time."""
+
+import numpy as np
+import pytest
+
+from mocap.body.motion import Motion
+from mocap.errors import MocapError, NoWalk
+from mocap.graphs.motion_graph import from_transitions
+from mocap.steering.graph_control import Controller
+from mocap.synthesis.random_walks import random_walk
+from mocap.synthesis.walk_to_motion import to_motion
+from tests.bundled import sneaking, walking
+from tests.strategies import wave
+
+GRAPH = walking()
+
+
+def played(controller, frames, *command):
+    poses = [controller.step(*command) for _ in range(frames)]
+    roots, turns = np.array([p.root_position for p in poses]), np.array([p.rotations for p in poses])
+    return Motion(GRAPH.source.clips[0].skeleton, roots, turns, 30.0)
+
+
+def test_its_poses_are_those_of_the_walk_it_takes():
+    controller, walk = Controller(GRAPH), []
+    poses = []
+    for frame in range(300):
+        poses.append(controller.step(0.01 * frame, 1.0))
+        if controller.frame == 1:  # a new edge was entered
+            walk.append(GRAPH.edges[controller.edges[0]])
+    motion = to_motion(GRAPH.source, walk)
+    roots = np.array([pose.root_position for pose in poses])
+    turns = np.array([pose.rotations for pose in poses])
+    assert roots == pytest.approx(motion.root_positions[:300], abs=1e-9)
+    assert np.abs((turns * motion.rotations[:300]).sum(-1)) == pytest.approx(np.ones(turns.shape[:2]))
+
+
+def test_poses_are_those_of_a_recorded_run():
+    """The root after each 100 frames, and the blended frames among them, as first recorded."""
+    controller = Controller(sneaking())
+    recorded = [
+        ((0.0, ""), [0.6276572786850874, 0.9903364345223249, 2.7591273312786373], 30),
+        ((1.0, "sneak"), [2.0111468538834996, 0.950784457156631, 4.447828774434011], 21),
+        ((-1.0, "walk"), [3.553206110576587, 0.9846010273002092, 5.53198302007813], 19),
+    ]
+    for (heading, label), root, blended in recorded:
+        poses = [controller.step(heading, 1.0, label) for _ in range(100)]
+        assert poses[-1].root_position == pytest.approx(root, abs=1e-9)
+        assert sum(pose.blending for pose in poses) == blended
+
+
+def test_it_goes_where_it_is_told():
+    controller = Controller(GRAPH)
+    for heading in (0.0, 1.0, 2.0):
+        played(controller, 120, heading, 1.0)
+        way = np.diff(played(controller, 60, heading, 1.0).root_positions[[0, -1]], axis=0)[0]
+        assert np.arctan2(way[0], way[2]) == pytest.approx(heading, abs=0.5)
+
+
+def test_it_moves_as_it_is_told():
+    graph = sneaking()
+    controller = Controller(graph, start=next(n for n in graph.nodes if n[0] == 0))
+    edges = []
+    for _ in range(600):
+        controller.step(0.0, 0.5, "sneak")
+        edges.append(graph.source.graph.edges[graph.edges[controller.edges[0]]]["labels"])
+    assert np.mean(["sneak" in labels for labels in edges[-200:]]) > 0.9
+
+
+def test_nonsense_is_refused():
+    controller = Controller(GRAPH)
+    for command in ((np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)):
+        with pytest.raises(MocapError, match="finite heading and a speed from 0 on"):
+            controller.step(*command)
+    with pytest.raises(NoWalk, match="the label 'fly'; there are: walk"):
+        controller.step(0.0, 1.0, "fly")
+    with pytest.raises(NoWalk, match="no node"):
+        Controller(GRAPH, start=(0, 77777))
+    line = Controller(from_transitions([wave(40)], [], window=5), start=(0, 0))
+    with pytest.raises(NoWalk, match=r"ends at node \(0, 40\)"):
+        for _ in range(41):
+            line.step(0.0, 1.0)
+    assert random_walk(GRAPH.source, seconds=1)
+
+
+@pytest.mark.parametrize(
+    "how", [{"ahead": 0.0}, {"ahead": np.nan}, {"ahead": 1e9}, {"width": 0}, {"width": 10**9}]
+)
+def test_what_would_look_nowhere_or_for_ever_is_refused(how):
+    with pytest.raises(MocapError, match=r"looks ahead from a frame to 60 s, and keeps 1 to 10000 walks"):
+        Controller(GRAPH, **how)

@@ -1,0 +1,126 @@
+"""One loop for all characters: the graph, the graph turned about its feet, strides, and matching."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mocap.body.motion import Motion
+from mocap.body.rotations import about_y
+from mocap.datasets.generated import SKELETON
+from mocap.errors import MocapError
+from mocap.graphs.compiled_graph import compile_graph
+from mocap.methods.motion_matching import MotionMatcher, Wants
+from mocap.methods.parametric_graphs import ParametricController
+from mocap.quality.seam_measures import spread
+from mocap.quality.standing_feet import plant_slides
+from mocap.steering import Controller, FootTurner, command_headings, judge_control
+from mocap.steering.characters import Pose
+from mocap.steering.judged_control import _pivots
+from tests.bundled import bundled
+from tests.methods.motion_matching.matched import walks
+from tests.methods.parametric_graphs.built import WALKS, clips, stepping, walking
+
+SPEED = 0.8
+
+
+@cache
+def graph():
+    return compile_graph(bundled(*WALKS))
+
+
+CHARACTERS = {
+    "motion graph": lambda: Controller(graph()),
+    "motion graph, turned": lambda: FootTurner(Controller(graph()), np.radians(40)),
+    "strides": lambda: ParametricController(walking()),
+    "steps": lambda: ParametricController(stepping(0.04)),
+    "matching": lambda: MotionMatcher(walks(), Wants(future=0.5)),
+}
+
+
+@cache
+def report(name):
+    return judge_control(CHARACTERS[name], spread(clips()), speed=SPEED, seconds=40)
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_all_obey_and_all_feet_can_be_cleaned(name):
+    judged = report(name)
+    assert judged.delay.mean < 3 and judged.delay.slowest < 8
+    assert judged.cleaned < 0.01 < judged.slide < 4
+    assert judged.kept >= 0.9 and judged.jolting <= 0.02
+    assert judged.pace == pytest.approx(SPEED, abs=0.1)
+
+
+def test_quickness_costs_slide():
+    """Matching obeys soonest and slides most; a graph turned about its feet obeys sooner at its own slide."""
+    alone, turned, matching = (report(name) for name in ("motion graph", "motion graph, turned", "matching"))
+    assert matching.delay.mean < turned.delay.mean < alone.delay.mean
+    assert matching.slide > 1.3 * alone.slide
+    assert turned.slide < 1.5 * alone.slide
+
+
+def test_what_a_turn_about_the_foot_costs_is_that_feet_turn_on_the_ground():
+    """In the clips feet that stand do not turn, in blends of strides hardly; about a pivot by 7°."""
+    pivots = {name: report(name).pivots for name in ("motion graph", "motion graph, turned", "strides")}
+    assert pivots["strides"] < pivots["motion graph"] < 2 < 5 < pivots["motion graph, turned"]
+
+
+def test_pivots_are_the_degrees_between_a_plant_s_ends():
+    """A figure that turns by one degree per frame, its foot lifted in every eleventh."""
+    turns = np.tile([1.0, 0, 0, 0], (66, 38, 1))
+    turns[:, 0] = about_y(np.radians(np.arange(66)))
+    stands = dict.fromkeys(("lfoot", "rfoot"), np.arange(66) % 11 > 0)
+    assert _pivots(Motion(SKELETON, np.zeros((66, 3)), turns, 30.0, contacts=stands)) == pytest.approx(9)
+
+
+def test_plants_found_anew_would_hide_the_fault():
+    """A foot that slides is no plant: marked anew, half of the slide is gone."""
+    from mocap.feet.footplants import mark_plants
+    from mocap.steering import steer
+
+    headings = command_headings(40, 30).tolist()
+    walked = steer(CHARACTERS["matching"](), headings, SPEED).motion
+    found = mark_plants(replace(walked, contacts={}))
+    means = [np.mean([slide.far for slide in plant_slides(motion)]) for motion in (found, walked)]
+    assert means[0] < 0.8 * means[1]
+
+
+def test_commands_turn_by_30_to_120_degrees_every_two_seconds():
+    headings = command_headings(20, 30, seed=3)
+    turns = np.abs(np.diff(headings[::60]))
+    assert len(headings) == 600 and turns.min() >= np.pi / 6 and turns.max() <= 2 * np.pi / 3
+    assert not np.diff(headings.reshape(-1, 60), axis=1).any()
+
+
+@pytest.mark.parametrize("seconds", [0, 1.9, np.nan, np.inf])
+def test_less_than_one_command_is_refused(seconds):
+    with pytest.raises(MocapError, match="judged by commands for 2 s or more"):
+        judge_control(Flier, spread(clips()), seconds=seconds)
+
+
+class Flier:
+    """Its feet are marked, and never stand."""
+
+    skeleton, fps, frames_left = SKELETON, 30.0, 0
+
+    def step(self, heading, speed, label=""):
+        turns = np.tile([1.0, 0, 0, 0], (len(SKELETON), 1))
+        return Pose(np.array([0.0, 1.0, 0.0]), turns, False, {"lfoot": False, "rfoot": False})
+
+
+def test_a_character_that_never_stands_is_refused():
+    with pytest.raises(MocapError, match="do not say when feet stand"):
+        judge_control(Flier, spread(clips()), seconds=5)
+
+
+def test_a_character_without_marks_is_refused_before_its_delay_is_measured(monkeypatch):
+    from mocap.graphs.motion_graph import build
+    from mocap.graphs.pruning import prune
+
+    bare = [replace(clip, contacts={}) for clip in clips()[:1]]
+    marks = compile_graph(prune(build(bare, window=10, threshold=0.04)))
+    monkeypatch.setattr("mocap.steering.judged_control.measure_delay", None)
+    with pytest.raises(MocapError, match="do not say when feet stand"):
+        judge_control(lambda: Controller(marks), spread(clips()), seconds=5)
