@@ -3,17 +3,24 @@
 Such a file holds no code: it is safe to read one from a stranger.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.atomic import replacing
+from mocap._shared.atomic import replacing, require_npz
 from mocap.errors import FormatError, MocapError
 
 Arrays = dict[str, NDArray[Any]]
+Layout = Mapping[str, tuple[str, tuple[int | str, ...]]]
+TYPES = {"U": str, "i": int, "f": float, "c": complex, "b": bool}
+FIRST = {"mocap motion graph": "mocap: a motion graph"}  # how the first files say what they hold
+
+
+def _no_rules(_: Arrays) -> Iterable[tuple[str, ArrayLike]]:
+    return ()
 
 
 class Kind(NamedTuple):
@@ -22,11 +29,13 @@ class Kind(NamedTuple):
     name : as in "a match web".
     version : of its arrays; a newer one is refused.
     arrays : for each array the letter of its kind in NumPy, and its shape. Sizes of one letter are the same.
+    rules : yields what the numbers must keep, as sentences with booleans; each may need those before it.
     """
 
     name: str
     version: int
-    arrays: Mapping[str, tuple[str, tuple[int | str, ...]]]
+    arrays: Layout
+    rules: Callable[[Arrays], Iterable[tuple[str, ArrayLike]]] = _no_rules
 
 
 def write_arrays(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> None:
@@ -36,7 +45,7 @@ def write_arrays(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> Non
     ----------
     path : the file.
     kind : what it holds.
-    arrays : one for each name of the kind.
+    arrays : one for each name of the kind; lists become arrays of that kind.
 
     Raises
     ------
@@ -48,13 +57,13 @@ def write_arrays(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> Non
     Traceback (most recent call last):
     mocap.errors.MocapError: This is written as .npz, got 'web.txt'.
     """
-    if Path(path).suffix.lower() != ".npz":
-        raise MocapError(f"This is written as .npz, got '{path}'.")
-    marks = {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version)}
+    require_npz(path)
+    whole: Arrays = {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version)}
+    for key, (letter, _) in kind.arrays.items():
+        array = np.asarray(arrays[key])
+        whole[key] = array if array.dtype.kind == letter else array.astype(TYPES[letter])
     with replacing(path) as beside, beside.open("wb") as file:
-        np.savez_compressed(
-            file, allow_pickle=False, **marks, **{key: np.asarray(arrays[key]) for key in kind.arrays}
-        )
+        np.savez_compressed(file, allow_pickle=False, **whole)
 
 
 def read_arrays(path: str | Path, kind: Kind) -> Arrays:
@@ -85,13 +94,16 @@ def read_arrays(path: str | Path, kind: Kind) -> Arrays:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
     except Exception as error:  # NumPy raises many kinds of errors for other files
         raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
-    if name != f"mocap: {kind.name}":
+    if FIRST.get(name, name) != f"mocap: {kind.name}":
         raise FormatError(path, None, ours, "an .npz of another kind")
     if version > kind.version:
         raise FormatError(path, None, ours, f"version {version}, which a newer mocap wrote")
     if missing := [key for key in kind.arrays if key not in arrays]:
         raise FormatError(path, None, ours, f"one without {', '.join(missing)}")
     _check(path, kind, arrays)
+    for what, holds in kind.rules(arrays):
+        if not np.all(holds):
+            raise FormatError(path, None, f"that {what}", "a damaged file")
     return arrays
 
 

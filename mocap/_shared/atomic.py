@@ -44,6 +44,12 @@ def replacing(path: str | Path) -> Iterator[Path]:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
 
 
+def require_npz(path: str | Path) -> None:
+    """Raise unless a file to write is called .npz, in small or capital letters."""
+    if Path(path).suffix.lower() != ".npz":
+        raise MocapError(f"This is written as .npz, got '{path}'.")
+
+
 def require_writable(path: str | Path) -> None:
     """Raise, before any work is done for it, where a file could not be written.
 

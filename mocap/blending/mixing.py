@@ -144,7 +144,8 @@ def poses(
     """
     root, height, laid = 0j * course.centres, np.zeros(len(times)), []
     for number, (clip, curve) in enumerate(zip(registration.clips, registration.times, strict=True)):
-        roots, turns = _pose_at(clip, curve(times))
+        posed = clip.at(curve(times) * clip.fps)
+        roots, turns = posed.root_positions, posed.rotations.copy()
         angle, share = course.angles[number], shares[:, number]
         away = on_ground(roots) - registration.centre(number, times)
         root += share * np.exp(1j * angle) * away
@@ -159,16 +160,6 @@ def poses(
     mean /= np.linalg.norm(mean, axis=-1, keepdims=True)
     x, z = from_ground(course.centres + root).T
     return np.stack([x, height, z], axis=-1), mean
-
-
-def _pose_at(clip: Motion, seconds: Array) -> tuple[Array, Array]:
-    """Give a clip's root positions and rotations at times that may fall between its frames."""
-    frames = np.clip(seconds * clip.fps, 0, len(clip) - 1)
-    before = np.minimum(frames.astype(np.intp), len(clip) - 2)
-    amount = (frames - before)[:, None]
-    first, second = (clip.root_positions[before + n] for n in (0, 1))
-    turns = rotations.slerp(clip.rotations[before], clip.rotations[before + 1], amount)
-    return first + amount * (second - first), turns
 
 
 def _contacts(matches: Sequence[ContactMatch], times: Array, shares: Array) -> dict[str, Mask]:

@@ -121,6 +121,38 @@ class Motion:
         """Seconds from the first frame to the last."""
         return (len(self) - 1) / self.fps
 
+    def at(self, frames: ArrayLike) -> Motion:
+        """Sample the motion at any frames, also between two: roots on straight lines, rotations by slerp.
+
+        Parameters
+        ----------
+        frames : shape (N,), such as 2.5 for half-way from frame 2 to 3; past either end, that end.
+
+        Returns
+        -------
+        N frames; marks from the nearest frame of the motion.
+
+        Examples
+        --------
+        >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
+        >>> slide = Motion(bone, [[0, 0, 0], [1, 0, 0]], np.tile([1.0, 0, 0, 0], (2, 1, 1)), 1.0)
+        >>> slide.at([0, 0.25, 7]).root_positions[:, 0]
+        array([0.  , 0.25, 1.  ])
+        """
+        frames = np.clip(frames, 0, len(self) - 1)
+        before = frames.astype(int)
+        after = np.minimum(before + 1, len(self) - 1)
+        share = (frames - before)[:, None]
+        start, end = self.root_positions[before], self.root_positions[after]
+        nearest = np.where(frames - before < 0.5, before, after)
+        return replace(
+            self,
+            root_positions=start + share * (end - start),
+            rotations=rotations.slerp(self.rotations[before], self.rotations[after], share),
+            labels={name: mark[nearest] for name, mark in self.labels.items()},
+            contacts={name: mark[nearest] for name, mark in self.contacts.items()},
+        )
+
 
 def turning(motion: Motion) -> NDArray[np.bool_]:
     """Find the joints that ever turn against their parents by more than rounding, as booleans (J,).
@@ -136,7 +168,7 @@ def turning(motion: Motion) -> NDArray[np.bool_]:
 
 
 def resample(motion: Motion, fps: float) -> Motion:
-    """Resample a motion to another frame rate: roots on straight lines, rotations by slerp.
+    """Resample a motion to another frame rate, by `Motion.at`.
 
     Parameters
     ----------
@@ -160,20 +192,8 @@ def resample(motion: Motion, fps: float) -> Motion:
         raise MocapError(f"A frame rate must be above 0, got {fps}.")
     if fps == motion.fps:
         return motion
-    times = np.arange(int(motion.duration * fps + 1e-9) + 1) * (motion.fps / fps)  # in old frames
-    before = np.minimum(times.astype(int), len(motion) - 1)
-    after = np.minimum(before + 1, len(motion) - 1)
-    amount = times - before
-    nearest = np.where(amount < 0.5, before, after)
-    roots = motion.root_positions
-    return replace(
-        motion,
-        root_positions=roots[before] + amount[:, None] * (roots[after] - roots[before]),
-        rotations=rotations.slerp(motion.rotations[before], motion.rotations[after], amount[:, None]),
-        fps=fps,
-        labels={name: mark[nearest] for name, mark in motion.labels.items()},
-        contacts={name: mark[nearest] for name, mark in motion.contacts.items()},
-    )
+    count = int(motion.duration * fps + 1e-9) + 1
+    return replace(motion.at(np.arange(count) * (motion.fps / fps)), fps=fps)
 
 
 def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:

@@ -104,6 +104,19 @@ class Skeleton:
         """List the joints whose parent is `joint`."""
         return [int(child) for child in np.flatnonzero(self.parents == joint)]
 
+    def path_to_root(self, joint: int) -> list[int]:
+        """List a joint and all those above it, up to the root.
+
+        Examples
+        --------
+        >>> Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], np.eye(3)).path_to_root(2)
+        [2, 1, 0]
+        """
+        path = [int(joint)]
+        while (parent := int(self.parents[path[-1]])) >= 0:
+            path.append(parent)
+        return path
+
     def side(self, joint: int) -> str:
         """Give "left" or "right" by a joint's name if the skeleton has its mirror image, else "middle".
 

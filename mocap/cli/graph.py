@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocap import body, datasets, editing, files, graphs, quality
-from mocap._shared.atomic import require_writable
+from mocap._shared.atomic import require_npz, require_writable
 from mocap.cli.options import add_building, bar, require_other, window_frames
 from mocap.errors import MocapError, MocapWarning
 
@@ -51,7 +51,7 @@ def add_graph(commands: "Commands") -> None:
 
 
 def _build(options: argparse.Namespace) -> int:
-    graphs.require_suffix(options.out, ".npz")
+    require_npz(options.out)
     for target in filter(None, (options.out, options.graphml)):
         require_writable(target)
     if options.graphml and options.graphml.suffix.lower() != ".graphml":

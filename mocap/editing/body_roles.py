@@ -138,27 +138,13 @@ def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
     return trunk
 
 
-def ancestors(skeleton: Skeleton, joint: int) -> list[int]:
-    """List a joint and all joints above it, up to the root.
-
-    Examples
-    --------
-    >>> ancestors(Skeleton(["a", "b", "c"], [-1, 0, 1], [[0, 1, 0]] * 3), 2)
-    [2, 1, 0]
-    """
-    above = [joint]
-    while (joint := int(skeleton.parents[joint])) >= 0:
-        above.append(joint)
-    return above
-
-
 def _meeting(skeleton: Skeleton, joints: Sequence[int]) -> int:
     """Find the nearest joint above all of some joints."""
-    lines = [ancestors(skeleton, joint)[1:] for joint in joints]
+    lines = [skeleton.path_to_root(joint)[1:] for joint in joints]
     return max(set(lines[0]).intersection(*lines[1:]), default=0)
 
 
 def _way(skeleton: Skeleton, above: int, joint: int) -> list[int]:
     """List the joints from below `above` down to `joint`, or none where `joint` does not hang on it."""
-    line = ancestors(skeleton, joint)
+    line = skeleton.path_to_root(joint)
     return line[: line.index(above)][::-1] if above in line else []

@@ -13,7 +13,6 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import GlobalPoses, forward_kinematics, joint_positions
 from mocap.body.motion import Motion
-from mocap.editing.body_roles import ancestors
 from mocap.editing.stances import heading_by_hips
 from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapError
@@ -137,7 +136,7 @@ def bone_turns(source: Stance, target: Stance) -> dict[int, tuple[int, Array]]:
 
 def _hands(joint: int, stance: Stance) -> list[str]:
     """Name the side of a joint at or below a wrist."""
-    above = ancestors(stance.skeleton, joint)
+    above = stance.skeleton.path_to_root(joint)
     return [side for side in ("left", "right") if stance.roles.get(f"{side} wrist") in above]
 
 

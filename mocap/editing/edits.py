@@ -13,7 +13,7 @@ from mocap._shared.arrays import Array, Mask
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
-from mocap.editing.linear_bodies import Body, chain
+from mocap.editing.linear_bodies import Body
 from mocap.editing.pins import Pins, join_pins, plant_pins
 from mocap.editing.reaching import TOLERANCE, ready, warn_of_gaps
 from mocap.editing.spacetime_solver import KNOTS, WEIGHT, solved_again
@@ -103,7 +103,7 @@ def _limbs(motion: Motion, pins: Pins, body: Body) -> list[Leg]:
     skeleton, limbs = motion.skeleton, []
     hinges = {joint for joint, axes in zip(body.joints, body.axes, strict=True) if axes.shape[1] == 1}
     held = {pins.joints[column] for column in np.flatnonzero(pins.held.any(axis=(0, 2)))}
-    above = {joint for end in held for joint in chain(skeleton, end)[1:]}
+    above = {joint for end in held for joint in skeleton.path_to_root(end)[1:]}
     bones = np.linalg.norm(skeleton.offsets, axis=-1)
     for end in sorted(held):
         middle = int(skeleton.parents[end])

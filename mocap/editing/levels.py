@@ -18,7 +18,7 @@ from scipy import sparse
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.motion import Motion
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.linear_bodies import Body, chain
+from mocap.editing.linear_bodies import Body
 from mocap.editing.pins import Pins, pin_errors
 from mocap.editing.reaching import each_frame, ready
 from mocap.errors import MocapError
@@ -181,7 +181,7 @@ def listeners(base: Motion, pins: Pins, body: Body, asked: Mask) -> Mask:
     """
     listens = np.zeros((len(base), len(body.price)), bool)
     listens[:, :3] = np.any(asked, axis=1)[:, None]
-    chains = [chain(base.skeleton, joint)[1:] for joint in pins.joints]
+    chains = [base.skeleton.path_to_root(joint)[1:] for joint in pins.joints]
     for joint, columns in zip(body.joints, body.columns, strict=True):
         below = [number for number, above in enumerate(chains) if joint in above]
         listens[:, columns] = np.any(asked[:, below], axis=1)[:, None]

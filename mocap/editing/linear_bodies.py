@@ -14,7 +14,6 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from mocap._shared.arrays import Array, Mask, frozen
 from mocap.body import rotations
@@ -152,31 +151,17 @@ def body_of(
     if not all(np.isfinite(number) and number > 0 for number in (effort, *factors.values())):
         raise MocapError(f"An effort and factors of prices are above 0, got {effort} and {dict(prices)}.")
     turns = turning(motion)
-    above = sorted({joint for pin in pinned for joint in chain(skeleton, pin)[1:]} - fixed)
+    above = sorted({joint for pin in pinned for joint in skeleton.path_to_root(pin)[1:]} - fixed)
     joints = tuple(joint for joint in above if turns[joint])
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     axes, price = [], [float(len(skeleton))] * 3
     for joint in joints:
-        below = [other for other in range(len(skeleton)) if joint in chain(skeleton, other)]
+        below = [other for other in range(len(skeleton)) if joint in skeleton.path_to_root(other)]
         moved = ((positions[:, below] - positions[:, [joint]]) ** 2).sum(axis=(1, 2)).mean()
         hinge = hinge_of(motion, joint)
         axes.append(np.eye(3) if hinge is None else hinge[:, None])
         price += [factors.get(joint, 1.0) * (moved + effort)] * axes[-1].shape[1]
     return Body(joints, tuple(axes), np.array(price))
-
-
-def chain(skeleton: Skeleton, joint: int) -> list[int]:
-    """List a joint and those above it, up to the root.
-
-    Examples
-    --------
-    >>> chain(Skeleton(["hip", "knee", "ankle"], [-1, 0, 1], np.eye(3)), 2)
-    [2, 1, 0]
-    """
-    joints = [int(joint)]
-    while (parent := int(skeleton.parents[joints[-1]])) >= 0:
-        joints.append(parent)
-    return joints
 
 
 def hinge_of(motion: Motion, joint: int) -> Array | None:
@@ -198,8 +183,7 @@ def hinge_of(motion: Motion, joint: int) -> Array | None:
     array([1., 0., 0.])
     """
     turns = motion.rotations[:, joint]
-    mean = Rotation.from_quat(turns, scalar_first=True).mean().as_quat(scalar_first=True)
-    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(mean), turns))
+    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(rotations.mean(turns)), turns))
     spread, axes = np.linalg.svd(away - away.mean(axis=0), full_matrices=False)[1:]
     if len(away) > 3 and spread[0] > STILL * np.sqrt(len(away)):
         return np.asarray(axes[0]) if spread[1] < HINGE * spread[0] else None
@@ -226,7 +210,7 @@ def linear(base: Motion, body: Body, change: Array, pins: Pins) -> Linear:
     slopes = np.zeros((len(base), len(pins.joints), 3, change.shape[1]))
     slopes[..., :3] = np.eye(3)
     for number, end in enumerate(pins.joints):
-        above = chain(base.skeleton, end)[1:]
+        above = base.skeleton.path_to_root(end)[1:]
         movers = [n for n, joint in enumerate(joints) if joint in above]
         arms = poses.positions[:, [end]] - poses.positions[:, [joints[n] for n in movers]]
         swings = cross_matrix(-arms) @ turned[:, movers]
@@ -274,5 +258,5 @@ def length_between(skeleton: Skeleton, first: int, second: int) -> float:
     >>> length_between(Skeleton(["hip", "knee", "ankle", "tail"], [-1, 0, 1, 0], offsets), 2, 3)
     1.9
     """
-    way = set(chain(skeleton, first)) ^ set(chain(skeleton, second))
+    way = set(skeleton.path_to_root(first)) ^ set(skeleton.path_to_root(second))
     return float(np.linalg.norm(skeleton.offsets[sorted(way)], axis=-1).sum())

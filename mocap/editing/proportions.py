@@ -3,7 +3,7 @@
 import numpy as np
 
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import FEET, ancestors
+from mocap.editing.body_roles import FEET
 from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapError
 
@@ -49,7 +49,7 @@ def proportioned(
     old = stance.skeleton
     shares = np.full(len(old), float(trunk))
     for joint in range(1, len(old)):
-        over = [tops[above] for above in ancestors(old, joint)[1:] if above in tops]
+        over = [tops[above] for above in old.path_to_root(joint)[1:] if above in tops]
         shares[joint] = given[over[0]] if over else trunk
     body = Skeleton(old.names, old.parents, old.offsets * shares[:, None], old.axes, old.dofs)
     return Stance(body, stance.roles, stance.turns, {role: legs * stance.heights[role] for role in FEET})

@@ -14,7 +14,7 @@ from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.displacements import displaced
-from mocap.editing.linear_bodies import Body, Linear, body_of, chain, linear, require_reachable
+from mocap.editing.linear_bodies import Body, Linear, body_of, linear, require_reachable
 from mocap.editing.pins import Pins, Rows, pin_errors, require_pins_of
 from mocap.errors import MocapError, MocapWarning
 
@@ -135,7 +135,7 @@ def pared(base: Motion, body: Body, pins: Pins, rows: Rows) -> tuple[Motion, Bod
     No pinned joint's place depends on the others, and `linear` is the quicker without them.
     """
     skeleton = base.skeleton
-    kept = sorted({0}.union(*(chain(skeleton, joint) for joint in (*pins.joints, *body.joints))))
+    kept = sorted({0}.union(*(skeleton.path_to_root(joint) for joint in (*pins.joints, *body.joints))))
     number = {joint: n for n, joint in enumerate(kept)}
     small = Skeleton(
         [skeleton.names[joint] for joint in kept],

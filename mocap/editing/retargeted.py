@@ -9,7 +9,7 @@ import warnings
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import FEET, ancestors
+from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
 from mocap.editing.edits import edit
 from mocap.editing.floors import dips_of, floor_pins
@@ -124,7 +124,7 @@ def _standing_again(base: Motion, wishes: tuple[Pins, Pins], body: Body, target:
 def _priced(base: Motion, target: Stance, pins: Pins) -> Body:
     """Price the joints that may turn: knees and trunk more than others."""
     who, names = target.roles, target.skeleton.names
-    trunk = ancestors(target.skeleton, who["chest"]) if "chest" in who else []
+    trunk = target.skeleton.path_to_root(who["chest"]) if "chest" in who else []
     stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
     prices = dict.fromkeys((names[joint] for joint in stiff), STIFF)
     return body_of(base, pins.joints, prices=prices)

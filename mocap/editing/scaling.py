@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial.transform import Rotation
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
@@ -146,8 +145,7 @@ def _joint(motion: Motion, joint: str | int) -> int:
 def _reference(motion: Motion, joint: str | int, about: ArrayLike | None) -> Array:
     """Give the reference of length 1, or the joint's mean rotation over the clip."""
     if about is None:
-        turns = Rotation.from_quat(motion.rotations[:, _joint(motion, joint)], scalar_first=True)
-        return np.asarray(turns.mean().as_quat(scalar_first=True))
+        return rotations.mean(motion.rotations[:, _joint(motion, joint)])
     given = np.asarray(about, float)
     if given.shape != (4,) or not abs(np.linalg.norm(given) - 1) < 1e-6:
         raise MocapError(f"A reference is a quaternion of length 1, got {given.ravel()[:6].tolist()}.")

@@ -10,14 +10,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import FEET, ancestors, legs_among, roles
+from mocap.editing.body_roles import FEET, legs_among, roles
 from mocap.editing.upright_bodies import Stance, joint_points
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
@@ -99,7 +98,7 @@ def _flat_feet(stance: Stance) -> Array:
         ahead = bone[[0, 2]] if np.hypot(*bone[[0, 2]]) > abs(bone[1]) else np.array([0.0, 1.0])
         ahead = ahead / np.hypot(*ahead) * np.sqrt(bone @ bone - drop**2)
         lay = rotations.between(bone, [ahead[0], -drop, ahead[1]])
-        foot = [joint for joint in range(len(turns)) if leg.ankle in ancestors(stance.skeleton, joint)]
+        foot = [joint for joint in range(len(turns)) if leg.ankle in stance.skeleton.path_to_root(joint)]
         turns[foot] = rotations.multiply(lay, turns[foot])
     return turns
 
@@ -132,7 +131,7 @@ def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> 
     world = rotations.from_matrix(pose.matrices)
     heading = heading_by_hips(pose.positions, who)
     seen = rotations.multiply(rotations.about_y(-heading)[:, None], world)
-    turns = np.array([_mean(seen[:, joint]) for joint in range(len(motion.skeleton))])
+    turns = rotations.mean(np.swapaxes(seen, 0, 1))
     flat = _standing(motion, who)
     for side in ("left", "right"):
         ankle, ball = (who[f"{side} {part}"] for part in ("ankle", "ball"))
@@ -140,7 +139,8 @@ def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> 
         if down.any():
             along = (pose.positions[:, ball] - pose.positions[:, ankle])[down]
             back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
-            turns[[ankle, ball]] = [_mean(rotations.multiply(back, world[down, j])) for j in (ankle, ball)]
+            standing = np.swapaxes(world[down][:, [ankle, ball]], 0, 1)
+            turns[[ankle, ball]] = rotations.mean(rotations.multiply(back, standing))
     return Stance(motion.skeleton, who, turns, standing_heights(motion, told=told))
 
 
@@ -169,11 +169,6 @@ def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stanc
     if _upright(who, joint_points(motion.skeleton, turns)):
         return stance_of_zero(motion.skeleton, standing_heights(motion, told=told), told=told)
     return stance_of_walk(motion, told=told)
-
-
-def _mean(quaternions: Array) -> Array:
-    mean = Rotation.from_quat(quaternions, scalar_first=True).mean()
-    return np.asarray(mean.as_quat(scalar_first=True))
 
 
 def heading_by_hips(positions: Array, who: Mapping[str, int]) -> Array:

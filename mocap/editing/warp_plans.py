@@ -19,7 +19,6 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
 from mocap.editing.keys import HALF_SECOND, Key, offsets
-from mocap.editing.linear_bodies import chain
 from mocap.editing.posing import posed
 from mocap.editing.retiming import retime
 from mocap.errors import FormatError, MocapError
@@ -255,12 +254,12 @@ def _key(
 def _again(motion: Motion, key: Key, places: Mapping[str, Array]) -> Key:
     """Make a key for the joints that no leg carries and that carry none: the root and the legs stay."""
     skeleton = motion.skeleton
-    legs = {joint for leg in find_legs(skeleton) for joint in chain(skeleton, leg.ball)}
+    legs = {joint for leg in find_legs(skeleton) for joint in skeleton.path_to_root(leg.ball)}
     hips = {leg.hip for leg in find_legs(skeleton)}
     free = {
         name: place
         for name, place in places.items()
-        if skeleton.index(name) not in legs and not hips & set(chain(skeleton, skeleton.index(name)))
+        if skeleton.index(name) not in legs and not hips & set(skeleton.path_to_root(skeleton.index(name)))
     }
     root = skeleton.names[:1]
     pose = posed(motion, key.frame, free, feet=False, still=root) if free else None

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
+from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
@@ -126,7 +126,7 @@ def _animation(motion: Motion, block: Block) -> dict[str, Any]:
 
 def _rounded(motion: Motion) -> dict[int, NDArray[Any]]:
     """Give the rotations (F, 4), as (x, y, z, w), of each joint that turns, in 16 or 32 bits."""
-    turns = _steady(motion.rotations)
+    turns = rotations.continuous(motion.rotations)
     stored = np.round(turns * 32767).astype(np.int16)
     read = stored / np.linalg.norm(stored, axis=-1, keepdims=True)
     exact, carries = joint_positions(motion), reaches(motion.skeleton)
@@ -140,10 +140,3 @@ def _rounded(motion: Motion) -> dict[int, NDArray[Any]]:
         int(joint): turns[:, joint, order].astype(np.float32) if whole[joint] else stored[:, joint, order]
         for joint in np.flatnonzero(turning(motion))
     }
-
-
-def _steady(quaternions: Array) -> Array:
-    """Choose between q and -q, the same rotation, so that no curve jumps."""
-    jumps = (quaternions[1:] * quaternions[:-1]).sum(-1) < 0
-    signs = np.cumprod(np.where(jumps, -1.0, 1.0), axis=0)
-    return np.concatenate([quaternions[:1], quaternions[1:] * signs[..., None]])

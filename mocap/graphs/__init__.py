@@ -39,7 +39,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "thresholds": ["ThresholdCurve", "smallest_threshold", "threshold_curve", "velocity_gaps"],
         "choice_points": ["merge_choice_points"],
         "graph_summary": ["Summary", "summary", "write_graphml"],
-        "storage": ["find_clips", "load", "read", "require_suffix", "save"],
+        "storage": ["find_clips", "load", "read", "save"],
         "edge_tables": ["EdgeTable", "FrameTable", "Hops", "edge_table", "frame_table", "require_node"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
         "homework_graph": [

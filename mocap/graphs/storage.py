@@ -4,37 +4,34 @@ The file holds no frames of the clips and no code: it is safe to read a file fro
 """
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import networkx as nx
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from mocap._shared.atomic import replacing
+from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, fingerprint
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.editing.mirroring import mirror
-from mocap.errors import FormatError, MocapError
+from mocap.errors import MocapError
 from mocap.files.folders import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 
-FORMAT = "mocap motion graph"
-VERSION = 1
-
-# Every array of the file: its kind in NumPy, and its shape, with C clips, N nodes, E edges, T transitions and
-# L labels.
-ARRAYS = {
+# The arrays of the file, with C clips, O origins, N nodes, E edges, T transitions and L labels.
+ARRAYS: Layout = {
     "fps": ("f", ()),
     "window": ("i", ()),
     "names": ("U", ("C",)),
     "frames": ("i", ("C",)),  # of each clip
     "fingerprints": ("U", ("C",)),
+    "origins": ("U", ("O",)),
     "nodes": ("i", ("N", 2)),  # clip, frame
     "edges": ("i", ("E", 4)),  # start and end, as rows of nodes; key; frames
     "is_transition": ("b", ("E",)),
@@ -55,12 +52,6 @@ class GraphFile(NamedTuple):
     fingerprints: tuple[str, ...]
     graph: nx.MultiDiGraph
     origins: tuple[str, ...] = ()
-
-
-def require_suffix(path: str | Path, suffix: str) -> None:
-    """Raise unless a file to write has this suffix, in small or capital letters."""
-    if Path(path).suffix.lower() != suffix:
-        raise MocapError(f"This graph is written as {suffix}, got '{path}'.")
 
 
 def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] = ()) -> None:
@@ -89,35 +80,29 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
     Notebook: 05b-choice-points
     """
-    require_suffix(path, ".npz")
     clips, graph = motion_graph.clips, motion_graph.graph
     number = {node: row for row, node in enumerate(graph)}
     edges = list(graph.edges(keys=True, data=True))
     transitions = [edge for *_, edge in edges if edge["kind"] == "transition"]
     labels = sorted({label for *_, edge in edges for label in edge["labels"]})
-    arrays: dict[str, Any] = {
-        "format": np.array(FORMAT),
-        "version": np.array(VERSION),
-        "fps": np.array(motion_graph.fps),
-        "window": np.array(motion_graph.window),
-        "names": np.array([clip.name for clip in clips]),
-        "frames": np.array([len(clip) for clip in clips]),
-        "fingerprints": np.array([fingerprint(clip) for clip in clips]),
-        "origins": np.array([origin.text(Path(path).parent) for origin in origins], str),
-        "nodes": np.array(list(graph), int).reshape(-1, 2),
-        "edges": np.array([(number[a], number[b], key, e["frames"]) for a, b, key, e in edges], int).reshape(
-            -1, 4
-        ),
-        "is_transition": np.array([edge["kind"] == "transition" for *_, edge in edges], bool),
-        "costs": np.array([edge["cost"] for edge in transitions], float),
-        "transforms": np.array([edge["transform"] for edge in transitions], float).reshape(-1, 3),
-        "labels": np.array(labels, str),
-        "labelled": np.array([[x in edge["labels"] for x in labels] for *_, edge in edges], bool).reshape(
-            len(edges), len(labels)
-        ),
+    rows = [(number[a], number[b], key, edge["frames"]) for a, b, key, edge in edges]
+    labelled = [label in edge["labels"] for *_, edge in edges for label in labels]
+    arrays = {
+        "fps": motion_graph.fps,
+        "window": motion_graph.window,
+        "names": [clip.name for clip in clips],
+        "frames": [len(clip) for clip in clips],
+        "fingerprints": [fingerprint(clip) for clip in clips],
+        "origins": [origin.text(Path(path).parent) for origin in origins],
+        "nodes": np.reshape(list(graph), (-1, 2)),
+        "edges": np.reshape(rows, (-1, 4)),
+        "is_transition": [edge["kind"] == "transition" for *_, edge in edges],
+        "costs": [edge["cost"] for edge in transitions],
+        "transforms": np.reshape([edge["transform"] for edge in transitions], (-1, 3)),
+        "labels": labels,
+        "labelled": np.reshape(labelled, (len(edges), len(labels))),
     }
-    with replacing(path) as beside, beside.open("wb") as file:
-        np.savez_compressed(file, **arrays)
+    write_arrays(path, GRAPH, arrays)
 
 
 def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
@@ -160,8 +145,7 @@ def read(path: str | Path) -> GraphFile:
 
     Notebook: 05b-choice-points
     """
-    arrays = _arrays(path)
-    _check(path, arrays)
+    arrays = read_arrays(path, GRAPH)
     nodes = [(clip, frame) for clip, frame in arrays["nodes"].tolist()]
     labels = np.array(arrays["labels"], object)
     ways = zip(arrays["costs"].tolist(), arrays["transforms"].tolist(), strict=True)
@@ -176,8 +160,8 @@ def read(path: str | Path) -> GraphFile:
             edge |= {"kind": "transition", "cost": cost, "transform": PlanarTransform(*transform)}
         graph.add_edge(nodes[start], nodes[end], key, **edge)
     names, frames, known = (tuple(arrays[key].tolist()) for key in ("names", "frames", "fingerprints"))
-    origins = tuple(arrays["origins"].tolist()) if "origins" in arrays else ()
-    return GraphFile(float(arrays["fps"]), int(arrays["window"]), names, frames, known, graph, origins)
+    fps, window, origins = (arrays[key].tolist() for key in ("fps", "window", "origins"))
+    return GraphFile(fps, window, names, frames, known, graph, tuple(origins))
 
 
 def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Progress = iter) -> list[Motion]:
@@ -218,48 +202,12 @@ def _read_clip(origin: Origin, skeleton: Path | None) -> Motion:
     return mirror(clip) if origin.mirrored else clip
 
 
-def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
-    """Open the archive, check its kind and version, and read its arrays."""
-    ours = f"a motion graph saved by mocap, version {VERSION}"
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            kind, version = str(archive["format"]), int(archive["version"])
-            arrays = {key: archive[key] for key in (*ARRAYS, "origins") if key in archive}
-    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
-        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    except Exception as error:  # NumPy raises many kinds of errors for other files
-        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
-    if kind != FORMAT:
-        raise FormatError(path, None, ours, "an .npz of another kind")
-    if version > VERSION:
-        raise FormatError(path, None, ours, f"version {version}, which a newer mocap wrote")
-    if missing := [key for key in ARRAYS if key not in arrays]:
-        raise FormatError(path, None, ours, f"one without {', '.join(missing)}")
-    return arrays
-
-
-def _check(path: str | Path, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Raise unless every array has its kind and shape, and its numbers make sense."""
-    sizes: dict[str, int] = {}
-    for key, (kind, shape) in ARRAYS.items():
-        array = arrays[key]
-        fits = len(shape) == array.ndim and array.dtype.kind == kind
-        for name, size in zip(shape, array.shape, strict=False):
-            fits &= size == (sizes.setdefault(name, size) if isinstance(name, str) else name)
-        if not fits:
-            raise FormatError(path, None, f"'{key}' to fit the other arrays", f"{array.dtype}{array.shape}")
-    for what, holds in _rules(arrays):
-        if not np.all(holds):
-            raise FormatError(path, None, f"that {what}", "a damaged file")
-
-
-def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]]:
+def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     """Yield what must hold; each rule needs those before it."""
     window, lengths, nodes = arrays["window"], arrays["frames"], arrays["nodes"]
     edges, is_transition = arrays["edges"], arrays["is_transition"]
-    origins = arrays.get("origins", np.empty(0, str))
-    yield "origins are one for each clip, or none", len(origins) in (0, len(lengths)) and origins.ndim == 1
-    yield "origins are text", origins.dtype.kind == "U" and all(map(is_origin, origins.tolist()))
+    yield "origins are one for each clip, or none", len(arrays["origins"]) in (0, len(lengths))
+    yield "origins are places of files", [is_origin(text) for text in arrays["origins"].tolist()]
     yield "window and rate are above 0", window > 0 and 0 < arrays["fps"] < np.inf
     yield "there are clips with names of their own", 0 < len(set(arrays["names"].tolist())) == len(lengths)
     yield "nodes lie in clips", (nodes[:, 0] >= 0) & (nodes[:, 0] < len(lengths))
@@ -274,3 +222,6 @@ def _rules(arrays: Mapping[str, NDArray[Any]]) -> Iterator[tuple[str, ArrayLike]
     yield "each transition has a cost", is_transition.sum() == len(arrays["costs"])
     yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
     yield "transforms are finite", np.isfinite(arrays["transforms"])
+
+
+GRAPH = Kind("a motion graph", 1, ARRAYS, _rules)

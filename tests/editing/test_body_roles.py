@@ -6,7 +6,7 @@ import pytest
 from mocap import load
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.generated import SKELETON
-from mocap.editing.body_roles import ROLES, ancestors, legs_among, roles
+from mocap.editing.body_roles import ROLES, legs_among, roles
 from mocap.errors import MocapError
 from tests.editing.bodies import DAZ, LONG, SMPL, UNDERSCORED, UP_AND_LOW, renamed, walk, without
 
@@ -91,7 +91,7 @@ def test_a_body_without_known_legs_says_what_was_tried_and_what_to_do():
 
 def test_ancestors_end_at_the_root():
     toes = SKELETON.index("ltoes")
-    assert [SKELETON.names[joint] for joint in ancestors(SKELETON, toes)] == [
+    assert [SKELETON.names[joint] for joint in SKELETON.path_to_root(toes)] == [
         "ltoes", "lfoot", "ltibia", "lfemur", "lhipjoint", "root",
     ]  # fmt: skip
 

@@ -10,7 +10,6 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import ancestors
 from mocap.editing.copied_motion import copied
 from mocap.editing.proportions import proportioned
 from mocap.editing.stances import stance_of, stance_of_walk
@@ -67,7 +66,7 @@ def test_arms_that_rest_another_way_keep_their_hands():
     turns = np.tile([1.0, 0, 0, 0], (len(walk().skeleton), 1))
     for side, sign in (("l", -1), ("r", 1)):
         arm = walk().skeleton.index(f"{side}humerus")
-        below = [j for j in range(len(turns)) if arm in ancestors(walk().skeleton, j)]
+        below = [j for j in range(len(turns)) if arm in walk().skeleton.path_to_root(j)]
         turns[below] = rotations.from_rotvec([0, 0, sign * np.pi / 2])
     out = rested(walk(), turns)
     assert farthest(copied(walk(), adult(), stance_of(out)), walk()) < 1e-12

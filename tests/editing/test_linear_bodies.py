@@ -14,7 +14,6 @@ from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.linear_bodies import (
     Body,
     body_of,
-    chain,
     hinge_of,
     length_between,
     linear,
@@ -157,7 +156,7 @@ def test_joints_are_never_farther_apart_than_the_bones_between(seed):
         for b in range(8):
             apart = np.linalg.norm(positions[:, a] - positions[:, b], axis=-1)
             assert (apart <= length_between(clip.skeleton, a, b) + 1e-9).all()
-        assert chain(clip.skeleton, a)[-1] == 0
+        assert clip.skeleton.path_to_root(a)[-1] == 0
 
 
 def test_a_change_on_the_left_would_miss():

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Mask
+from mocap.body import rotations
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -46,7 +47,7 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
     """
     origin = motion.root_positions[0, [0, 2]]
     places = motion.root_positions - [origin[0], 0, origin[1]]
-    turns = _continuous(motion.rotations).reshape(len(motion), -1)
+    turns = rotations.continuous(motion.rotations).reshape(len(motion), -1)
     numbers = np.round(np.concatenate([places, turns], axis=1) / STEP).astype("<i4")
     numbers = numbers[np.maximum.accumulate(np.where(needed, np.arange(len(needed)), 0))]
     changes = np.diff(numbers, 2, axis=0, prepend=np.zeros_like(numbers, shape=(2, numbers.shape[1])))
@@ -60,13 +61,6 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
         "plants": plants(motion),
     }
     return about, planes.tobytes()
-
-
-def _continuous(turns: Array) -> Array:
-    """Give each quaternion the sign of the one before it: q and -q are one rotation."""
-    against = (turns[1:] * turns[:-1]).sum(axis=-1) < 0
-    signs = np.cumprod(np.where(against, -1.0, 1.0), axis=0)
-    return np.concatenate([turns[:1], turns[1:] * signs[..., None]])
 
 
 def plants(motion: Motion) -> str:

@@ -1,36 +1,29 @@
 """Group motion graphs in `.npz` files."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
-from mocap.errors import FormatError
+from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap.methods.groups.configurations import Configuration
 from mocap.methods.groups.group_clips import Drawn, GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph
 
-_KIND = Kind(
-    "a group motion graph",
-    1,
-    {
-        "node_places": ("c", ("K", "N")),
-        "node_velocities": ("c", ("K", "N")),
-        "starts": ("i", ("C",)),
-        "ends": ("i", ("C",)),
-        "lengths": ("i", ("C",)),
-        "places": ("c", ("T", "N")),
-        "velocities": ("c", ("T", "N")),
-        "orders": ("i", ("C", "N")),
-        "turns": ("c", ("C",)),
-        "moves": ("c", ("C",)),
-        "centres": ("c", ("C",)),
-        "radii": ("f", ("C",)),
-        "bent": ("f", ("D",)),
-        "collided": ("b", ("D", 2)),
-        "hardest": ("f", ("D",)),
-    },
-)
+_ARRAYS: Layout = {  # of K nodes, C clips with T frames together, N members, and D clips drawn
+    "node_places": ("c", ("K", "N")),
+    "node_velocities": ("c", ("K", "N")),
+    **dict.fromkeys(("starts", "ends", "lengths"), ("i", ("C",))),
+    "places": ("c", ("T", "N")),
+    "velocities": ("c", ("T", "N")),
+    "orders": ("i", ("C", "N")),
+    **dict.fromkeys(("turns", "moves", "centres"), ("c", ("C",))),
+    "radii": ("f", ("C",)),
+    "bent": ("f", ("D",)),
+    "collided": ("b", ("D", 2)),
+    "hardest": ("f", ("D",)),
+}
 
 
 def save_group(graph: GroupGraph, path: str | Path) -> None:
@@ -67,8 +60,6 @@ def load_group(path: str | Path) -> GroupGraph:
     FormatError, MocapError : for a file that is missing, is another kind of file, or contradicts itself.
     """
     arrays = read_arrays(path, _KIND)
-    if not _whole(arrays):
-        raise FormatError(path, None, "clips that fit their nodes", "numbers that contradict each other")
     stops = np.cumsum(arrays["lengths"])
     frames = (np.split(arrays[key], stops[:-1]) for key in ("places", "velocities"))
     rows = zip(
@@ -84,14 +75,15 @@ def load_group(path: str | Path) -> GroupGraph:
     return GroupGraph(tuple(nodes), tuple(GroupClip(*row) for row in rows), drawn)
 
 
-def _whole(arrays: Arrays) -> bool:
-    """Say whether all is finite, and clips fill the frames, join nodes there are, and renumber everybody."""
+def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     lengths, nodes = arrays["lengths"], len(arrays["node_places"])
-    return bool(
-        all(np.isfinite(part).all() for part in arrays.values())
-        and lengths.sum() == len(arrays["places"])
-        and (lengths > 1).all()
-        and len(lengths)
-        and all(((arrays[key] >= 0) & (arrays[key] < nodes)).all() for key in ("starts", "ends"))
-        and (np.sort(arrays["orders"], axis=-1) == np.arange(arrays["node_places"].shape[-1])).all()
-    )
+    yield "all numbers are finite", [np.isfinite(part).all() for part in arrays.values()]
+    yield "clips have frames", len(lengths) and lengths.min() > 1
+    yield "clips fill the frames", lengths.sum() == len(arrays["places"])
+    for key in ("starts", "ends"):
+        yield "clips join nodes", (arrays[key] >= 0) & (arrays[key] < nodes)
+    everybody = np.arange(arrays["node_places"].shape[-1])
+    yield "clips renumber everybody", np.sort(arrays["orders"], axis=-1) == everybody
+
+
+_KIND = Kind("a group motion graph", 1, _ARRAYS, _rules)

@@ -8,27 +8,23 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
+from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap.body.motion import Motion, fingerprint
-from mocap.errors import FormatError, MocapError
+from mocap.errors import MocapError
 from mocap.methods.match_webs.webs import MatchWeb, PathShape
 
 # The arrays of the file, with C clips, N cells and P paths (and so P + 1 offsets, X).
-WEB = Kind(
-    "a match web",
-    1,
-    {
-        "names": ("U", ("C",)),
-        "fingerprints": ("U", ("C",)),
-        "lengths": ("i", ("C",)),  # of each clip in frames of the web; 0 for one that was too short
-        "numbers": ("f", (2,)),  # rate and below
-        "window": ("i", ()),
-        "shape": ("f", (4,)),
-        "cells": ("i", ("N", 2)),
-        "costs": ("f", ("N",)),
-        "offsets": ("i", ("X",)),
-    },
-)
+ARRAYS: Layout = {
+    "names": ("U", ("C",)),
+    "fingerprints": ("U", ("C",)),
+    "lengths": ("i", ("C",)),  # of each clip in frames of the web; 0 for one that was too short
+    "numbers": ("f", (2,)),  # rate and below
+    "window": ("i", ()),
+    "shape": ("f", (4,)),
+    "cells": ("i", ("N", 2)),
+    "costs": ("f", ("N",)),
+    "offsets": ("i", ("X",)),
+}
 
 
 def save_web(web: MatchWeb, path: str | Path) -> None:
@@ -55,12 +51,12 @@ def save_web(web: MatchWeb, path: str | Path) -> None:
     MatchWeb(1 clips, 8 paths, below 5 cm)
     """
     arrays = {
-        "names": np.array([clip.name for clip in web.clips]),
-        "fingerprints": np.array([fingerprint(clip) for clip in web.clips]),
+        "names": [clip.name for clip in web.clips],
+        "fingerprints": [fingerprint(clip) for clip in web.clips],
         "lengths": np.diff(web.starts),
-        "numbers": np.array([web.rate, web.below]),
+        "numbers": [web.rate, web.below],
         "window": web.window,
-        "shape": np.array(web.shape, float),
+        "shape": web.shape,
         "cells": web.cells,
         "costs": web.costs,
         "offsets": web.offsets,
@@ -86,9 +82,6 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
     MocapError : for other clips than those that the web was built of.
     """
     arrays = read_arrays(path, WEB)
-    for what, holds in _rules(arrays):
-        if not np.all(holds):
-            raise FormatError(path, None, f"that {what}", "a damaged file")
     _require_clips(path, arrays, clips)
     rate, below = arrays["numbers"].tolist()
     slope, *shape = arrays["shape"].tolist()
@@ -135,3 +128,6 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     clip = np.searchsorted(starts, cells, side="right")
     yield "a path stays in its two clips", (np.diff(clip, axis=0)[inner] == 0)
     yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
+
+
+WEB = Kind("a match web", 1, ARRAYS, _rules)

@@ -227,7 +227,8 @@ def _tabled(found: list[tuple[_Found, Array]], grid: Array, feet: str, dropped: 
     zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
     rows = []
     for stretch, frames in found:
-        roots, turns = _between(stretch.clip, frames)
+        posed = stretch.clip.at(frames)
+        roots, turns = posed.root_positions, posed.rotations.copy()
         facing, ground = np.unwrap(heading(turns[:, 0])), on_ground(roots)
         turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
         near = np.clip(np.round(frames).astype(int), 0, len(stretch.clip) - 1)
@@ -237,8 +238,7 @@ def _tabled(found: list[tuple[_Found, Array]], grid: Array, feet: str, dropped: 
         speed, spin = np.gradient(ground, step) * np.exp(-1j * facing), np.gradient(facing, step)
         rows.append((clock, speed, spin, roots[:, 1], turns, contact, [facing[one] - facing[zero], way]))
     seconds, speeds, turning, heights, poses, contacts, values = map(np.array, zip(*rows, strict=True))
-    flips = np.where((poses[0, 1:] * poses[0, :-1]).sum(axis=-1, keepdims=True) < 0, -1, 1)
-    poses[0, 1:] *= np.cumprod(flips, axis=0)  # one sign from phase to phase, and for all examples
+    poses[0] = rotations.continuous(poses[0])  # one sign from phase to phase, and for all examples
     poses *= np.where((poses * poses[0]).sum(axis=-1, keepdims=True) < 0, -1, 1)
     own = (clip.skeleton, clip.fps, grid, seconds, speeds, turning, heights, poses, contacts)
     return _calibrated(Strides(*own, tuple(clip.contacts), values, dropped=dropped), steps=feet != STRIDE)
@@ -256,15 +256,6 @@ def _calibrated(strides: Strides, *, steps: bool) -> Strides:
     ways = np.angle(np.diff(ground[:, strides.ends], axis=1))
     offset = float(np.median(ways)) if straight.any() else 0.0
     return replace(strides, values=values, sway=sway, offset=offset)
-
-
-def _between(motion: Motion, frames: Array) -> tuple[Array, Array]:
-    """Take a motion between its frames: roots (G, 3) and rotations (G, J, 4)."""
-    low = np.clip(frames.astype(int), 0, len(motion) - 2)
-    share = (frames - low)[:, None]
-    roots = motion.root_positions[low] * (1 - share) + motion.root_positions[low + 1] * share
-    amount = np.broadcast_to(share, (len(low), motion.rotations.shape[1]))
-    return roots, rotations.slerp(motion.rotations[low], motion.rotations[low + 1], amount)
 
 
 def mixed_way(strides: Strides, weights: Array) -> tuple[Points, Array]:

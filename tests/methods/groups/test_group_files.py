@@ -27,7 +27,7 @@ def test_clips_that_point_nowhere_are_refused(tmp_path, wrong):
     group = graph(6, 6)
     wrong = replace(group.clips[0], **wrong)
     save_group(replace(group, clips=(wrong,)), tmp_path / "six.npz")
-    with pytest.raises(FormatError, match="numbers that contradict each other"):
+    with pytest.raises(FormatError, match=r"expected that [a-z ]+, got a damaged file"):
         load_group(tmp_path / "six.npz")
 
 
