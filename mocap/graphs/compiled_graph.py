@@ -6,6 +6,7 @@ Ground points are complex numbers z + ix, and planar transforms are p â†¦ turn Â
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from mocap.graphs.edge_tables import (
     EdgeTable,
     FrameTable,
     Hops,
+    clip_rows,
     edge_table,
     find_hops,
     frame_table,
@@ -28,8 +30,7 @@ from mocap.graphs.motion_graph import MotionGraph, Node
 AHEAD = (1 / 4, 1 / 2, 3 / 4)  # seconds
 
 
-@dataclass(frozen=True, eq=False)
-class Tracks:
+class Tracks(NamedTuple):
     """Where the root is in the T frames of all edges, one edge after the other.
 
     Parameters
@@ -44,8 +45,7 @@ class Tracks:
     step: Array
 
 
-@dataclass(frozen=True, eq=False)
-class LabelTable:
+class LabelTable(NamedTuple):
     """The labels of the T frames of all edges: `bears` has shape (L, T), in the order of the L `names`."""
 
     names: list[str]
@@ -66,7 +66,8 @@ class CompiledGraph:
     at : shape (N,), where the root is at a node, in the coordinates of its clip.
     ahead : shape (N, 3), where it is after `AHEAD` seconds of clip; past the clip's end its velocity stays.
     going : shape (N,), the direction of its movement, or where it stands still, its heading (radians).
-    tracks, hops, labels : the root in each frame, the hops from each node, and the labels of each frame.
+    plays, tracks : shape (T,), the frames of all edges, and where the root is in them.
+    hops, labels : the hops from each node, and the labels of each frame.
     """
 
     source: MotionGraph
@@ -81,6 +82,7 @@ class CompiledGraph:
     at: Points
     ahead: Points
     going: Array
+    plays: FrameTable
     tracks: Tracks
     hops: Hops
     labels: LabelTable
@@ -122,44 +124,61 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     """
     if isinstance(graph, CompiledGraph):
         return graph
-    nodes = sorted(graph.graph)
     kinds = graph.graph.edges(keys=True, data="kind")
-    edges = [
-        (start, end, key) for start, end, key, _ in sorted(kinds, key=lambda e: (e[3] == "transition", e))
-    ]
+    ordered = sorted(kinds, key=lambda edge: (edge[3] == "transition", edge))
+    edges = [(start, end, key) for start, end, key, _ in ordered]
     if not edges:
         raise NoWalk("The graph has no edges.")
+    nodes = sorted(graph.graph)
     index = {node: n for n, node in enumerate(nodes)}
     leaves, target = (np.array([index[edge[end]] for edge in edges]) for end in (0, 1))
-    table, roots = edge_table(graph, edges), _Roots(graph)
-    frames, standing = frame_table(table, graph.window), np.array(nodes)
+    table = edge_table(graph, edges)
+    frames = frame_table(table, graph.window)
+    roots = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
     return CompiledGraph(
-        source=graph,
-        nodes=nodes,
-        edges=edges,
-        target=target,
-        frames=table.frames,
-        cost=table.cost,
-        blended=table.blended,
-        turn=table.transform.turn,
-        move=table.transform.move,
-        at=roots[standing],
-        ahead=roots.ahead(standing, graph.fps),
-        going=roots.going(standing, graph.fps),
-        tracks=_tracks(table, frames, roots),
-        hops=find_hops(table, leaves, len(nodes), graph.fps),
-        labels=_labels(graph, frames),
+        graph,
+        nodes,
+        edges,
+        target,
+        table.frames,
+        table.cost,
+        table.blended,
+        table.transform.turn,
+        table.transform.move,
+        *_standing(graph, np.array(nodes), roots),
+        frames,
+        _tracks(graph, table, frames, roots),
+        find_hops(table, leaves, len(nodes), graph.fps),
+        _labels(graph, frames),
     )
 
 
-def _tracks(edges: EdgeTable, frames: FrameTable, roots: _Roots) -> Tracks:
+def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
+    """Find where the root is at each node, where it is `AHEAD`, and in which direction it goes."""
+    clip, frame = nodes.T
+    last = np.array([len(motion) - 1 for motion in graph.clips])[clip]
+
+    def root(frames: Indices) -> Points:
+        return np.asarray(roots[clip_rows(graph.clips, np.stack([clip, frames], axis=1))])
+
+    back = max(1, round(graph.fps / 6))
+    speed = (root(last) - root(last - back)) / back
+    steps = [frame + max(1, round(graph.fps * seconds)) for seconds in AHEAD]
+    ahead = np.stack([root(then) + speed * np.maximum(then - last, 0) for then in steps], axis=1)
+    way = ahead[:, -1] - root(frame)
+    turns = np.concatenate([motion.rotations[:, 0] for motion in graph.clips])
+    faces = heading(turns[clip_rows(graph.clips, nodes)])
+    return root(frame), ahead, np.where(np.abs(way) > 0.1, np.angle(way), faces)
+
+
+def _tracks(graph: MotionGraph, edges: EdgeTable, frames: FrameTable, roots: Points) -> Tracks:
     """Follow the root along every edge, blended as the poses are [KGP02, Eq. 5]."""
     turn, move = edges.transform.turn[frames.edge], edges.transform.move[frames.edge]
+    here, there = (roots[clip_rows(graph.clips, some)] for some in (frames.here, frames.there))
     first = np.cumsum(edges.frames) - edges.frames
-    ground = frames.alpha * roots[frames.here]
-    ground += (1 - frames.alpha) * (turn * roots[frames.there] + move)
+    ground = frames.alpha * here + (1 - frames.alpha) * (turn * there + move)
     step = np.abs(np.diff(ground, prepend=0))
-    step[first] = np.abs(ground[first] - roots[edges.leaves - np.array([0, 1])])
+    step[first] = np.abs(ground[first] - roots[clip_rows(graph.clips, edges.leaves - np.array([0, 1]))])
     return Tracks(first, ground, step)
 
 
@@ -188,36 +207,3 @@ def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: comple
     frames = graph.frames[edges]
     rows = ranges(graph.tracks.first[edges], frames)
     return np.repeat(moves, frames) + np.repeat(turns, frames) * graph.tracks.ground[rows], rows
-
-
-class _Roots:
-    """Where the root is on the ground in each frame of the clips; outside a clip it stands still."""
-
-    def __init__(self, graph: MotionGraph) -> None:
-        self.last = np.array([len(clip) - 1 for clip in graph.clips])
-        self.first = np.cumsum(self.last + 1) - self.last - 1
-        self.points = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
-        self.turns = np.concatenate([clip.rotations[:, 0] for clip in graph.clips])
-
-    def __getitem__(self, frames: Indices) -> Points:
-        return np.asarray(self.points[self._rows(frames)])
-
-    def ahead(self, frames: Indices, fps: float) -> Points:
-        """Look ahead by `AHEAD` seconds, shape (N, 3)."""
-        end = np.stack([frames[:, 0], self.last[frames[:, 0]]], axis=1)
-        back = max(1, round(fps / 6))
-        speed = (self[end] - self[end - np.array([0, back])]) / back
-        found = []
-        for seconds in AHEAD:
-            then = frames + np.array([0, max(1, round(fps * seconds))])
-            found.append(self[then] + speed * np.maximum(then[:, 1] - end[:, 1], 0))
-        return np.stack(found, axis=1)
-
-    def going(self, frames: Indices, fps: float) -> Array:
-        """Give the direction of movement after each frame, or the root's heading where it stands still."""
-        way = self.ahead(frames, fps)[:, -1] - self[frames]
-        return np.where(np.abs(way) > 0.1, np.angle(way), heading(self.turns[self._rows(frames)]))
-
-    def _rows(self, frames: Indices) -> Indices:
-        clip, frame = frames.T
-        return np.asarray(self.first[clip] + np.clip(frame, 0, self.last[clip]))

@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Indices, ranges
+from mocap._shared.arrays import Array, Indices, Mask, ranges
 from mocap.blending.weights import cubic_weights
+from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import MotionGraph, Node
@@ -27,7 +27,7 @@ class EdgeTable(NamedTuple):
     leaves: Indices  # (E, 2): clip and frame
     enters: Indices  # (E, 2)
     frames: Indices
-    blended: NDArray[np.bool_]  # whether it is a transition
+    blended: Mask  # whether it is a transition
     cost: Array
     transform: PlanarTransform  # of arrays: lays the clip it enters on the one it leaves
 
@@ -49,21 +49,11 @@ class FrameTable(NamedTuple):
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
     """Raise `NoWalk` for a node that is not in the graph.
 
-    Examples
-    --------
-    >>> from mocap import datasets, graphs
-    >>> graph = graphs.from_transitions([datasets.sample("walk_curve_1")], [], window=10)
-    >>> require_node(graph, (0, 7))
-    Traceback (most recent call last):
-    mocap.errors.NoWalk: The graph has no node (0, 7); the nearest is (0, 0).
-
     Notebook: 07-walks-and-search
     """
     if node not in motion_graph.graph:
-        clip, frame = node
-        near = min(
-            (n for n in motion_graph.graph if n[0] == clip), key=lambda n: abs(n[1] - frame), default=None
-        )
+        of_clip = [n for n in motion_graph.graph if n[0] == node[0]]
+        near = min(of_clip, key=lambda n: abs(n[1] - node[1]), default=None)
         help_ = f"; the nearest is {near}" if near else ", and none in that clip"
         raise NoWalk(f"The graph has no node {node}{help_}.")
 
@@ -99,29 +89,25 @@ def frame_table(edges: EdgeTable, window: int) -> FrameTable:
     """List the clip frames and the weight of which each frame of some edges is made [KGP02, Eqs. 5-7].
 
     No frame is part of two blends: a transition enters its clip at the frame after its window, and the next
-    transition leaves at this frame or later.
-
-    Examples
-    --------
-    A transition of 10 frames from frame 60 into frame 20 blends frames 60 to 69 with frames 10 to 19:
-
-    >>> from mocap import body, datasets, graphs, matching
-    >>> clip = body.resample(datasets.sample("walk_circle"), 30)
-    >>> back = matching.Transition(0, 60, 0, 10, 0.02, body.PlanarTransform(0, 0, 0))
-    >>> graph = graphs.from_transitions([clip], [back], window=10)
-    >>> table = frame_table(edge_table(graph, [((0, 60), (0, 20), 0)]), window=10)
-    >>> table.here[0].tolist(), table.there[0].tolist(), table.there[-1].tolist()
-    ([0, 60], [0, 10], [0, 19])
+    transition leaves at this frame or later. A transition of 10 frames from frame 60 into frame 20 blends
+    frames 60 to 69 with frames 10 to 19.
     """
     edge = np.repeat(np.arange(len(edges.frames)), edges.frames)
     step = ranges(np.zeros_like(edges.frames), edges.frames)  # frames since the edge's first
     here, there = edges.leaves[edge], edges.enters[edge]
     here[:, 1] += step
     there[:, 1] += step - edges.frames[edge]
-    alpha = np.ones(len(edge))
     blended = edges.blended[edge]
+    alpha = np.ones(len(edge))
     alpha[blended] = cubic_weights(window)[step[blended]]
     return FrameTable(edge, here, there, alpha)
+
+
+def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
+    """Find the rows of frames (N, 2) among those of all clips, in order; outside a clip, of the nearest frame."""
+    lengths = np.array([len(clip) for clip in clips])
+    clip, frame = frames.T
+    return np.asarray((np.cumsum(lengths) - lengths)[clip] + np.clip(frame, 0, lengths[clip] - 1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,17 +124,6 @@ class Hops:
     last : shape (H,), the last edge of a hop: a transition or a stretch of clip.
     starts, counts : shape (H, 2), the rows of frames that a hop plays, among the frames of all edges:
         first those of the stretches before the last edge, then those of the last edge.
-
-    Examples
-    --------
-    Every hop from node 0 of this graph lasts at least 1/6 s, 5 frames:
-
-    >>> from mocap import body, datasets, graphs
-    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
-    >>> graph = graphs.compile_graph(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
-    >>> of, hops = graph.hops.leaving(np.array([0]))
-    >>> bool((graph.hops.frames[hops] >= 5).all())
-    True
     """
 
     first: Indices
@@ -172,13 +147,12 @@ class Hops:
     def rows(self, hops: Indices) -> tuple[Indices, Indices]:
         """List the rows of all frames that some hops play, and the index in `hops` that each belongs to."""
         rows = ranges(self.starts[hops].ravel(), self.counts[hops].ravel())
-        return rows, np.repeat(np.arange(len(hops)), self.counts[hops].sum(axis=1))
+        return rows, np.repeat(np.arange(len(hops)), self.frames[hops])
 
     def edges(self, hops: Indices) -> Indices:
         """List the edges of some hops, in order."""
-        rides = self.rides[hops]
         first = np.stack([self.ride[hops], self.last[hops]], axis=1)
-        return ranges(first.ravel(), np.stack([rides, np.ones_like(rides)], axis=1).ravel())
+        return ranges(first.ravel(), np.stack([self.rides[hops], np.ones_like(hops)], axis=1).ravel())
 
 
 def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops:
@@ -193,34 +167,29 @@ def find_hops(edges: EdgeTable, leaves: Indices, nodes: int, fps: float) -> Hops
     nodes : the number of nodes.
     fps : frames per second.
     """
-    rides = np.flatnonzero(~edges.blended)
-    onward = np.full(nodes + 1, -1)  # the stretch that leaves each node
-    onward[leaves[rides]] = rides
-    first = np.searchsorted(leaves[len(rides) :], np.arange(nodes + 1)) + len(rides)
-    # The hops that still follow their clip: the node where they are, and the frames so far.
-    here, ridden = np.arange(nodes), np.zeros(nodes, np.intp)
-    origin, count, found = np.arange(nodes), 0, []
-    while len(here):
-        ways = first[here + 1] - first[here]
-        origins = np.repeat(origin, ways)
-        found.append((origins, np.full(len(origins), count), ranges(first[here], ways)))
-        riding = onward[here] >= 0
-        origin, here, stretch = origin[riding], here[riding] + 1, onward[here[riding]]
-        ridden, count = ridden[riding] + edges.frames[stretch], count + 1
-        # A hop ends when it has lasted long enough, or its clip ends.
-        over = (ridden >= HOP * fps) | ((onward[here] < 0) & (first[here] == first[here + 1]))
-        found.append((origin[over], np.full(over.sum(), count - 1), stretch[over]))
-        here, origin, ridden = here[~over], origin[~over], ridden[~over]
-    start, rides, last = (np.concatenate(column) for column in zip(*found, strict=True))
-    order = np.argsort(start, kind="stable")
-    ride, rides, last = onward[start[order]], rides[order], last[order]
-    leaving = np.searchsorted(start[order], np.arange(nodes + 1))
-    return Hops(leaving, ride, rides, last, *_played(edges, ride, rides, last))
-
-
-def _played(edges: EdgeTable, ride: Indices, rides: Indices, last: Indices) -> tuple[Indices, Indices]:
-    """Find the rows of frames that hops play; the stretches of a hop lie one after the other."""
-    ends = np.cumsum(edges.frames)
-    starts = np.stack([ends[ride] - edges.frames[ride], ends[last] - edges.frames[last]], axis=1)
-    ridden = np.where(rides > 0, ends[ride + rides - 1] - starts[:, 0], 0)
-    return starts, np.stack([ridden, edges.frames[last]], axis=1)
+    stretches = np.flatnonzero(~edges.blended)
+    onward = np.full(nodes, -1)  # the stretch that leaves each node
+    onward[leaves[stretches]] = stretches
+    first = np.searchsorted(leaves[len(stretches) :], np.arange(nodes + 1)) + len(stretches)
+    ride, ways, frames = onward.tolist(), first.tolist(), edges.frames.tolist()
+    found = []  # the node that a hop leaves, the stretches before its last edge, and this edge
+    for node in range(nodes):
+        here, ridden, over = node, 0, False
+        while not over:
+            found += [(node, here - node, way) for way in range(ways[here], ways[here + 1])]
+            if ride[here] < 0:
+                break
+            ridden, here = ridden + frames[ride[here]], here + 1
+            # A hop ends when it has lasted long enough, or where nothing leaves its clip's end.
+            over = ridden >= HOP * fps or (ride[here] < 0 and ways[here] == ways[here + 1])
+        if over:
+            found.append((node, here - node - 1, ride[here - 1]))
+    start, rides, last = np.array(found).T
+    # The stretches of a hop lie one after the other, and so do their frames.
+    before = np.concatenate([[0], np.cumsum(edges.frames)])
+    begin, end = np.stack([onward[start], last], axis=1), np.stack([onward[start] + rides, last + 1], axis=1)
+    end[rides == 0, 0] = begin[rides == 0, 0]
+    counts = before[end] - before[begin]
+    return Hops(
+        np.searchsorted(start, np.arange(nodes + 1)), onward[start], rides, last, before[begin], counts
+    )

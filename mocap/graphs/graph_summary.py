@@ -9,7 +9,7 @@ import numpy as np
 from mocap._shared.atomic import replacing
 from mocap.errors import MocapError
 from mocap.graphs.components import Labels, reached
-from mocap.graphs.motion_graph import MotionGraph
+from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.graphs.pruning import name
 
 
@@ -44,10 +44,8 @@ class Summary(NamedTuple):
             ("turn-off", wait if np.isfinite(self.worst_wait) else "none before the end of some clip"),
         ]
         if len(self.reachable) > 1:
-            rows += [
-                (name(here), f"leads to {', '.join(sorted(map(name, there))) or 'nothing else'}")
-                for here, there in self.reachable.items()
-            ]
+            for here, there in self.reachable.items():
+                rows.append((name(here), f"leads to {', '.join(sorted(map(name, there))) or 'nothing else'}"))
         return "\n".join(f"{what:<12} {text}" for what, text in rows)
 
 
@@ -74,43 +72,29 @@ def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:
 
     Notebook: 05b-choice-points
     """
-    transitions = [edge["kind"] == "transition" for _, _, edge in graph.edges(data=True)]
-    frames, mean_wait, worst_wait = _waits(graph)
-    return Summary(
-        frames,
-        frames / fps,
-        graph.number_of_nodes(),
-        graph.number_of_edges(),
-        sum(transitions),
-        graph.number_of_edges() / max(graph.number_of_nodes(), 1),
-        mean_wait / fps,
-        worst_wait / fps,
-        _reachable(graph),
-    )
+    kinds = [kind for _, _, kind in graph.edges(data="kind")]
+    frames, mean, worst = _waits(graph)
+    nodes, degree = len(graph), len(kinds) / max(len(graph), 1)
+    counts = (frames, frames / fps, nodes, len(kinds), kinds.count("transition"), degree)
+    return Summary(*counts, mean / fps, worst / fps, _reachable(graph))
 
 
 def _waits(graph: nx.MultiDiGraph) -> tuple[int, float, float]:
     """Count the frames of clip, and the frames from them to the next turn-off: on average, and at worst."""
     turn_offs = {node for node, _, kind in graph.edges(data="kind") if kind == "transition"}
     stretches = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "clip"]
-    ahead: dict[tuple[int, int], float] = {}  # from a node to the next turn-off
-    frames, total, worst = 0, 0.0, 0.0
+    ahead: dict[Node, float] = dict.fromkeys(turn_offs, 0.0)  # from a node to the next turn-off
+    waits = []
     for start, end in sorted(stretches, reverse=True):  # from the end, so that the next stretch is known
-        after = 0.0 if end in turn_offs else ahead.get(end, np.inf)
-        length = end[1] - start[1]
-        ahead[start] = length + after
-        # The frames wait length + after, … 1 + after; a first frame that is a turn-off does not wait.
-        skipped = 1 if start in turn_offs else 0
-        frames += length
-        if length > skipped:
-            total += (length - skipped) * (after + (length - skipped + 1) / 2)
-            worst = max(worst, length - skipped + after)
-    return frames, total / max(frames, 1), worst
+        own = ahead.get(end, np.inf) + np.arange(end[1] - start[1], 0, -1)
+        ahead.setdefault(start, float(own[0]))
+        waits += [ahead[start], *own[1:].tolist()]
+    return len(waits), sum(waits) / max(len(waits), 1), max(waits, default=0.0)
 
 
 def _reachable(graph: nx.MultiDiGraph) -> dict[Labels, frozenset[Labels]]:
     """Find for each label set of the clips the others that a walk can reach from it."""
-    starts: dict[Labels, set[tuple[int, int]]] = {}
+    starts: dict[Labels, set[Node]] = {}
     for start, _, edge in graph.edges(data=True):
         if edge["kind"] == "clip":
             starts.setdefault(edge["labels"], set()).add(start)
@@ -140,18 +124,13 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
     if unfit := [name for name in names if not name.isprintable()]:
         raise MocapError(f"GraphML cannot hold the clip's name {unfit[0]!r}.")
     for clip, frame in motion_graph.graph:
-        plain.add_node(
-            f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=frame / motion_graph.fps
-        )
+        seconds = frame / motion_graph.fps
+        plain.add_node(f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=seconds)
     for (a, leave), (b, enter), key, edge in motion_graph.graph.edges(keys=True, data=True):
-        fields: dict[str, Any] = {
-            "kind": edge["kind"],
-            "frames": edge["frames"],
-            "labels": "+".join(sorted(edge["labels"])),
-        }
+        fields: dict[str, Any] = {**edge, "labels": "+".join(sorted(edge["labels"]))}
         if edge["kind"] == "transition":
-            fields |= {"cost": float(edge["cost"])}
-            fields |= {name: float(number) for name, number in edge["transform"]._asdict().items()}
+            numbers = {"cost": edge["cost"], **fields.pop("transform")._asdict()}
+            fields |= {name: float(number) for name, number in numbers.items()}
         plain.add_edge(f"{names[a]}:{leave}", f"{names[b]}:{enter}", key, **fields)
     with replacing(path) as beside:
         nx.write_graphml_xml(plain, beside)

@@ -1,19 +1,20 @@
 """Which threshold? The size and quality of the motion graph at many of them, from one list of transitions."""
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body.kinematics import velocities
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.components import largest_component
-from mocap.graphs.motion_graph import MotionGraph, from_transitions
+from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transitions, find_transitions
 
@@ -35,24 +36,16 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]
-    low, high = 0, len(found)
-    # Invariant: the first `low` transitions make no cycle; the first `high` + 1 do, or `high` is all of them.
-    while low < high:
-        middle = (low + high) // 2
-        if _has_cycle(from_transitions(clips, found[: middle + 1], window=window)):
-            high = middle
-        else:
-            low = middle + 1
-    if low == len(found):
+
+    def has_cycle(last: int) -> bool:
+        graph = from_transitions(clips, found[: last + 1], window=window).graph
+        return not nx.is_directed_acyclic_graph(graph)
+
+    first = bisect_left(range(len(found)), True, key=has_cycle)  # a cycle stays one with more transitions
+    if first == len(found):
         raise NoWalk("No two windows of these clips join into a cycle: add clips that start and end alike.")
-    return found[low].cost
+    return found[first].cost
 
-
-def _has_cycle(motion_graph: MotionGraph) -> bool:
-    return not nx.is_directed_acyclic_graph(motion_graph.graph)
-
-
-Counts = NDArray[np.intp]
 
 AT_ONCE = 4096  # transitions measured together, to limit the memory
 
@@ -68,10 +61,10 @@ class ThresholdCurve(NamedTuple):
     """
 
     threshold: Array
-    transitions: Counts
-    nodes: Counts
-    edges: Counts
-    frames: Counts
+    transitions: Indices
+    nodes: Indices
+    edges: Indices
+    frames: Indices
     cost: Array
     gap: Array
 
@@ -151,15 +144,14 @@ def threshold_curve(
     frames = np.array([_largest(places, ends, leave[:count], enter[:count]) for count in counts], np.intp)
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
     gaps = velocity_gaps(clips, transitions, window=window)
-    cost, gap = (
-        np.cumsum([0.0, *column])[counts] / np.maximum(counts, 1) for column in (transitions.cost, gaps)
-    )
+    sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, gaps)]
+    cost, gap = sums / np.maximum(counts, 1)
     return ThresholdCurve(values, counts, nodes, edges, frames, cost, gap)
 
 
 def _places(
     clips: Sequence[Motion], transitions: Transitions, window: int
-) -> tuple[Counts, Counts, Counts, Counts]:
+) -> tuple[Indices, Indices, Indices, Indices]:
     """Give numbers to the nodes of the graph with all transitions, in the order of clips and frames.
 
     Returns each node's place on a line on which the clips follow one another, then the node numbers of the
@@ -179,11 +171,10 @@ def _places(
     return places, ends, leave, enter
 
 
-def _largest(places: Counts, ends: Counts, leave: Counts, enter: Counts) -> int:
+def _largest(places: Indices, ends: Indices, leave: Indices, enter: Indices) -> int:
     """Count the frames that the largest strongly connected component plays."""
-    before = np.setdiff1d(
-        np.arange(len(places)), ends[len(ends) // 2 :]
-    )  # a stretch of clip leaves every node but the ends of clips
+    # A stretch of clip leaves every node but the ends of clips.
+    before = np.setdiff1d(np.arange(len(places)), ends[len(ends) // 2 :])
     tails, heads = np.concatenate([before, leave]), np.concatenate([before + 1, enter])
     frames = np.zeros(len(tails), np.intp)
     frames[: len(before)] = places[before + 1] - places[before]
@@ -217,12 +208,10 @@ def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: 
     """
     moving = np.concatenate([velocities(point_cloud(clip), clip.fps) for clip in clips])  # (frames, P, 3)
     middles = np.cumsum([0, *(len(clip) for clip in clips)]) + window // 2
-    gaps = np.empty(len(transitions))
-    for first in range(0, len(gaps), AT_ONCE):
+    gaps = [np.zeros(0)]
+    for first in range(0, len(transitions), AT_ONCE):
         some = transitions[first : first + AT_ONCE]
         turn = PlanarTransform(np.asarray(some.transform.angle)[:, None], 0.0, 0.0)
-        apart = moving[middles[some.source] + some.leave] - turn.apply_points(
-            moving[middles[some.target] + some.enter]
-        )
-        gaps[first : first + AT_ONCE] = np.sqrt((apart**2).sum(-1).mean(-1))
-    return gaps
+        here, there = moving[middles[some.source] + some.leave], moving[middles[some.target] + some.enter]
+        gaps.append(np.sqrt(((here - turn.apply_points(there)) ** 2).sum(-1).mean(-1)))
+    return np.concatenate(gaps)

@@ -14,7 +14,6 @@ from typing import Protocol
 import numpy as np
 
 from mocap._shared.arrays import Points
-from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.steering.characters import Character, Pose
 
@@ -87,6 +86,7 @@ class FootTurner:
         if not 0 <= rate < np.inf:
             raise MocapError(f"A figure turns by a finite rate from 0 on, got {rate} radians per second.")
         self.character, self.rate = character, rate
+        self.skeleton, self.fps = character.skeleton, character.fps
         # The root's way on the ground in the last third of a second, as it would be without any turn, and the
         # turn so far: so what was turned shows at once. If it showed only as the walk goes on, the figure
         # would turn too far and back, for ever: a straight walk would wag by 18°.
@@ -96,16 +96,6 @@ class FootTurner:
         self.pivot = 0j  # the foot that stands
         self.angle = 0.0  # by which the last frame was turned, radians
         self.turned = np.zeros(0)  # by how much each foot was turned since it stands, radians
-
-    @property
-    def skeleton(self) -> Skeleton:
-        """The joints that the poses move."""
-        return self.character.skeleton
-
-    @property
-    def fps(self) -> float:
-        """Steps per second."""
-        return self.character.fps
 
     @property
     def frames_left(self) -> int:

@@ -6,18 +6,15 @@ from functools import cached_property
 import numpy as np
 
 from mocap._shared.arrays import Array, Points
-from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, on_ground
-from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
-from mocap.steering.characters import Pose
-from mocap.steering.look_ahead import Command, WalksAhead, lengthen, look_ahead_by, start_walk
+from mocap.steering.characters import Pose, place_frames, require_command
+from mocap.steering.look_ahead import Command, LookAhead, WalksAhead
 
 LONGEST, WIDEST = 60.0, 10_000  # seconds to look ahead, walks that stay in each round
 
@@ -69,7 +66,8 @@ class Controller:
                 f"A character looks ahead from a frame to {LONGEST:g} s, and keeps 1 to {WIDEST} walks; "
                 f"got {ahead} s and {width}."
             )
-        self.ahead = look_ahead_by(self.graph, ahead, width)
+        self.skeleton, self.fps = self.graph.source.clips[0].skeleton, self.graph.fps
+        self.ahead = LookAhead(self.graph, ahead, width)
         self.edges: list[int] = []  # still to be played; the first one is under way
         self.frame = 0  # of the first edge
         self.turn, self.move = 1 + 0j, 0j  # place its clip: p ↦ turn · p + move
@@ -92,10 +90,8 @@ class Controller:
         MocapError : for a heading or speed that is no finite number, or a speed below 0.
         NoWalk : for a label that no clip of the graph has.
         """
-        if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
-            raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
-        velocity = speed * complex(np.exp(1j * heading))
-        command = Command(velocity, self.graph.label_number(label))
+        require_command(heading, speed)
+        command = Command(speed * complex(np.exp(1j * heading)), self.graph.label_number(label))
         if command != self.command:
             self.command = command
             self._restart()
@@ -105,19 +101,8 @@ class Controller:
             self._choose()
         elif not self.decided:
             self._look()
-        pose = pose_on_edge(self.graph, self.edges[0], self.frame, self.turn, self.move)
         self.frame += 1
-        return pose
-
-    @property
-    def skeleton(self) -> Skeleton:
-        """The joints of the graph's clips."""
-        return self.graph.source.clips[0].skeleton
-
-    @property
-    def fps(self) -> float:
-        """Frames per second, those of the graph."""
-        return self.graph.fps
+        return self._pose()
 
     @property
     def frames_left(self) -> int:
@@ -136,13 +121,11 @@ class Controller:
         """
         if not self.frame:
             raise MocapError("Feet are those of the last pose: take a step first.")
-        edge, frame, graph = self.edges[0], self.frame - 1, self.graph
-        (clip, first), (other, end), _ = graph.edges[edge]
-        feet = self._feet[clip][first + frame]
+        graph, (edge, here, there, alpha) = self.graph, self._played()
+        feet = self._feet[here[0]][here[1]]
         if graph.blended[edge]:
-            there = graph.turn[edge] * self._feet[other][end - graph.source.window + frame]
-            alpha = self._weights[frame]
-            feet = alpha * feet + (1 - alpha) * (there + graph.move[edge])
+            laid = graph.turn[edge] * self._feet[there[0]][there[1]] + graph.move[edge]
+            feet = alpha * feet + (1 - alpha) * laid
         return np.asarray(self.turn * feet + self.move)
 
     def turn_about(self, point: complex, angle: float) -> None:
@@ -161,17 +144,42 @@ class Controller:
         joints = [joint for leg in find_legs(self.skeleton) for joint in (leg.ankle, leg.ball)]
         return [on_ground(joint_positions(clip)[:, joints]) for clip in self.graph.source.clips]
 
-    @cached_property
-    def _weights(self) -> Array:
-        return cubic_weights(self.graph.source.window)
+    def _played(self) -> tuple[int, Node, Node, float]:
+        """Give the edge under way, and the two clip frames and the weight that its last frame is made of."""
+        graph, edge = self.graph, self.edges[0]
+        row = graph.tracks.first[edge] + self.frame - 1
+        here, there = (clips[row].tolist() for clips in (graph.plays.here, graph.plays.there))
+        return edge, here, there, float(graph.plays.alpha[row])
+
+    def _pose(self) -> Pose:
+        """Take the last frame from its clip, or blend it from two clips in a transition."""
+        graph, (edge, here, there, alpha) = self.graph, self._played()
+        root, turns = self._placed(here, self.turn, self.move)
+        blending = bool(graph.blended[edge])
+        if blending:
+            turn, move = (
+                self.turn * complex(graph.turn[edge]),
+                self.move + self.turn * complex(graph.move[edge]),
+            )
+            other, turned = self._placed(there, turn, move)
+            root, turns = alpha * root + (1 - alpha) * other, rotations.slerp(turned, turns, np.array(alpha))
+        clip, frame = here if alpha >= 0.5 else there
+        marks = graph.source.clips[clip].contacts.items()
+        return Pose(root, turns, blending, {name: bool(mark[frame]) for name, mark in marks})
+
+    def _placed(self, at: Node, turn: complex, move: complex) -> tuple[Array, Array]:
+        """Place one frame of a clip: root position and rotations."""
+        clip, frame = self.graph.source.clips[at[0]], at[1]
+        place = PlanarTransform.from_complex(turn, move)
+        return place_frames(place, clip.root_positions[frame], clip.rotations[frame])
 
     def _restart(self) -> None:
         """Look ahead anew, from the end of the hop under way."""
-        self.walks, self.decided = start_walk(self.node, self.end_turn), False
+        self.walks, self.decided = self.ahead.start(self.node, self.end_turn), False
 
     def _look(self) -> None:
         """Look ahead by one round; without longer walks the choice is clear."""
-        longer = lengthen(self.ahead, self.walks, self.command)
+        longer = self.ahead.longer(self.walks, self.command)
         self.walks, self.decided = longer or self.walks, longer is None
 
     def _choose(self) -> None:
@@ -193,36 +201,3 @@ class Controller:
         self.turn *= complex(self.graph.turn[edge])
         self.turn /= abs(self.turn)  # stays of length 1 on walks of any length
         self.frame = 0
-
-
-def pose_on_edge(graph: CompiledGraph, edge: int, frame: int, turn: complex, move: complex) -> Pose:
-    """Take a frame of an edge from its clip, or blend it from two clips in a transition.
-
-    `turn` and `move` place the clip that the edge leaves: p ↦ turn · p + move.
-    """
-    (clip, first), (other, end), _ = graph.edges[edge]
-    clips, window = graph.source.clips, graph.source.window
-    root, turns = _placed(clips[clip], first + frame, turn, move)
-    if not graph.blended[edge]:
-        return Pose(root, turns, blending=False, contacts=_contacts(clips[clip], first + frame))
-    move += turn * complex(graph.move[edge])
-    turn *= complex(graph.turn[edge])
-    there = _placed(clips[other], end - window + frame, turn, move)
-    alpha = cubic_weights(window)[frame]
-    mixed = alpha * root + (1 - alpha) * there[0]
-    owner = (clips[clip], first + frame) if alpha >= 0.5 else (clips[other], end - window + frame)
-    pose = rotations.slerp(there[1], turns, np.array(alpha))
-    return Pose(mixed, pose, blending=True, contacts=_contacts(*owner))
-
-
-def _contacts(clip: Motion, frame: int) -> dict[str, bool]:
-    """Say which joints stand in a frame of a clip."""
-    return {name: bool(mark[frame]) for name, mark in clip.contacts.items()}
-
-
-def _placed(motion: Motion, frame: int, turn: complex, move: complex) -> tuple[Array, Array]:
-    """Place one frame: root position and rotations."""
-    place = PlanarTransform.from_complex(turn, move)
-    turns = motion.rotations[frame].copy()
-    turns[0] = place.apply_orientations(turns[0])
-    return place.apply_points(motion.root_positions[frame]), turns

@@ -7,7 +7,6 @@ the label of the command adds `LABEL`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -44,72 +43,59 @@ class WalksAhead(NamedTuple):
     cost: Array
 
 
-@dataclass(frozen=True, eq=False)
 class LookAhead:
-    """What stays the same while a character walks.
+    """How a controlled character looks ahead on a compiled graph, with H hops and L labels.
 
     Parameters
     ----------
-    graph : the compiled graph, with H hops and L labels.
-    horizon : frames to look ahead.
+    graph : the compiled graph.
+    seconds : to look ahead.
     width : walks that stay in each round.
-    moved : shape (H,), the root's way on the ground over each hop, in the coordinates of the clip it leaves.
-    price : shape (H,), `SEAM` for a hop with a transition, else 0.
-    lacks : shape (L, H), seconds of each hop without each label.
     """
 
-    graph: CompiledGraph
-    horizon: float
-    width: int
-    moved: Points
-    price: Array
-    lacks: Array
+    def __init__(self, graph: CompiledGraph, seconds: float, width: int) -> None:
+        hops, bears = graph.hops, graph.labels.bears
+        self.graph, self.horizon, self.width = graph, seconds * graph.fps, width
+        # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
+        leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
+        end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
+        self.moved = end - graph.at[leaves]
+        self.seconds = hops.frames / graph.fps
+        self.price = np.where(graph.blended[hops.last], SEAM, 0.0)
+        without = np.pad(np.cumsum(~bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
+        played = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
+        self.lacks = played.sum(axis=-1) / graph.fps
 
+    def start(self, node: int, turn: complex) -> WalksAhead:
+        """Start with one walk without hops, at a node whose clip is turned by `turn`."""
+        none = np.zeros(1, np.intp)
+        return WalksAhead(none - 1, none + node, np.array([turn]), none, np.zeros(1))
 
-def look_ahead_by(graph: CompiledGraph, seconds: float, width: int) -> LookAhead:
-    """Measure how far each hop moves the root, what it costs, and how long it lacks each label."""
-    hops = graph.hops
-    start = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
-    end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
-    price = np.where(graph.blended[hops.last], SEAM, 0.0)
-    lacks = np.pad(np.cumsum(~graph.labels.bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
-    played: Indices = lacks[:, hops.starts + hops.counts] - lacks[:, hops.starts]  # (L, H, 2)
-    lacked = played.sum(axis=-1) / graph.fps
-    return LookAhead(graph, seconds * graph.fps, width, end - graph.at[start], price, lacked)
+    def longer(self, walks: WalksAhead, command: Command) -> WalksAhead | None:
+        """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
 
-
-def start_walk(node: int, turn: complex) -> WalksAhead:
-    """Start with one walk without hops, at a node whose clip is turned by `turn`."""
-    none = np.zeros(1, np.intp)
-    return WalksAhead(none - 1, none + node, np.array([turn]), none, np.zeros(1))
-
-
-def lengthen(ahead: LookAhead, walks: WalksAhead, command: Command) -> WalksAhead | None:
-    """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
-
-    Returns
-    -------
-    The `width` walks with the lowest cost per frame, the best first; None where no walk can be longer.
-    """
-    graph, hops = ahead.graph, ahead.graph.hops
-    short = walks.frames < ahead.horizon
-    of, hop = hops.leaving(walks.node[short])
-    if not len(hop):
-        return None
-    of = np.flatnonzero(short)[of]
-    seconds, last = hops.frames[hop] / graph.fps, hops.last[hop]
-    off = walks.turn[of] * ahead.moved[hop] - command.velocity * seconds
-    cost = (off.real**2 + off.imag**2) / seconds + ahead.price[hop]
-    if command.label >= 0:
-        cost += LABEL * ahead.lacks[command.label, hop]
-    longer = WalksAhead(
-        np.where(walks.first[of] < 0, hop, walks.first[of]),
-        graph.target[last],
-        walks.turn[of] * graph.turn[last],
-        walks.frames[of] + hops.frames[hop],
-        walks.cost[of] + cost,
-    )
-    both = [np.concatenate([old[~short], new]) for old, new in zip(walks, longer, strict=True)]
-    walks = WalksAhead._make(both)
-    best = np.argsort(walks.cost / walks.frames)[: ahead.width]
-    return WalksAhead._make(values[best] for values in walks)
+        Returns
+        -------
+        The `width` walks with the lowest cost per frame, the best first; None where no walk can be longer.
+        """
+        graph, hops = self.graph, self.graph.hops
+        short = walks.frames < self.horizon
+        of, hop = hops.leaving(walks.node[short])
+        if not len(hop):
+            return None
+        of, last = np.flatnonzero(short)[of], hops.last[hop]
+        off = walks.turn[of] * self.moved[hop] - command.velocity * self.seconds[hop]
+        cost = (off.real**2 + off.imag**2) / self.seconds[hop] + self.price[hop]
+        if command.label >= 0:
+            cost += LABEL * self.lacks[command.label, hop]
+        longer = WalksAhead(
+            np.where(walks.first[of] < 0, hop, walks.first[of]),
+            graph.target[last],
+            walks.turn[of] * graph.turn[last],
+            walks.frames[of] + hops.frames[hop],
+            walks.cost[of] + cost,
+        )
+        both = [np.concatenate([old[~short], new]) for old, new in zip(walks, longer, strict=True)]
+        walks = WalksAhead._make(both)
+        best = np.argsort(walks.cost / walks.frames)[: self.width]
+        return WalksAhead._make(values[best] for values in walks)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.ndimage import minimum_filter1d
 
-from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, place
 from mocap.errors import MocapError
@@ -83,8 +83,7 @@ class Choices(NamedTuple):
 
     def take(self, rows: Indices | Mask) -> Choices:
         """Take some of the frames."""
-        stretch, since, turn, move, off = self
-        return Choices(stretch[rows], since[rows], turn[rows], move[rows], off[rows])
+        return Choices._make(values[rows] for values in self)
 
 
 def choices(graph: CompiledGraph, moment: Moment, *, way: int, most: int) -> Choices:
@@ -107,17 +106,18 @@ def choices(graph: CompiledGraph, moment: Moment, *, way: int, most: int) -> Cho
     own, step = (way * max(1, round(AHEAD * fps)) for fps in (moment.motion.fps, graph.fps))
     poses = [moment.placed(), *([moment.placed(own)] if moment.has(own) else [])]
     asked = np.concatenate([point_cloud(pose)[0] for pose in poses])
-    stretches = np.flatnonzero(~graph.blended)
-    count = graph.frames[stretches]
-    first = np.array([graph.edges[edge][0] for edge in stretches])
-    stretch, since = np.repeat(stretches, count), ranges(0 * stretches, count)
-    clip, frame = np.repeat(first[:, 0], count), np.repeat(first[:, 1], count) + since
+    edge = graph.plays.edge
+    rows = np.flatnonzero(~graph.blended[edge])
+    clip, frame = graph.plays.here[rows].T
     parts: list[tuple[NDArray[Any], ...]] = []
     for number in np.unique(clip):
-        mine = np.flatnonzero(clip == number)
-        off, laid = _distances(asked, graph.source.clips[number], frame[mine], step)
-        good = _least(off, frame[mine], abs(step))
-        parts.append((stretch[mine[good]], since[mine[good]], laid.turn[good], laid.move[good], off[good]))
+        mine = rows[clip == number]
+        frames = frame[clip == number]
+        off, laid = _distances(asked, graph.source.clips[number], frames, step)
+        good = _least(off, frames, abs(step))
+        row = mine[good]
+        since = row - graph.tracks.first[edge[row]]
+        parts.append((edge[row], since, laid.turn[good], laid.move[good], off[good]))
     found = Choices(*(np.concatenate(numbers) for numbers in zip(*parts, strict=True)))
     return found.take(np.argsort(found.off, kind="stable")[:most])
 

@@ -11,11 +11,11 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, from_ground, heading, on_ground
+from mocap.body.planar import from_ground, heading, on_ground
 from mocap.editing.path_editing import Ride, moving_frames, ride_of
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
-from mocap.graphs.edge_tables import EdgeTable, frame_table
+from mocap.graphs.edge_tables import clip_rows
 
 
 class OwnTurning(NamedTuple):
@@ -87,30 +87,22 @@ _KNOWN: WeakKeyDictionary[CompiledGraph, OwnTurning] = WeakKeyDictionary()
 
 def _follow_edges(graph: CompiledGraph) -> OwnTurning:
     """Do what `turning_of` says."""
-    source = graph.source
-    lengths = np.array([len(clip) for clip in source.clips])
-    first = np.cumsum(lengths) - lengths
-    heads, along, *place = np.concatenate([_ride(clip) for clip in source.clips], axis=1)
+    clips = graph.source.clips
+    heads, along, *place = np.concatenate([_ride(clip) for clip in clips], axis=1)
     points = on_ground(np.stack(place, axis=1))
-
-    def rows(frames: Indices) -> Indices:
-        return np.asarray(first[frames[:, 0]] + np.clip(frames[:, 1], 0, lengths[frames[:, 0]] - 1))
-
-    edges = _edges(graph)
-    frames = frame_table(edges, source.window)
-    here, there, weight = rows(frames.here), rows(frames.there), 1 - frames.alpha
-    other = heads[there] + np.asarray(edges.transform.angle)[frames.edge]
+    steps = np.diff(along, prepend=along[0])
+    steps[np.cumsum([0, *map(len, clips[:-1])])] = 0.0
+    plays, starts = graph.plays, graph.tracks.first
+    here, there, weight = clip_rows(clips, plays.here), clip_rows(clips, plays.there), 1 - plays.alpha
+    other = heads[there] + np.angle(graph.turn)[plays.edge]
     apart = (other - heads[here] + np.pi) % (2 * np.pi) - np.pi
     head = heads[here] + np.where(weight > 0, weight * apart, 0.0)
     turn = np.diff(head, prepend=0.0)
-    starts = graph.tracks.first
-    turn[starts] = head[starts] - heads[rows(edges.leaves - np.array([0, 1]))]
-    steps = np.diff(along, prepend=along[0])
-    steps[first] = 0.0
-    step = frames.alpha * steps[here] + weight * steps[there]
-    laid = graph.turn[frames.edge] * points[there] + graph.move[frames.edge]
-    ground = frames.alpha * points[here] + weight * laid
-    return OwnTurning(turn, step, ground, heads[rows(np.array(graph.nodes))])
+    turn[starts] = head[starts] - heads[clip_rows(clips, plays.here[starts] - np.array([0, 1]))]
+    step = plays.alpha * steps[here] + weight * steps[there]
+    laid = graph.turn[plays.edge] * points[there] + graph.move[plays.edge]
+    ground = plays.alpha * points[here] + weight * laid
+    return OwnTurning(turn, step, ground, heads[clip_rows(clips, np.array(graph.nodes))])
 
 
 def own_ride(graph: CompiledGraph, own: OwnTurning, edges: Indices) -> Ride:
@@ -119,18 +111,11 @@ def own_ride(graph: CompiledGraph, own: OwnTurning, edges: Indices) -> Ride:
     A spline through the whole walk would be too slow where a seam leads from a bend to the left into one to
     the right: the walk strays from its own path there, and from a line on which it is laid, by up to 10 cm.
     """
-    paths = replace(graph, tracks=replace(graph.tracks, ground=own.ground))
+    paths = replace(graph, tracks=graph.tracks._replace(ground=own.ground))
     points, _ = walk_track(paths, edges, 1.0, 0.0)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
     ground = from_ground(points)
     return Ride(GroundPath(ground), along, ground)
-
-
-def _edges(graph: CompiledGraph) -> EdgeTable:
-    """Put the edges of a compiled graph into a table, which is faster than to look each of them up."""
-    leaves, enters = np.array([start for start, _, _ in graph.edges]), np.array(graph.nodes)[graph.target]
-    place = PlanarTransform.from_complex(graph.turn, graph.move)
-    return EdgeTable(leaves, enters, graph.frames, graph.blended, graph.cost, place)
 
 
 def _ride(clip: Motion) -> Array:

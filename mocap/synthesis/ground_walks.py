@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Points
-from mocap.graphs.compiled_graph import compile_graph
+from mocap.graphs.compiled_graph import CompiledGraph, compile_graph, walk_track
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.synthesis.bounded_search import Problem, SearchEdge
 
@@ -20,11 +20,15 @@ Price = Callable[[Points, int, SearchEdge], float]
 
 
 class Stand(NamedTuple):
-    """Where a walk has led: what comes next is placed by p ↦ turn · p + move; so many frames are walked."""
+    """Where a walk has led: what comes next is placed by p ↦ turn · p + move.
+
+    So many `frames` are walked; and where a path is followed, it is `along` metres along it.
+    """
 
     turn: complex
     move: complex
     frames: int = 0
+    along: float = 0.0
 
 
 class GroundWalks:
@@ -50,7 +54,7 @@ class GroundWalks:
     Notebook: 07b-searching-ahead
     """
 
-    def __init__(self, motion_graph: MotionGraph) -> None:
+    def __init__(self, motion_graph: MotionGraph | CompiledGraph) -> None:
         self.graph = compile_graph(motion_graph)
         self.number: dict[SearchEdge, int] = {edge: n for n, edge in enumerate(self.graph.edges)}
 
@@ -59,22 +63,22 @@ class GroundWalks:
         turn = np.exp(-1j * self.graph.going[number])
         return self.graph.nodes[number], Stand(turn, -turn * self.graph.at[number])
 
+    def rows(self, edge: SearchEdge) -> slice:
+        """Give the rows of an edge's frames among those of all edges."""
+        first = self.graph.tracks.first[self.number[edge]]
+        return slice(first, first + self.graph.frames[self.number[edge]])
+
     def step(self, stand: Stand, edge: SearchEdge) -> tuple[Points, Stand]:
         """Walk along an edge: give the root in each of its frames, and where it leads."""
-        e, tracks = self.number[edge], self.graph.tracks
-        frames = int(self.graph.frames[e])
-        points = stand.turn * tracks.ground[tracks.first[e] : tracks.first[e] + frames] + stand.move
-        turn, move = self.graph.turn[e], self.graph.move[e]
-        after = Stand(stand.turn * turn, stand.move + stand.turn * move, stand.frames + frames)
-        return points, after
+        graph, e = self.graph, self.number[edge]
+        points = stand.turn * graph.tracks.ground[self.rows(edge)] + stand.move
+        turn, move = stand.turn * graph.turn[e], stand.move + stand.turn * graph.move[e]
+        return points, Stand(turn, move, stand.frames + int(graph.frames[e]), stand.along)
 
     def points(self, walk: Sequence[SearchEdge], stand: Stand) -> Points:
         """Give the root in each frame of a walk."""
-        found = []
-        for edge in walk:
-            points, stand = self.step(stand, edge)
-            found.append(points)
-        return np.concatenate(found)
+        edges = np.array([self.number[edge] for edge in walk])
+        return walk_track(self.graph, edges, stand.turn, stand.move)[0]
 
     def problem(self, price: Price, *, frames: float = math.inf) -> Problem:
         """Make a search problem: each edge costs what `price` says; a walk of so many frames is complete."""

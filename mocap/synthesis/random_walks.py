@@ -51,16 +51,28 @@ def random_walk(
 
     Notebook: 07-walks-and-search
     """
-    if not (np.isfinite(seconds) and seconds > 0):
-        raise MocapError(f"A walk must last longer than 0 s, got {seconds} s.")
+    edges = wander(motion_graph, seed=seed, settle=settle, start=start)
+    return next(cut_walk(motion_graph, edges, seconds))
+
+
+def cut_walk(
+    motion_graph: MotionGraph, edges: Iterator[Edge], seconds: float, piece: float = np.inf
+) -> Iterator[list[Edge]]:
+    """Cut a walk without end into pieces of at least `piece` seconds, and end it after `seconds`."""
+    for name, value in (("walk", seconds), ("piece", piece)):
+        if not value > 0 or (name == "walk" and np.isinf(value)):
+            raise MocapError(f"A {name} must last longer than 0 s, got {value} s.")
+    fps, done, frames = motion_graph.fps, 0, 0
     walk: list[Edge] = []
-    frames = 0
-    for edge in wander(motion_graph, seed=seed, settle=settle, start=start):
+    for edge in edges:
         walk.append(edge)
         frames += motion_graph.graph.edges[edge]["frames"]
-        if frames >= seconds * motion_graph.clips[0].fps:
-            break
-    return walk
+        over = done + frames >= seconds * fps
+        if over or frames >= piece * fps:
+            yield walk
+            walk, done, frames = [], done + frames, 0
+        if over:
+            return
 
 
 def wander(

@@ -13,7 +13,7 @@ from mocap.feet.footskate import clean_up
 from mocap.files import bvh, gltf
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.synthesis.random_walks import wander
+from mocap.synthesis.random_walks import cut_walk, wander
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
 
 MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
@@ -49,7 +49,7 @@ def stream(
     """
     if clean:
         motion_graph = with_plants(motion_graph)
-    pieces = _motions(motion_graph, _pieces(motion_graph, seconds, seed, piece))
+    pieces = _motions(motion_graph, cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, piece))
     yield from _cleaned(pieces) if clean else pieces
 
 
@@ -124,8 +124,11 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     if suffix == ".glb" and seconds > LONGEST:
         raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
     # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
-    edges = motion_graph.graph.edges
-    counts = [sum(edges[e]["frames"] for e in walk) for walk in _pieces(motion_graph, seconds, seed, 30.0)]
+    edges, walks = (
+        motion_graph.graph.edges,
+        cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, 30.0),
+    )
+    counts = [sum(edges[edge]["frames"] for edge in walk) for walk in walks]
     pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
     shown = (next(pieces) for _ in progress(counts))
     if suffix == ".glb":
@@ -134,21 +137,3 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
     bvh.write_pieces(shown, path, frames=sum(counts), turns=turns)
     return sum(counts)
-
-
-def _pieces(motion_graph: MotionGraph, seconds: float, seed: int, piece: float) -> Iterator[list[Edge]]:
-    """Cut a random walk into pieces."""
-    for name, value in (("walk", seconds), ("piece", piece)):
-        if not (np.isfinite(value) and value > 0):
-            raise MocapError(f"A {name} must last longer than 0 s, got {value} s.")
-    fps, done, frames = motion_graph.clips[0].fps, 0, 0
-    walk: list[Edge] = []
-    for edge in wander(motion_graph, seed=seed):
-        walk.append(edge)
-        frames += motion_graph.graph.edges[edge]["frames"]
-        over = done + frames >= seconds * fps
-        if over or frames >= piece * fps:
-            yield walk
-            walk, done, frames = [], done + frames, 0
-        if over:
-            return
