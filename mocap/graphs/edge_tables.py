@@ -104,7 +104,7 @@ def frame_table(edges: EdgeTable, window: int) -> FrameTable:
 
 
 def clip_rows(clips: Sequence[Motion], frames: Indices) -> Indices:
-    """Find the rows of frames (N, 2) among those of all clips, in order; outside a clip, of the nearest frame."""
+    """Find the rows of frames (N, 2) among those of all clips; outside a clip, of the nearest frame."""
     lengths = np.array([len(clip) for clip in clips])
     clip, frame = frames.T
     return np.asarray((np.cumsum(lengths) - lengths)[clip] + np.clip(frame, 0, lengths[clip] - 1))
