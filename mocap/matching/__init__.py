@@ -12,10 +12,9 @@ Reading order (notebooks 02, 05, 15)
 4. `minima`: the entries of a grid that are lower than all eight neighbours
 5. `chosen_pairs`: some pairs of windows, one by one, and the transform that aligns each
 6. `lower_bound`: why most pairs need no look, with the proof
-7. `tiled_search`: the minima of a grid that is too large to hold
-8. `bounded_search`: the same minima from the pairs that the lower bound leaves
-9. `transitions`: where one clip can pass into another
-10. `time_paths`: which frame of one clip belongs to which of another
+7. `pair_search`: the minima of a grid that is too large to hold, by products or by the bound
+8. `transitions`: where one clip can pass into another
+9. `time_paths`: which frame of one clip belongs to which of another
 
 References
 ----------
@@ -67,8 +66,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "whole_windows",
             "window_numbers",
         ],
-        "tiled_search": ["find_minima"],
-        "bounded_search": ["find_minima_by_bound"],
         "transitions": ["Transition", "Transitions", "find_transitions"],
         "time_paths": ["time_path", "path_mean", "PathSums", "path_sums", "trace", "origins"],
     },

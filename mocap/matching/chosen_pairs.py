@@ -1,15 +1,10 @@
 """Chosen pairs of windows, measured one by one: the distance of each, and the transform that aligns it."""
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body.planar import from_ground
 from mocap.matching.distance_grids import Cloud, Floats
-
-Indices = NDArray[np.intp]
 
 AT_ONCE = 1024  # pairs measured together, to limit the memory
 
@@ -23,7 +18,7 @@ def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> 
     Parameters
     ----------
     a, b : two clouds, or the same one twice.
-    i, j : shape (N,), the first frames of the windows; sorted by j - i, then by i.
+    i, j : shape (N,), the first frames of the windows.
     taper : shape (k,), as for `cloud`.
 
     Returns
@@ -38,21 +33,26 @@ def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> 
     >>> pair_distances(ready, ready, np.array([0]), np.array([1]), np.ones(1))
     array([0.5])
     """
-    each = (slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE))
-    found = [_distances(a, b, i[part], j[part], taper.astype(a.heights.dtype)) for part in each]
-    return np.concatenate([np.empty(0, a.heights.dtype), *found])
+    order = np.lexsort((i, j - i))  # by diagonal, and by frame on each
+    weights = taper.astype(a.heights.dtype)
+    distances = np.empty(len(i), a.heights.dtype)
+    for part in _parts(len(i)):
+        some = order[part]
+        distances[some] = _in_runs(a, b, i[some], j[some], weights)
+    return distances
 
 
-def _distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Floats) -> Floats:
+def _in_runs(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Floats) -> Floats:
+    """Measure D of pairs sorted by diagonal."""
     window = len(taper)
-    step = np.diff(i, prepend=i[0] - window)
-    fresh = np.where((np.diff(j - i, prepend=j[0] - i[0]) == 0) & (step < window), step, window)
-    ends = np.cumsum(fresh)  # of each window's products, in the list of all
-    frames = np.arange(ends[-1]) - np.repeat(ends - window, fresh)
+    step = np.diff(i, prepend=i[:1] - window)
+    same = np.diff(j - i, prepend=(j - i)[:1]) == 0
+    fresh = np.where(same & (step < window), step, window)  # pairs of frames that the pair before lacks
+    starts = np.cumsum(fresh) - window  # of each window's products, in the list of all
+    frames = np.arange(fresh.sum()) - np.repeat(starts, fresh)
     rows, columns = np.repeat(i, fresh) + frames, np.repeat(j, fresh) + frames
     ground = np.vecdot(a.ground[rows], b.ground[columns])
     heights = np.vecdot(a.heights[rows], b.heights[columns])
-    starts = ends - window
     across = np.vecdot(a.paths[i], b.paths[j])
     across += sum(weight * ground[starts + f] for f, weight in enumerate(taper))
     up = sum(weight * heights[starts + f] for f, weight in enumerate(taper))
@@ -66,7 +66,7 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
 
     Parameters
     ----------
-    a, b, i, j, taper : as for `pair_distances`, in any order.
+    a, b, i, j, taper : as for `pair_distances`.
 
     Returns
     -------
@@ -80,35 +80,25 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
     >>> fit(ready, ready, np.array([0]), np.array([1]), np.ones(1))[[0, 2, 3], 0]
     array([ 0.5, -3. , -4. ])
     """
-    parts = (slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE))
-    return np.concatenate(
-        [np.empty((4, 0)), *(_fits(a, b, i[part], j[part], taper) for part in parts)], axis=1
-    )
+    return np.concatenate([_fits(a, b, i[part], j[part], taper) for part in _parts(len(i))], axis=1)
 
 
 def _fits(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
     root = np.sqrt(taper).astype(a.heights.dtype)[:, None]
 
-    def windows(cloud: Cloud, starts: Indices) -> tuple[NDArray[Any], NDArray[Any]]:
-        each = starts[:, None] + np.arange(len(taper))
-        ground = np.concatenate([cloud.ground[each] * root, cloud.paths[starts][..., None]], axis=2)
-        return ground, cloud.heights[each] * root  # (N, k, P + 1), (N, k, P)
-
-    (ground_a, heights_a), (ground_b, heights_b) = windows(a, i), windows(b, j)
-    angle = np.angle((ground_a * ground_b.conj()).sum((1, 2)))
-    left = ground_a - np.exp(1j * angle)[:, None, None] * ground_b
-    square = (np.abs(left) ** 2).sum((1, 2)) + ((heights_a - heights_b) ** 2).sum((1, 2))
+    frames = np.arange(len(taper))
+    ground, heights = [], []  # (N, k, P + 1) and (N, k, P) of each cloud
+    for cloud, starts in ((a, i), (b, j)):
+        each = starts[:, None] + frames
+        ground.append(np.concatenate([cloud.ground[each] * root, cloud.paths[starts][..., None]], axis=2))
+        heights.append(cloud.heights[each] * root)
+    angle = np.angle((ground[0] * ground[1].conj()).sum((1, 2)))
+    left = ground[0] - np.exp(1j * angle)[:, None, None] * ground[1]
+    square = (np.abs(left) ** 2).sum((1, 2)) + ((heights[0] - heights[1]) ** 2).sum((1, 2))
     move = a.centres[i] - np.exp(1j * angle.astype(float)) * b.centres[j]
     return np.stack([np.sqrt(square), angle, *from_ground(move).T])
 
 
-def runs(i: Indices, j: Indices) -> tuple[Indices, Indices]:
-    """Sort pairs as `pair_distances` needs them: by diagonal, and by frame on each.
-
-    Examples
-    --------
-    >>> [numbers.tolist() for numbers in runs(np.array([3, 0, 2]), np.array([9, 4, 8]))]
-    [[0, 2, 3], [4, 8, 9]]
-    """
-    order = np.lexsort((i, j - i))
-    return i[order], j[order]
+def _parts(count: int) -> list[slice]:
+    """Cut a count of pairs into parts, at least one."""
+    return [slice(start, start + AT_ONCE) for start in range(0, max(count, 1), AT_ONCE)]

@@ -56,13 +56,8 @@ class Cloud(NamedTuple):
     def part(self, windows: slice) -> "Cloud":
         """Take the windows that start at these frames, with all frames that they cover."""
         frames = slice(windows.start, windows.stop + self.paths.shape[1] - 1)
-        return Cloud(
-            self.heights[frames],
-            self.ground[frames],
-            self.paths[windows],
-            self.sizes[windows],
-            self.centres[windows],
-        )
+        of_frames, of_windows = self[:2], self[2:]
+        return Cloud(*(array[frames] for array in of_frames), *(array[windows] for array in of_windows))
 
 
 def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type[np.floating[Any]]) -> Cloud:

@@ -161,9 +161,9 @@ def reach(cloud: Cloud, below: float) -> float:
     >>> 0.04 < reach(double, 0.04) < 0.04 + 1e-12 < reach(single, 0.04) < 0.04 + 1e-4
     True
     """
-    (_, points), window = cloud.heights.shape, cloud.paths.shape[1]
+    points, window = cloud.heights.shape[1], cloud.paths.shape[1]
     unit = float(np.finfo(cloud.heights.dtype).eps) / 2
     size = float(cloud.sizes.max(where=np.isfinite(cloud.sizes), initial=0))
-    wide = np.sqrt(below**2 + 2 * (points + window + 16) * unit * size)
-    slack = 2 * (2 * unit + 4 * window * points * np.sqrt(MOST) * 2.0**-53) * np.sqrt(size)
-    return float((wide + slack) * (1 + (MOST + 4) * unit))
+    measured = (points + window + 16) * unit * 2 * size  # 1., m²
+    projected = 2 * (2 * unit + 4 * window * points * np.sqrt(MOST) * 2.0**-53) * np.sqrt(size)  # 2., m
+    return float((np.sqrt(below**2 + measured) + projected) * (1 + (MOST + 4) * unit))  # 3.

@@ -1,14 +1,16 @@
 """The local minima of a distance grid: pairs of windows that are more alike than all their neighbours."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mocap._shared.arrays import Indices
 from mocap.errors import MocapError
 
 
-def local_minima(grid: ArrayLike, below: float = np.inf) -> NDArray[np.intp]:
+def local_minima(grid: ArrayLike, below: float = np.inf) -> Indices:
     """Find the entries under a threshold that are lower than all eight neighbours [KGP02, 3.2].
 
     Entries beyond the border count as infinite. Of neighbours that are exactly equal, the first in reading
@@ -41,15 +43,27 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> NDArray[np.intp]:
         raise MocapError(f"The grid holds NaN at {np.argwhere(np.isnan(values))[0].tolist()}.")
     padded = np.pad(values.astype(np.result_type(values, np.float32), copy=False), 1, constant_values=np.inf)
     rows, columns = np.divmod(np.flatnonzero(values < below), values.shape[1])
-    # Most candidates are out after the first neighbour, so each step looks only at those that are left.
+    left = _lowest(
+        values[rows, columns], lambda left, r, c: padded[rows[left] + 1 + r, columns[left] + 1 + c]
+    )
+    return np.stack([rows[left], columns[left]], axis=-1)
+
+
+def _lowest(values: NDArray[Any], beside: Callable[[Indices, int, int], NDArray[Any]]) -> Indices:
+    """Find the entries that are lower than all eight neighbours, as indices.
+
+    `beside` gives for some entries the neighbours that lie so many rows and columns further. Most entries are
+    out after the first neighbour, so each step looks only at those that are left.
+    """
+    left = np.arange(len(values))
     for row, column in ((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)):
-        value, neighbour = values[rows, columns], padded[rows + 1 + row, columns + 1 + column]
-        lowest = value < neighbour if (row, column) < (0, 0) else value <= neighbour
-        rows, columns = rows[lowest], columns[lowest]
-    return np.stack([rows, columns], axis=-1)
+        neighbour = beside(left, row, column)
+        before = (row, column) < (0, 0)
+        left = left[values[left] < neighbour if before else values[left] <= neighbour]
+    return left
 
 
-def listed_minima(pairs: NDArray[np.intp], values: NDArray[Any]) -> NDArray[np.intp]:
+def listed_minima(pairs: Indices, values: NDArray[Any]) -> Indices:
     """Find the local minima of a grid of which only some entries are listed, as by `local_minima`.
 
     Parameters
@@ -70,15 +84,11 @@ def listed_minima(pairs: NDArray[np.intp], values: NDArray[Any]) -> NDArray[np.i
     width = columns.max(initial=0) + 3  # the entries beside a row's ends are those of no other row
     keys = rows * width + columns
     order = np.argsort(keys)
-    keys, values = keys[order], np.append(values[order], np.inf)
-    left = np.arange(len(keys))
-    for step in (
-        row * width + column for row in (-1, 0, 1) for column in (-1, 0, 1) if (row, column) != (0, 0)
-    ):
-        wanted = keys[left] + step
+    keys, sorted_values = keys[order], np.append(values[order], np.inf)
+
+    def beside(left: Indices, row: int, column: int) -> NDArray[Any]:
+        wanted = keys[left] + row * width + column
         at = np.searchsorted(keys, wanted)
-        there = np.append(keys, -1)[at] == wanted
-        neighbour = np.where(there, values[at], np.inf)
-        lowest = values[left] < neighbour if step < 0 else values[left] <= neighbour
-        left = left[lowest]
-    return np.asarray(order[left])
+        return np.where(np.append(keys, -1)[at] == wanted, sorted_values[at], np.inf)
+
+    return np.asarray(order[_lowest(sorted_values[:-1], beside)])

@@ -16,11 +16,10 @@ from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
-from mocap.matching.bounded_search import find_minima_by_bound, is_quicker
 from mocap.matching.distance_grids import Cloud, check_window, cloud
 from mocap.matching.lower_bound import Weights
+from mocap.matching.pair_search import find_minima, is_quicker
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
-from mocap.matching.tiled_search import find_minima
 
 Integers = NDArray[np.integer[Any]]
 Method = Literal["auto", "products", "bound"]
@@ -101,7 +100,7 @@ class Transitions(Sequence[Transition]):
     def __getitem__(self, index: int | slice | NDArray[Any]) -> Transition | Transitions:
         if isinstance(index, int | np.integer):
             return _record(*(column[index].item() for column in self.columns))
-        return _transitions([column[index] for column in self.columns])
+        return from_columns(*(column[index] for column in self.columns))
 
     def __iter__(self) -> Iterator[Transition]:
         for start in range(0, len(self), 1024):  # in parts: as records they take ten times the memory
@@ -113,9 +112,9 @@ def _record(source: int, leave: int, target: int, enter: int, cost: float, *way:
     return Transition(source, leave, target, enter, cost, PlanarTransform(*way))
 
 
-def _transitions(columns: Sequence[NDArray[Any]]) -> Transitions:
-    source, leave, target, enter, cost, *way = columns
-    return Transitions(source, leave, target, enter, cost, PlanarTransform(*way))
+def from_columns(*columns: NDArray[Any]) -> Transitions:
+    """Make transitions of their eight `columns`."""
+    return Transitions(*columns[:5], PlanarTransform(*columns[5:]))
 
 
 def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to work)
@@ -185,47 +184,35 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     require_alike(clips)
     for clip in clips:
         check_window(window, len(clip), f"'{clip.name}'")
-    _check_thresholds(below, clips)
-    dtype = _dtype(precision, sum(map(len, clips)))
-    _require_choice("method", method, Method)
+    each = below if isinstance(below, Mapping) else {None: below}
+    _check_thresholds(each, clips)
+    for name, choice, choices in (("precision", precision, Precision), ("method", method, Method)):
+        if choice not in (known := get_args(choices)):
+            raise MocapError(f'A {name} is "{known[0]}", "{known[1]}" or "{known[2]}", got {choice!r}.')
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     if not clips:
-        return _join(np.empty((6, 0)), clips, gap)
-    weights = Weights(
-        unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton))), unit_weights(taper, window)
-    )
-    ready = join_clouds(clips, weights, gap, dtype)
-    loosest = max(below.values()) if isinstance(below, Mapping) else below
+        return _both_ways(np.empty((6, 0)), clips, gap)
+    double = precision == "double" or (precision == "auto" and sum(map(len, clips)) <= FEW)
+    joints = len(distinct_joints(clips[0].skeleton))
+    weights = Weights(unit_weights(joint_weights, joints), unit_weights(taper, window))
+    ready = join_clouds(clips, weights, gap, np.float64 if double else np.float32)
+    loosest = max(each.values())
     by_bound = method == "bound" or (method == "auto" and is_quicker(ready, weights, loosest))
-    search = find_minima_by_bound if by_bound else find_minima
-    found = search(ready, weights, loosest, progress=progress, executor=executor)
-    transitions = _join(found, clips, gap)
-    return transitions[transitions.cost < _limits(below, clips, window, transitions)]
+    found = find_minima(ready, weights, loosest, by_bound=by_bound, progress=progress, executor=executor)
+    transitions = _both_ways(found, clips, gap)
+    return transitions[transitions.cost < _limits(each, clips, window, transitions)]
 
 
-def _check_thresholds(below: Thresholds, clips: Sequence[Motion]) -> None:
-    each = below if isinstance(below, Mapping) else {("", ""): below}
-    if not each:
+def _check_thresholds(below: Mapping[tuple[str, str] | None, float], clips: Sequence[Motion]) -> None:
+    if not below:
         raise MocapError("There is no threshold: name one for at least one pair of labels.")
-    for pair, metres in each.items():
-        if not metres > 0:
-            where = f" for {pair}" if isinstance(below, Mapping) else ""
-            raise MocapError(f"The threshold must be above 0 m, got {metres} m{where}.")
     known = sorted({label for clip in clips for label in clip.labels})
-    for label in {label for pair in each for label in pair} - {"", *known}:
-        raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
-
-
-def _dtype(precision: Precision, frames: int) -> type[np.floating[Any]]:
-    _require_choice("precision", precision, Precision)
-    double = precision == "double" or (precision == "auto" and frames <= FEW)
-    return np.float64 if double else np.float32
-
-
-def _require_choice(name: str, choice: str, choices: Any) -> None:  # noqa: ANN401 (a Literal has no type)
-    if choice not in get_args(choices):
-        first, second, third = get_args(choices)
-        raise MocapError(f'A {name} is "{first}", "{second}" or "{third}", got {choice!r}.')
+    for pair, metres in below.items():
+        if not metres > 0:
+            where = f" for {pair}" if pair else ""
+            raise MocapError(f"The threshold must be above 0 m, got {metres} m{where}.")
+        for label in set(pair or ()) - set(known):
+            raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
 
 
 def join_clouds(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
@@ -244,7 +231,7 @@ def join_clouds(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*clouds, strict=True)))
 
 
-def _join(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
+def _both_ways(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
     """Turn what `find_minima` found into transitions both ways; the way back is the inverse."""
     first, second = found[:2].astype(np.int64)
     there = PlanarTransform(*found[3:])
@@ -253,30 +240,29 @@ def _join(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
     i, j = i[order], j[order]
     starts = np.cumsum([0, *(len(clip) + gap for clip in clips)])
     source, target = (np.searchsorted(starts, frame, side="right") - 1 for frame in (i, j))
-    records = [source, i - starts[source], target, j - starts[target]]
-    ways = [np.concatenate(both)[order] for both in zip(there, there.inverse(), strict=True)]
-    return _transitions(
-        [*(column.astype(np.int32) for column in records), np.tile(found[2], 2)[order], *ways]
-    )
+    records = (source, i - starts[source], target, j - starts[target])
+    ways = (np.concatenate(both)[order] for both in zip(there, there.inverse(), strict=True))
+    return from_columns(*(column.astype(np.int32) for column in records), np.tile(found[2], 2)[order], *ways)
 
 
-def _limits(below: Thresholds, clips: Sequence[Motion], window: int, found: Transitions) -> Array:
+def _limits(
+    below: Mapping[tuple[str, str] | None, float], clips: Sequence[Motion], window: int, found: Transitions
+) -> Array:
     """Give each transition its threshold: NaN, which no cost is below, where no pair of labels applies."""
-    if not isinstance(below, Mapping):
-        return np.full(len(found), below)
     limits = np.full(len(found), np.nan)
-    for (label, other), metres in ({pair[::-1]: m for pair, m in below.items()} | dict(below)).items():
-        applies = _labelled(label, clips, window, found.source, found.leave)
-        applies &= _labelled(other, clips, window, found.target, found.enter)
+    for pair, metres in ({pair and pair[::-1]: m for pair, m in below.items()} | dict(below)).items():
+        first, second = pair or (None, None)
+        applies = _labelled(first, clips, window, found.source, found.leave)
+        applies &= _labelled(second, clips, window, found.target, found.enter)
         limits[applies] = np.fmin(limits[applies], metres)
     return limits
 
 
 def _labelled(
-    label: str, clips: Sequence[Motion], window: int, clip: Integers, start: Integers
+    label: str | None, clips: Sequence[Motion], window: int, clip: Integers, start: Integers
 ) -> NDArray[np.bool_]:
-    """Mark the windows in which a label is on in any of their frames."""
-    on = np.zeros(len(clip), bool)
+    """Mark the windows in which a label is on in any of their frames; all of them for no label."""
+    on = np.full(len(clip), label is None)
     for number, motion in enumerate(clips):
         if label in motion.labels:
             mine = clip == number

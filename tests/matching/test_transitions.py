@@ -2,7 +2,6 @@
 
 import os
 import signal
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +12,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.matching import tiled_search, transitions
+from mocap.matching import pair_search, transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import point_cloud
@@ -48,13 +47,6 @@ def test_windows_of_one_clip_do_not_overlap():
     same = [t for t in find_transitions(CLIPS, window=8, below=1.0) if t.source == t.target]
     assert same
     assert all(abs(t.leave - t.enter) >= 8 for t in same)
-
-
-def test_the_pairs_of_blocks_are_shown_as_they_are_done(monkeypatch):
-    monkeypatch.setattr(tiled_search, "BLOCK", 60)
-    seen = []
-    find_transitions(CLIPS, window=8, below=0.1, progress=lambda pairs: seen.append(list(pairs)) or pairs)
-    assert seen == [[(0, 0), (0, 60), (60, 60)]]
 
 
 @pytest.mark.parametrize("below", [0, -1, np.nan])
@@ -98,6 +90,7 @@ def test_transitions_are_a_sequence_of_records():
     found = find_transitions(CLIPS, window=8, below=0.1)
     records = list(found)
     assert len(records) == len(found) > 10
+    assert [t[:4] for t in records] == sorted(t[:4] for t in records)
     assert records == [found[n] for n in range(len(found))]
     assert found[-1] == records[-1]
     assert found[np.int64(3)] == records[3]
@@ -117,11 +110,6 @@ def test_many_transitions_come_out_one_by_one():
     numbers, zeros = np.arange(5000), np.zeros(5000)
     many = Transitions(numbers, numbers, numbers, numbers, zeros, PlanarTransform(zeros, zeros, zeros))
     assert [t.leave for t in many] == list(range(5000))
-
-
-def test_transitions_are_ordered_by_clip_and_frame():
-    records = [t[:4] for t in find_transitions(CLIPS, window=8, below=0.1)]
-    assert records == sorted(records)
 
 
 def test_by_default_the_precision_is_double_up_to_a_number_of_frames_and_single_above(monkeypatch):
@@ -224,28 +212,9 @@ def test_labels_and_their_thresholds_must_make_sense():
         find_transitions(clips, window=8, below={})
 
 
-def test_the_executor_is_asked_for_the_work():
-    class Refusing(Executor):
-        def submit(self, *task):
-            raise RuntimeError("asked")
-
-    with pytest.raises(RuntimeError, match="asked"):
-        find_transitions(CLIPS, window=8, below=0.1, executor=Refusing())
-
-
-@pytest.mark.parametrize("executor", [ThreadPoolExecutor, ProcessPoolExecutor])
-def test_the_work_can_be_done_elsewhere(executor, monkeypatch):
-    monkeypatch.setattr(tiled_search, "BLOCK", 40)
-    with executor(2) as pool:
-        assert same(
-            find_transitions(CLIPS, window=8, below=0.1, executor=pool),
-            find_transitions(CLIPS, window=8, below=0.1),
-        )
-
-
 def test_a_cluster_gives_the_same_and_survives_the_loss_of_a_worker(monkeypatch):
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(tiled_search, "BLOCK", 40)
+    monkeypatch.setattr(pair_search, "BLOCK", 40)
     monkeypatch.setattr(tasks, "AHEAD", 2)
     expected = find_transitions(CLIPS, window=8, below=0.1)
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)

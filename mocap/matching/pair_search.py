@@ -1,0 +1,195 @@
+"""The local minima of a grid that is too large to hold, found by one of two searches.
+
+All pairs of windows are cut into blocks of `Stretch` by `Stretch`, each of which a worker gets by itself.
+
+1. *By products*: the block is measured tile by tile, and each tile is searched as `local_minima` does.
+2. *By the bound* of `lower_bound`: a k-d tree finds the pairs whose projections on few directions are within
+   reach; a look at all directions leaves fewer; only these are measured. A neighbour that was not measured
+   costs more than the threshold, so the minima are the same.
+
+Both give each block the windows next to it, which decide about a minimum at its border.
+"""
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mocap._shared.arrays import Array, Indices
+from mocap._shared.progress import Progress
+from mocap._shared.tasks import run_in_order
+from mocap.matching.chosen_pairs import fit, pair_distances
+from mocap.matching.distance_grids import Cloud, Floats, cloud_distances, tiles
+from mocap.matching.lower_bound import (
+    Weights,
+    evenly,
+    projections,
+    reach,
+    sample_directions,
+    whole_windows,
+)
+from mocap.matching.minima import listed_minima, local_minima
+
+BLOCK, WIDE_BLOCK = 1280, 16384  # windows of a stretch, by products and by the bound
+ROWS = 1024  # of these are looked up in the tree at a time, so that even a loose threshold leaves memory
+FIRST = 12  # directions of the k-d tree
+AT_ONCE = 1 << 13  # pairs in a second look
+MANY = 5_000  # windows up to which products are quicker
+LOOSE = 0.005  # share of pairs within reach above which products are quicker
+SAMPLE = 2000  # windows that decide on this share
+NOWHERE = 1e9  # metres between windows that run off their clips
+
+
+class Stretch(NamedTuple):
+    """The windows [start, stop) of a cloud, and one more on each side where there is one.
+
+    first : the first window of `cloud`: `start`, or the one before.
+    places : shape (n, d), the projections of the cloud's windows; by products d is 0.
+    """
+
+    start: int
+    stop: int
+    first: int
+    cloud: Cloud
+    places: Floats
+
+    def part(self, windows: slice) -> tuple[int, Cloud]:
+        """Take some windows, counted from `start`, with their neighbours; and say which is the first."""
+        own = self.start - self.first
+        low = max(own + windows.start - 1, 0)
+        return low, self.cloud.part(slice(low, own + windows.stop + 1))
+
+
+def find_minima(  # noqa: PLR0913 (what to find, how, and where to work)
+    cloud: Cloud,
+    weights: Weights,
+    below: float,
+    *,
+    by_bound: bool = False,
+    progress: Progress = iter,
+    executor: Executor | None = None,
+) -> Array:
+    """Find the local minima of the distances between all windows of a cloud, above the diagonal.
+
+    Parameters
+    ----------
+    cloud : all clips one after the other.
+    weights : those of the cloud.
+    below : only minima whose RMS distance is under this one, metres.
+    by_bound : measure only the pairs that the lower bound leaves.
+    progress, executor : as for `find_transitions`.
+
+    Returns
+    -------
+    Shape (6, N): the first window and the second, at least a window's length later; the RMS distance in
+    metres; and the angle, x and z of the transform that lays the second on the first.
+
+    Examples
+    --------
+    A point rises and falls back; its last frame is 1 cm from its first.
+
+    >>> from mocap.matching.distance_grids import cloud as prepare
+    >>> points = np.array([[[0, height, 0]] for height in (1.0, 1.3, 1.6, 1.9, 1.01)])
+    >>> weights = Weights(np.ones(1), np.ones(1))
+    >>> ready = prepare(points, np.zeros(1), *weights, np.float64)
+    >>> find_minima(ready, weights, 0.05)[:3].round(6)
+    array([[0.  ],
+           [4.  ],
+           [0.01]])
+    """
+    if not len(whole_windows(cloud)):
+        return np.empty((6, 0))
+    count = len(cloud.sizes) - len(weights.taper) + 1
+    size, far = (WIDE_BLOCK, reach(cloud, below)) if by_bound else (BLOCK, None)
+    places = _places(cloud, weights, count) if by_bound else np.empty((count, 0))
+
+    def stretch(start: int) -> Stretch:
+        first, stop = max(start - 1, 0), min(start + size, count)
+        windows = slice(first, min(stop + 1, count))
+        return Stretch(start, stop, first, cloud.part(windows), places[windows])
+
+    pairs = [(row, column) for row in range(0, count, size) for column in range(row, count, size)]
+    tasks = ((stretch(i), stretch(j), weights.taper, below, far) for i, j in progress(pairs))
+    return np.concatenate(list(run_in_order(_block_minima, tasks, executor)), axis=1)
+
+
+def _places(cloud: Cloud, weights: Weights, count: int) -> Floats:
+    """Project the f of all windows; those that run off a clip are put far from everything."""
+    starts, directions = whole_windows(cloud), sample_directions(cloud, weights)
+    far = NOWHERE * np.arange(1, count + 1)[:, None]
+    places = np.repeat(far, directions.axes.shape[1], axis=1).astype(cloud.heights.dtype)
+    places[starts] = projections(cloud, starts, weights, directions)
+    return places
+
+
+def _block_minima(a: Stretch, b: Stretch, taper: Array, below: float, far: float | None) -> Array:
+    """Find the minima between two stretches: what one worker does at a time."""
+    i, j = _by_products(a, b, taper, below) if far is None else _by_bound(a, b, taper, below, far)
+    row, column = i + a.first, j + b.first
+    own = (row >= a.start) & (row < a.stop) & (column >= b.start) & (column < b.stop)
+    own &= column - row >= len(taper)  # no window overlaps itself, and each pair counts once
+    return np.concatenate([[row[own], column[own]], fit(a.cloud, b.cloud, i[own], j[own], taper)])
+
+
+def _by_products(a: Stretch, b: Stretch, taper: Array, below: float) -> Indices:
+    """Find the minima of a block, tile by tile: rows and columns of the stretches' clouds, shape (2, N)."""
+    found = [np.empty((0, 2), np.intp)]
+    for tile in tiles(a.stop - a.start, b.stop - b.start, upper=a.start == b.start):
+        parts = [stretch.part(windows) for stretch, windows in zip((a, b), tile, strict=True)]
+        corner, clouds = zip(*parts, strict=True)
+        minima = local_minima(cloud_distances(*clouds, taper), below**2) + corner
+        own = minima - [a.start - a.first, b.start - b.first]
+        mine = (own >= [part.start for part in tile]) & (own < [part.stop for part in tile])
+        found.append(minima[mine.all(axis=1)])  # those of the neighbours are found in their own tiles
+    return np.concatenate(found).T
+
+
+def _by_bound(a: Stretch, b: Stretch, taper: Array, below: float, far: float) -> Indices:
+    """Find the minima of a block among the pairs within reach: rows and columns, shape (2, N)."""
+    found, values = [np.empty((2, 0), np.intp)], [np.empty(0, a.cloud.heights.dtype)]
+    for pairs in _near_pairs(a, b, len(taper), far):
+        distances = pair_distances(a.cloud, b.cloud, *pairs, taper)
+        low = distances < below**2
+        found.append(pairs[:, low])
+        values.append(distances[low])
+    every = np.concatenate(found, axis=1)
+    return every[:, listed_minima(every, np.concatenate(values))]
+
+
+def _near_pairs(a: Stretch, b: Stretch, window: int, far: float) -> Iterator[Indices]:
+    """Give the pairs of windows within reach, (2, N); of those that overlap, only neighbours of others."""
+    tree = cKDTree(b.places[:, :FIRST].astype(float), balanced_tree=False)
+    for start in range(0, len(a.places), ROWS):
+        some = cKDTree(a.places[start : start + ROWS, :FIRST].astype(float), balanced_tree=False)
+        near = some.sparse_distance_matrix(tree, far, output_type="ndarray")
+        pairs = np.stack([near["i"] + start, near["j"]])
+        pairs = pairs[:, pairs[1] + b.first - pairs[0] - a.first >= window - 2]
+        for part in range(0, pairs.shape[1], AT_ONCE):
+            i, j = pairs[:, part : part + AT_ONCE]
+            left = a.places[i] - b.places[j]
+            close = np.einsum("nd,nd->n", left, left) <= far * far
+            yield np.stack([i[close], j[close]])
+
+
+def is_quicker(cloud: Cloud, weights: Weights, below: float) -> bool:
+    """Say whether the bound is quicker than products: there are many windows, and it rules most pairs out.
+
+    Parameters
+    ----------
+    cloud, weights, below : as for `find_minima`.
+
+    Examples
+    --------
+    >>> from mocap.matching.distance_grids import cloud as prepare
+    >>> weights = Weights(np.ones(1), np.ones(1))
+    >>> is_quicker(prepare(np.zeros((5, 1, 3)), np.zeros(1), *weights, np.float64), weights, 0.04)
+    False
+    """
+    windows = whole_windows(cloud)
+    if len(windows) <= MANY:
+        return False
+    places = projections(cloud, evenly(windows, SAMPLE), weights, sample_directions(cloud, weights))
+    tree = cKDTree(places.astype(float))
+    return bool(tree.count_neighbors(tree, reach(cloud, below)) < LOOSE * len(places) ** 2)
