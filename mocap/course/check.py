@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import copy
 import inspect
+import re
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -63,7 +64,8 @@ def close(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     if isinstance(wanted, (set, frozenset, dict, str)) or wanted is None:
         return bool(given == wanted)
     try:
-        a, b = np.asarray(given, float), np.asarray(wanted, float)
+        kind = complex if np.iscomplexobj(wanted) else float
+        a, b = np.asarray(given, kind), np.asarray(wanted, kind)
     except (TypeError, ValueError):
         return len(given) == len(wanted) and all(map(close, given, wanted))
     return a.shape == b.shape and np.allclose(a, b, rtol=1e-8, atol=1e-9)
@@ -97,6 +99,7 @@ class Check:
     same : takes two answers, returns whether they are the same.
     trials : the number of random inputs.
     seconds : the time limit of all these calls; right functions take a hundredth of it.
+    notebook : the number of the notebook that asks for it, such as 04b.
 
     Examples
     --------
@@ -121,6 +124,7 @@ class Check:
     same: Callable[[Any, Any], bool] = close
     trials: int = 40
     seconds: float = 30.0
+    notebook: str = ""
     _said: list[tuple[Answer, Verdict]] = field(default_factory=list, init=False, repr=False)
 
     def __call__(self, answer: Answer) -> None:
@@ -196,6 +200,55 @@ class Check:
             numbers = f"you return {_short(trial.given)} where it should be {_short(trial.wanted)}"
             return f"{numbers}. It must return {self.asks}."
         return f"the shape is right, the values are wrong. It must return {self.asks}. Hint: {self.start}"
+
+
+def check_of(name: str, table: Mapping[str, Any], known: Mapping[str, Any], notebook: str) -> Check:
+    """Make a check of its table in a file such as `checks/06-pruning.toml`.
+
+    Parameters
+    ----------
+    name : the function's name in the notebook.
+    table : `asks` and `start` as in `Check`; `takes`, the names of the arguments; `draw`, an expression of
+        `rng` that gives the arguments of one call; `right`, an expression of them; and `wrong`, the hint for
+        each of several. There `right` stands for the right answer, and `A → B; C → D` for the answer of
+        the function that `right` calls, if its lines say B instead of A, and D instead of C. Some tables
+        have `same`, a function that compares two answers, and a number of `trials`.
+    known : what the expressions may use.
+    notebook : as in `Check`.
+
+    Examples
+    --------
+    >>> double = check_of("double", {
+    ...     "asks": "twice the number", "start": "What is 2 times x?", "takes": "x",
+    ...     "draw": "(rng.normal(),)", "right": "2 * x", "wrong": {"right + 1": "One too many."},
+    ... }, {}, "00")
+    >>> double(lambda x: x + x + 1)
+    ✗ double: One too many.
+    """
+
+    def function(expression: str, takes: str = table["takes"]) -> Answer:
+        names = {**globals(), **known}
+        if "→" in expression:
+            lines = inspect.getsource(names[table["right"].partition("(")[0]])
+            for change in expression.split("; "):
+                lines = lines.replace(*change.split(" → "))
+            exec(lines, names)
+            expression = "right"
+        expression = re.sub(r"\bright\b", lambda _: f"({table['right']})", expression)
+        made: Answer = eval(f"lambda {takes}: ({expression})", names)
+        return made
+
+    return Check(
+        name=name,
+        asks=table["asks"],
+        start=table["start"],
+        draw=function(table["draw"], "rng"),
+        truth=function("right"),
+        mistakes=[Mistake(function(wrong), hint) for wrong, hint in table["wrong"].items()],
+        same=eval(table.get("same", "close"), {**globals(), **known}),
+        trials=table.get("trials", 40),
+        notebook=notebook,
+    )
 
 
 def _written(answer: Answer) -> Answer:

@@ -1,25 +1,31 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
-Each file here belongs to one notebook; `mocap.course.check` says how a check works.
+A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, and the mistakes
+that students make, each with its hint. Beside it, `pruning.py` has what takes more than an expression.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)
 ✗ speed: not there yet. It must return ...
 """
 
-import pkgutil
+import tomllib
 from functools import cache
 from importlib import import_module
+from pathlib import Path
 
-from mocap.course.check import Check
+from mocap.course.check import Check, check_of
 
 
 @cache
 def all_checks() -> dict[str, Check]:
     """Return every check by its name, notebook by notebook."""
-    modules = [import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__)]
-    found = [value for module in modules for value in vars(module).values() if isinstance(value, Check)]
-    return {check.name: check for check in found}
+    found: dict[str, Check] = {}
+    for file in sorted(Path(__file__).parent.glob("*.toml")):
+        number, _, topic = file.stem.partition("-")
+        known = vars(import_module(f"{__name__}.{topic.replace('-', '_')}"))
+        for name, table in tomllib.loads(file.read_text("utf-8")).items():
+            found[name] = check_of(name, table, known, number)
+    return found
 
 
 def __getattr__(name: str) -> Check:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import pkgutil
-import re
 from collections.abc import Callable
 from contextlib import redirect_stdout
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from mocap.course import checks
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
 from mocap.course.lab.guarding import Slot, Unseen
@@ -168,20 +164,9 @@ def notebook_of(name: str) -> str:
     >>> notebook_of("hamilton")
     '01'
     """
-    return _notebooks()[name]
+    return all_checks()[name].notebook
 
 
 @cache
 def _slots() -> dict[str, Slot]:
     return {name: Slot(check) for name, check in all_checks().items()}
-
-
-@cache
-def _notebooks() -> dict[str, str]:
-    """Give the number of the notebook of each exercise, from the heads of the files of checks."""
-    numbers: dict[str, str] = {}
-    for file in pkgutil.iter_modules(checks.__path__):
-        module = import_module(f"{checks.__name__}.{file.name}")
-        number = re.search(r"notebook (\w+)", module.__doc__ or "")
-        numbers |= dict.fromkeys(vars(module), number[1] if number else "")
-    return numbers
