@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,63 +66,6 @@ class GroundPath:
             raise MocapError(f"Points must be more than 0 m apart, got {spacing} m.")
         pieces = int(np.ceil(self.length / spacing * (1 - ROUNDING)))
         return GroundPath(self.at(np.linspace(0, self.length, max(pieces, 1) + 1)))
-
-
-@dataclass(frozen=True, eq=False)
-class SmoothPath:
-    """A smooth curve on the ground: like `GroundPath`, but without corners, and with a heading.
-
-    A natural cubic spline c(u) passes through the points, C²; its parameter u is the length of the chords.
-    A second spline fits points of the first one at even arc lengths s(u) = ∫ |c'| du, so `at(s)` moves one
-    metre per metre of s: within 1 % where neighbouring chords turn by less than 35°, but not around sharp
-    corners. Beyond both ends the curve goes straight on. For points at very uneven distances, `spline` is
-    better.
-
-    Parameters
-    ----------
-    points : shape (N, 2), (x, z) in metres; of points that repeat the one before, only the first is kept.
-
-    Raises
-    ------
-    MocapError : for fewer than two points, a length of zero, or a number that is not finite.
-
-    Examples
-    --------
-    >>> ahead = SmoothPath([[0, 0], [0, 2], [0, 4]])
-    >>> ahead, ahead.at([1.0, 5.0]).round(6).tolist(), float(ahead.heading(1.0).round(6))
-    (SmoothPath(3 points, 4.0 m), [[0.0, 1.0], [0.0, 5.0]], 0.0)
-    """
-
-    points: Array
-    length: float = field(init=False)
-    _curve: CubicSpline = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        points = _checked(self.points)
-        knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=-1))])
-        curve = CubicSpline(knots, points, bc_type="natural")
-        fine = np.linspace(0, knots[-1], 20 * len(points) + 1)
-        speed = np.linalg.norm(curve(fine, 1), axis=-1)
-        lengths = np.concatenate([[0.0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(fine))])
-        even = np.linspace(0, float(lengths[-1]), len(fine))
-        by_length = CubicSpline(even, curve(np.interp(even, lengths, fine)), bc_type="natural")
-        object.__setattr__(self, "points", points)
-        object.__setattr__(self, "length", float(lengths[-1]))
-        object.__setattr__(self, "_curve", by_length)
-
-    def __repr__(self) -> str:
-        return f"SmoothPath({len(self.points)} points, {self.length:.1f} m)"
-
-    def at(self, along: ArrayLike) -> Array:
-        """Give the points (..., 2) that lie `along` metres from the start; past either end, straight on."""
-        along = np.asarray(along, float)
-        inside = np.clip(along, 0, self.length)
-        return np.asarray(self._curve(inside) + (along - inside)[..., None] * self._curve(inside, 1))
-
-    def heading(self, along: ArrayLike) -> Array:
-        """Give the directions of the curve, radians about +y from +z; within an array they do not jump."""
-        x, z = np.moveaxis(self._curve(np.clip(along, 0, self.length), 1), -1, 0)
-        return np.asarray(np.unwrap(np.arctan2(x, z))) if np.ndim(along) else np.arctan2(x, z)
 
 
 def _checked(points: ArrayLike) -> Array:

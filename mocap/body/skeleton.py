@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from textwrap import shorten
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, frozen
 from mocap.errors import MocapError, SkeletonMismatch
@@ -67,6 +67,19 @@ class Skeleton:
         for name, axes in zip(self.names, self.dofs, strict=True):
             if not set(axes) <= set("xyz") or len(set(axes)) < len(axes):
                 raise MocapError(f"Joint '{name}' needs dofs such as 'xyz', 'x' or '', got '{axes}'.")
+
+    @classmethod
+    def from_table(cls, rows: Mapping[str, tuple[str, ArrayLike]], scale: float = 1.0) -> Skeleton:
+        """Build a body from {joint: (its parent, its place there)}, the root first, with no parent: "".
+
+        Examples
+        --------
+        >>> Skeleton.from_table({"hip": ("", [0, 0, 0]), "knee": ("hip", [0, -4, 0])}, scale=0.1).offsets[1]
+        array([ 0. , -0.4,  0. ])
+        """
+        names = list(rows)
+        parents = [names.index(parent) if parent else -1 for parent, _ in rows.values()]
+        return cls(names, np.array(parents), scale * np.array([place for _, place in rows.values()], float))
 
     def _check_tree(self) -> None:
         count = len(self.names)

@@ -31,6 +31,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "clip_origins": ["Origin"],
         "cmu_database": ["TERMS", "Trial", "cmu", "trials"],
         "generated": ["generate", "generate_walk"],
-        "jumping": ["generate_jump"],
     },
 )

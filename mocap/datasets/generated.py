@@ -17,47 +17,16 @@ from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
-from mocap.body.ground_path import SmoothPath
 from mocap.body.motion import Motion
-from mocap.datasets.footsteps import FootPath, Steps, foot_path, winding
-from mocap.datasets.gait import JOG, SNEAK, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
+from mocap.datasets.footsteps import FootPath, SmoothPath, Steps, foot_path, smooth_path, winding
+from mocap.datasets.gait import GAITS, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
 from mocap.datasets.gait_timing import Timing, changing, drift, halting, steady
-from mocap.datasets.jumping import generate_jump
-from mocap.datasets.walking_body import FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
+from mocap.datasets.walking_body import FIGURES, FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
 from mocap.errors import MocapError
 
 GRAVITY = 9.81
 STANDING_KNEE = np.radians(18.0)
-GAITS = {gait.name: gait for gait in (WALK, SNEAK, JOG)}
-
-# Paths as pairs of metres and degrees turned to the left: one with loops both ways, then two that wander.
-_CIRCLE = [(7.5, 360), (3.8, 180), (1.9, 180), (1.9, -180), (3.8, -180), (12.5, -600)]
-_CURVE_1 = [(3.0, 260), (0.9, -80), (3.7, 330), (3.9, -330), (3.4, 300), (0.9, -80), (2.6, 230)]
-_CURVE_1 += [(3.7, -330), (1.0, 80), (2.9, -260), (4.1, 320)]
-_CURVE_2 = [(1.4, 120), (2.2, -200), (0.9, 80), (2.9, -260), (0.9, 80), (2.7, -240), (3.6, 320)]
-_CURVE_2 += [(1.1, -80), (4.3, 310), (4.8, -330), (4.5, 310)]
-_STOP_AND_GO = [(3.5, 0), (2.4, 90), (2.5, 0), (2.4, -90), (10.0, 0)]
-_STRIDES, _RESTS = (5, 4.5, 4), (2, 2.5, 2, 2.5)  # strides between the halts, seconds of each halt
-
-# Metres per second, path.
-STEADY = {
-    "walk_circle": (0.80, _CIRCLE),
-    "walk_curve_1": (0.74, _CURVE_1),
-    "walk_curve_2": (0.71, _CURVE_2),
-    "walk_straight": (1.1, [(11.0, 0)]),
-}
-# The gait to change into, path, stages: (second, metres per second, share of the new gait).
-_SNEAK = [(0, 0.78, 0), (3.5, 0.78, 0), (6.0, 0.5, 1), (13.0, 0.5, 1), (15.5, 0.78, 0)]
-_SNEAK += [(18.0, 0.78, 0), (20.5, 0.5, 1), (27.5, 0.5, 1), (30.0, 0.78, 0), (33.5, 0.78, 0)]
-_JOG = [(0, 1.1, 0), (3.0, 1.1, 0), (4.2, 1.3, 0), (5.6, 2.5, 1), (6.6, 2.8, 1)]
-_JOG += [(11.5, 2.8, 1), (12.5, 2.5, 1), (13.9, 1.3, 0), (15.1, 1.1, 0)]
-_JOG += [(17.0, 1.1, 0), (18.2, 1.3, 0), (19.6, 2.5, 1), (20.6, 2.8, 1)]
-_JOG += [(25.5, 2.8, 1), (26.5, 2.5, 1), (27.9, 1.3, 0), (29.1, 1.1, 0), (32.1, 1.1, 0)]
-CHANGING = {
-    "sneak": (SNEAK, [(3.5, 0), (4.5, 130), (4.0, -40), (4.5, -130), (4.5, 40)], _SNEAK),
-    "jog": (JOG, [(11.0, 0), (9.0, 150), (21.0, 0), (9.0, -150), (12.0, 0)], _JOG),
-}
-NAMES = (*STEADY, *CHANGING, "stop_and_go")
+CLIPS = FIGURES["clips"]
 
 
 def generate(name: str) -> Motion:
@@ -65,7 +34,7 @@ def generate(name: str) -> Motion:
 
     Parameters
     ----------
-    name : one of `NAMES`, or "jump" for the one that is not a walk.
+    name : one of `samples.SAMPLES`.
 
     Returns
     -------
@@ -80,21 +49,17 @@ def generate(name: str) -> Motion:
     >>> generate("walk_straight")
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
     """
-    if name == "jump":
-        return generate_jump()
-    if name not in NAMES:
-        raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(NAMES)}, jump.")
-    seed = NAMES.index(name)
-    rng = np.random.default_rng(seed)
-    if name in STEADY:
-        speed, stretches = STEADY[name]
-        motion = generate_walk(winding(stretches), speed=speed, seed=seed)
-    elif name in CHANGING:
-        gait, stretches, stages = CHANGING[name]
-        motion = _perform(SmoothPath(winding(stretches)), changing((WALK, gait), stages, rng), rng)
+    if name not in CLIPS:
+        raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(CLIPS)}, jump.")
+    clip, seed = CLIPS[name], list(CLIPS).index(name)
+    path, rng = smooth_path(winding(clip["path"])), np.random.default_rng(seed)
+    if "speed" in clip:
+        timing = steady(WALK, clip["speed"], path.length / clip["speed"], rng)
+    elif "into" in clip:
+        timing = changing((WALK, GAITS[clip["into"]]), clip["stages"], rng)
     else:
-        motion = _perform(SmoothPath(winding(_STOP_AND_GO)), halting(WALK, _STRIDES, _RESTS), rng)
-    return replace(motion, name=name)
+        timing = halting(WALK, clip["strides"], clip["rests"])
+    return replace(_perform(path, timing, rng), name=name)
 
 
 def generate_walk(
@@ -132,7 +97,7 @@ def generate_walk(
     speed = gait.speed if speed is None else speed
     if not (np.isfinite(speed) and speed > 0):
         raise MocapError(f"A walk needs a speed above 0, got {speed}.")
-    curve, rng = SmoothPath(np.asarray(path, float)), np.random.default_rng(seed)
+    curve, rng = smooth_path(path), np.random.default_rng(seed)
     return _perform(curve, steady(gait, speed, curve.length / speed, rng), rng)
 
 

@@ -6,8 +6,11 @@ which the loaded knees bend as their gait says; then `two_bone_ik` bends both le
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from itertools import pairwise
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,52 +27,10 @@ STATURE = 1.75  # metres
 FPS = 120.0
 LEAST_KNEE = np.radians(6.0)  # a knee never straightens further
 
-# Each joint's parent and place (left, up, ahead) in it, as shares of stature. The lengths of the limbs follow
-# D. A. Winter, Biomechanics and Motor Control of Human Movement, 4th ed. (2009), Fig. 4.1, after Drillis and
-# Contini (1966): thigh 0.245, shank 0.246, ankle 0.039 high, upper arm 0.186, forearm 0.146, hand 0.108.
-_LEG = {
-    "hipjoint": ("root", (0, 0, 0)),
-    "femur": ("hipjoint", (0.050, -0.049, 0.023)),
-    "tibia": ("femur", (0, -0.245, 0)),
-    "foot": ("tibia", (0, -0.246, 0)),
-    "toes": ("foot", (0, -0.024, 0.074)),
-    "toes_end": ("toes", (0, -0.005, 0.040)),
-}
-_TRUNK = {
-    "lowerback": ("root", (0, 0, 0)),
-    "upperback": ("lowerback", (0, 0.0705, 0)),
-    "thorax": ("upperback", (0, 0.0705, 0)),
-    "lowerneck": ("thorax", (0, 0.0705, 0)),
-    "upperneck": ("lowerneck", (0, 0.063, 0)),
-    "head": ("upperneck", (0, 0.057, 0)),
-    "head_end": ("head", (0, 0.0895, 0)),
-}
-_ARM = {
-    "clavicle": ("thorax", (0, 0.0705, 0)),
-    "humerus": ("clavicle", (0.106, 0.026, -0.011)),
-    "radius": ("humerus", (0, -0.186, 0)),
-    "wrist": ("radius", (0, -0.146, 0)),
-    "hand": ("wrist", (0, -0.029, 0)),
-    "fingers": ("hand", (0, -0.034, 0)),
-    "fingers_end": ("fingers", (0, -0.045, 0)),
-    "thumb": ("wrist", (0, -0.029, 0)),
-    "thumb_end": ("thumb", (0, -0.029, 0.017)),
-}
+FIGURES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("walker.toml").read_text("utf-8"))
+"""All figures of the bundled clips; the file says what they are, and where they come from."""
 
-
-def _skeleton() -> Skeleton:
-    """Build a body with the 31 bones of CMU's, upright, its arms hanging, its feet pointing ahead."""
-    rows: dict[str, tuple[str, tuple[float, ...]]] = {"root": ("", (0, 0, 0))}
-    for side, limb in (("l", _LEG), ("r", _LEG), ("", _TRUNK), ("l", _ARM), ("r", _ARM)):
-        for joint, (parent, (left, up, ahead)) in limb.items():
-            above = side + parent if parent in limb else parent
-            rows[side + joint] = (above, (-left if side == "r" else left, up, ahead))
-    names = list(rows)
-    parents = [names.index(parent) if parent else -1 for parent, _ in rows.values()]
-    return Skeleton(names, np.array(parents), STATURE * np.array([offset for _, offset in rows.values()]))
-
-
-SKELETON = _skeleton()
+SKELETON = Skeleton.from_table(FIGURES["body"], scale=STATURE)
 HIPS = {side: SKELETON.offsets[SKELETON.index(f"{side}femur")] for side in "lr"}
 THIGH, SHANK = 0.245 * STATURE, 0.246 * STATURE
 FOOT = Foot(0.039 * STATURE, 0.015 * STATURE, 0.029 * STATURE, 0.074 * STATURE, 0.040 * STATURE)

@@ -4,12 +4,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from jumping import generate_jump, plan_jump
 
 import mocap
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.datasets import SAMPLES, sample
-from mocap.datasets.jumping import generate_jump, plan_jump
 from mocap.datasets.walking_body import FOOT, SKELETON
 from mocap.errors import MocapError
 from mocap.quality.clip_flaws import inspect

@@ -1,4 +1,6 @@
-"""A jump generated from a few figures: crouch, push off, fly, land, stand.
+"""The bundled jump, generated from a few figures: crouch, push off, fly, land, stand.
+
+`python figures/jumping.py` writes `mocap/datasets/jump.npz`, which `datasets.sample("jump")` reads.
 
 The centre of mass comes first: its height runs from pose to pose by quintic curves that fit place, speed and
 acceleration, and in the air it is the parabola of gravity. The feet stand, rise on their balls, leave the
@@ -13,6 +15,7 @@ softly than people do: it is pushed with 25 m/s² at most, they are with 35 to 5
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -27,11 +30,9 @@ from mocap.datasets.footsteps import FootPath, about_ball, toe_angle
 from mocap.datasets.gait import WALK
 from mocap.datasets.gait_timing import drift
 from mocap.datasets.walking_body import FOOT, FPS, SKELETON, leg
-from mocap.errors import MocapError
 from mocap.quality.falling import centre_of_mass
 
 GRAVITY = 9.81
-LOWEST_RISE, HIGHEST_RISE = 0.15, 0.5  # metres
 STANDING, TAKE_OFF, ABSORBED = 1.0, 1.055, 0.86  # metres: the centre of mass
 STAND, CROUCH, RISE = 1.0, 0.45, 0.55  # seconds
 HALF_STANCE, TOE_OUT = 0.085, 7.0  # metres from the middle to an ankle, degrees
@@ -83,7 +84,7 @@ class Course(NamedTuple):
 
 
 def generate_jump(rise: float = 0.3, *, seed: int = 0) -> Motion:
-    """Jump up and land: the one bundled clip that is not a walk.
+    """Jump up and land.
 
     Parameters
     ----------
@@ -94,20 +95,7 @@ def generate_jump(rise: float = 0.3, *, seed: int = 0) -> Motion:
     -------
     A motion of `walking_body.SKELETON` at 120 Hz, labelled "stand" and "jump", with the footplants as
     `contacts`. In the air the centre of mass, as `quality.centre_of_mass` weighs it, falls at 9.81 m/s².
-
-    Raises
-    ------
-    MocapError : for a rise that is out of bounds.
-
-    Examples
-    --------
-    >>> generate_jump(0.25).name
-    'jump'
-
-    Notebook: 13-retargeting
     """
-    if not LOWEST_RISE <= rise <= HIGHEST_RISE:
-        raise MocapError(f"A jump rises by {LOWEST_RISE} to {HIGHEST_RISE} m, got {rise}.")
     course = plan_jump(rise)
     times = np.arange(int(course.end * FPS)) / FPS
     rng = np.random.default_rng(seed)
@@ -251,3 +239,15 @@ def _labels(course: Course, frames: int) -> dict[str, Mask]:
     times = np.arange(frames) / FPS
     jumping = (times > course.still) & (times < course.done)
     return {"stand": ~jumping, "jump": jumping}
+
+
+def save_jump(path: Path) -> None:
+    """Write the arrays of the bundled jump."""
+    jump = generate_jump()
+    marks = {name: jump.contacts[name] for name in ("lfoot", "rfoot", "ltoes", "rtoes")}
+    arrays = {"root_positions": jump.root_positions, "rotations": jump.rotations}
+    np.savez_compressed(path, **arrays, **marks, jump=jump.labels["jump"])
+
+
+if __name__ == "__main__":
+    save_jump(Path(__file__).parents[1] / "mocap" / "datasets" / "jump.npz")
