@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body import ground_path
-from mocap.body.ground_path import GroundPath, SmoothPath, arcs, spline
+from mocap.body.ground_path import GroundPath, arcs, spline
 from mocap.errors import MocapError
 from tests.strategies import seeds
 
@@ -49,43 +49,11 @@ def test_a_spline_passes_its_points_smoothly(seed):
     assert spline(points, closed=True).points[-1] == pytest.approx(points[0], abs=1e-9)
 
 
-def test_a_smooth_path_on_a_circle_is_as_long_and_turns_as_much():
-    angle = np.linspace(0, np.pi, 60)
-    path = SmoothPath(2 * np.stack([1 - np.cos(angle), np.sin(angle)], axis=-1))
-    along = np.linspace(0, path.length, 200)
-    assert path.length == pytest.approx(2 * np.pi, rel=1e-3)
-    assert np.ptp(path.heading(along)) == pytest.approx(np.pi, rel=0.02)
-    assert np.ptp(np.linalg.norm(np.diff(path.at(along), axis=0), axis=-1)) < 1e-4
-
-
-@given(st.floats(-5, 15))
-def test_a_straight_smooth_path_goes_straight_on_past_its_ends(along):
-    path = SmoothPath([[1, 0], [1, 4], [1, 10]])
-    assert path.at(along) == pytest.approx([1, along], abs=1e-9)
-    assert path.heading(along) == pytest.approx(0, abs=1e-9)
-
-
-@given(seeds)
-def test_a_smooth_path_passes_its_points_and_its_heading_is_its_direction(seed):
-    """Bends of up to 0.6 radians, a metre apart."""
-    bends = np.cumsum(np.random.default_rng(seed).uniform(-0.6, 0.6, 9))
-    path = SmoothPath(np.cumsum(np.stack([np.sin(bends), np.cos(bends)], axis=1), axis=0))
-    along = np.linspace(0, path.length, 1000)
-    for point in path.points:
-        assert np.hypot(*(path.at(along) - point).T).min() < 0.01
-    step = path.at(along + 1e-5) - path.at(along - 1e-5)
-    assert np.hypot(*step.T) / 2e-5 == pytest.approx(1, abs=0.01)
-    directions = np.arctan2(*step.T) - path.heading(along)
-    assert np.cos(directions) == pytest.approx(1, abs=1e-6)
-
-
 def test_points_that_repeat_count_once():
     points = [[0, 0], [0, 0], [0, 3], [1e-12, 3], [4, 3]]
-    for kind in (GroundPath, SmoothPath):
-        assert kind(points).points.tolist() == [[0, 0], [0, 3], [4, 3]]
+    assert GroundPath(points).points.tolist() == [[0, 0], [0, 3], [4, 3]]
 
 
-@pytest.mark.parametrize("kind", [GroundPath, SmoothPath])
 @pytest.mark.parametrize(
     ("points", "message"),
     [
@@ -97,9 +65,9 @@ def test_points_that_repeat_count_once():
         ([[0, 0, 0], [1, 1, 1]], "two points"),
     ],
 )
-def test_what_is_no_path_is_refused(kind, points, message):
+def test_what_is_no_path_is_refused(points, message):
     with pytest.raises(MocapError, match=message):
-        kind(points)
+        GroundPath(points)
 
 
 @pytest.mark.parametrize("angle", [2.085495351331207, *np.linspace(0, 6, 20)])

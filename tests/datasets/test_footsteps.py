@@ -2,10 +2,13 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from mocap.datasets.footsteps import Roll, Steps, foot_path, foot_pitch, winding
+from mocap.datasets.footsteps import Roll, Steps, foot_path, foot_pitch, smooth_path, winding
 from mocap.datasets.gait import JOG, SNEAK, WALK, mix_rolls
 from mocap.datasets.walking_body import FOOT
+from tests.strategies import seeds
 
 HALF = np.array([0.5, 0.5])
 ROLLS = pytest.mark.parametrize(
@@ -113,3 +116,34 @@ def test_a_foot_that_waits_stays_loaded():
     assert path.flat[:40].all()
     assert path.load[:30] == pytest.approx(1)
     assert path.stance.max() < WALK.roll.lift
+
+
+def test_a_smooth_path_on_a_circle_is_as_long_and_turns_as_much():
+    angle = np.linspace(0, np.pi, 60)
+    path = smooth_path(2 * np.stack([1 - np.cos(angle), np.sin(angle)], axis=-1))
+    along = np.linspace(0, path.length, 200)
+    assert path.length == pytest.approx(2 * np.pi, rel=1e-3)
+    assert np.ptp(path.heading(along)) == pytest.approx(np.pi, rel=0.02)
+    assert np.ptp(np.linalg.norm(np.diff(path.at(along), axis=0), axis=-1)) < 1e-4
+
+
+@given(st.floats(-5, 15))
+def test_a_straight_smooth_path_goes_straight_on_past_its_ends(along):
+    path, along = smooth_path([[1, 0], [1, 4], [1, 10]]), np.array([along])
+    assert path.at(along)[0] == pytest.approx([1, along[0]], abs=1e-9)
+    assert path.heading(along) == pytest.approx(0, abs=1e-9)
+
+
+@given(seeds)
+def test_a_smooth_path_passes_its_points_and_its_heading_is_its_direction(seed):
+    """Bends of up to 0.6 radians, a metre apart."""
+    bends = np.cumsum(np.random.default_rng(seed).uniform(-0.6, 0.6, 9))
+    points = np.cumsum(np.stack([np.sin(bends), np.cos(bends)], axis=1), axis=0)
+    path = smooth_path(points)
+    along = np.linspace(0, path.length, 1000)
+    for point in points:
+        assert np.hypot(*(path.at(along) - point).T).min() < 0.01
+    step = path.at(along + 1e-5) - path.at(along - 1e-5)
+    assert np.hypot(*step.T) / 2e-5 == pytest.approx(1, abs=0.01)
+    directions = np.arctan2(*step.T) - path.heading(along)
+    assert np.cos(directions) == pytest.approx(1, abs=1e-6)
