@@ -1,69 +1,74 @@
 """The command `mocap find`: all motions like an example."""
 
-import argparse
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Annotated, Literal
 
-from mocap import files, quality
+from mocap import files
 from mocap._shared.atomic import make_folder, require_folder
-from mocap.cli.options import CM, LENGTH, SKELETON, bar, whole
+from mocap.cli.options import CM, Sources, bar, number, tell
 from mocap.errors import MocapError
 from mocap.methods import match_webs
-
-if TYPE_CHECKING:
-    from mocap.body.motion import Motion
-    from mocap.cli.options import Commands
-    from mocap.methods.match_webs.match_search import Match
-
 
 # A path of the web ends where frames are no longer as near as asked, although on average they still are.
 ROOM = 4 / 3  # with it CMU 02_05's punch finds two more below 6 cm; with 2 no others
 
 
-def add_find(commands: "Commands") -> None:
-    """Add `mocap find`."""
-    find = commands.add_parser(
-        "find",
-        help="find all motions like an example, and cut them out",
-        description="Find what is like some frames of a clip, then what is like that, in all clips. "
-        "Print the matches as a table, from the nearest on, and with --out write each as a file.",
-        epilog="Example: mocap find punch.bvh:40-90 clips/ -o punches/",
-    )
-    add = find.add_argument
-    frames = "a clip and its frames, as in walk.amc:120-250 (the last one not included)"
-    add("query", metavar="QUERY[:FROM-TO]", help=frames)
-    add("clips", nargs="+", type=Path, help=".amc, .bvh or AMASS .npz files, or folders of them")
-    add("-o", "--out", type=Path, help="folder to write the matches into, as files (default: write none)")
-    add("--to", choices=["amc", "bvh"], default="bvh", help="format of these files (default: %(default)s)")
-    add("--below", type=CM, default=6.0, help="largest distance of a match, cm (default: %(default)g)")
-    add("--steps", type=whole(1, 10_000), help="how often to search (default: until nothing new turns up)")
-    add("--any-length", action="store_true", help="matches may last half as long as the query, or twice")
-    add("--skeleton", type=Path, help=SKELETON)
-    add("--scale", type=LENGTH, help="metres per unit of length in .bvh clips (default: 0.01)")
-    find.set_defaults(run=_find)
+def find(
+    query: str,
+    clips: Sequence[Path],
+    *,
+    out: Path | None = None,
+    to: Literal["amc", "bvh"] = "bvh",
+    below: Annotated[float, CM] = 6.0,
+    steps: Annotated[int | None, number(1, 10_000, int)] = None,
+    any_length: bool = False,
+    sources: Sources,
+) -> None:
+    """Find all motions like an example, and cut them out.
 
+    Find what is like some frames of a clip, then what is like that, in all clips. Print the matches as a
+    table, from the nearest on, and with --out write each as a file.
 
-def _find(options: argparse.Namespace) -> int:
-    if options.out:
-        require_folder(options.out)
-    query, frames = _query(options.query)
-    found = files.find_files(options.clips)
-    asked = _position(query, found)
-    paths = [*found, query] if asked is None else found
-    clips = files.load_all(paths, skeleton=options.skeleton, scale=options.scale, progress=bar("reading"))
-    quality.warn_of_size(clips)
-    below = options.below / 100
-    web = match_webs.build_web(clips, below=ROOM * below, progress=bar("comparing"))
-    lengths = (1 / 2, 2) if options.any_length else (3 / 4, 4 / 3)
-    number = len(found) if asked is None else asked
-    matches = match_webs.search(web, number, frames, below=below, steps=options.steps, lengths=lengths)
+    Parameters
+    ----------
+    query (QUERY[:FROM-TO]) : a clip and its frames, as in walk.amc:120-250 (the last one not included).
+    clips : .amc, .bvh or AMASS .npz files, or folders of them.
+    out : folder to write the matches into, as files (default: write none).
+    to : format of these files.
+    below : largest distance of a match, cm.
+    steps : how often to search (default: until nothing new turns up).
+    any_length : matches may last half as long as the query, or twice.
+
+    Notes
+    -----
+    Example: mocap find punch.bvh:40-90 clips/ -o punches/
+    """
+    if out:
+        require_folder(out)
+    example, frames = _query(query)
+    found = files.find_files(clips)
+    places = [path.resolve() for path in found]
+    inside = example.resolve() in places
+    asked = places.index(example.resolve()) if inside else len(found)
+    motions = sources.load(found if inside else [*found, example])
+    web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
+    lengths = (1 / 2, 2) if any_length else (3 / 4, 4 / 3)
+    matches = match_webs.search(web, asked, frames, below=below / 100, steps=steps, lengths=lengths)
     shown = [match for match in matches[1:] if match.clip < len(found)]
-    _print(shown, clips)
-    if options.out:
-        _write(shown, web, options)
-    return 0
+    print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
+    for one in shown:
+        clip, at = motions[one.clip], f"{one.start}-{one.stop}"
+        seconds = (one.stop - one.start) / clip.fps
+        print(f"{clip.name:<20} {at:>13} {seconds:>8.2f} {100 * one.cost:>5.1f} {one.generation:>5}")
+    tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
+    if out:
+        make_folder(out)
+        for one in bar("writing")(shown):
+            name = f"{motions[one.clip].name}_{one.start}-{one.stop}.{to}"
+            files.save(match_webs.cut_out(web, one), out / name)
+        tell(wrote=f"{len(shown)} files to {out}")
 
 
 def _query(text: str) -> tuple[Path, slice]:
@@ -81,28 +86,3 @@ def _query(text: str) -> tuple[Path, slice]:
         raise MocapError(f"Which frames are '{text[-60:]}'? Write CLIP:FROM-TO, as in walk.amc:120-250.")
     first, last = (None if part is None else int(part) for part in parts.groups()[1:])
     return Path(parts[1]), slice(first, last)
-
-
-def _position(query: Path, found: Sequence[Path]) -> int | None:
-    """Say which of some files a file is, if any."""
-    places = [path.resolve() for path in found]
-    return places.index(query.resolve()) if query.resolve() in places else None
-
-
-def _print(matches: "Sequence[Match]", clips: "Sequence[Motion]") -> None:
-    print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
-    for match in matches:
-        clip = clips[match.clip]
-        seconds = (match.stop - match.start) / clip.fps
-        frames = f"{match.start}-{match.stop}"
-        print(f"{clip.name:<20} {frames:>13} {seconds:>8.2f} {100 * match.cost:>5.1f} {match.generation:>5}")
-    print(f"{'found':<12} {len(matches)} in {len({match.clip for match in matches})} clips")
-
-
-def _write(matches: "Sequence[Match]", web: "match_webs.MatchWeb", options: argparse.Namespace) -> None:
-    make_folder(options.out)
-    for match in bar("writing")(matches):
-        clip = web.clips[match.clip]
-        target = options.out / f"{clip.name}_{match.start}-{match.stop}.{options.to}"
-        files.save(match_webs.cut_out(web, match), target)
-    print(f"{'wrote':<12} {len(matches)} files to {options.out}")

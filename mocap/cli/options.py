@@ -1,21 +1,131 @@
-"""What the commands share: a progress bar, numbers with bounds, the options for reading and building."""
+"""What the commands share: options declared once, a progress bar, clips that are read, and files to write."""
 
 import argparse
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
+from mocap import body, files, graphs, quality
+from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError
 
 if TYPE_CHECKING:
-    Commands = argparse._SubParsersAction[argparse.ArgumentParser]
+    from mocap.body.motion import Motion
+    from mocap.graphs.motion_graph import MotionGraph
 
-RATES = (1.0, 1000.0)  # frames per second that a graph or a film may have
-SKELETON = "the .asf file of .amc clips (default: the one in the same folder that fits)"
+
+def number(low: float, high: float, kind: Callable[[str], float] = float) -> Callable[[str], float]:
+    """Make a reader for an option that takes a number within bounds, or with `int` a whole one.
+
+    Examples
+    --------
+    >>> number(0, 10)("4.5")
+    4.5
+    >>> number(0, 10, int)("nan")
+    Traceback (most recent call last):
+    argparse.ArgumentTypeError: 'nan' is not a whole number from 0 to 10
+    """
+
+    def read(text: str) -> float:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = math.nan
+        if not low <= value <= high:
+            what = (
+                f"a whole number from {low} to {high}"
+                if kind is int
+                else f"a number from {low:g} to {high:g}"
+            )
+            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not {what}")
+        return value
+
+    return read
+
+
+LENGTH, CM, RATE, TURN = number(1e-6, 1e6), number(0.001, 1000), number(1, 1000), number(1, 3600)
+Skeleton = Annotated[
+    Path | None, "the .asf file of .amc clips (default: the one in the same folder that fits)"
+]
+Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
+Widen = Annotated[bool, "for .amc, write an .asf whose bones turn about three axes"]
+Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
+Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of what is drawn at random"]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How one clip is read; the options of a command that has such a parameter."""
+
+    skeleton: Skeleton = None
+    fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
+    scale: Annotated[
+        float | None, LENGTH, "metres per unit of length (default: 0.01; for .amc as in the .asf)"
+    ] = None
+
+    def read(self, path: Path) -> "Motion":
+        """Read a clip; raise MocapError as `files.load`, and for a skeleton that the clip does not need."""
+        if self.skeleton and path.suffix.lower() in (".bvh", ".npz"):
+            raise MocapError(f"--skeleton is for .amc clips; {path} needs none.")
+        return files.load(path, **asdict(self))
+
+    def load(self, path: Path) -> "Motion":
+        """Read a clip, and warn of a body of another size than people's."""
+        motion = self.read(path)
+        quality.warn_of_size([motion])
+        return motion
+
+
+@dataclass(frozen=True)
+class Sources:
+    """How many clips are read."""
+
+    skeleton: Skeleton = None
+    scale: Annotated[float | None, LENGTH, "metres per unit of length in .bvh clips (default: 0.01)"] = None
+
+    def load(self, paths: Iterable[Path]) -> "list[Motion]":
+        """Read clips, and folders of them, and warn of bodies of other sizes than people's."""
+        clips = files.load_all(paths, skeleton=self.skeleton, scale=self.scale, progress=bar("reading"))
+        quality.warn_of_size(clips)
+        return clips
+
+
+@dataclass(frozen=True)
+class Building(Sources):
+    """How clips are read and their graph is built; seconds and centimetres."""
+
+    fps: Annotated[float, RATE, "frame rate of the graph"] = 30.0
+    window: Annotated[float, number(0, 60), "seconds of a transition"] = 1 / 3
+    threshold: Annotated[float, CM, "largest distance of a match, cm"] = 4.0
+
+    def frames(self) -> int:
+        """Count the frames of a window, which needs at least two.
+
+        Examples
+        --------
+        >>> Building().frames()
+        10
+        """
+        frames = round(self.window * self.fps)
+        if frames < 2:
+            raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
+        return frames
+
+    def build(self, clips: "Sequence[Motion]", progress: Progress = iter) -> "MotionGraph":
+        """Build the graph of some clips, not pruned yet."""
+        clips = [body.resample(clip, self.fps) for clip in clips]
+        return graphs.build(clips, window=self.frames(), threshold=self.threshold / 100, progress=progress)
+
+
+def load_graph(path: Path, skeleton: Path | None, clips: "Sequence[Motion] | None" = None) -> "MotionGraph":
+    """Load a saved graph with some clips, or with those that it remembers."""
+    clips = graphs.find_clips(path, skeleton=skeleton, progress=bar("reading")) if clips is None else clips
+    return graphs.load(path, [body.resample(clip, graphs.read(path).fps) for clip in clips])
 
 
 def bar(what: str) -> Progress:
@@ -31,92 +141,59 @@ def bar(what: str) -> Progress:
     return partial(tqdm, desc=what, delay=1.0, leave=False, disable=None)
 
 
-def number(low: float, high: float) -> Callable[[str], float]:
-    """Make a type for an option that takes a number within bounds.
+def tell(**rows: object) -> None:
+    """Print what was done, a line for each.
 
     Examples
     --------
-    >>> number(0, 10)("4.5")
-    4.5
-    >>> number(0, 10)("nan")
+    >>> tell(wrote="walk.bvh")
+    wrote        walk.bvh
+    """
+    print("\n".join(f"{name:<12} {text}" for name, text in rows.items()))
+
+
+def check_out(what: str, out: Path, formats: Sequence[str], read: Iterable[Path] = ()) -> None:
+    """Raise, before any work is done, where a file cannot be written, or is one of those to read.
+
+    Examples
+    --------
+    >>> check_out("walk", Path("walk.fbx"), [".bvh", ".glb"])
     Traceback (most recent call last):
-    argparse.ArgumentTypeError: 'nan' is not a number from 0 to 10
+    mocap.errors.MocapError: A walk is written as .bvh or .glb, got 'walk.fbx'.
     """
-
-    def read(text: str) -> float:
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a number from {low:g} to {high:g}")
-        return value
-
-    return read
+    if out.suffix.lower() not in formats:
+        *some, last = formats
+        known = f"{', '.join(some)} or {last}" if some else last
+        raise MocapError(f"A {what} is written as {known}, got '{out}'.")
+    require_other(out, read)
+    require_writable(out)
 
 
-def whole(low: int, high: int) -> Callable[[str], int]:
-    """Make a type for an option that takes a whole number within bounds.
+def require_other(out: Path, read: Iterable[Path]) -> None:
+    """Raise where the file to write is one of those to read.
 
     Examples
     --------
-    >>> whole(1, 10)("0")
+    >>> require_other(Path("clips/walk.bvh"), [Path("clips/run.bvh"), Path("./clips/walk.bvh")])
     Traceback (most recent call last):
-    argparse.ArgumentTypeError: '0' is not a whole number from 1 to 10
+    mocap.errors.MocapError: clips/walk.bvh is one of the files to read: choose another name with -o.
     """
-
-    def read(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            value = low - 1
-        if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number from {low} to {high}")
-        return value
-
-    return read
+    if out.resolve() in (path.resolve() for path in read):
+        raise MocapError(f"{out} is one of the files to read: choose another name with -o.")
 
 
-LENGTH, CM, SEED = number(1e-6, 1e6), number(0.001, 1000), whole(0, 2**32 - 1)
-TURN = number(1, 3600)  # degrees per second
+def write_out(motion: "Motion", out: Path, *, widen: bool = False, about: str = "") -> None:
+    """Write a motion, and say so."""
+    files.save(motion, out, widen=widen)
+    tell(wrote=f"{out}{about}")
 
 
-def add_reading(command: argparse.ArgumentParser) -> None:
-    """Add the options for reading a clip."""
-    add = command.add_argument
-    add("--skeleton", type=Path, help=SKELETON)
-    add("--fps", type=number(*RATES), help="frames per second (default: as in the file; 120 for .amc)")
-    add("--scale", type=LENGTH, help="metres per unit of length (default: 0.01; for .amc as in the .asf)")
-
-
-def add_building(command: argparse.ArgumentParser) -> None:
-    """Add the options for reading clips and building their graph."""
-    add = command.add_argument
-    add("--skeleton", type=Path, help=SKELETON)
-    add("--scale", type=LENGTH, help="metres per unit of length in .bvh clips (default: 0.01)")
-    add("--fps", type=number(*RATES), default=30.0, help="frame rate of the graph (default: %(default)g)")
-    add(
-        "--window", type=number(0, 60), default=1 / 3, help="seconds of a transition (default: %(default).2f)"
-    )
-    add("--threshold", type=CM, default=4.0, help="largest distance of a match, cm (default: %(default)g)")
-
-
-def window_frames(seconds: float, fps: float) -> int:
-    """Count the frames of a window, which needs at least two.
-
-    Raises
-    ------
-    MocapError : if there are fewer.
-
-    Examples
-    --------
-    >>> window_frames(1 / 3, 30.0)
-    10
-    """
-    frames = seconds * fps
-    if not (math.isfinite(frames) and round(frames) >= 2):
-        raise MocapError(f"A window needs two frames or more, got {seconds:g} s at {fps:g} Hz.")
-    return round(frames)
+def tell_of_failures(done: str, count: int, problems: Sequence[str], where: str = "") -> int:
+    """Say how many files are done, and what failed: the end of a command for many files, and its status."""
+    tell(**{done: f"{count - len(problems)} of {count}{where}"})
+    for problem in problems:
+        tell(failed=as_options(problem))
+    return 2 if problems else 0
 
 
 def as_options(message: str) -> str:
@@ -128,29 +205,3 @@ def as_options(message: str) -> str:
     'choose another name, or set --skeleton to it; --widen also writes one'
     """
     return re.sub(r"\b(skeleton|scale|fps|widen|clips)=(True)?(?=\W|$)", r"--\1", message)
-
-
-def require_other(target: Path, read: Iterable[Path]) -> None:
-    """Raise where the file to write is one of those to read.
-
-    Examples
-    --------
-    >>> require_other(Path("clips/walk.bvh"), [Path("clips/run.bvh"), Path("./clips/walk.bvh")])
-    Traceback (most recent call last):
-    mocap.errors.MocapError: clips/walk.bvh is one of the files to read: choose another name with -o.
-    """
-    if target.resolve() in (path.resolve() for path in read):
-        raise MocapError(f"{target} is one of the files to read: choose another name with -o.")
-
-
-def require_amc(clip: Path, skeleton: Path | None) -> None:
-    """Raise for a skeleton that a clip does not need.
-
-    Examples
-    --------
-    >>> require_amc(Path("walk.bvh"), Path("walk.asf"))
-    Traceback (most recent call last):
-    mocap.errors.MocapError: --skeleton is for .amc clips; walk.bvh needs none.
-    """
-    if skeleton and clip.suffix.lower() in (".bvh", ".npz"):
-        raise MocapError(f"--skeleton is for .amc clips; {clip} needs none.")

@@ -1,103 +1,104 @@
 """The command `mocap walk`: a walk through a saved graph, along a path or at random."""
 
-import argparse
 import itertools
 import math
 import re
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from mocap import body, editing, files, graphs, steering, synthesis
-from mocap._shared.atomic import require_writable
-from mocap.cli.options import LENGTH, SEED, SKELETON, TURN, bar, require_other, whole
+from mocap import editing, files, graphs, steering, synthesis
+from mocap.cli.options import (
+    LENGTH,
+    TURN,
+    Clean,
+    Skeleton,
+    Sources,
+    Unit,
+    bar,
+    check_out,
+    load_graph,
+    number,
+    require_other,
+    tell,
+    write_out,
+)
 from mocap.datasets.clip_origins import find_again
 from mocap.errors import MocapError, MocapWarning
 
 if TYPE_CHECKING:
-    from mocap.body.motion import Motion
-    from mocap.cli.options import Commands
     from mocap.graphs.motion_graph import MotionGraph
-    from mocap.graphs.storage import GraphFile
-    from mocap.steering.followed import Followed
 
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 LONGEST = 24 * 3600.0  # seconds of a random walk
 
 
-def add_walk(commands: "Commands") -> None:
-    """Add `mocap walk`."""
-    walk = commands.add_parser(
-        "walk",
-        help="walk through a saved graph, along a path or at random",
-        description="Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at "
-        "random, and write the motion as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C "
-        "while it searches writes the best walk so far.",
-        epilog="Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh",
-    )
-    add = walk.add_argument
-    add("graph", type=Path, help="an .npz file from `mocap graph`")
-    what = walk.add_mutually_exclusive_group(required=True)
-    what.add_argument("--path", type=Path, help="a path: .csv with points x, z in metres, or an .svg picture")
-    what.add_argument("--random", metavar="TIME", help="duration of a random walk, such as 60s, 10min or 1h")
-    add("-o", "--out", type=Path, default=Path("walk.bvh"), help="file to write (default: %(default)s)")
-    clips = "the clips of the graph (default: those that it was built of, where it remembers them)"
-    add("--clips", nargs="+", type=Path, help=clips)
-    add("--skeleton", type=Path, help=SKELETON)
-    add("--scale", type=LENGTH, help="metres per unit of length in the .bvh clips that --clips names")
-    add("--unit", type=LENGTH, help="metres per unit of length in the path (default: 1; for .svg 0.01)")
-    wish = "kind of motion from that many metres along the path, as in 6.5:sneak; may be repeated"
-    add("--label", action="append", default=[], metavar="METRES:LABEL", help=wish)
-    bend = "lay the walk on the path, turned by up to so many degrees per second (without a number: 60)"
-    add("--bend", type=TURN, nargs="?", const=60.0, metavar="DEGREES", help=bend)
-    add("--width", type=whole(1, 10_000), help="walks that the search keeps at a time (default: 100)")
-    add("--clean", action="store_true", help="clean up footskate: planted feet stand still")
-    add("--seed", type=SEED, help="seed of the random walk (default: 0)")
-    walk.set_defaults(run=_walk)
+def walk(
+    graph: Path,
+    *,
+    path: Path | None = None,
+    random: str | None = None,
+    out: Path = Path("walk.bvh"),
+    clips: Sequence[Path] = (),
+    skeleton: Skeleton = None,
+    scale: Annotated[float | None, LENGTH] = None,
+    unit: Unit = None,
+    label: Annotated[Sequence[str], {"action": "append", "nargs": None, "default": []}] = (),
+    bend: Annotated[float | None, TURN, {"nargs": "?", "const": 60.0}] = None,
+    width: Annotated[int | None, number(1, 10_000, int)] = None,
+    clean: Clean = False,
+    seed: Annotated[int | None, number(0, 2**32 - 1, int)] = None,
+) -> int:
+    """Walk through a saved graph, along a path or at random.
 
+    Walk through a graph saved by `mocap graph`, along a path drawn on the ground or at random, and write the
+    motion as .bvh (centimetres) or .glb (for engines and viewers). Ctrl-C while it searches writes the best
+    walk so far.
 
-def _walk(options: argparse.Namespace) -> int:
-    if options.out.suffix.lower() not in (".bvh", ".glb"):
-        raise MocapError(f"A walk is written as .bvh or .glb, got '{options.out}'.")
-    require_writable(options.out)
-    _require_together(options)
-    if options.random is not None:
-        seconds, graph = _seconds(options.random), _graph(options)
-        frames = synthesis.dump(
-            graph,
-            options.out,
-            seconds=seconds,
-            seed=options.seed or 0,
-            clean=options.clean,
-            progress=bar("writing"),
-        )
-        print(f"{'walked':<12} {frames / graph.fps:.1f} s at random")
-    else:
-        followed = _followed(options)
-        print(f"{'walked':<12} {followed.report()}")
-        files.save(followed.motion(clean=options.clean or bool(options.bend)), options.out)
-    print(f"{'wrote':<12} {options.out}")
-    return 130 if options.random is None and followed.found.stopped else 0
+    Parameters
+    ----------
+    graph : an .npz file from `mocap graph`.
+    path : a path: .csv with points x, z in metres, or an .svg picture.
+    random (TIME) : duration of a random walk, such as 60s, 10min or 1h.
+    out : file to write.
+    clips : the clips of the graph (default: those that it was built of, where it remembers them).
+    scale : metres per unit of length in the .bvh clips that --clips names.
+    label (METRES:LABEL) : kind of motion from that many metres along the path, as in 6.5:sneak; may be
+        repeated.
+    bend (DEGREES) : lay the walk on the path, turned by up to so many degrees per second (without a number:
+        60).
+    width : walks that the search keeps at a time (default: 100).
+    seed : seed of the random walk (default: 0).
 
-
-def _require_together(options: argparse.Namespace) -> None:
-    """Raise for options that would have no effect."""
-    if options.random is not None and (options.label or options.width or options.unit or options.bend):
+    Notes
+    -----
+    Example: mocap walk graph.npz --path line.csv --bend -o walk.bvh
+    """
+    if (path is None) == (random is None):
+        raise MocapError("Give one of --path and --random: where to walk, or for how long.")
+    if random is not None and (label or width or unit or bend):
         raise MocapError("--label, --bend, --width and --unit belong to --path, not to --random.")
-    if options.random is None and options.seed is not None:
+    if random is None and seed is not None:
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
-    if options.scale and not options.clips:
+    if scale and not clips:
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
-
-
-def _followed(options: argparse.Namespace) -> "Followed":
-    path = files.load_path(options.path, scale=options.unit)
-    wishes = steering.Wishes(labels=[_label(text) for text in options.label])
-    beam = steering.Beam(width=options.width or 100, progress=bar("searching"))
-    followed: Followed = steering.follow_path(
-        _graph(options), path, wishes, beam=beam, bend=math.radians(options.bend or 0)
-    )
-    return followed
+    check_out("walk", out, (".bvh", ".glb"))
+    if path is None:
+        seconds, found = _seconds(random or ""), _graph(graph, clips, Sources(skeleton, scale), out)
+        frames = synthesis.dump(
+            found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing")
+        )
+        tell(walked=f"{frames / found.fps:.1f} s at random", wrote=out)
+        return 0
+    line = files.load_path(path, scale=unit)
+    wishes = steering.Wishes(labels=[_label(text) for text in label])
+    beam = steering.Beam(width=width or 100, progress=bar("searching"))
+    found = _graph(graph, clips, Sources(skeleton, scale), out)
+    followed = steering.follow_path(found, line, wishes, beam=beam, bend=math.radians(bend or 0))
+    tell(walked=followed.report())
+    write_out(followed.motion(clean=clean or bool(bend)), out)
+    return 130 if followed.found.stopped else 0
 
 
 def _seconds(text: str) -> float:
@@ -124,38 +125,24 @@ def _label(text: str) -> tuple[float, str]:
         raise MocapError(f"From where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak.") from None
 
 
-def _sources(options: argparse.Namespace, found: "GraphFile") -> list[Path]:
-    """List the files of the graph's clips: those given, or remembered, or of their names beside the graph."""
-    if options.clips:
-        given: list[Path] = files.find_files(options.clips)
-        return given
-    folder, sources = options.graph.parent, list[Path]()
-    for name, text in itertools.zip_longest(found.names, found.origins):
-        origin = find_again(text, folder) if text else None
-        sources.append(origin.path if origin else folder / f"{name}{options.out.suffix}")
-    return [source for source in sources if source.is_file()]
-
-
-def _graph(options: argparse.Namespace) -> "MotionGraph":
-    """Read the graph, and the clips that it was built of."""
-    found = graphs.read(options.graph)
-    require_other(options.out, _sources(options, found))
+def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "MotionGraph":
+    """Read the graph, and the clips that it was built of: those given, or those that it remembers."""
+    found = graphs.read(path)
+    require_other(out, files.find_files(clips) if clips else _remembered(path, out.suffix))
     with warnings.catch_warnings():
         lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
-        clips = _clips(options, found)
-    graph: MotionGraph = graphs.load(options.graph, [body.resample(clip, found.fps) for clip in clips])
-    return graph
+        if not clips:
+            return load_graph(path, sources.skeleton)
+        given = sources.load(clips)
+        given += [editing.mirror(c) for c in given if editing.mirrored_name(c.name) in found.names]
+    return load_graph(path, None, given)
 
 
-def _clips(options: argparse.Namespace, found: "GraphFile") -> "list[Motion]":
-    progress = bar("reading")
-    if not options.clips:
-        remembered: list[Motion] = graphs.find_clips(
-            options.graph, skeleton=options.skeleton, progress=progress
-        )
-        return remembered
-    clips: list[Motion] = files.load_all(
-        options.clips, skeleton=options.skeleton, scale=options.scale, progress=progress
-    )
-    return clips + [editing.mirror(c) for c in clips if editing.mirrored_name(c.name) in found.names]
+def _remembered(path: Path, suffix: str) -> list[Path]:
+    """List the files of a graph's clips, as it remembers them or of their names beside it."""
+    found, folder, sources = graphs.read(path), path.parent, list[Path]()
+    for name, text in itertools.zip_longest(found.names, found.origins):
+        origin = find_again(text, folder) if text else None
+        sources.append(origin.path if origin else folder / f"{name}{suffix}")
+    return [source for source in sources if source.is_file()]

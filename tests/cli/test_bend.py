@@ -39,10 +39,10 @@ def test_a_walk_is_laid_on_a_line(folder, capsys, monkeypatch, line, suffix):
     monkeypatch.chdir(folder)
     assert main(["bend", "walk.bvh", "--along", line, "-o", f"new{suffix}"]) == 0
     said = capsys.readouterr().out
-    assert said.startswith("bent       ")
+    assert said.startswith("bent         ")
     assert "cm off on average" in said
     assert ("rounded at" in said) == (line == "line.csv")
-    assert said.endswith(f"wrote      new{suffix}\n")
+    assert said.endswith(f"wrote        new{suffix}\n")
     if suffix == ".bvh":
         made = load_save.load(folder / "new.bvh")
         assert np.median(off(made, load_path(folder / line))) < 0.03
@@ -77,8 +77,8 @@ def test_a_walk_from_a_graph_is_laid_on_a_line(folder, capsys, monkeypatch):
         (["bend", "gone.bvh", "--along", "line.csv", "-o", "x.bvh"], "gone.bvh"),
         (["bend", "stands.bvh", "--along", "line.csv", "-o", "x.bvh"], "it stands; there is no path to edit"),
         (["bend", "arm.bvh", "--along", "line.csv", "-o", "x.bvh"], "legs"),
-        (["bend", "walk.bvh", "--along", "line.csv", "-o", "x.mp4"], "is written as .bvh, .glb, .amc"),
-        (["bend", "walk.bvh", "--along", "line.csv", "-o", "walk.bvh"], "is the walk to bend itself"),
+        (["bend", "walk.bvh", "--along", "line.csv", "-o", "x.mp4"], "is written as .bvh, .glb or .amc"),
+        (["bend", "walk.bvh", "--along", "line.csv", "-o", "walk.bvh"], "is one of the files to read"),
         (["bend", "walk.bvh", "--along", "line.csv", "-o", "nowhere/x.bvh"], "Cannot write nowhere"),
         (["bend", "walk.bvh", "--along", "line.csv", "-o", "x.bvh", "--limit", "0"], "'0' is not a number"),
         (["bend", "walk.bvh", "--along", "line.csv", "-o", "x.bvh", "--skeleton", "a.asf"], ".amc clips"),

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mocap.cli import demo
-from mocap.cli.demo import Settings
 from mocap.cli.main import main
+from mocap.cli.options import Building
 from mocap.datasets import samples
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.files import folders, load_save
@@ -18,11 +18,11 @@ CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
 
 @pytest.fixture(scope="module")
 def bundled():
-    return demo.run([samples.sample(name) for name in samples.SAMPLES], Settings(seconds=20))
+    return demo.run([samples.sample(name) for name in samples.SAMPLES], Building(), 20, 0)
 
 
 def test_it_makes_a_walk_and_says_what_it_did():
-    result = demo.run(CLIPS, Settings(seconds=5, threshold=0.05))
+    result = demo.run(CLIPS, Building(threshold=5), 5, 0)
     assert result.walk.duration >= 5 - 1 / 30
     table = dict(line.split(maxsplit=1) for line in result.table().splitlines() if line[0] != " ")
     assert table["clips"] == "2: a, b"
@@ -37,27 +37,27 @@ def test_many_clips_are_named_in_short():
     clips = [replace(wave(60, phase=k, seed=k), name=f"clip{k}") for k in range(9)]
     assert (
         "9: clip0, clip1, clip2, clip3, clip4, clip5, clip6, … clip8"
-        in demo.run(clips, Settings(threshold=0.05)).table()
+        in demo.run(clips, Building(threshold=5), 12, 0).table()
     )
 
 
 def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does():
     with pytest.raises(NoWalk, match=r"at a threshold of 0\.01 cm; these clips need at least") as caught:
-        demo.run(CLIPS, Settings(threshold=1e-4))
-    enough = float(str(caught.value).split()[-2]) / 100
-    assert len(demo.run(CLIPS, Settings(threshold=enough + 1e-9)).walk) > 0
+        demo.run(CLIPS, Building(threshold=0.01), 12, 0)
+    enough = float(str(caught.value).split()[-2])
+    assert len(demo.run(CLIPS, Building(threshold=enough + 1e-7), 12, 0).walk) > 0
 
 
 def test_clips_of_other_rates_are_resampled():
-    result = demo.run(CLIPS, Settings(fps=20, threshold=0.06, seconds=2))
+    result = demo.run(CLIPS, Building(fps=20, threshold=6), 2, 0)
     assert result.walk.fps == 20
 
 
 def test_clips_that_do_not_go_together_are_refused():
     with pytest.raises(SkeletonMismatch):
-        demo.run([CLIPS[0], random_motion(0, 60)], Settings())
+        demo.run([CLIPS[0], random_motion(0, 60)], Building(), 12, 0)
     with pytest.raises(MocapError, match="'short' has 5 frames, too few for a window of 10"):
-        demo.run([CLIPS[0], replace(wave(5), name="short")], Settings())
+        demo.run([CLIPS[0], replace(wave(5), name="short")], Building(), 12, 0)
 
 
 def test_folders_stand_for_the_clips_in_them(tmp_path):
@@ -89,7 +89,7 @@ def test_real_clips_make_a_walk(real_data, folder):
     ]
     assert len(paths) == len(names)
     clips = folders.load_all(paths, skeleton=None, scale=None, progress=iter)
-    result = demo.run([clip[:1600] for clip in clips], Settings(seconds=10))
+    result = demo.run([clip[:1600] for clip in clips], Building(), 10, 0)
     assert result.walk.duration >= 9.9
     assert 0 < max(seam.cost for seam in result.seams) < 0.04
 
@@ -111,7 +111,7 @@ def test_the_demo_writes_a_walk_and_tells(clips, capsys):
 def test_without_clips_it_takes_the_bundled_ones(bundled, tmp_path, capsys, monkeypatch):
     taken = []
 
-    def run(clips, settings, progress):
+    def run(clips, *_):
         taken.extend(clip.name for clip in clips)
         return replace(bundled, walk=bundled.walk[:30])
 

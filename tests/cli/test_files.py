@@ -50,7 +50,7 @@ def test_convert_every_pair(clips, tmp_path, first, second, capsys):
     assert main(["convert", str(one), str(other)]) == 0
     assert same(start, other)
     assert load_save.load(other).fps == 30.0
-    assert capsys.readouterr().out.endswith("converted  1 of 1\n")
+    assert capsys.readouterr().out.endswith("converted    1 of 1\n")
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
@@ -74,8 +74,8 @@ def test_convert_a_folder_and_name_what_failed(clips, tmp_path, capsys):
     (clips / "notes.txt").write_text("no clip")
     assert main(["convert", str(clips), str(tmp_path / "out"), "--to", "amc"]) == 2
     told = capsys.readouterr().out
-    assert "converted  2 of 3\n" in told
-    assert f"failed     {clips / 'broken.bvh'}: expected a line 'MOTION'" in told
+    assert "converted    2 of 3\n" in told
+    assert f"failed       {clips / 'broken.bvh'}: expected a line 'MOTION'" in told
     made = sorted(str(p.relative_to(tmp_path / "out")) for p in (tmp_path / "out").rglob("*.*"))
     assert made == ["a.amc", "a.asf", "more/b.amc", "more/b.asf"]
     assert same(tmp_path / "out/more/b.amc", clips / "more/b.BVH")

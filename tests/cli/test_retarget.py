@@ -35,7 +35,7 @@ def test_a_folder_of_clips_on_the_body_of_a_clip(clips, tmp_path, capsys):
     assert (
         main(["retarget", str(clips), "--to", str(tmp_path / "child.amc"), "-o", str(tmp_path / "out")]) == 0
     )
-    assert capsys.readouterr().out == f"retargeted 2 of 2, in {tmp_path / 'out'}\n"
+    assert capsys.readouterr().out == f"retargeted   2 of 2, in {tmp_path / 'out'}\n"
     assert written(tmp_path / "out") == ["a.bvh", "b.bvh"]
     worn = load(tmp_path / "out" / "a.bvh")
     assert len(worn) == 200
@@ -64,8 +64,8 @@ def test_what_fails_is_named_and_the_others_are_written(clips, tmp_path, capsys)
         main(["retarget", str(clips), "--to", str(tmp_path / "child.amc"), "-o", str(tmp_path / "out")]) == 2
     )
     told = capsys.readouterr().out
-    assert told.startswith("retargeted 2 of 3, in ")
-    assert f"failed     {clips / 'broken.bvh'}: expected" in told
+    assert told.startswith("retargeted   2 of 3, in ")
+    assert f"failed       {clips / 'broken.bvh'}: expected" in told
     assert written(tmp_path / "out") == ["a.bvh", "b.bvh"]
     assert all(len(line) < 320 for line in told.splitlines())
 

@@ -38,7 +38,7 @@ def test_a_hand_is_raised_and_the_clip_lasts_longer(folder, capsys):
     out = folder / "new.bvh"
     assert main(["warp", str(folder / "walk.bvh"), "--keys", str(keys), "-o", str(out)]) == 0
     assert capsys.readouterr().out == (
-        f"keys       1 of poses, 2 of time\nwrote      {out}: 481 frames, 4.00 s\n"
+        f"keys         1 of poses, 2 of time\nwrote        {out}: 481 frames, 4.00 s\n"
     )
     made, walk = load_save.load(out), load_save.load(folder / "walk.bvh")
     hand = [joint_positions(m)[f, m.skeleton.index("lhand")] for m, f in ((made, 240), (walk, 180))]
@@ -196,8 +196,8 @@ def test_any_words_are_a_plan_or_one_sentence(tmp_path_factory, text):
 @pytest.mark.parametrize(
     ("out", "message"),
     [
-        ("new.txt", "is written as .bvh, .glb, .amc, got"),
-        ("walk.bvh", "is the clip to warp itself"),
+        ("new.txt", "is written as .bvh, .glb or .amc, got"),
+        ("walk.bvh", "is one of the files to read"),
         ("nowhere/new.bvh", "Cannot write"),
     ],
 )
