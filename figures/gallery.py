@@ -52,6 +52,7 @@ from mocap.body.euler import from_euler
 from mocap.course import diagrams
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
+from mocap.plotting.search_tree import SearchTree
 
 Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
@@ -373,7 +374,7 @@ def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthe
     return synthesis.Problem(graph, step, lambda state: state[2] == count)
 
 
-def _fan(tree: plotting.SearchTree, ax: Axes) -> None:
+def _fan(tree: SearchTree, ax: Axes) -> None:
     """Draw a search on the ground, seen from above."""
     TreePicture(tree, places=[(at.imag, at.real) for at, _, _ in tree.state], ax=ax).after()
     ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")

@@ -19,7 +19,8 @@ from mocap import body, datasets, graphs, steering, synthesis
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.plotting import ASKED, FLOOR, MARK, bones, source_colours
+from mocap.plotting import ASKED, FLOOR, MARK, bones
+from mocap.plotting.style import source_colours
 from mocap.steering.followed import Followed
 
 SHOWN = ("walk_curve_1", "walk_circle", "jog")  # the clips that are seen to move

@@ -1,24 +1,22 @@
 """Pictures, by matplotlib: stick figures, distance images, paths, curves and graphs.
 
 Every function draws on `ax` (new axes by default), computes nothing of its own, and returns the artists that
-it made; `show` puts the picture into a notebook with a sentence for readers who do not see it.
+it made, or the axes; `show` puts the picture into a notebook with a sentence for readers who do not see it.
 
 Reading order (notebooks 00 to 19)
 ----------------------------------
- 1. `style`: colours that colour-blind readers can tell apart
- 2. `axes`: 3D axes with a ground
- 3. `stick_figures`: bodies as lines
- 4. `bodies_on_path`: a whole walk in one picture
- 5. `charts`: distance images, paths from above, curves
- 6. `graph_drawing`: motion graphs as timelines and as nodes with arrows
- 7. `search_tree`: the walks that a search expands and cuts off
- 8. `spread_charts`: medians with quartiles, and random walks as rows
- 9. `storyboards`: a transition in four panels
-10. `picture`: a figure as a picture in a notebook
-11. `registration_charts`: a grid with its time path, plants as bars, tracks over the ground
-12. `web_charts`: paths over a grid, matches step by step, samples of a space and a wish
-13. `group_plans`: where the members of a group go, seen from above
-14. `box_charts`: what may follow one source, and the boxes of all sources
+1. `style`: colours that colour-blind readers can tell apart
+2. `bodies`: bodies as lines, on flat axes
+3. `axes`: 3D axes with a ground
+4. `stick_figures`: bodies on 3D axes
+5. `bodies_on_path`: a whole walk in one picture
+6. `grids`: distances and costs as images
+7. `ground_charts`: paths, footprints and ways from above
+8. `charts`: curves, bands, bars and trees
+9. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+10. `search_tree`: the walks that a search expands and cuts off
+11. `storyboards`: a transition in four panels
+12. `picture`: a figure as a picture in a notebook
 
 References
 ----------
@@ -32,7 +30,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": [
             "ASKED",
-            "ASTRAY",
             "COLOURS",
             "CURVES",
             "FLOOR",
@@ -42,26 +39,30 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "SOURCES",
             "source_colours",
         ],
+        "bodies": ["bones", "flat_bodies", "target_poses"],
         "axes": ["ground_axes", "to_picture"],
-        "stick_figures": [
-            "Bones",
-            "StickFigure",
-            "bones",
-            "film_strip",
-            "flat_bodies",
-            "laid_over",
-            "stick_figure",
-        ],
+        "stick_figures": ["StickFigure", "laid_over", "stick_figure"],
         "bodies_on_path": ["bodies_along"],
-        "charts": ["asked_and_walked", "distance_image", "footprints", "joint_curve", "path_from_above"],
+        "grids": ["boxes_image", "distance_image", "walk_rows", "warp_image", "web_image"],
+        "ground_charts": [
+            "asked_and_walked",
+            "draw_group_plan",
+            "footprints",
+            "ground_tracks",
+            "path_from_above",
+        ],
+        "charts": [
+            "box_chart",
+            "joint_curve",
+            "match_tree",
+            "plant_bars",
+            "quartile_band",
+            "seen_beside_measured",
+            "space_image",
+        ],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
-        "search_tree": ["SearchTree", "TreePicture", "grow_tree"],
-        "spread_charts": ["Band", "quartile_band", "seen_beside_measured", "walk_rows"],
+        "search_tree": ["TreePicture", "grow_tree"],
         "storyboards": ["Shot", "storyboard"],
         "picture": ["Picture", "show", "stack"],
-        "box_charts": ["box_chart", "boxes_image"],
-        "group_plans": ["draw_group_plan"],
-        "web_charts": ["match_tree", "space_image", "target_poses", "web_image"],
-        "registration_charts": ["WarpPicture", "ground_tracks", "plant_bars", "warp_image"],
     },
 )

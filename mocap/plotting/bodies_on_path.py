@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -13,9 +12,10 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.plotting.axes import rims
-from mocap.plotting.stick_figures import bones
-from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, SOURCES, source_colours
+from mocap.plotting.bodies import draw_body
+from mocap.plotting.style import ASKED, FLOOR, MARK, PATH, QUIET, own_colour, source_colours
 
 WIDTH = 9.0  # inches
 LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
@@ -61,42 +61,38 @@ def bodies_along(
     """
     asked = np.reshape(np.asarray(path, float), (-1, 2))
     clouds = [joint_positions(motion) for motion in motions]
-    scene = _Scene(np.concatenate([*(cloud[:, 0, [0, 2]] for cloud in clouds), asked]))
-    scene.discs(discs)
-    scene.line(asked, ASKED, "asked path", 4.0)
+    ways = [cloud[:, 0, [0, 2]] for cloud in clouds]
+    view = _View(np.concatenate([*ways, asked]))
+    view.ax.add_collection(PolyCollection(list(view.see(rims(discs))), facecolors=QUIET, zorder=0.5))
+    view.line(asked, ASKED, "asked path", 4.0)
     named = len(motions) == 1 or len({motion.name for motion in motions}) > 1  # colours need different names
-    together = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int) if len(motions) > FEW else None
-    for number, (motion, cloud) in enumerate(zip(motions, clouds, strict=True)):
-        own = SOURCES[number % len(SOURCES)] if len(motions) > 1 else None
+    together = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int)  # of a group, the same three moments
+    for number, (motion, cloud, way) in enumerate(zip(motions, clouds, ways, strict=True)):
+        own = own_colour(number, len(motions))
         spans = _spans(motion, sources if number == 0 else (), own, named)
-        for span in spans:
-            scene.line(cloud[span.start : span.end + 1, 0][:, [0, 2]], span.colour or PATH, span.name)
-        scene.bodies(motion, cloud, spans, _chosen(cloud[:, 0, [0, 2]]) if together is None else together)
-    scene.diamonds(clouds[0][np.asarray(list(seams), int), 0] * [1, 0, 1])
-    return scene.framed()
-
-
-class _Span(NamedTuple):
-    """A stretch of a motion, frames [start, end), that has one colour and name."""
-
-    start: int
-    end: int
-    colour: str | None
-    name: str
+        for start, end, colour, name in spans:
+            view.line(way[start : end + 1], colour or PATH, name)
+        for frame in together if len(motions) > FEW else _chosen(way):
+            (colour,) = [colour for start, end, colour, _ in spans if start <= frame < end]
+            view.body(motion.skeleton, cloud[frame], colour)
+    if len(marked := np.asarray(list(seams), int)):
+        places = view.see(clouds[0][marked, 0] * [1, 0, 1])
+        view.ax.plot(*places.T, "D", color=MARK, markersize=6, label="seam", zorder=2)
+    return view.framed()
 
 
 def _spans(
     motion: Motion, sources: Sequence[tuple[int, str]], colour: str | None, named: bool
-) -> list[_Span]:
+) -> list[tuple[int, int, str | None, str]]:
+    """List the stretches of a motion that have one colour: their frames [start, end), colour and name."""
     if not sources:
-        name = motion.name * named if colour else "walked path"
-        return [_Span(0, len(motion), colour, name)]
+        return [(0, len(motion), colour, motion.name * named if colour else "walked path")]
     colours = source_colours([name for _, name in sources])
     ends = [*(frame for frame, _ in sources[1:]), len(motion)]
-    return [_Span(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
+    return [(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
 
 
-class _Scene:
+class _View:
     """A parallel projection in which the longest way over the ground, points (N, 2), runs across."""
 
     def __init__(self, ground: Array) -> None:
@@ -106,9 +102,8 @@ class _Scene:
         self.axes = np.array([[x, 0, z], [z, 0, -x]])  # across, and away from the camera
         self.up = np.cos(RISE) * np.array([0, 1, 0]) + np.sin(RISE) * self.axes[1]
         self.figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
-        self.ax = self.figure.add_subplot()
+        self.ax = self.figure.add_subplot(aspect="equal")
         self.ax.set_axis_off()
-        self.ax.set_aspect("equal")
         self._grid(_level(ground) @ self.axes.T)
 
     def see(self, points: Array) -> Array:
@@ -131,28 +126,11 @@ class _Scene:
             label = None if known or not name else name
             self.ax.plot(*self.see(_level(ground)).T, color=colour, linewidth=wide, label=label, zorder=1)
 
-    def discs(self, discs: ArrayLike) -> None:
-        """Draw obstacles, (x, z, radius) each."""
-        if len(outlines := self.see(rims(discs))):
-            self.ax.add_collection(PolyCollection(list(outlines), facecolors=QUIET, zorder=0.5))
-
-    def diamonds(self, points: Array) -> None:
-        """Mark seams at points, shape (N, 3)."""
-        if len(points):
-            self.ax.plot(*self.see(points).T, "D", color=MARK, markersize=6, label="seam", zorder=2)
-
-    def bodies(self, motion: Motion, cloud: Array, spans: list[_Span], frames: Iterable[int]) -> None:
-        """Draw bodies at some frames, those nearer to the camera over the others."""
-        starts, ends, sides = bones(motion.skeleton)
-        head = [joint for joint, name in enumerate(motion.skeleton.names) if "head" in name.lower()][-1:]
-        for frame in frames:
-            (span,) = [span for span in spans if span.start <= frame < span.end]
-            near = 4 - float(np.tanh(cloud[frame, 0] @ self.axes[1] / 50))
-            colours = [span.colour or COLOURS[side] for side in sides]
-            lines = self.see(np.stack([cloud[frame, starts], cloud[frame, ends]], axis=1))
-            self.ax.add_collection(LineCollection(list(lines), colors=colours, linewidths=2, zorder=near))
-            colour = span.colour or COLOURS["middle"]
-            self.ax.plot(*self.see(cloud[frame, head]).T, "o", color=colour, ms=7, zorder=near, clip_on=False)
+    def body(self, skeleton: Skeleton, points: Array, colour: str | None) -> None:
+        """Draw a body, over those that are farther from the camera."""
+        near = 4 - float(np.tanh(points[0] @ self.axes[1] / 50))
+        head = {"markersize": 7, "zorder": near, "clip_on": False}
+        draw_body(self.ax, skeleton, self.see(points), colour=colour, head=head, linewidths=2, zorder=near)
 
     def framed(self) -> Figure:
         """Make the picture as high as what it shows, and name the colours above it."""
@@ -160,11 +138,11 @@ class _Scene:
         self.ax.autoscale_view()
         wide, high = np.ptp(self.ax.get_xlim()), np.ptp(self.ax.get_ylim())
         self.figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
-        columns = min(6, len(self.ax.get_legend_handles_labels()[1]))
-        if columns:
+        if columns := min(6, len(self.ax.get_legend_handles_labels()[1])):
             self.ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, fontsize=9, frameon=False)
-        note = self.ax.text(1, 1.02, "lines 1 m apart", transform=self.ax.transAxes)
-        note.set(horizontalalignment="right", fontsize=8, color=GREY)
+        self.ax.text(
+            1, 1.02, "lines 1 m apart", transform=self.ax.transAxes, ha="right", fontsize=8, color=GREY
+        )
         return self.figure
 
 

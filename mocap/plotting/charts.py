@@ -1,159 +1,23 @@
-"""Charts: distance images, paths and footprints seen from above, curves over time."""
+"""Charts: curves over time, samples as bands, boxes of costs, plants as bars, matches as trees, spaces."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PathCollection
-from matplotlib.image import AxesImage
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from mocap.body.motion import Motion
-from mocap.feet.footprints import Footprint
-from mocap.plotting.style import ASKED, COLOURS, CURVES, MARK, PATH
+from mocap._shared.arrays import Array
+from mocap.methods.match_webs.match_search import Match
+from mocap.plotting.style import ASKED, ASTRAY, COLOURS, CURVES, MARK, PATH, QUIET, source_colours
 
-
-def distance_image(
-    grid: NDArray[np.floating[Any]],
-    *,
-    fps: float,
-    minima: ArrayLike = (),
-    names: Sequence[str] = ("", ""),
-    ax: Axes | None = None,
-) -> AxesImage:
-    """Draw a distance grid, dark where the windows are alike, with its minima marked [KGP02, Fig. 3].
-
-    Parameters
-    ----------
-    grid : D, shape (n, m), m²; the colours show its square root, in centimetres.
-    fps : frames per second; the axes are in seconds.
-    minima : the places to mark, rows and columns, shape (N, 2).
-    names : of the clip along the rows, and of the clip along the columns.
-    ax : axes; new ones by default.
-
-    Returns
-    -------
-    The image.
-
-    Examples
-    --------
-    >>> from mocap import plotting
-    >>> image = distance_image(np.array([[0.04, 0.01], [0.09, 0.16]]), fps=30, minima=[(0, 1)])
-    >>> image.get_array().round(3).tolist()  # cm
-    [[20.0, 10.0], [30.0, 40.0]]
-    >>> plotting.show(image, alt="Four distances, the least of them marked.")
-    Picture('Four distances, the least of them marked.')
-
-    Notebook: 02b-distance-grids
-    """
-    ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
-    seconds = (0, grid.shape[1] / fps, grid.shape[0] / fps, 0)
-    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes, so the image is drawn faster
-    image = ax.imshow(centimetres, cmap="cividis", extent=seconds, interpolation="nearest")
-    rows, columns = np.reshape(minima, (-1, 2)).T
-    ax.plot((columns + 0.5) / fps, (rows + 0.5) / fps, ".", color="#FFFFFF", markersize=4, label="minima")
-    ax.set(xlabel=f"{names[1]} (s)".strip(), ylabel=f"{names[0]} (s)".strip(), aspect="equal")
-    ax.figure.colorbar(image, ax=ax, label="RMS distance (cm)", shrink=0.8)
-    return image
-
-
-def path_from_above(
-    motion: Motion, *, seams: ArrayLike = (), colour: str = PATH, ax: Axes | None = None
-) -> list[Line2D]:
-    """Draw the root's path on the ground, seen from above: z upwards, x to the left, as seen from behind.
-
-    Parameters
-    ----------
-    motion : the motion.
-    seams : frames to mark.
-    colour : of the path.
-    ax : axes; new ones by default.
-
-    Returns
-    -------
-    The path, the start, and the seams.
-
-    Examples
-    --------
-    >>> from mocap import datasets, plotting
-    >>> drawn = path_from_above(datasets.sample("walk_circle"), seams=[300, 600])
-    >>> plotting.show(drawn, alt="A circle seen from above, with two seams.")
-    Picture('A circle seen from above, with two seams.')
-
-    Notebook: 00-quickstart
-    """
-    ax = _from_above(ax)
-    x, z = motion.root_positions[:, [0, 2]].T
-    at = np.asarray(seams, int)
-    lines = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
-    lines += ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
-    lines += ax.plot(x[at], z[at], "D", color=MARK, markersize=5, label="seams" if len(at) else None)
-    return lines
-
-
-def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCollection:
-    """Draw where feet stood, seen from above: left and right in their colours, longer stands larger.
-
-    Parameters
-    ----------
-    prints : as from `feet.find_footprints`.
-    ax : axes, as from `path_from_above`; new ones by default.
-
-    Returns
-    -------
-    The discs, one per footprint.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> steps = [Footprint("lfoot", "left", 0, 20, 0.1, 0.0), Footprint("rfoot", "right", 18, 40, -0.1, 0.6)]
-    >>> footprints(steps, ax=Figure().add_subplot()).get_offsets().tolist()  # (x, z)
-    [[0.1, 0.0], [-0.1, 0.6]]
-
-    Notebook: 01b-motion-files
-    """
-    ax = _from_above(ax)
-    at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)
-    sizes = [12 + 40 * (1 - np.exp(-(step.end - step.start) / 60)) for step in prints]
-    colours = [COLOURS[step.side] for step in prints]
-    return ax.scatter(at[:, 0], at[:, 1], s=sizes, facecolors=colours, alpha=0.6, linewidths=0, zorder=3)
-
-
-def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None) -> list[Line2D]:
-    """Draw the path that was asked for, in black, under the path that was walked [KGP02, Fig. 6].
-
-    Parameters
-    ----------
-    path : the path asked for, shape (N, 2), points (x, z), metres.
-    motion : the walk.
-    ax : axes; new ones by default.
-
-    Returns
-    -------
-    The path asked for, the path walked, and its start.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")
-    >>> asked, walked, start = asked_and_walked([(0, 0), (0, 10)], walk, ax=Figure().add_subplot())
-    >>> asked.get_label(), walked.get_label()
-    ('asked for', 'walked')
-
-    Notebook: 08-path-synthesis
-    """
-    ax = _from_above(ax)
-    asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")
-    walked = path_from_above(motion, ax=ax)
-    walked[0].set_label("walked")
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
-    return [*asked, *walked[:2]]
+HEIGHT = 0.36  # of a bar; a clip's row has one for the left foot above one for the right
 
 
 def joint_curve(
@@ -205,9 +69,226 @@ def joint_curve(
     return curves
 
 
-def _from_above(ax: Axes | None) -> Axes:
-    """Make axes for the ground seen from above: y points at the viewer, so with z upwards x goes left."""
-    ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
-    ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
-    ax.xaxis.set_inverted(True)
+def quartile_band(
+    x: ArrayLike, samples: ArrayLike, *, label: str = "", colour: str = CURVES[0], ax: Axes | None = None
+) -> Line2D:
+    """Draw the median of samples as a line, and the range from quartile to quartile as a band.
+
+    Parameters
+    ----------
+    x : shape (n,), what was varied.
+    samples : shape (n, k), k measurements at each x.
+    label : for the legend.
+    colour : of line and band.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The median's line.
+
+    Examples
+    --------
+    >>> median = quartile_band([1, 2], [[0, 1, 2, 3, 4], [5, 5, 6, 7, 7]])
+    >>> median.get_ydata().tolist()
+    [2.0, 6.0]
+
+    Notebook: 04-blending
+    """
+    ax = ax or plt.figure(figsize=(5, 3.5), layout="constrained").add_subplot()
+    low, middle, high = np.percentile(np.asarray(samples, float), [25, 50, 75], axis=1)
+    (line,) = ax.plot(x, middle, "o-", color=colour, markersize=4, label=label or None)
+    ax.fill_between(np.asarray(x, float), low, high, color=colour, alpha=0.2, linewidth=0)
+    return line
+
+
+def seen_beside_measured(
+    seen: ArrayLike, x: ArrayLike, measured: ArrayLike, labels: tuple[str, str]
+) -> tuple[Axes, Axes]:
+    """Draw how well people see seams above a measure of the same seams.
+
+    Parameters
+    ----------
+    seen : shape (n, 4), rows (x, d′, low, high); a limit may be infinite.
+    x, measured : shapes (m,) and (m, k), k measurements at each x, as for `quartile_band`.
+    labels : of the x axis and of the measure, with units.
+
+    Returns
+    -------
+    The upper axes and the lower ones, of a new figure that pyplot does not know.
+
+    Examples
+    --------
+    >>> points = [[2, 2.8, 1.4, np.inf], [10, 0.9, 0.0, 1.9]]
+    >>> upper, _ = seen_beside_measured(points, [2, 10], [[3, 4], [1, 2]], ("window (frames)", "jolt"))
+    >>> upper.lines[1].get_ydata().tolist()
+    [2.8, 0.9]
+
+    Notebooks: 09-discussion, 09b-blend-window
+    """
+    upper, lower = Figure(figsize=(6, 5), layout="constrained").subplots(2, 1, sharex=True)
+    at, value, low, high = np.atleast_2d(np.asarray(seen, float)).T
+    upper.axhline(0, color=QUIET, linestyle=":", label="guessing")
+    upper.plot(at, value, "o-", color=CURVES[0], markersize=5, label="d′ with its 95 % interval")
+    upper.vlines(at, np.maximum(low, -9), np.minimum(high, 9), color=CURVES[0], linewidth=1.5)
+    upper.set(ylabel="seen: d′", ylim=(-1.5, 4))
+    upper.legend(frameon=False)
+    quartile_band(x, measured, ax=lower)
+    lower.set(xlabel=labels[0], ylabel=f"measured: {labels[1]}")
+    return upper, lower
+
+
+def box_chart(
+    targets: ArrayLike,
+    costs: ArrayLike,
+    box: tuple[float, float],
+    *,
+    limits: tuple[float, float],
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw what it costs to follow one source with each target, and the box of those that may follow.
+
+    Parameters
+    ----------
+    targets : shape (N,), parameters, such as degrees of turn.
+    costs : shape (N,), centimetres.
+    box : its low and its high end.
+    limits : T_GOOD and T_BAD, centimetres: dots are good up to the first, bad above the second.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> ax = box_chart([-30, 0, 30], [5.0, 2, 2.5], (-5, 30), limits=(3, 4))
+    >>> len(ax.collections[0].get_offsets())
+    3
+
+    Notebook: 17-parametric-graphs
+    """
+    ax = ax or plt.figure(figsize=(6.4, 3), layout="constrained").add_subplot()
+    good, bad = limits
+    colours = [CURVES[0] if cost <= good else ASTRAY if cost > bad else QUIET for cost in np.asarray(costs)]
+    ax.axvspan(*box, color=CURVES[0], alpha=0.15)
+    ax.scatter(targets, costs, s=12, c=colours)
+    for limit, name in ((good, "T_GOOD"), (bad, "T_BAD")):
+        ax.axhline(limit, color=QUIET, linewidth=1, linestyle="dashed")
+        ax.annotate(name, (1.0, limit), xycoords=("axes fraction", "data"), va="center", fontsize=8)
+    ax.set(ylabel="cost (cm)")
+    return ax
+
+
+def plant_bars(plants: Mapping[str, Mapping[str, ArrayLike]], *, ax: Axes | None = None) -> Axes:
+    """Draw when feet stand: a row for each clip, a bar for each plant, left above right in their colours.
+
+    Parameters
+    ----------
+    plants : for each clip's name the plants of its sides, as {"left": (N, 2), "right": (N, 2)} seconds.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> ax = plant_bars({"slow": {"left": [(0.0, 0.7)], "right": [(0.6, 1.3), (1.9, 2.6)]}})
+    >>> [len(side.get_paths()) for side in ax.collections]
+    [1, 2]
+
+    Notebook: 15-registration
+    """
+    ax = ax or plt.figure(figsize=(7, 0.9 + 0.55 * len(plants)), layout="constrained").add_subplot()
+    for row, sides in enumerate(plants.values()):
+        for side, low in (("left", row - HEIGHT), ("right", row)):
+            bars = [(start, stop - start) for start, stop in np.reshape(sides[side], (-1, 2))]
+            look = {"facecolor": COLOURS[side], "edgecolor": "#FFFFFF", "linewidth": 0.6}
+            ax.broken_barh(bars, (low, HEIGHT), **look)
+    ax.set_yticks(range(len(plants)), list(plants))
+    ax.set(xlabel="common clock (s)", ylim=(len(plants) - 0.5, -0.5))
+    ax.spines[["top", "right", "left"]].set_visible(False)
+    ax.tick_params(axis="y", length=0)
+    return ax
+
+
+def match_tree(
+    matches: Sequence[Match],
+    kinds: Sequence[str],
+    *,
+    wrong: Sequence[bool] | None = None,
+    order: Sequence[str] = (),
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw a search step by step: the query at the left, and each match right of the one that found it.
+
+    Parameters
+    ----------
+    matches : as from `search`.
+    kinds : what each match is; each kind has its own colour.
+    wrong : which matches are not what was asked for; they get a cross.
+    order : all kinds that may come, so that each keeps its colour from picture to picture.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> at = np.arange(2.0)
+    >>> found = [Match(0, 0, 9, 0.0, -1, 0, at, at), Match(1, 3, 12, 0.02, 0, 1, at, at)]
+    >>> match_tree(found, ["slow", "brisk"]).collections[0].get_segments()[0].tolist()
+    [[0.0, 0.0], [1.0, 0.0]]
+
+    Notebook: 16-match-webs
+    """
+    ax = ax or plt.figure(figsize=(7, 4), layout="constrained").add_subplot()
+    places, colours = _tree_places(matches), source_colours([*order, *kinds])
+    links = [(places[match.via], places[n]) for n, match in enumerate(matches) if match.via >= 0]
+    ax.add_collection(LineCollection(links, colors=QUIET, linewidths=0.8, zorder=0))
+    ax.scatter(*places.T, s=26, color=[colours[kind] for kind in kinds])
+    bad = places[np.zeros(len(matches), bool) if wrong is None else np.asarray(wrong, bool)]
+    ax.scatter(*bad.T, s=60, color=ASTRAY, marker="x", label="wrong" if len(bad) else None)
+    for kind, colour in colours.items():
+        ax.plot([], [], "o", color=colour, label=kind)
+    ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
+    last = int(places[:, 0].max())
+    ax.set(xlabel="step", yticks=[], xlim=(-0.3, max(last, 1) + 0.3), xticks=range(last + 1))
+    ax.spines[["left", "top", "right"]].set_visible(False)
+    return ax
+
+
+def _tree_places(matches: Sequence[Match]) -> Array:
+    """Place each match at its step; within a step as its finders stand, from the middle to both sides."""
+    places = np.zeros((len(matches), 2))
+    for step in range(1, 1 + max(match.generation for match in matches)):
+        inside = [n for n, match in enumerate(matches) if match.generation == step]
+        inside.sort(key=lambda n: (places[matches[n].via, 1], n))
+        places[inside] = [(step, n - (len(inside) - 1) / 2) for n in range(len(inside))]
+    return places
+
+
+def space_image(
+    values: ArrayLike,
+    examples: int,
+    *,
+    wishes: ArrayLike = (),
+    got: ArrayLike = (),
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw what the samples of a space do, and arrows from wishes to what their blends do.
+
+    Parameters
+    ----------
+    values : two numbers of each sample, shape (N, 2).
+    examples : how many of them, the first ones, are the examples.
+    wishes, got : shape (M, 2).
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> ax = space_image([[0, 1], [2, 3], [1, 2]], 2, wishes=[[1, 1]], got=[[1, 2]])
+    >>> [len(dots.get_offsets()) for dots in ax.collections[:2]]  # samples and examples
+    [1, 2]
+
+    Notebook: 16-match-webs
+    """
+    ax = ax or plt.figure(figsize=(5.6, 4.4), layout="constrained").add_subplot()
+    across, up = np.asarray(values, float).T
+    asked, given = (np.reshape(np.asarray(each, float), (-1, 2)).T for each in (wishes, got))
+    ax.scatter(across[examples:], up[examples:], s=8, color=QUIET, label="samples")
+    ax.scatter(across[:examples], up[:examples], s=42, color=COLOURS["middle"], label="examples")
+    ax.scatter(*asked, s=70, color=ASKED, marker="+", label="asked", zorder=3)
+    in_data: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.008}
+    ax.quiver(*asked, *(given - asked), color=PATH, zorder=2, **in_data)
+    ax.scatter(*given, s=26, color=PATH, label="got", zorder=3)
     return ax

@@ -3,52 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
-from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.axes import ground_around, to_picture
-from mocap.plotting.style import COLOURS, PATH, SOURCES
-
-
-class Bones(NamedTuple):
-    """The B lines of a body: from joint `starts` to joint `ends`, on the body's side `sides`; shapes (B,)."""
-
-    starts: NDArray[np.intp]
-    ends: NDArray[np.intp]
-    sides: NDArray[np.str_]
-
-
-def bones(skeleton: Skeleton) -> Bones:
-    """List the lines of a body; joints that share a place share one line.
-
-    The line from a parent to its child is the parent's bone, and so it is on the parent's side.
-
-    Examples
-    --------
-    >>> names = ["hips", "lknee", "rknee", "lfoot"]
-    >>> body = Skeleton(names, [-1, 0, 0, 1], [[0, 1, 0], [0.1, -0.4, 0], [-0.1, -0.4, 0], [0, -0.4, 0]])
-    >>> [f"{names[start]} to {names[end]}: {side}" for start, end, side in zip(*bones(body))]
-    ['hips to lknee: middle', 'hips to rknee: middle', 'lknee to lfoot: left']
-
-    Notebook: 11-warping
-    """
-    ends = np.array(distinct_joints(skeleton)[1:], np.intp)
-    starts = skeleton.parents[ends]
-    return Bones(starts, ends, np.array([skeleton.side(int(parent)) for parent in starts], str))
+from mocap.plotting.bodies import bones, head_joints
+from mocap.plotting.style import COLOURS, PATH, SOURCES, own_colour
 
 
 class StickFigure:
@@ -77,18 +46,15 @@ class StickFigure:
     def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0, colour: str | None = None) -> None:
         self.figure = ax.figure
         self.starts, self.ends, self.sides = bones(skeleton)
-        self.head = [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
+        self.head = head_joints(skeleton)
+        look: dict[str, Any] = {"alpha": alpha, "zorder": 3}
         self.bones = {
-            side: Line3DCollection(
-                np.zeros((1, 2, 3)), colors=colour or own, linewidths=2.4, alpha=alpha, zorder=3
-            )
+            side: Line3DCollection(np.zeros((1, 2, 3)), colors=colour or own, linewidths=2.4, **look)
             for side, own in COLOURS.items()
         }
         for part in self.bones.values():
             ax.add_collection3d(part)
-        (self.dot,) = ax.plot(
-            [], [], [], "o", color=colour or COLOURS["middle"], markersize=11, alpha=alpha, zorder=3
-        )
+        (self.dot,) = ax.plot([], [], [], "o", color=colour or COLOURS["middle"], markersize=11, **look)
 
     def pose(self, points: Array) -> list[Artist]:
         """Move to the joint positions `points`, shape (J, 3), metres, and return the artists that moved."""
@@ -133,46 +99,6 @@ def stick_figure(
     for figure, pose in zip(figures, points, strict=True):
         figure.pose(pose)
     return figures
-
-
-def flat_bodies(
-    motion: Motion,
-    frames: Sequence[int],
-    *,
-    view: Literal["side", "front"] = "side",
-    alpha: float = 1.0,
-    ax: Axes | None = None,
-) -> Axes:
-    """Draw poses of a motion flat, where they are: z or x to the right, y upwards, metres.
-
-    Parameters
-    ----------
-    motion : a walk along z.
-    frames : which frames.
-    view : from the side, z to the right; or from the front, x to the right. There the walker comes to the
-        reader, so the left side of the body, which is at +x, is on the right.
-    alpha : 1 for solid bodies, less for ghosts.
-    ax : flat axes; by default new ones.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> ax = flat_bodies(datasets.sample("walk_straight"), [0, 60, 120], ax=Figure().add_subplot())
-    >>> len(ax.collections)
-    3
-
-    Notebook: 14-levels
-    """
-    across = 2 if view == "side" else 0
-    ax = ax or plt.subplots(figsize=(8, 2.6), layout="constrained")[1]
-    starts, ends, sides = bones(motion.skeleton)
-    colours = [COLOURS[side] for side in sides]
-    for points in joint_positions(motion)[list(frames)][..., [across, 1]]:
-        lines = np.stack([points[starts], points[ends]], axis=1)
-        ax.add_collection(LineCollection(list(lines), colors=colours, linewidths=1.8, alpha=alpha))
-    ax.autoscale_view()
-    ax.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel="y (m)")
-    return ax
 
 
 def laid_over(
@@ -247,6 +173,5 @@ def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:
         ground_around(np.concatenate(everyone), ax)
         ax.set_title(f"{frame / first.fps:.2f} s", fontsize=9, y=1.0)
         for number, (motion, points) in enumerate(zip(motions, everyone, strict=True)):
-            colour = SOURCES[number % len(SOURCES)] if len(motions) > 1 else None
-            StickFigure(motion.skeleton, ax, 1.0, colour).pose(points)
+            StickFigure(motion.skeleton, ax, 1.0, own_colour(number, len(motions))).pose(points)
     return figure

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,7 +21,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, distinct_joints, point_cloud, rms_distance
-from mocap.plotting.stick_figures import bones
+from mocap.plotting.bodies import draw_body
 from mocap.plotting.style import COLOURS, CURVES, MARK, PATH, QUIET
 from mocap.quality.seam_measures import jumps
 
@@ -147,19 +148,10 @@ def _facing(motion: Motion) -> float:
 
 def _body(ax: Axes, points: Array, motion: Motion, *, alpha: float = 1.0, dashed: bool = False) -> None:
     """Draw a pose, shape (J, 2), in the colours of left and right."""
-    starts, ends, sides = bones(motion.skeleton)
-    lines = LineCollection(
-        list(np.stack([points[starts], points[ends]], axis=1)),
-        colors=[COLOURS[side] for side in sides],
-        linestyles=[DASHED if dashed else "-"],
-        linewidths=1.8 if dashed else 2.4,
-        alpha=alpha,
-    )
-    ax.add_collection(lines)
-    heads = [joint for joint, name in enumerate(motion.skeleton.names) if "head" in name.lower()]
-    for x, y in points[heads[-1:]]:
-        face = "none" if dashed else COLOURS["middle"]
-        ax.plot(x, y, "o", color=face, markeredgecolor=COLOURS["middle"], markersize=8, alpha=alpha)
+    ink = COLOURS["middle"]
+    head = {"color": "none" if dashed else ink, "markeredgecolor": ink, "markersize": 8, "alpha": alpha}
+    line: dict[str, Any] = {"linestyles": [DASHED if dashed else "-"], "linewidths": 1.8 if dashed else 2.4}
+    draw_body(ax, motion.skeleton, points, head=head, alpha=alpha, **line)
 
 
 def _bare(ax: Axes) -> None:

@@ -33,3 +33,14 @@ def source_colours(names: list[str]) -> dict[str, str]:
     {'walk': '#009E73', 'turn': '#56B4E9'}
     """
     return {name: SOURCES[i % len(SOURCES)] for i, name in enumerate(dict.fromkeys(names))}
+
+
+def own_colour(number: int, count: int) -> str | None:
+    """Give one of several characters its colour; one alone has the colours of its sides.
+
+    Examples
+    --------
+    >>> own_colour(0, 1), own_colour(1, 2)
+    (None, '#56B4E9')
+    """
+    return SOURCES[number % len(SOURCES)] if count > 1 else None

@@ -5,19 +5,17 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
-from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.plotting.stick_figures import bones
 from mocap.steering.characters import Character, Pose
 from mocap.steering.steered_motion import as_motion
 from mocap.widgets.command_clocks import CommandClock
-from mocap.widgets.player import SIDES
+from mocap.widgets.packing import drawn
 
 MOST = 4  # characters side by side
 
@@ -44,51 +42,16 @@ class Order(NamedTuple):
         return self
 
 
-class Step(NamedTuple):
-    """One step of a character: its pose, where its drawn joints are (K, 3), and what its clock says."""
-
-    pose: Pose
-    places: Array
-    waited: float
-    obeyed: bool
-
-
 class Walked(NamedTuple):
-    """The last F steps of a character, the first of them numbered `first`.
+    """The last F steps of a character: its poses, where its drawn joints are (F, K, 3), and what to tell.
 
-    `places` (F, K, 3) are the joints at which bones end, in metres; `fault` is the sentence of the error that
-    it stands still for, or "".
+    `told` has for each step the seconds `waited` and whether the command is `obeyed`, the number of the
+    `first` step, and the `fault`: the sentence of the error that the character stands still for, or "".
     """
 
-    first: int
-    steps: list[Step]
+    poses: list[Pose]
     places: Array
-    fault: str
-
-
-class Limbs(NamedTuple):
-    """What is drawn of a body: the joints, in order, and bones as rows (from, to, number of the side)."""
-
-    joints: Array
-    lines: list[list[int]]
-    head: int | None
-
-
-def limbs(skeleton: Skeleton) -> Limbs:
-    """Choose the joints at which bones end, and the root, and number the bones' ends among them.
-
-    Examples
-    --------
-    >>> from mocap.datasets.generated import SKELETON
-    >>> limbs(SKELETON).lines[0], len(limbs(SKELETON).joints)
-    ([1, 2, 1], 38)
-    """
-    starts, ends, sides = bones(skeleton)
-    joints, index = np.unique([0, *starts, *ends], return_inverse=True)
-    pairs = index[1:].reshape(2, -1).T.tolist()
-    heads = [place for place, joint in enumerate(joints) if "head" in skeleton.names[joint].lower()]
-    lines = [[*pair, SIDES.index(side)] for pair, side in zip(pairs, sides, strict=True)]
-    return Limbs(joints, lines, heads[-1] if heads else None)
+    told: dict[str, Any]
 
 
 class Member:
@@ -102,7 +65,7 @@ class Member:
 
     def __init__(self, name: str, character: Character) -> None:
         self.name, self.character = name, character
-        self.clock, self.limbs = CommandClock(character.fps), limbs(character.skeleton)
+        self.clock, self.drawn = CommandClock(character.fps), drawn(character.skeleton)
         self.steps, self.fault = 0, ""
         self.order: Order | None = None  # the last one that it took
         self.stands: tuple[Pose, Array] | None = None  # the last pose, and where its joints are
@@ -111,29 +74,34 @@ class Member:
         """Take some steps; after an error it stands still until the order changes."""
         if order != self.order:
             self.order, self.fault = order, ""
-        first, steps = self.steps, [self._step(order) for _ in range(count)]
-        places = np.array([step.places for step in steps]).reshape(count, len(self.limbs.joints), 3)
-        return Walked(first, steps, places, self.fault)
+        told: dict[str, Any] = {"first": self.steps, "waited": [], "obeyed": [], "blending": []}
+        self.steps += count
+        stands = []
+        for _ in range(count):
+            stands.append(self._step(order))
+            told["waited"].append(round(self.clock.waited, 3))
+            told["obeyed"].append(self.clock.obeyed)
+            told["blending"].append(bool(stands[-1][0].blending))
+        told |= {"fault": self.fault, "delays": self.clock.delays[-20:]}
+        places = np.array([places for _, places in stands]).reshape(count, len(self.drawn.joints), 3)
+        return Walked([pose for pose, _ in stands], places, told)
 
-    def _step(self, order: Order) -> Step:
-        self.steps += 1
+    def _step(self, order: Order) -> tuple[Pose, Array]:
+        """Take a step, or stand still; the clock goes on."""
         if not self.fault:
             try:
-                self.stands = self._stepped(order)
+                pose = self.character.step(*order)
+                places = joint_positions(as_motion(self.character, [pose]))[0, self.drawn.joints]
+                self.stands = pose, places
             except Exception as error:  # of any kind: it may come from a student's character
                 if self.stands is None:
                     raise
                 self.fault = shortened(f"{type(error).__name__}: {error}", 200)
         assert self.stands is not None
-        pose, places = self.stands
+        root = self.stands[0].root_position
         self.clock.command(order.heading)
-        self.clock.step(complex(pose.root_position[2], pose.root_position[0]))
-        return Step(pose, places, self.clock.waited, self.clock.obeyed)
-
-    def _stepped(self, order: Order) -> tuple[Pose, Array]:
-        pose = self.character.step(*order)
-        places = joint_positions(as_motion(self.character, [pose]))[0, self.limbs.joints]
-        return pose, places
+        self.clock.step(complex(root[2], root[0]))
+        return self.stands
 
 
 class Company:
@@ -150,11 +118,12 @@ class Company:
 
     Examples
     --------
-    >>> from mocap import body, datasets, motion_matching
+    >>> from mocap import body, datasets
+    >>> from mocap.methods import motion_matching
     >>> database = motion_matching.tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> company = Company({"matching": motion_matching.MotionMatcher(database)})
     >>> (walked,) = company.walk(Order(np.pi / 2, 0.8), 0.5)
-    >>> walked.places.shape, walked.steps[-1].waited, walked.steps[-1].obeyed
+    >>> walked.places.shape, walked.told["waited"][-1], walked.told["obeyed"][-1]
     ((15, 38, 3), 0.5, False)
     """
 

@@ -6,9 +6,8 @@ The handles lie on the picture that the experiment draws, so the reader drags th
 from __future__ import annotations
 
 import io
-from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,11 +15,10 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 from PIL import Image, ImageDraw
 
-from mocap._shared.arrays import Array
 from mocap.errors import MocapError
 from mocap.plotting.picture import figure_of
-
-SCRIPT = Path(__file__).with_name("dragging.js")
+from mocap.widgets.live import Live, widget
+from mocap.widgets.pointing import shares
 
 
 def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa: ANN401
@@ -63,27 +61,33 @@ def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa:
         raise MocapError(f"An arrow key moves a handle by a number above 0, got step={step}.")
     limits = [[float(end) for end in ends] for ends in (ax.get_xlim(), ax.get_ylim())]
     names = [label.split(" (")[0] for label in (ax.get_xlabel() or "across", ax.get_ylabel() or "up")]
-    widget = _class()(limits=limits, names=names, step=float(step), points=len(where))
-    widget.ax = ax
-    widget.value = where
+    control = widget(Handles)(limits=limits, names=names, step=float(step))
+    control.ax, control.count = ax, len(where)
+    control.value = where
     plt.close(figure_of(ax))
-    return widget
+    return control
 
 
-class Dragged:
-    """The handles without their traits: where they are in the picture, also where no Python runs."""
+class Handles(Live):
+    """A picture with points as its `value`, which Python and the reader may set."""
 
+    scripts = (Path(__file__).with_name("dragging.js"),)
+    shared: ClassVar = {
+        **{"description": "", "picture": b"", "box": [0.0, 0.0, 1.0, 1.0]},
+        **{"limits": [], "names": [], "step": 0.0, "value": ()},
+    }
+    needs = "Handles to drag need"
     ax: Axes
+    count: int
     value: tuple[tuple[float, float], ...]
     limits: list[list[float]]
-    box: list[float]
-    picture: bytes
     layout: Any
 
-    def inside(self, where: Array, count: int) -> tuple[tuple[float, float], ...]:
+    def check_value(self, value: ArrayLike) -> tuple[tuple[float, float], ...]:
         """Check that there are so many points, and that all lie within the axes."""
-        if where.shape != (count, 2):
-            raise MocapError(f"There are {count} handles, got an array of shape {where.shape}.")
+        where = np.asarray(value, float)
+        if where.shape != (self.count, 2):
+            raise MocapError(f"There are {self.count} handles, got an array of shape {where.shape}.")
         low, high = np.sort(self.limits, axis=1).T
         outside = ~((where >= low) & (where <= high)).all(axis=1)
         if outside.any():
@@ -94,10 +98,8 @@ class Dragged:
     def show(self, png: bytes) -> None:
         """Take the picture that was just drawn; the axes' place may have changed with it."""
         (left, right), (bottom, top) = self.limits
-        corners = self.ax.transData.transform([(left, top), (right, bottom)])
-        (x0, y0), (x1, y1) = figure_of(self.ax).transFigure.inverted().transform(corners)
-        self.box = [float(share) for share in (x0, 1 - y0, x1, 1 - y1)]
-        self.picture = png
+        self.box: list[float] = shares(self.ax, [(left, top), (right, bottom)])
+        self.picture: bytes = png
 
     def with_handles(self) -> Image.Image:
         """Draw the handles into the picture."""
@@ -117,33 +119,3 @@ class Dragged:
         points = np.tile(np.array(self.value), (3, 1, 1))
         points[1, 0], points[2, -1] = middle, corner
         return [tuple((float(x), float(y)) for x, y in some) for some in points]
-
-
-@cache
-def _class() -> type[Any]:
-    """Make the widget's class, once; it needs anywidget, which may not be installed."""
-    try:
-        import anywidget
-        import traitlets
-        from ipywidgets import ValueWidget
-    except ImportError as error:
-        raise MocapError("Handles to drag need anywidget: pip install 'mocap[notebooks]'.") from error
-
-    class Handles(Dragged, anywidget.AnyWidget, ValueWidget):  # type: ignore[misc]  # untyped
-        """A picture with points as its `value`, which Python and the reader may set."""
-
-        _esm = SCRIPT.read_text("utf-8")
-        description = traitlets.Unicode().tag(sync=True)
-        picture = traitlets.Bytes().tag(sync=True)
-        box: traitlets.List[float] = traitlets.List([0.0, 0.0, 1.0, 1.0]).tag(sync=True)
-        limits: traitlets.List[list[float]] = traitlets.List().tag(sync=True)
-        names: traitlets.List[str] = traitlets.List().tag(sync=True)
-        step = traitlets.Float().tag(sync=True)
-        points = traitlets.Int()
-        value = traitlets.Any(()).tag(sync=True)
-
-        @traitlets.validate("value")
-        def _inside(self, proposal: dict[str, Any]) -> tuple[tuple[float, float], ...]:
-            return self.inside(np.asarray(proposal["value"], float), self.points)
-
-    return Handles

@@ -13,9 +13,9 @@ import inspect
 import io
 import traceback
 from collections.abc import Callable, Sequence
-from functools import cache
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -27,11 +27,10 @@ from PIL import Image
 
 from mocap.errors import MocapError
 from mocap.plotting.picture import Picture, few_colours, figure_of
-from mocap.widgets.dragging import Dragged
-from mocap.widgets.pointing import Pointed, pointer
-from mocap.widgets.reopening import display_live
+from mocap.widgets.dragging import Handles
+from mocap.widgets.live import Live, display_live, widget
+from mocap.widgets.pointing import Pointer, pointer
 
-NAMING = Path(__file__).with_name("naming.js")
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
 
 
@@ -88,7 +87,7 @@ def _widgets(draw: Callable[..., Drawn], controls: dict[str, Any]) -> dict[str, 
                 f"The control {name}={control!r} is no range, choice or widget, such as (0, 10)."
             )
         made[name].description = name.replace("_", " ")
-    if sum(isinstance(control, Dragged) for control in made.values()) > 1:
+    if sum(isinstance(control, Handles) for control in made.values()) > 1:
         raise MocapError("An experiment has one control of handles: put all points into it.")
     return made
 
@@ -153,22 +152,23 @@ class Experiment:
         self._canvas = BlittedFigure()
         # Pictures shrink to 320 pixels and then stack, and further where there is less room.
         shrinking = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
-        dragged: Any = [control for control in controls.values() if isinstance(control, Dragged)]
+        dragged: Any = [control for control in controls.values() if isinstance(control, Handles)]
         self._dragged = dragged[0] if dragged else None
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
         self.picture.layout = shrinking
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
         sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
-        self._images = [control for control in controls.values() if isinstance(control, Pointed)]
+        self._images = [control for control in controls.values() if isinstance(control, Pointer)]
         for image in self._images:
             image.layout = shrinking
         shown = [*self._images, self.picture]
         above = [control for control in controls.values() if control not in shown]
         below = ipywidgets.HBox([*shown, self.message])
         below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
-        naming = _naming_class()
-        parts = [*above, below, sentence, *([naming(alt=alt)] if naming else [])]
+        parts = [*above, below, sentence]
+        with suppress(MocapError):  # without anywidget, controls have no names
+            parts.append(widget(Naming)(alt=alt))
         self.box = ipywidgets.VBox(parts, layout={"align_items": "flex-start"})
         self.refresh()
         if self.error:
@@ -231,20 +231,11 @@ class Experiment:
         return few_colours(row)
 
 
-@cache
-def _naming_class() -> type[Any] | None:
-    """Make the class of a widget that gives the others their names, where anywidget is installed."""
-    try:
-        import anywidget
-        import traitlets
-    except ImportError:
-        return None
+class Naming(Live):
+    """Gives the other widgets their names, which screen readers say."""
 
-    class Naming(anywidget.AnyWidget):
-        _esm = NAMING.read_text("utf-8")
-        alt = traitlets.Unicode().tag(sync=True)
-
-    return Naming
+    scripts = (Path(__file__).with_name("naming.js"),)
+    shared: ClassVar = {"alt": ""}
 
 
 def _error_text(error: Exception) -> str:

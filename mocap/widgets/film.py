@@ -25,7 +25,7 @@ from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError
 from mocap.plotting.axes import filled, ground_axes, look_at, rims, to_picture
 from mocap.plotting.stick_figures import StickFigure
-from mocap.plotting.style import PATH, QUIET, SOURCES
+from mocap.plotting.style import PATH, QUIET, own_colour
 from mocap.widgets.player import play
 
 SUFFIXES = (".gif", ".mp4", ".png", ".html")
@@ -103,7 +103,7 @@ def _pictures(
     ax = ground_axes(centres[0], reach, ax=filled(figure))
     obstacles, outlines = Poly3DCollection(np.zeros((1, 3, 3)), facecolors=QUIET, zorder=0.5), rims(discs)
     ax.add_collection3d(obstacles)
-    bodies = [_body(motion, number, len(motions), ax) for number, motion in enumerate(motions)]
+    bodies = [_body(motion, own_colour(n, len(motions)), ax) for n, motion in enumerate(motions)]
     for frame in progress(range(frames)):
         look_at(ax, centres[frame], reach)
         obstacles.set_verts(to_picture(_near(outlines, centres[frame], 2.5 * reach)))
@@ -119,9 +119,8 @@ def _near(outlines: Array, centre: Array, reach: float) -> Array:
     return np.asarray(np.clip(outlines, middle - side, middle + side))
 
 
-def _body(motion: Motion, number: int, count: int, ax: Axes3D) -> StickFigure:
-    """Draw a motion's path, and a body to move along it; several have a colour each."""
-    colour = SOURCES[number % len(SOURCES)] if count > 1 else None
+def _body(motion: Motion, colour: str | None, ax: Axes3D) -> StickFigure:
+    """Draw a motion's path, and a body to move along it."""
     ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=colour or PATH, linewidth=1.5, zorder=1)
     return StickFigure(motion.skeleton, ax, colour=colour)
 

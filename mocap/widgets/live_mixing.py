@@ -13,9 +13,9 @@ from mocap.blending.clocks import checked
 from mocap.blending.mixing import mix
 from mocap.blending.registering import Registration
 from mocap.errors import MocapError
+from mocap.widgets.live import display_live
 from mocap.widgets.live_player import linked
 from mocap.widgets.player import play
-from mocap.widgets.reopening import display_live
 
 FPS = 30.0  # of the blend that is shown
 

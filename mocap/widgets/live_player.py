@@ -10,8 +10,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import cache
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,16 +18,25 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
-from mocap.widgets.embedding import joined
+from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.player import Player, play
-from mocap.widgets.reopening import display_live
 
 Follow = Callable[[Array], Motion | Player]
 
 
-class _Shown:
-    """The live player without its traits: the player that it shows, and its output in a notebook."""
+class LivePlayer(Live):
+    """A player with a `frame` that Python may set and observe."""
 
+    scripts = Player.scripts
+    shared: ClassVar = {
+        "scene": {},
+        "at": [-1, 0],  # the browser's: the number of a scene, and a frame
+        "move": [0, 0],  # Python's
+        "path": [],
+        "message": "",
+    }
+    kept: ClassVar = {"frame": 0}
+    needs = "A linked player needs"
     player: Player
     scene: Any
     known = False  # whether the browser knows the frame that is being set
@@ -49,12 +57,12 @@ class _Shown:
         finally:
             self.known = False
 
-    def in_range(self, proposal: dict[str, Any]) -> int:
+    def check_frame(self, frame: int) -> int:
         """Refuse a frame that the scene does not have."""
-        frame, frames = int(proposal["value"]), self.scene["frames"]
+        frames = self.scene["frames"]
         if not 0 <= frame < frames:
             raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
-        return frame
+        return int(frame)
 
     def reader_moves(self, change: dict[str, Any]) -> None:
         """Take the frame that the browser shows, if it is one of this scene."""
@@ -73,33 +81,6 @@ class _Shown:
 
     def _ipython_display_(self) -> None:
         display_live(self.player._repr_mimebundle_(), self)
-
-
-@cache
-def _live_player() -> type[Any]:
-    """Make the widget's class, once; it needs anywidget, which may not be installed."""
-    try:
-        import anywidget
-        import traitlets
-    except ImportError as error:
-        raise MocapError("A linked player needs anywidget: pip install 'mocap[notebooks]'.") from error
-
-    class LivePlayer(_Shown, anywidget.AnyWidget):
-        """A player with a `frame` that Python may set and observe."""
-
-        _esm = joined(*Player.scripts)
-        scene = traitlets.Dict().tag(sync=True)
-        frame = traitlets.Int(0)
-        at: traitlets.List[Any] = traitlets.List([-1, 0]).tag(sync=True)  # the browser's: scene, frame
-        move: traitlets.List[Any] = traitlets.List([0, 0]).tag(sync=True)  # Python's: scene, frame
-        path: traitlets.List[Any] = traitlets.List().tag(sync=True)
-        message = traitlets.Unicode().tag(sync=True)
-
-        _in_range = traitlets.validate("frame")(_Shown.in_range)
-        _reader_moves = traitlets.observe("at")(_Shown.reader_moves)
-        _python_moves = traitlets.observe("frame")(_Shown.python_moves)
-
-    return LivePlayer
 
 
 def linked(player: Player) -> Any:  # noqa: ANN401
@@ -125,9 +106,11 @@ def linked(player: Player) -> Any:  # noqa: ANN401
     >>> walk.frame = 12
     now at 12
     """
-    widget = _live_player()(scene=player.scene | {"reports": True})
-    widget.player = player
-    return widget
+    live = widget(LivePlayer)(scene=player.scene | {"reports": True})
+    live.player = player
+    live.observe(live.reader_moves, "at")
+    live.observe(live.python_moves, "frame")
+    return live
 
 
 def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401

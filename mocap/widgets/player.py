@@ -18,25 +18,21 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, runs
-from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.feet.footplants import mark_plants
 from mocap.feet.footprints import find_footprints
 from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import small_png
-from mocap.plotting.stick_figures import bones, film_strip
-from mocap.plotting.style import ASTRAY as ASTRAY_COLOUR
-from mocap.plotting.style import COLOURS, MARK, PATH, SOURCES, source_colours
+from mocap.plotting.stick_figures import film_strip
+from mocap.plotting.style import COLOURS, PATH, own_colour, source_colours
 from mocap.synthesis.walks import Seam
 from mocap.widgets.embedding import SHARED, Embedded
+from mocap.widgets.packing import LOOK, SIDES, packed_character, with_contacts
 
 Sources = Sequence[tuple[int, str]]
 
 ASTRAY = 0.15  # metres off the path that was asked for, from where on a walk's path is red
 WALKS = 1.0  # metres of ground that a motion covers at least, to be drawn along its path
-SCREEN = 60.0  # frames per second that a screen shows; of a faster clip, frames are left out
-SIDES = ("middle", "left", "right")  # the scripts know a side by its number
 
 
 def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to look at it)
@@ -144,30 +140,24 @@ class Player(Embedded):
     def scene(self) -> dict[str, Any]:
         """What the scripts draw; `data` holds all characters' numbers, compressed, each from its `offset`."""
         characters: list[dict[str, Any]] = []
-        data = b""
+        data, count = b"", len(self.motions)
         for number, motion in enumerate(self.motions):
-            character, block = _packed(motion, SOURCES[number % len(SOURCES)])
-            characters.append(character | {"offset": len(data)})
+            about, block = packed_character(motion, own_colour(number, count) or COLOURS["middle"])
+            characters.append(about | {"offset": len(data), "prints": _prints(motion)})
             data += block
-        if len(self.motions) == 1:
-            characters[0] |= {"colour": COLOURS["middle"], "path_colour": PATH}
         first, marks = self.motions[0], self.marks
         characters[0] |= {
+            "path_colour": PATH if count == 1 else characters[0]["colour"],
             "sources": self._coloured_sources(),
             "seams": [seam / first.fps for seam in marks.seams],
             "astray": (marks.astray / first.fps).tolist(),
         }
         return {
-            "alt": self.alt,
-            "number": 0,
-            "reports": False,
+            **{"alt": self.alt, "number": 0, "reports": False, "follow": self.follow, **LOOK},
             "fps": first.fps,
             "frames": max(1 + round(motion.duration * first.fps) for motion in self.motions),
-            "follow": self.follow,
-            "sides": [COLOURS[side] for side in SIDES],
             "asked": marks.path.round(3).tolist(),
             "obstacles": marks.discs.round(3).tolist(),
-            "marks": {"seam": MARK, "astray": ASTRAY_COLOUR},
             "characters": characters,
             "data": zlib.compress(data),
         }
@@ -188,42 +178,9 @@ class Player(Embedded):
         return small_png(figure)
 
 
-def _packed(motion: Motion, colour: str) -> tuple[dict[str, Any], bytes]:
-    """Pack the joints at which bones end, the root first: the numbers as bytes, and what they mean."""
-    starts, ends, sides = bones(motion.skeleton)
-    joints, index = np.unique([0, *starts, *ends], return_inverse=True)
-    index = index[1:].reshape(2, -1)
-    stride = max(1, int(motion.fps / SCREEN))
-    points = joint_positions(motion)[::stride, joints]  # (F, J, 3)
-    low = points.min(axis=(0, 1))
-    step = np.maximum(points.max(axis=(0, 1)) - low, 1e-6) / 65535
-    numbers = np.round((points - low) / step).astype("<u2")
-    changes = np.diff(numbers, 2, axis=0, prepend=np.zeros_like(numbers, shape=(2, *numbers.shape[1:])))
-    heads = [place for place, joint in enumerate(joints) if "head" in motion.skeleton.names[joint].lower()]
-    return {
-        "name": motion.name,
-        "fps": motion.fps / stride,
-        "frames": len(points),
-        "joints": len(joints),
-        "low": low.tolist(),
-        "step": step.tolist(),
-        "bones": [[*pair, SIDES.index(side)] for pair, side in zip(index.T.tolist(), sides, strict=True)],
-        "head": heads[-1] if heads else None,
-        "colour": colour,
-        "path_colour": colour,
-        **{"sources": [], "seams": [], "astray": []},
-        "prints": [
-            [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
-            for p in find_footprints(_with_contacts(motion))
-        ],
-    }, np.moveaxis(changes, 0, -1).tobytes()
-
-
-def _with_contacts(motion: Motion) -> Motion:
-    """Mark the footplants of a captured clip, which has no contacts; a body without legs leaves no prints."""
-    if motion.contacts:
-        return motion
-    try:
-        return mark_plants(motion)
-    except MocapError:
-        return motion
+def _prints(motion: Motion) -> list[list[float]]:
+    """List footprints as the scripts read them: from, until (seconds), x, z (metres), number of the side."""
+    return [
+        [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
+        for p in find_footprints(with_contacts(motion))
+    ]

@@ -54,26 +54,26 @@ async function inflated(data) {
   return new Response(new Response(bytes).body.pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
+// Undo the second differences over time of `packing.py`, channel by channel; the numbers wrap around as their type does.
+function summed(numbers, frames) {
+  for (let i = 0, change = 0, number = 0; i < numbers.length; i++) {
+    if (i % frames === 0) change = number = 0;
+    change = (change + numbers[i]) | 0;
+    number = (number + change) | 0;
+    numbers[i] = number;
+  }
+  return numbers;
+}
+
 // A character: where its joints are at any time. A coordinate is low + step · number metres, with a 16-bit number.
-// What Python sends are second differences over time, one coordinate after the other, compressed to less than half.
 class Character {
   constructor(packed, bytes, marks) {
     Object.assign(this, packed);
-    this.numbers = new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3);
-    this.sum();
+    this.numbers = summed(new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3), packed.frames);
     this.seconds = (packed.frames - 1) / packed.fps;
     this.path = this.pathOnGround();
     this.trail = this.colouredPath(marks);
     this.diamonds = this.seams.map((time) => { const root = this.pose(time); return [root[0], 0, root[2]]; });
-  }
-
-  // Undo the differences, modulo 2¹⁶.
-  sum() {
-    for (let i = 0, change = 0, number = 0; i < this.numbers.length; i++) {
-      if (i % this.frames === 0) change = number = 0;
-      change = (change + this.numbers[i]) & 65535;
-      this.numbers[i] = number = (number + change) & 65535;
-    }
   }
 
   // All joints at a time, interpolated between two frames: x, y, z, x, y, z, ...

@@ -5,19 +5,20 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Sequence
-from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.image import AxesImage
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw
 
 from mocap.errors import MocapError
 from mocap.plotting.picture import figure_of, small_png
-from mocap.widgets.embedding import TOUCH, joined
+from mocap.widgets.embedding import TOUCH
+from mocap.widgets.live import Live, widget
 
 
 def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: ANN401
@@ -51,26 +52,37 @@ def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: AN
     figure = figure_of(image)
     png = base64.b64encode(small_png(figure)).decode()
     plt.close(figure)
-    widget = _pointer_class()(box=_box(image), shape=numbers.shape, picture=f"data:image/png;base64,{png}")
-    widget.numbers, widget.quantity = numbers, image.colorbar.ax.get_ylabel() if image.colorbar else "value"
-    widget.observe(widget.say_where, "value")
-    widget.value = tuple(value)
-    widget.say_where()
-    return widget
+    control = widget(Pointer)(box=_box(image), shape=numbers.shape, picture=f"data:image/png;base64,{png}")
+    control.numbers, control.quantity = numbers, image.colorbar.ax.get_ylabel() if image.colorbar else "value"
+    control.observe(control.say_where, "value")
+    control.value = tuple(value)
+    control.say_where()
+    return control
+
+
+def shares(ax: Axes, corners: ArrayLike) -> list[float]:
+    """Give where two corners of linear axes are in the figure, as shares from its left and its top."""
+    seen = figure_of(ax).transFigure.inverted().transform(ax.transData.transform(corners))
+    return [float(share) for share in (seen * [1, -1] + [0, 1]).ravel()]
 
 
 def _box(image: AxesImage) -> list[float]:
     """Find the image in its figure: left, top, width, height from row 0 and column 0, as shares of 1."""
     left, right, bottom, top = image.get_extent()
     first, last = (bottom, top) if image.origin == "lower" else (top, bottom)
-    corners = image.axes.transData.transform([(left, first), (right, last)])
-    (x0, y0), (x1, y1) = image.axes.figure.transFigure.inverted().transform(corners)
-    return [float(share) for share in (x0, 1 - y0, x1 - x0, y0 - y1)]
+    x0, y0, x1, y1 = shares(image.axes, [(left, first), (right, last)])
+    return [x0, y0, x1 - x0, y1 - y0]
 
 
-class Pointed:
-    """The pointer without its traits: the sentence below it, and its picture where no Python runs."""
+class Pointer(Live):
+    """A picture with a `value`, a row and a column, that Python and the reader may set."""
 
+    scripts = (TOUCH, Path(__file__).with_name("pointing.js"))
+    shared: ClassVar = {
+        **{"description": "", "picture": "", "status": ""},
+        **{"box": [], "shape": (), "value": (0, 0)},
+    }
+    needs = "An image to point at needs"
     numbers: NDArray[np.floating[Any]]
     quantity: str
     value: tuple[int, int]
@@ -79,10 +91,17 @@ class Pointed:
     picture: str
     layout: Any
 
+    def check_value(self, value: Sequence[int]) -> tuple[int, int]:
+        """Refuse a row or a column that the image does not have."""
+        rows, columns = self.shape
+        if len(value) != 2 or value[0] not in range(rows) or value[1] not in range(columns):
+            raise MocapError(f"Rows go from 0 to {rows - 1}, columns to {columns - 1}, got {tuple(value)}.")
+        return int(value[0]), int(value[1])
+
     def say_where(self, _: object = None) -> None:
         """Say where the ring is, and the number there."""
         row, column = self.value
-        self.status = f"row {row}, column {column}: {self.quantity} {self.numbers[row, column]:.3g}"
+        self.status: str = f"row {row}, column {column}: {self.quantity} {self.numbers[row, column]:.3g}"
 
     def with_ring(self) -> Image.Image:
         """Draw the ring into the picture."""
@@ -93,34 +112,3 @@ class Pointed:
             around = (x - radius, y - radius, x + radius, y + radius)
             ImageDraw.Draw(picture).ellipse(around, outline=colour, width=2)
         return picture
-
-
-@cache
-def _pointer_class() -> type[Any]:
-    """Make the widget's class, once; it needs anywidget, which may not be installed."""
-    try:
-        import anywidget
-        import traitlets
-        from ipywidgets import ValueWidget
-    except ImportError as error:
-        raise MocapError("An image to point at needs anywidget: pip install 'mocap[notebooks]'.") from error
-
-    class Pointer(Pointed, anywidget.AnyWidget, ValueWidget):  # type: ignore[misc]  # untyped
-        """A picture with a `value`, a row and a column, that Python and the reader may set."""
-
-        _esm = joined(TOUCH, Path(__file__).with_name("pointing.js"))
-        description = traitlets.Unicode().tag(sync=True)
-        picture = traitlets.Unicode().tag(sync=True)
-        box: traitlets.List[float] = traitlets.List().tag(sync=True)
-        shape = traitlets.Tuple().tag(sync=True)
-        status = traitlets.Unicode().tag(sync=True)
-        value = traitlets.Tuple((0, 0)).tag(sync=True)
-
-        @traitlets.validate("value")
-        def _inside(self, proposal: dict[str, Any]) -> tuple[int, ...]:
-            value, (rows, columns) = proposal["value"], self.shape
-            if len(value) != 2 or value[0] not in range(rows) or value[1] not in range(columns):
-                raise MocapError(f"Rows go from 0 to {rows - 1}, columns to {columns - 1}, got {value}.")
-            return (int(value[0]), int(value[1]))
-
-    return Pointer

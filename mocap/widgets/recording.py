@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from mocap.widgets.dragging import Dragged
+from mocap.widgets.dragging import Handles
 from mocap.widgets.experiments import Experiment
-from mocap.widgets.pointing import Pointed
+from mocap.widgets.pointing import Pointer
 
 ROOM = 200_000  # bytes for the pictures of one experiment
 COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
@@ -54,7 +54,7 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     >>> recorded["labels"], recorded["at"], len(recorded["pictures"])
     (['0', '2', '4'], 1, 3)
     """
-    movable = {name: c for name, c in experiment.controls.items() if not isinstance(c, Pointed | Dragged)}
+    movable = {name: c for name, c in experiment.controls.items() if not isinstance(c, Pointer | Handles)}
     for name, control in movable.items():
         if positions := _positions(control):
             rest = control.value

@@ -10,21 +10,21 @@ import html
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
-from mocap.plotting.style import ASTRAY, COLOURS, MARK, SOURCES
+from mocap.plotting.style import COLOURS, own_colour
 from mocap.steering.characters import Character
 from mocap.steering.steered_motion import as_motion
-from mocap.widgets.company import Company, Member, Order, Walked
-from mocap.widgets.embedding import PAGE, PICTURE, SCENE, TOUCH, joined
-from mocap.widgets.player import SIDES, Player, play
-from mocap.widgets.reopening import display_live
+from mocap.widgets.company import Company, Order
+from mocap.widgets.embedding import PAGE, PICTURE, SCENE, TOUCH
+from mocap.widgets.live import Live, display_live, widget
+from mocap.widgets.packing import LOOK
+from mocap.widgets.player import Player, play
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
 RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, and seconds of each
@@ -32,19 +32,20 @@ APART = 1.5  # metres between two characters of the recording
 MOST = 1.0  # seconds of one answer
 
 
-def script() -> str:
-    """Return what the widget runs."""
-    return joined(SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
+class Steered(Live):
+    """Pictures of characters, and a `command` that the reader and Python may set."""
 
-
-class _Steered:
-    """The widget without its traits: it answers the browser, and records a walk for other pages."""
-
+    scripts = (SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
+    shared: ClassVar = {"scene": {}, "command": [0.0, 1.1, ""]}
+    needs = "To steer in a page needs"
     company: Company
     still: tuple[dict[str, str], dict[str, Any]]
     alt: str
-    command: list[Any]
     send: Any
+
+    def check_command(self, command: Sequence[Any]) -> list[Any]:
+        """Refuse what no character could take."""
+        return list(Order(*command).checked())
 
     @property
     def delays(self) -> dict[str, list[float]]:
@@ -63,16 +64,13 @@ class _Steered:
             self.send({"kind": "refused", "why": shortened(f"{type(error).__name__}: {error}", 200)})
             return
         walked = self.company.walk(order, seconds)
-        members = zip(self.company.members, walked, strict=True)
         self.send(
             {
-                "kind": "walked",
-                **{key: asked.get(key) for key in ("view", "number")},
-                "cost": self.company.cost,
-                "notes": self.company.notes,
-                "members": [_told(member, frames) for member, frames in members],
+                **{"kind": "walked", "view": asked.get("view"), "number": asked.get("number")},
+                **{"cost": self.company.cost, "notes": self.company.notes},
+                "members": [one.told for one in walked],
             },
-            buffers=[frames.places.astype("<f4").tobytes() for frames in walked],
+            buffers=[one.places.astype("<f4").tobytes() for one in walked],
         )
 
     def __repr__(self) -> str:
@@ -80,41 +78,6 @@ class _Steered:
 
     def _ipython_display_(self) -> None:
         display_live(self.still, self)
-
-
-def _told(member: Member, walked: Walked) -> dict[str, Any]:
-    """Say of each frame what is not in the numbers of the joints."""
-    return {
-        "first": walked.first,
-        "waited": [round(step.waited, 3) for step in walked.steps],
-        "obeyed": [step.obeyed for step in walked.steps],
-        "blending": [bool(step.pose.blending) for step in walked.steps],
-        "fault": walked.fault,
-        "delays": member.clock.delays[-20:],
-    }
-
-
-@cache
-def _class() -> type[Any]:
-    """Make the widget's class, once; it needs anywidget, which may not be installed."""
-    try:
-        import anywidget
-        import traitlets
-    except ImportError as error:
-        raise MocapError("To steer in a page needs anywidget: pip install 'mocap[notebooks]'.") from error
-
-    class LiveSteering(_Steered, anywidget.AnyWidget):
-        """Pictures of characters, and a `command` that the reader and Python may set."""
-
-        _esm = script()
-        scene = traitlets.Dict().tag(sync=True)
-        command: traitlets.List[Any] = traitlets.List([0.0, 1.1, ""]).tag(sync=True)
-
-        @traitlets.validate("command")
-        def _possible(self, proposal: dict[str, Any]) -> list[Any]:
-            return list(Order(*proposal["value"]).checked())
-
-    return LiveSteering
 
 
 def steered(
@@ -152,7 +115,8 @@ def steered(
 
     Examples
     --------
-    >>> from mocap import body, datasets, motion_matching
+    >>> from mocap import body, datasets
+    >>> from mocap.methods import motion_matching
     >>> database = motion_matching.tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
     >>> page = steered({"matching": motion_matching.MotionMatcher(database)}, speeds=(0.6, 0.9))
     >>> page, [len(seconds) for seconds in page.delays.values()]
@@ -166,11 +130,12 @@ def steered(
     company, speed = Company(characters), min(max(1.1, low), high)
     alt = alt or f"Stick figures obey one command: {', '.join(member.name for member in company.members)}."
     player = play(*_recorded(company, speed), follow=False, alt=alt)
-    widget = _class()(scene=_scene(company, alt) | {"speeds": [low, high], "labels": list(labels)})
-    widget.command = [RECORDED[-1][0], speed, ""]
-    widget.company, widget.alt, widget.still = company, alt, _still(player, record)
-    widget.on_msg(widget.answer)
-    return widget
+    scene = {"alt": alt, "members": _members(company), **LOOK, "speeds": [low, high], "labels": list(labels)}
+    page = widget(Steered)(scene=scene)
+    page.command = [RECORDED[-1][0], speed, ""]
+    page.company, page.alt, page.still = company, alt, _still(player, record)
+    page.on_msg(page.answer)
+    return page
 
 
 def _recorded(company: Company, speed: float) -> list[Motion]:
@@ -178,7 +143,7 @@ def _recorded(company: Company, speed: float) -> list[Motion]:
     walks = [company.walk(Order(heading, speed), seconds) for heading, seconds in RECORDED]
     motions, count = [], len(company.members)
     for number, (member, parts) in enumerate(zip(company.members, zip(*walks, strict=True), strict=True)):
-        poses = [step.pose for part in parts for step in part.steps]
+        poses = [pose for part in parts for pose in part.poses]
         motion = as_motion(member.character, poses, member.name)
         away = np.array([number - (count - 1) / 2, 0, 0]) * APART - motion.root_positions[0] * [1, 0, 1]
         motions.append(replace(motion, root_positions=motion.root_positions + away))
@@ -194,22 +159,13 @@ def _still(player: Player, record: bool) -> tuple[dict[str, str], dict[str, Any]
     return data, metadata
 
 
-def _scene(company: Company, alt: str) -> dict[str, Any]:
-    """Give what the scripts have to know beforehand."""
-    members = [
+def _members(company: Company) -> list[dict[str, Any]]:
+    """Give what the scripts have to know of each character beforehand."""
+    return [
         {
-            "name": member.name,
-            "fps": member.character.fps,
-            "joints": len(member.limbs.joints),
-            "bones": member.limbs.lines,
-            "head": member.limbs.head,
-            "colour": colour if len(company.members) > 1 else COLOURS["middle"],
+            **{"name": member.name, "fps": member.character.fps, "joints": len(member.drawn.joints)},
+            **{"bones": member.drawn.bones, "head": member.drawn.head},
+            "colour": own_colour(number, len(company.members)) or COLOURS["middle"],
         }
-        for member, colour in zip(company.members, SOURCES, strict=False)
+        for number, member in enumerate(company.members)
     ]
-    return {
-        "alt": alt,
-        "members": members,
-        "sides": [COLOURS[side] for side in SIDES],
-        "marks": {"seam": MARK, "astray": ASTRAY},
-    }

@@ -22,7 +22,7 @@ from mocap.datasets.generated import generate_walk
 from mocap.datasets.samples import sample
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
-from mocap.plotting import charts, graph_drawing, stick_figures
+from mocap.plotting import graph_drawing, grids, stick_figures
 from mocap.widgets.experiments import explore
 from mocap.widgets.player import play
 from tests.browser.conftest import artefacts, browser, lab, page, run_notebook, wait_until  # noqa: F401
@@ -78,7 +78,7 @@ def test_an_experiment_changes_within_60_ms():
 
 def test_a_grid_is_drawn_within_150_ms():
     grid = np.random.default_rng(0).random((1000, 1000))
-    took = min(seconds(lambda: drawn(charts.distance_image(grid, fps=30))) for _ in range(3))
+    took = min(seconds(lambda: drawn(grids.distance_image(grid, fps=30))) for _ in range(3))
     print(f"\na grid of 1000 by 1000: {1000 * took:.0f} ms")
     assert took <= 0.150
 

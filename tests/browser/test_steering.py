@@ -21,7 +21,7 @@ def steering(page, tmp_path):
     """Show three characters, whose Python is a script on the page; yield the page."""
     pytest.importorskip("anywidget")
     from mocap.widgets import steered
-    from mocap.widgets.steered_widget import script
+    from mocap.widgets.embedding import joined
 
     live = steered({name: Dot() for name in ("graph", "steps", "matching")}, labels=("", "jog"))
     state = json.dumps({"scene": live.scene, "command": [0, 1.1, ""]})
@@ -30,7 +30,7 @@ def steering(page, tmp_path):
     file.write_text(
         '<!doctype html><html lang="en"><meta charset="utf-8"><link rel="icon" href="data:,">'
         '<meta name="viewport" content="width=device-width"><body class="mocap-page"><div></div>'
-        f'<script type="module">{script()}\n{FAKE.read_text("utf-8")}\n{start}</script></body></html>',
+        f'<script type="module">{joined(*live.scripts, FAKE)}\n{start}</script></body></html>',
         "utf-8",
     )
     page.goto(file.as_uri())
@@ -256,6 +256,7 @@ CELLS = [
     """
     import math
     from mocap.widgets import steered
+    from mocap.widgets.embedding import joined
     from tests.widgets.steerable import Dot
     page = steered({"quick": Dot(), "slow": Dot(0.7)})
     page

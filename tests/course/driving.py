@@ -69,9 +69,9 @@ def settings(experiment):
         elif hasattr(control, "min"):
             middle = type(control.value)((control.min + control.max) / 2)
             ends[name] = [control.min, middle, control.max]
-        elif isinstance(control, widgets.Dragged):
+        elif hasattr(control, "elsewhere"):
             ends[name] = control.elsewhere()
-        elif isinstance(control, widgets.Pointed):
+        elif hasattr(control, "shape"):
             rows, columns = control.shape
             ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
         else:

@@ -12,7 +12,6 @@ from mocap.cli.main import main
 from mocap.course.opening import stored
 from mocap.course.site import PAGES, STILL, build_site
 from mocap.errors import MocapError
-from mocap.widgets import reopening
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +87,7 @@ def test_each_page_says_what_is_live_and_how_to_run_it(site):
     assert f"On this page {live}; code and other controls are still." in text
     blind = (site / "09-discussion.html").read_text("utf-8")
     assert "quizzes and bets answer you and the blind test can be taken;" in blind
-    assert reopening.STILL == STILL
+    assert live.STILL == STILL
     stills = [part[:200] for part in text.split('<div class="mocap-still">')[1:]]
     assert stills
     assert all(part.startswith('<p class="note">A ') for part in stills)

@@ -2,60 +2,123 @@
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgba
 
-from mocap.feet.footprints import find_footprints
-from mocap.matching.distance_grids import distance_grid
-from mocap.plotting import charts
-from tests.strategies import wave
+from mocap.blending import plants_on_clock, register
+from mocap.methods.match_webs import Match
+from mocap.plotting import (
+    box_chart,
+    joint_curve,
+    match_tree,
+    plant_bars,
+    quartile_band,
+    seen_beside_measured,
+    space_image,
+)
+from mocap.plotting.style import ASTRAY, COLOURS, CURVES, QUIET, SOURCES
+from tests.blending.registered import walks
 
-
-def test_the_distance_image_shows_centimetres_in_seconds():
-    grid = distance_grid(wave(40), wave(60, phase=1.0), window=10)
-    image = charts.distance_image(grid, fps=30, minima=[[3, 5]], names=("a", "b"))
-    assert np.asarray(image.get_array()) == pytest.approx(100 * np.sqrt(grid))
-    assert image.get_extent() == pytest.approx([0, 51 / 30, 31 / 30, 0])
-    (dots,) = image.axes.lines
-    assert np.ravel(dots.get_data()) == pytest.approx([5.5 / 30, 3.5 / 30])
-    assert image.axes.get_ylabel() == "a (s)"
-
-
-def test_a_path_from_above_is_not_mirrored():
-    motion = wave(30)
-    path, start, seams = charts.path_from_above(motion, seams=[4, 9])
-    assert np.transpose(path.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
-    assert np.transpose(seams.get_data()) == pytest.approx(motion.root_positions[[4, 9]][:, [0, 2]])
-    assert path.axes.xaxis_inverted()
-    charts.path_from_above(motion, ax=path.axes)
-    assert path.axes.xaxis_inverted()
-    assert start.get_xdata() == pytest.approx(motion.root_positions[0, 0])
+AT = np.arange(3.0)
+FOUND = [
+    Match(0, 0, 9, 0.0, -1, 0, AT, AT),
+    Match(1, 0, 9, 0.01, 0, 1, AT, AT),
+    Match(1, 20, 29, 0.02, 0, 1, AT, AT),
+    Match(2, 0, 9, 0.01, 2, 2, AT, AT),
+    Match(2, 30, 39, 0.01, 1, 2, AT, AT),
+]
 
 
-def test_footprints_stand_where_feet_did():
-    motion = wave(80)
-    prints = find_footprints(motion)
-    drawn = charts.footprints(prints)
-    assert drawn.get_offsets().tolist() == [[step.x, step.z] for step in prints]
-    assert drawn.axes.xaxis_inverted()
-
-
-def test_the_path_asked_for_lies_under_the_path_walked():
-    motion = wave(30)
-    asked, walked, start = charts.asked_and_walked([[0, 0], [0, 1], [1, 1]], motion)
-    assert np.transpose(asked.get_data()).tolist() == [[0, 0], [0, 1], [1, 1]]
-    assert np.transpose(walked.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
-    assert asked.get_zorder() <= walked.get_zorder()
-    assert (asked.get_color(), walked.get_color()) == ("#000000", "#E69F00")
-    assert start.get_ydata() == pytest.approx(motion.root_positions[0, 2])
+def colours_of(dots):
+    return [tuple(colour) for colour in dots.get_facecolors()]
 
 
 def test_a_joints_curve_is_in_seconds_with_its_seams_shaded():
     values = np.arange(20.0).reshape(10, 2)
-    curves = charts.joint_curve(values, fps=10, seams=[[2, 5], [7, 9]], labels=["x (m)", "y (m)"])
+    curves = joint_curve(values, fps=10, seams=[[2, 5], [7, 9]], labels=["x (m)", "y (m)"])
     assert [curve.get_ydata().tolist() for curve in curves] == values.T.tolist()
     assert curves[0].get_xdata() == pytest.approx(np.arange(10) / 10)
-    spans = [
-        patch.get_extents().transformed(patch.axes.transData.inverted()) for patch in curves[0].axes.patches
-    ]
-    assert np.ravel([span.intervalx for span in spans]) == pytest.approx([0.2, 0.5, 0.7, 0.9])
-    (single,) = charts.joint_curve(values[:, 0], fps=10, labels=["height (m)"])
+    ax = curves[0].axes
+    spans = [patch.get_extents().transformed(ax.transData.inverted()).intervalx for patch in ax.patches]
+    assert np.ravel(spans) == pytest.approx([0.2, 0.5, 0.7, 0.9])
+    (single,) = joint_curve(values[:, 0], fps=10, labels=["height (m)"])
     assert single.axes.get_ylabel() == "height (m)"
+
+
+def test_a_band_reaches_from_quartile_to_quartile_about_the_median():
+    samples = np.random.default_rng(0).gamma(2.0, size=(5, 41))
+    median = quartile_band(range(5), samples, label="slide", colour="#112233")
+    assert median.get_ydata() == pytest.approx(np.median(samples, axis=1))
+    assert (median.get_label(), median.get_color()) == ("slide", "#112233")
+    corners = median.axes.collections[0].get_paths()[0].vertices
+    for x, row in enumerate(samples):
+        heights = corners[corners[:, 0] == x, 1]
+        assert (heights.min(), heights.max()) == pytest.approx(tuple(np.percentile(row, [25, 75])))
+    assert quartile_band([0, 1], np.ones((2, 3)), ax=median.axes).axes is median.axes
+
+
+def test_what_is_seen_stands_above_what_is_measured():
+    points = [[10, 0.9, 0.0, 1.9], [20, -0.2, -1.1, 0.8], [30, 2.8, 1.4, np.inf]]
+    upper, lower = seen_beside_measured(points, [10, 20], [[3, 4], [1, 2]], ("window (frames)", "jolt (m/s)"))
+    guessing, curve = upper.lines
+    assert not np.any(guessing.get_ydata())
+    assert curve.get_ydata().tolist() == [0.9, -0.2, 2.8]
+    ends = [segment[:, 1].tolist() for segment in upper.collections[0].get_segments()]
+    assert ends == [[0.0, 1.9], [-1.1, 0.8], [1.4, 9.0]]  # without an upper limit the line leaves the picture
+    assert upper.get_ylim()[1] < 9
+    assert (lower.get_xlabel(), lower.get_ylabel()) == ("window (frames)", "measured: jolt (m/s)")
+    assert lower.lines[0].get_ydata().tolist() == [3.5, 1.5]
+
+
+def test_good_bad_and_other_targets_have_their_colours():
+    ax = box_chart([-40, 0, 40], [2.0, 3.5, 9], (-60, 10), limits=(3, 4))
+    (dots,), (box,) = ax.collections, ax.patches
+    assert colours_of(dots) == [to_rgba(colour) for colour in (CURVES[0], QUIET, ASTRAY)]
+    np.testing.assert_allclose(dots.get_offsets(), [[-40, 2], [0, 3.5], [40, 9]])
+    assert box.get_x() == -60 and box.get_width() == 70
+    assert [text.get_text() for text in ax.texts] == ["T_GOOD", "T_BAD"]
+
+
+def test_bars_start_and_stop_with_the_plants():
+    pair, rows = register([walks()[0.8, 0], walks()[1.4, 0]]), {}
+    for name, clip, curve in zip(("slow", "brisk"), pair.clips, pair.times, strict=True):
+        plants = plants_on_clock(clip, curve)
+        rows[name] = {"left": plants["lfoot"], "right": plants["rfoot"]}
+    ax = plant_bars(rows)
+    drawn = iter(ax.collections)
+    for row, sides in enumerate(rows.values()):
+        for side, up in (("left", -1), ("right", 1)):
+            bars = next(drawn)
+            corners = np.array([path.vertices[:4] for path in bars.get_paths()])
+            assert corners[..., 0].min(axis=1) == pytest.approx(sides[side][:, 0])
+            assert corners[..., 0].max(axis=1) == pytest.approx(sides[side][:, 1])
+            assert (up * corners[..., 1]).min() == pytest.approx(up * row)  # left above right
+            assert colours_of(bars)[0] == to_rgba(COLOURS[side])
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["slow", "brisk"]
+    assert ax.yaxis_inverted()
+
+
+def test_each_match_stands_at_its_step_linked_with_what_found_it():
+    ax = match_tree(FOUND, ["walk", "walk", "run", "run", "walk"], wrong=[False] * 3 + [True, False])
+    links, matches, wrong = ax.collections
+    places = np.asarray(matches.get_offsets())
+    assert places[:, 0].tolist() == [0, 1, 1, 2, 2]
+    assert places[3, 1] > places[4, 1]  # no two links cross
+    assert len({tuple(place) for place in places.tolist()}) == len(FOUND)
+    assert links.get_segments()[2].tolist() == places[[2, 3]].tolist()
+    assert np.asarray(wrong.get_offsets()).tolist() == [places[3].tolist()]
+    assert tuple(wrong.get_edgecolor()[0]) == to_rgba(ASTRAY)
+    assert [colours_of(matches)[n] for n in (0, 2)] == [to_rgba(c) for c in SOURCES[:2]]
+
+
+def test_a_kind_keeps_its_colour_and_a_query_alone_is_a_tree():
+    few = match_tree(FOUND[:2], ["run", "run"], order=["walk", "run"]).collections[1]
+    assert colours_of(few)[0] == to_rgba(SOURCES[1])
+    assert len(match_tree(FOUND[:1], ["walk"]).collections[0].get_segments()) == 0
+
+
+def test_arrows_go_from_wishes_to_what_was_got():
+    ax = space_image([[0, 1], [2, 3], [1, 2]], 2, wishes=[[1, 1], [0, 0]], got=[[1, 2], [1, 0]])
+    _, _, wishes, arrows, _ = ax.collections
+    assert (arrows.U.tolist(), arrows.V.tolist()) == ([0, 1], [1, 0])
+    assert np.asarray(wishes.get_offsets()).tolist() == [[1, 1], [0, 0]]
+    assert len(space_image([[0, 1], [2, 3]], 2).collections[0].get_offsets()) == 0

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.text import Text
 
 from mocap.matching.distance_grids import distance_grid
-from mocap.plotting import charts, graph_drawing, stick_figures
+from mocap.plotting import graph_drawing, grids, stick_figures
 from tests.strategies import wave
 
 pytest.importorskip("pytest_mpl", reason="pip install pytest-mpl")
@@ -53,7 +53,7 @@ def test_two_motions_laid_over_each_other_look_as_ever():
 @alike(tolerance=10)  # an image is scaled in another way by each version
 def test_the_distance_image_looks_as_ever():
     grid = distance_grid(wave(80), wave(90, phase=1.0), window=10)
-    charts.distance_image(grid, fps=30, minima=np.argwhere(grid == grid.min()), ax=bare())
+    grids.distance_image(grid, fps=30, minima=np.argwhere(grid == grid.min()), ax=bare())
     return without_text(plt.gcf())
 
 

@@ -13,7 +13,7 @@ from nbformat.v4 import new_code_cell, new_notebook, new_output
 from PIL import Image
 
 from mocap.errors import MocapError
-from mocap.plotting import charts, stick_figures
+from mocap.plotting import grids, ground_charts, stick_figures
 from mocap.plotting.picture import DPI, show
 from tests.strategies import wave
 
@@ -69,8 +69,8 @@ def test_a_picture_without_a_sentence_is_refused():
     [
         lambda: stick_figures.stick_figure(wave(90), range(0, 90, 9)),
         lambda: stick_figures.laid_over(wave(30), wave(30, phase=1)),
-        lambda: charts.distance_image(np.random.default_rng(0).random((300, 300)).cumsum(0), fps=30),
-        lambda: charts.path_from_above(wave(90)),
+        lambda: grids.distance_image(np.random.default_rng(0).random((300, 300)).cumsum(0), fps=30),
+        lambda: ground_charts.path_from_above(wave(90)),
     ],
 )
 def test_pictures_are_small(draw):
@@ -79,7 +79,7 @@ def test_pictures_are_small(draw):
 
 def test_few_colours_change_nothing_visible():
     figure = Figure(figsize=(3, 3))
-    charts.distance_image(np.hypot(*np.mgrid[-40:40, -40:40]), fps=30, ax=figure.add_subplot())
+    grids.distance_image(np.hypot(*np.mgrid[-40:40, -40:40]), fps=30, ax=figure.add_subplot())
     few = image(show(figure, alt="A valley.")).convert("RGB")
     stream = io.BytesIO()
     figure.savefig(stream, dpi=DPI)

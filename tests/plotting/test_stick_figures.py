@@ -5,24 +5,14 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
-from matplotlib.figure import Figure
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.skeleton import Skeleton
-from mocap.datasets.samples import sample
 from mocap.plotting import stick_figures
 from mocap.plotting.axes import to_picture
-from mocap.plotting.stick_figures import bones, film_strip, flat_bodies
-from mocap.plotting.style import COLOURS
+from mocap.plotting.stick_figures import film_strip
 from tests.plotting.test_axes import on_picture
 from tests.strategies import wave
-
-
-def test_bones_have_a_line_each_and_know_their_side():
-    body = Skeleton(["hips", "lleg", "rleg", "lfoot"], [-1, 0, 0, 1], np.arange(12).reshape(4, 3))
-    starts, ends, sides = bones(body)
-    assert list(zip(starts, ends, sides, strict=True)) == [(0, 1, "middle"), (0, 2, "middle"), (1, 3, "left")]
 
 
 def test_a_stick_figure_has_every_bone_where_the_joints_are():
@@ -86,28 +76,3 @@ def test_a_strip_shows_first_and_last_pose_and_all_who_play():
 
 def test_a_strip_of_one_frame_is_one_picture():
     assert len(film_strip([wave(1)]).axes) == 1
-
-
-def sides(walk):
-    """Give where the left and the right hip of frame 90 are, seen along z."""
-    points = joint_positions(walk)[90]
-    return [points[walk.skeleton.index(name), :2] for name in ("lfemur", "rfemur")]
-
-
-def test_bodies_are_drawn_flat_where_they_are_from_the_side_and_from_the_front():
-    walk = sample("walk_straight")
-    side, front = (
-        flat_bodies(walk, [0, 90], view=view, ax=Figure().add_subplot()) for view in ("side", "front")
-    )
-    for ax, across in ((side, 2), (front, 0)):
-        points = joint_positions(walk)[90][:, [across, 1]]
-        drawn = np.concatenate(ax.collections[1].get_segments())
-        np.testing.assert_allclose(drawn.max(axis=0), points.max(axis=0), atol=1e-12)
-        assert {tuple(colour) for colour in ax.collections[0].get_colors()} == {
-            to_rgba(colour) for colour in COLOURS.values()
-        }
-    assert side.get_xlabel() == "z (m)" and not side.xaxis_inverted()
-    assert front.get_xlabel() == "x (m)" and not front.xaxis_inverted()
-    left, right = (front.transData.transform(at)[0] for at in sides(walk))
-    assert left > right  # of one who comes to the reader
-    plt.close(flat_bodies(walk, [0]).figure)

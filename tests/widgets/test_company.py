@@ -21,19 +21,19 @@ def test_frames_are_counted_by_seconds_however_they_are_asked_for(pieces):
     company = Company({"slow": Dot(fps=30.0), "fast": Dot(fps=120.0)})
     walked = [company.walk(Order(), seconds) for seconds in pieces]
     for member, frames in zip(company.members, zip(*walked, strict=True), strict=True):
-        assert sum(len(one.steps) for one in frames) == member.steps - 1
+        assert sum(len(one.poses) for one in frames) == member.steps - 1
         assert member.steps == 1 + round(sum(pieces) * member.character.fps)
-        firsts = np.cumsum([1, *(len(one.steps) for one in frames)])[:-1]
-        assert [one.first for one in frames] == firsts.tolist()
+        firsts = np.cumsum([1, *(len(one.poses) for one in frames)])[:-1]
+        assert [one.told["first"] for one in frames] == firsts.tolist()
 
 
 def test_places_are_the_joints_at_which_bones_end():
     company = Company({"dot": Dot()})
     (walked,) = company.walk(Order(1.0), 0.3)
-    motion = as_motion(company.members[0].character, [step.pose for step in walked.steps])
-    drawn = company.members[0].limbs
+    motion = as_motion(company.members[0].character, walked.poses)
+    drawn = company.members[0].drawn
     np.testing.assert_allclose(walked.places, joint_positions(motion)[:, drawn.joints], atol=1e-12)
-    assert drawn.joints[0] == 0 and max(max(line[:2]) for line in drawn.lines) < len(drawn.joints)
+    assert drawn.joints[0] == 0 and max(max(line[:2]) for line in drawn.bones) < len(drawn.joints)
 
 
 class Stumbling(Dot):
@@ -49,9 +49,9 @@ def test_who_fails_stands_still_until_the_order_changes_and_says_why():
     company = Company({"sure": Dot(), "stumbling": Stumbling()})
     for order, why in [(Order(0, 1, "fly"), "MocapError: No clip flies."), (Order(2.0), "not finite")]:
         sure, stumbling = company.walk(order, 0.5)
-        assert why in stumbling.fault and len(stumbling.fault) <= 200
+        assert why in stumbling.told["fault"] and len(stumbling.told["fault"]) <= 200
         assert np.ptp(stumbling.places, axis=0).max() == 0
-        assert (sure.fault, len(sure.steps)) == ("", len(stumbling.steps))
+        assert (sure.told["fault"], len(sure.poses)) == ("", len(stumbling.poses))
         assert np.ptp(sure.places, axis=0).max() > 0.3
 
 
@@ -59,7 +59,7 @@ def test_a_stumble_is_forgotten_when_the_order_changes():
     company = Company({"stumbling": Stumbling()})
     company.walk(Order(0, 1, "fly"), 0.2)
     (walked,) = company.walk(Order(), 0.2)
-    assert walked.fault == "" and np.ptp(walked.places, axis=0).max() > 0.1
+    assert walked.told["fault"] == "" and np.ptp(walked.places, axis=0).max() > 0.1
 
 
 def test_an_error_at_the_first_step_is_raised():

@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from mocap.errors import MocapError
-from mocap.widgets import dragging, recording
+from mocap.widgets import live, recording
 from mocap.widgets.dragging import handles
 from mocap.widgets.experiments import explore
 from tests.course import driving
@@ -144,6 +144,6 @@ def test_an_error_is_shown_in_the_pictures_place():
 
 def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    dragging._class.cache_clear()
+    live.widget.cache_clear()
     with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
         handles(ground(), POINTS)

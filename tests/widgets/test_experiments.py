@@ -20,9 +20,9 @@ from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError
 from mocap.plotting.axes import ground_axes
 from mocap.plotting.stick_figures import stick_figure
-from mocap.widgets import experiments
+from mocap.widgets import experiments, live
 from mocap.widgets.experiments import explore
-from mocap.widgets.reopening import LIVE, STILL, WIDGET
+from mocap.widgets.live import LIVE, STILL, WIDGET
 from tests.strategies import wave
 
 pytest.importorskip("ipywidgets")
@@ -158,9 +158,9 @@ def test_every_value_that_arrives_is_drawn():
 
 def test_without_anywidget_an_experiment_has_no_names_but_works(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    experiments._naming_class.cache_clear()
+    live.widget.cache_clear()
     experiment = explore(fresh, alt="A line.", frame=(0, 9))
-    experiments._naming_class.cache_clear()
+    live.widget.cache_clear()
     assert len(experiment.box.children) == 3
     assert experiment.set(frame=3).error is None
 

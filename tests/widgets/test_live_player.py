@@ -8,7 +8,7 @@ import pytest
 
 from mocap.body import spline
 from mocap.errors import MocapError, MocapWarning
-from mocap.widgets import live_player
+from mocap.widgets import live
 from mocap.widgets.live_player import draw_path, linked
 from mocap.widgets.player import play
 from tests.strategies import wave
@@ -124,6 +124,6 @@ def test_an_error_is_shown_until_the_next_path():
 
 def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    live_player._live_player.cache_clear()
+    live.widget.cache_clear()
     with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
         linked(play(wave(9)))

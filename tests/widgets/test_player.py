@@ -16,7 +16,7 @@ from PIL import Image
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError
-from mocap.plotting.stick_figures import bones
+from mocap.plotting.bodies import bones
 from mocap.widgets.player import play
 from tests.strategies import random_motion, seeds, wave
 

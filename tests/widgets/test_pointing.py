@@ -16,8 +16,8 @@ from PIL import Image
 from mocap.blending import splicing
 from mocap.errors import MocapError
 from mocap.matching import distance_grids
-from mocap.plotting import charts, stick_figures
-from mocap.widgets import experiments, pointing
+from mocap.plotting import grids, stick_figures
+from mocap.widgets import experiments, live
 from mocap.widgets.pointing import pointer
 from tests.strategies import wave
 
@@ -34,7 +34,7 @@ def lay(at=(3, 20)):
 
 
 def experiment():
-    return experiments.explore(lay, alt="Two windows.", at=charts.distance_image(GRID, fps=30))
+    return experiments.explore(lay, alt="Two windows.", at=grids.distance_image(GRID, fps=30))
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +61,7 @@ def test_the_figures_are_closed():
 
 
 def test_a_row_of_minima_is_a_place():
-    at = pointer(charts.distance_image(GRID, fps=30), np.array([[3, 4]])[0])
+    at = pointer(grids.distance_image(GRID, fps=30), np.array([[3, 4]])[0])
     assert at.value == (3, 4)
 
 
@@ -84,7 +84,7 @@ def test_an_error_is_shown_in_the_pictures_place():
             raise ValueError("row five")
         return lay(at)
 
-    grid = experiments.explore(draw, alt="Two windows.", at=charts.distance_image(GRID, fps=30))
+    grid = experiments.explore(draw, alt="Two windows.", at=grids.distance_image(GRID, fps=30))
     grid.controls["at"].value = (5, 5)
     assert "ValueError: row five" in grid.message.value
     grid.controls["at"].value = (6, 5)
@@ -128,6 +128,6 @@ def test_an_image_of_colours_is_refused():
 
 def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    pointing._pointer_class.cache_clear()
+    live.widget.cache_clear()
     with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
-        pointer(charts.distance_image(GRID, fps=30))
+        pointer(grids.distance_image(GRID, fps=30))

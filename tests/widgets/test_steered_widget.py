@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError
-from mocap.widgets import steered_widget
+from mocap.widgets import live, steered_widget
 from mocap.widgets.steered_widget import steered
 from tests.widgets.steerable import Dot
 
@@ -122,7 +122,7 @@ def test_it_starts_at_a_speed_that_may_be_asked_for():
 
 def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
-    steered_widget._class.cache_clear()
+    live.widget.cache_clear()
     with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
         steered({"dot": Dot()})
-    steered_widget._class.cache_clear()
+    live.widget.cache_clear()

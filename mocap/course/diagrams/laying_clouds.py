@@ -12,7 +12,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, point_cloud, rms_distance
-from mocap.plotting.stick_figures import bones
+from mocap.plotting.bodies import bones
 from mocap.plotting.style import CURVES, QUIET, SOURCES
 
 STEPS = ("where they are, with their means", "each from its own mean", "the second turned", "shifted back")

@@ -11,7 +11,7 @@ import numpy as np
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
-from mocap.plotting.stick_figures import bones
+from mocap.plotting.bodies import bones
 from mocap.plotting.style import COLOURS
 
 STEP = 0.002  # metres; coordinates are whole numbers of it. A pixel shows about four of them.

@@ -3,17 +3,13 @@
 
 const STEP = 5e-6; // metres, and parts of a quaternion: what one unit of a number means
 
-// Undo what `packing.py` does: four planes of bytes make 32-bit numbers, and these are second differences over time.
+// Undo what `packing.py` does: four planes of bytes make 32-bit numbers, which the player's `summed` sums up.
 function unpacked(bytes, { offset, frames, channels }) {
-  const count = frames * channels, planes = new Uint8Array(bytes, offset, 4 * count), numbers = new Float64Array(count);
-  for (let k = 0, change = 0, number = 0; k < count; k++) {
-    if (k % frames === 0) change = number = 0;
-    change = (change + (planes[k] | (planes[count + k] << 8) | (planes[2 * count + k] << 16) | (planes[3 * count + k] << 24))) | 0;
-    number = (number + change) | 0;
-    numbers[(k % frames) * channels + Math.floor(k / frames)] = number * STEP;
-  }
-  return numbers; // frame by frame: x, y, z of the root, then w, x, y, z of each joint
-}
+  const count = frames * channels, planes = new Uint8Array(bytes, offset, 4 * count);
+  const whole = (_, k) => planes[k] | (planes[count + k] << 8) | (planes[2 * count + k] << 16) | (planes[3 * count + k] << 24);
+  const sums = summed(Int32Array.from({ length: count }, whole), frames);
+  return Float64Array.from({ length: count }, (_, k) => STEP * sums[(k % channels) * frames + Math.floor(k / channels)]);
+} // frame by frame: x, y, z of the root, then w, x, y, z of each joint
 
 // ---- quaternions: w, x, y, z; many of them in one array, so that a page can turn thousands in a few milliseconds ----
 

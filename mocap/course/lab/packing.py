@@ -17,12 +17,10 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
-from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import distinct_joints
-from mocap.plotting.stick_figures import bones
+from mocap.widgets.packing import SIDES, drawn, packed, with_contacts
 
 STEP = 5e-6  # what a unit of a number means: a clip at 120 Hz needs it so fine, or its jolts would tremble
-SIDES = ("middle", "left", "right")  # the scripts know a side by its number
 
 
 def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, Any], bytes]:
@@ -48,10 +46,9 @@ def packed_clip(motion: Motion, offset: int, needed: Mask) -> tuple[dict[str, An
     origin = motion.root_positions[0, [0, 2]]
     places = motion.root_positions - [origin[0], 0, origin[1]]
     turns = rotations.continuous(motion.rotations).reshape(len(motion), -1)
-    numbers = np.round(np.concatenate([places, turns], axis=1) / STEP).astype("<i4")
-    numbers = numbers[np.maximum.accumulate(np.where(needed, np.arange(len(needed)), 0))]
-    changes = np.diff(numbers, 2, axis=0, prepend=np.zeros_like(numbers, shape=(2, numbers.shape[1])))
-    planes = np.ascontiguousarray(changes.T).view(np.uint8).reshape(-1, 4).T
+    numbers = np.concatenate([places, turns], axis=1)
+    kept = numbers[np.maximum.accumulate(np.where(needed, np.arange(len(needed)), 0))]
+    planes = np.frombuffer(packed(kept, 0.0, STEP, "<i4"), np.uint8).reshape(-1, 4).T
     about = {
         "name": motion.name,
         "frames": len(motion),
@@ -74,11 +71,7 @@ def plants(motion: Motion) -> str:
     >>> sorted(set(plants(sample("walk_straight"))))
     ['0', '2', '4']
     """
-    if not motion.contacts:
-        try:
-            motion = mark_plants(motion)
-        except MocapError:
-            return "0" * len(motion)
+    motion = with_contacts(motion)
     standing = np.zeros((len(SIDES), len(motion)), bool)
     for name, marks in motion.contacts.items():
         standing[SIDES.index(motion.skeleton.side(motion.skeleton.index(name)))] |= marks
@@ -95,8 +88,7 @@ def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
     >>> [(SKELETON.names[joint], SIDES[side]) for joint, side in body["feet"]]
     [('ltoes', 'left'), ('rtoes', 'right')]
     """
-    starts, ends, sides = bones(skeleton)
-    heads = [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
+    joints, lines, head = drawn(skeleton)
     try:
         balls = [leg.ball for leg in find_legs(skeleton)]
     except MocapError:
@@ -105,9 +97,7 @@ def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
         "parents": skeleton.parents.tolist(),
         "offsets": skeleton.offsets.tolist(),
         "points": list(map(int, distinct_joints(skeleton))),
-        "bones": [
-            [int(a), int(b), SIDES.index(side)] for a, b, side in zip(starts, ends, sides, strict=True)
-        ],
-        "head": heads[-1] if heads else None,
+        "bones": [[int(joints[a]), int(joints[b]), side] for a, b, side in lines],
+        "head": None if head is None else int(joints[head]),
         "feet": [[int(ball), SIDES.index(skeleton.side(ball))] for ball in balls],
     }

@@ -1,0 +1,161 @@
+"""Bodies as lines: their bones, and poses drawn on flat axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from numpy.typing import ArrayLike, NDArray
+
+from mocap._shared.arrays import Array
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.matching.point_clouds import distinct_joints
+from mocap.plotting.style import ASKED, COLOURS
+
+
+class Bones(NamedTuple):
+    """The B lines of a body: from joint `starts` to joint `ends`, on the body's side `sides`; shapes (B,)."""
+
+    starts: NDArray[np.intp]
+    ends: NDArray[np.intp]
+    sides: NDArray[np.str_]
+
+
+def bones(skeleton: Skeleton) -> Bones:
+    """List the lines of a body; joints that share a place share one line.
+
+    The line from a parent to its child is the parent's bone, and so it is on the parent's side.
+
+    Examples
+    --------
+    >>> names = ["hips", "lknee", "rknee", "lfoot"]
+    >>> body = Skeleton(names, [-1, 0, 0, 1], [[0, 1, 0], [0.1, -0.4, 0], [-0.1, -0.4, 0], [0, -0.4, 0]])
+    >>> [f"{names[start]} to {names[end]}: {side}" for start, end, side in zip(*bones(body))]
+    ['hips to lknee: middle', 'hips to rknee: middle', 'lknee to lfoot: left']
+
+    Notebook: 11-warping
+    """
+    ends = np.array(distinct_joints(skeleton)[1:], np.intp)
+    starts = skeleton.parents[ends]
+    return Bones(starts, ends, np.array([skeleton.side(int(parent)) for parent in starts], str))
+
+
+def head_joints(skeleton: Skeleton) -> list[int]:
+    """Find the joints that are called a head; the last is its tip."""
+    return [joint for joint, name in enumerate(skeleton.names) if "head" in name.lower()]
+
+
+def draw_body(
+    ax: Axes,
+    skeleton: Skeleton,
+    points: Array,
+    *,
+    colour: str | None = None,
+    head: dict[str, Any] | None = None,
+    **look: Any,  # noqa: ANN401 (of matplotlib's lines)
+) -> LineCollection:
+    """Draw a pose on flat axes.
+
+    Parameters
+    ----------
+    ax : flat axes.
+    skeleton : the body.
+    points : shape (J, 2), where its joints are on the axes.
+    colour : one for all bones; by default left, right and middle have their own.
+    head : how to draw the dot for the head, such as {"markersize": 8}; without it there is none.
+    look : of the bones, such as `linewidths` and `alpha`.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> body = Skeleton(["hips", "lknee"], [-1, 0], [[0, 1, 0], [0.1, -0.4, 0]])
+    >>> draw_body(Figure().add_subplot(), body, np.array([[0, 1], [0.1, 0.6]])).get_segments()[0].tolist()
+    [[0.0, 1.0], [0.1, 0.6]]
+
+    Notebook: 14-levels
+    """
+    starts, ends, sides = bones(skeleton)
+    lines = list(np.stack([points[starts], points[ends]], axis=1))
+    body = LineCollection(lines, colors=[colour or COLOURS[side] for side in sides], **look)
+    ax.add_collection(body)
+    if head is not None:
+        ax.plot(*points[head_joints(skeleton)[-1:]].T, "o", **({"color": colour or COLOURS["middle"]} | head))
+    return body
+
+
+def flat_bodies(
+    motion: Motion,
+    frames: Sequence[int],
+    *,
+    view: Literal["side", "front"] = "side",
+    alpha: float = 1.0,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw poses of a motion flat, where they are: z or x to the right, y upwards, metres.
+
+    Parameters
+    ----------
+    motion : a walk along z.
+    frames : which frames.
+    view : from the side, z to the right; or from the front, x to the right. There the walker comes to the
+        reader, so the left side of the body, which is at +x, is on the right.
+    alpha : 1 for solid bodies, less for ghosts.
+    ax : flat axes; by default new ones.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> from matplotlib.figure import Figure
+    >>> ax = flat_bodies(datasets.sample("walk_straight"), [0, 60, 120], ax=Figure().add_subplot())
+    >>> len(ax.collections)
+    3
+
+    Notebook: 14-levels
+    """
+    across = 2 if view == "side" else 0
+    ax = ax or plt.subplots(figsize=(8, 2.6), layout="constrained")[1]
+    for points in joint_positions(motion)[list(frames)]:
+        draw_body(ax, motion.skeleton, points[:, [across, 1]], linewidths=1.8, alpha=alpha)
+    ax.autoscale_view()
+    ax.set(aspect="equal", xlabel=f"{'xyz'[across]} (m)", ylabel="y (m)")
+    return ax
+
+
+def target_poses(
+    motions: Sequence[Motion], frames: Sequence[int], *, targets: ArrayLike, columns: int
+) -> list[Axes]:
+    """Draw one pose of each motion from behind, row by row, each with the place that was asked for.
+
+    Parameters
+    ----------
+    motions : each standing over the origin and facing +z at its start.
+    frames : which frame of each.
+    targets : (x, y) of each, metres; x grows to the left of the body, which is the left of the picture.
+    columns : of the grid.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")
+    >>> len(target_poses([walk, walk], [0, 60], targets=[[0, 1], [0, 1]], columns=2))
+    2
+
+    Notebook: 16-match-webs
+    """
+    rows = -(-len(motions) // columns)
+    figure = plt.figure(figsize=(1.7 * columns, 1.9 * rows), layout="constrained")
+    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel().tolist()
+    for ax, motion, frame, target in zip(axes, motions, frames, np.asarray(targets), strict=False):
+        points = joint_positions(motion[frame : frame + 1])[0, :, :2]
+        draw_body(ax, motion.skeleton, points, linewidths=1.6)
+        ax.plot(*target, "+", color=ASKED, markersize=11, markeredgewidth=1.8)
+        ax.set(aspect="equal", xlim=(1.0, -1.0), ylim=(0, 1.95))
+    figure.supxlabel("to the left (m)")
+    figure.supylabel("up (m)")
+    return axes

@@ -1,0 +1,208 @@
+"""Grids as images: distances of windows with minima, paths and curves; costs of pairs; walks as rows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.image import AxesImage
+from matplotlib.patheffects import Normal, Stroke
+from numpy.typing import ArrayLike, NDArray
+
+from mocap.blending.registering import Warp
+from mocap.blending.timewarps import Curve
+from mocap.plotting.style import MARK, PATH, QUIET
+
+Grid = NDArray[np.floating[Any]]
+SEAMS = LinearSegmentedColormap.from_list("seams", ["#F2D3E4", "#CC79A7", "#5B1F45"])
+STEPS = LinearSegmentedColormap.from_list("steps", ["#E4E4E4", QUIET])
+
+
+def distance_image(
+    grid: Grid,
+    *,
+    fps: float,
+    minima: ArrayLike = (),
+    names: Sequence[str] = ("", ""),
+    ax: Axes | None = None,
+) -> AxesImage:
+    """Draw a distance grid, dark where the windows are alike, with its minima marked [KGP02, Fig. 3].
+
+    Parameters
+    ----------
+    grid : D, shape (n, m), square metres, as from `matching.distance_grid`.
+    fps : frames per second; the axes are in seconds, from the start of each window.
+    minima : shape (N, 2), rows (i, j) to mark.
+    names : of the motion in the rows, and of that in the columns.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The image: RMS distance in centimetres. It is a control for `widgets.explore`.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> image = distance_image(np.array([[0.04, 0.01], [0.01, 0.04]]), fps=30, minima=[[0, 1]])
+    >>> image.get_array().tolist()
+    [[20.0, 10.0], [10.0, 20.0]]
+    >>> plotting.show(image, alt="Four distances, dark along the rising diagonal.")
+    Picture('Four distances, dark along the rising diagonal.')
+
+    Notebook: 02b-distance-grids
+    """
+    ax = ax or plt.figure(figsize=(5, 4.2), layout="constrained").add_subplot()
+    centimetres = 100 * np.sqrt(grid, dtype=np.float32)  # half the bytes, so the image is drawn faster
+    image = _centimetres(centimetres, minima, (fps, 0.0), ax)
+    ax.set(xlabel=f"{names[1]} (s)".strip(), ylabel=f"{names[0]} (s)".strip())
+    return image
+
+
+def _centimetres(grid: Grid, cells: ArrayLike, clock: tuple[float, float], ax: Axes) -> AxesImage:
+    """Draw distances, with dots on cells (row, column); the clock is windows per second, and its start."""
+    fps, start = clock
+    extent = start, start + grid.shape[1] / fps, start + grid.shape[0] / fps, start
+    image = ax.imshow(grid, cmap="cividis", extent=extent, interpolation="nearest", aspect="equal")
+    rows, columns = start + (np.reshape(cells, (-1, 2)).T + 0.5) / fps
+    ax.plot(columns, rows, ".", color="#FFFFFF", markersize=4, label="minima")
+    ax.figure.colorbar(image, ax=ax, label="RMS distance (cm)", shrink=0.8)
+    return image
+
+
+def web_image(
+    grid: Grid,
+    *,
+    marks: ArrayLike | None = None,
+    paths: Sequence[ArrayLike] = (),
+    rate: float = 30.0,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw the distances of two clips with marked cells and with paths.
+
+    Parameters
+    ----------
+    grid : √D, shape (n, m), metres.
+    marks : cells to mark with dots, booleans of shape (n, m), such as from `minima_1d`.
+    paths : cells (row, column) of each path, shape (N, 2).
+    rate : windows per second; the axes are in seconds.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> ax = web_image(np.array([[0.02, 0.1], [0.1, 0.03]]), paths=[[(0, 0), (1, 1)]], rate=10)
+    >>> ax.collections[0].get_segments()[0].tolist()
+    [[0.05, 0.05], [0.15, 0.15]]
+
+    Notebook: 16-match-webs
+    """
+    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
+    marked = () if marks is None else np.argwhere(marks)
+    _centimetres(100 * np.asarray(grid), marked, (rate, 0.0), ax)
+    ax.lines[-1].set(markersize=2, markeredgewidth=0)
+    lines = [(np.asarray(path)[:, ::-1] + 0.5) / rate for path in paths]
+    ax.add_collection(LineCollection(lines, colors=PATH, linewidths=2))
+    ax.set(xlabel="(s)", ylabel="(s)")
+    return ax
+
+
+def warp_image(
+    grid: Grid,
+    path: ArrayLike,
+    *,
+    warp: Warp | None = None,
+    curve: Curve | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw the distances of two clips with the path of time through them.
+
+    Parameters
+    ----------
+    grid : √D, shape (n, m), metres; rows are the windows of the reference.
+    path : its cells (row, column), shape (N, 2), drawn as dots.
+    warp : of the grid, `Warp()` by default; the axes show the seconds in the middle of each window.
+    curve : from the reference's seconds to the other clip's, drawn where the path is.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> grid, warp = np.array([[0.02, 0.1], [0.1, 0.03]]), Warp(rate=10, window=1)
+    >>> warp_image(grid, [(0, 0), (1, 1)], warp=warp).lines[0].get_xydata().round(9).tolist()
+    [[0.0, 0.0], [0.1, 0.1]]
+
+    Notebook: 15-registration
+    """
+    ax = ax or plt.figure(figsize=(4.8, 4.4), layout="constrained").add_subplot()
+    fps, window, *_ = warp or Warp()
+    half = (window / 2 - 1) / fps  # from the start of the first window to the edge of its cell, in its middle
+    _centimetres(100 * np.asarray(grid), path, (fps, half), ax)
+    ax.lines[-1].set_markersize(2.5)
+    if curve is not None and len(u := np.asarray(ax.lines[-1].get_ydata())):
+        times = np.linspace(u[0], u[-1], 200)
+        (line,) = ax.plot(curve(times), times, color="#FFFFFF", linewidth=2)
+        line.set_path_effects([Stroke(linewidth=4, foreground="#000000"), Normal()])
+    ax.set(xlabel="other clip (s)", ylabel="reference (s)")
+    return ax
+
+
+def boxes_image(
+    costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike, *, ax: Axes | None = None
+) -> Axes:
+    """Draw what it costs that a target follows a source, for all pairs, with each source's box.
+
+    Parameters
+    ----------
+    costs : shape (S, T), centimetres, of S sources and T targets evenly spaced between the ends.
+    ends : of sources and targets, such as degrees of turn.
+    boxes : shape (S, 2), the low and the high end of each source's box.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> ax = boxes_image(np.eye(3), (-60, 60), [[-60, -30], [-20, 20], [30, 60]])
+    >>> ax.lines[1].get_ydata().tolist()
+    [-30, 20, 60]
+
+    Notebook: 17-parametric-graphs
+    """
+    ax = ax or plt.figure(figsize=(5.4, 4.2), layout="constrained").add_subplot()
+    look: dict[str, Any] = {"cmap": "cividis", "interpolation": "nearest", "aspect": "auto"}
+    image = ax.imshow(np.transpose(costs), extent=(*ends, *ends), origin="lower", **look)
+    ax.plot(np.linspace(*ends, len(np.asarray(boxes))), boxes, color=MARK, linewidth=2)
+    ax.figure.colorbar(image, ax=ax, label="cost (cm)", shrink=0.9)
+    return ax
+
+
+def walk_rows(costs: ArrayLike, *, highest: float, ax: Axes | None = None) -> AxesImage:
+    """Draw random walks as rows with a box per step: grey in a clip, purple for a transition, then white.
+
+    Parameters
+    ----------
+    costs : shape (walks, steps): the cost of the transition that a step takes, 0 for a step that stays in its
+        clip, NaN after the end of a walk.
+    highest : the cost that is drawn darkest.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The image; a `colorbar` of it explains the costs.
+
+    Examples
+    --------
+    >>> image = walk_rows([[0, 150, np.nan], [300, 0, 0]], highest=300)
+    >>> image.get_array().mask.tolist()  # neither grey boxes nor white ones have a cost
+    [[True, False, True], [False, True, True]]
+
+    Notebook: 09-discussion
+    """
+    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
+    values = np.asarray(costs, float)
+    look: dict[str, Any] = {"vmin": 0, "aspect": "auto", "interpolation": "nearest"}
+    ax.imshow(np.ma.masked_where(np.isnan(values), np.zeros(values.shape)), cmap=STEPS, vmax=1, **look)
+    taken = np.ma.masked_where(~(values > 0), np.nan_to_num(values))
+    ax.set(xlabel="step of the walk", ylabel="walk")
+    return ax.imshow(taken, cmap=SEAMS, vmax=highest, **look)

@@ -1,0 +1,201 @@
+"""What lies on the ground, seen from above: paths, seams, footprints, ways and plans."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Points
+from mocap.body.motion import Motion
+from mocap.body.planar import heading
+from mocap.feet.footprints import Footprint
+from mocap.plotting.picture import figure_of
+from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, SOURCES
+
+
+def seen_from_above(ax: Axes | None = None) -> Axes:
+    """Make axes for the ground seen from above: y points at the viewer, so with z upwards x goes left."""
+    ax = ax or plt.figure(figsize=(4.5, 4.5), layout="constrained").add_subplot()
+    ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
+    ax.xaxis.set_inverted(True)
+    return ax
+
+
+def path_from_above(
+    motion: Motion, *, seams: ArrayLike = (), colour: str = PATH, ax: Axes | None = None
+) -> list[Line2D]:
+    """Draw the root's path on the ground, seen from above: z upwards, x to the left, as seen from behind.
+
+    Parameters
+    ----------
+    motion : the motion.
+    seams : frames to mark.
+    colour : of the path.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The path, the start, and the seams.
+
+    Examples
+    --------
+    >>> from mocap import datasets, plotting
+    >>> drawn = path_from_above(datasets.sample("walk_circle"), seams=[300, 600])
+    >>> plotting.show(drawn, alt="A circle seen from above, with two seams.")
+    Picture('A circle seen from above, with two seams.')
+
+    Notebook: 00-quickstart
+    """
+    ax = seen_from_above(ax)
+    x, z = motion.root_positions[:, [0, 2]].T
+    at = np.asarray(seams, int)
+    lines = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
+    lines += ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
+    lines += ax.plot(x[at], z[at], "D", color=MARK, markersize=5, label="seams" if len(at) else None)
+    return lines
+
+
+def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCollection:
+    """Draw where feet stood, seen from above: left and right in their colours, longer stands larger.
+
+    Parameters
+    ----------
+    prints : as from `feet.find_footprints`.
+    ax : axes, as from `path_from_above`; new ones by default.
+
+    Returns
+    -------
+    The discs, one per footprint.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> steps = [Footprint("lfoot", "left", 0, 20, 0.1, 0.0), Footprint("rfoot", "right", 18, 40, -0.1, 0.6)]
+    >>> footprints(steps, ax=Figure().add_subplot()).get_offsets().tolist()  # (x, z)
+    [[0.1, 0.0], [-0.1, 0.6]]
+
+    Notebook: 01b-motion-files
+    """
+    ax = seen_from_above(ax)
+    at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)
+    sizes = [12 + 40 * (1 - np.exp(-(step.end - step.start) / 60)) for step in prints]
+    colours = [COLOURS[step.side] for step in prints]
+    return ax.scatter(at[:, 0], at[:, 1], s=sizes, facecolors=colours, alpha=0.6, linewidths=0, zorder=3)
+
+
+def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None) -> list[Line2D]:
+    """Draw the path that was asked for, in black, under the path that was walked [KGP02, Fig. 6].
+
+    Parameters
+    ----------
+    path : the path asked for, shape (N, 2), points (x, z), metres.
+    motion : the walk.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The path asked for, the path walked, and its start.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")
+    >>> asked, walked, start = asked_and_walked([(0, 0), (0, 10)], walk, ax=Figure().add_subplot())
+    >>> asked.get_label(), walked.get_label()
+    ('asked for', 'walked')
+
+    Notebook: 08-path-synthesis
+    """
+    ax = seen_from_above(ax)
+    asked = ax.plot(*np.transpose(path), color=ASKED, linewidth=5, alpha=0.85, label="asked for")
+    walked = path_from_above(motion, ax=ax)
+    walked[0].set_label("walked")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
+    return [*asked, *walked[:2]]
+
+
+def ground_tracks(
+    motions: Sequence[Motion], *, colours: Sequence[str] = SOURCES, ax: Axes | None = None
+) -> list[Line2D]:
+    """Draw the ways of several motions from above, with a stroke each half second for where the body faces.
+
+    Parameters
+    ----------
+    motions : as they stand; `body.place` lets them start at one place.
+    colours : one for each motion.
+    ax : axes; new ones by default.
+
+    Returns
+    -------
+    The way of each motion.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> lines = ground_tracks([datasets.sample("walk_straight")])
+    >>> lines[0].get_label()
+    'walk_straight'
+
+    Notebook: 15-registration
+    """
+    ax, ways = seen_from_above(ax), []
+    for motion, colour in zip(motions, colours, strict=False):
+        ways += path_from_above(motion, colour=colour, ax=ax)[:1]
+        step = max(round(motion.fps / 2), 1)
+        places, facing = motion.root_positions[::step][:, [0, 2]], heading(motion.rotations[::step, 0])
+        ends = places + 0.25 * np.stack([np.sin(facing), np.cos(facing)], axis=-1)
+        ax.add_collection(LineCollection(list(np.stack([places, ends], axis=1)), colors=colour, linewidths=1))
+    return ways
+
+
+def draw_group_plan(
+    places: Points,
+    points: Sequence[complex] = (),
+    discs: Sequence[tuple[complex, float]] = (),
+    *,
+    near: float = 1.0,
+    ax: Axes | None = None,
+) -> Figure:
+    """Draw where the members of a group go, seen from above; x to the left as for somebody who looks along z.
+
+    White dots are where they start, black ones where they are at five moments, evenly spread until the end.
+
+    Parameters
+    ----------
+    places : shape (F, N), complex z + ix, metres.
+    points : to pass in order; each is numbered, and its circle of `near` metres drawn.
+    discs : obstacles, centre and radius.
+    near : metres.
+    ax : axes to draw on; by default those of a new figure that pyplot does not know.
+
+    Examples
+    --------
+    >>> steps = np.linspace(0, 5, 40)[:, None]
+    >>> figure = draw_group_plan(steps + [0j, 1j], [5 + 0j], [(3 + 2j, 0.5)])
+    >>> len(figure.axes[0].lines), len(figure.axes[0].patches)
+    (2, 2)
+
+    Notebook: 19-group-graphs
+    """
+    ax = seen_from_above(ax or Figure(figsize=(7, 7), layout="constrained").add_subplot())
+    for number, way in enumerate(np.asarray(places).T):
+        ax.plot(way.imag, way.real, color=SOURCES[number % len(SOURCES)], linewidth=1.2)
+    for frame in np.linspace(0, len(places) - 1, 6).round().astype(int):
+        inside = "black" if frame else "white"
+        ax.scatter(places[frame].imag, places[frame].real, s=14, color=inside, edgecolors="black", zorder=3)
+    for centre, radius in discs:
+        ax.add_patch(Circle((centre.imag, centre.real), radius, color=QUIET, zorder=2))
+    for number, point in enumerate(points, 1):
+        ax.add_patch(Circle((point.imag, point.real), near, fill=False, color=ASKED, linestyle=":", zorder=2))
+        ax.annotate(str(number), (point.imag, point.real), ha="center", va="center", color=ASKED)
+    ax.grid(color=FLOOR)
+    return figure_of(ax)

@@ -1,0 +1,79 @@
+"""The base of all live widgets: what browser and Python share, and what stays when the kernel has ended.
+
+JupyterLab shows a widget whose kernel has ended as an error, and prefers that to the picture beside it. So a
+cell has two outputs here, the picture and the widget. A rule hides the picture while the widget lives, and
+the widget's output when it does not.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any, ClassVar
+
+from mocap.errors import MocapError
+from mocap.widgets.embedding import joined
+
+WIDGET = "application/vnd.jupyter.widget-view+json"  # the name of a model that ends with its kernel
+STILL, LIVE = "mocap-still", "mocap-live"  # classes of the picture and of the widget
+
+_OUTPUT = ".jp-OutputArea-child"
+_RULE = f"""<style>
+{_OUTPUT}:has(.{STILL}):has(+ {_OUTPUT} .{LIVE}) {{ display: none; }}
+{_OUTPUT}:has(.{STILL}) + {_OUTPUT}:not(:has(.{LIVE})) {{ display: none; }}
+</style>"""
+
+
+class Live:
+    """What a live widget is without its traits.
+
+    A `shared` name is a trait that the browser knows as well. Where there is a method `check_` and its name,
+    that gives the value to take, or raises why it is refused.
+    """
+
+    scripts: ClassVar[tuple[Path, ...]]
+    shared: ClassVar[dict[str, Any]]  # names, with their values at first
+    kept: ClassVar[dict[str, Any]] = {}  # the same, for traits that only Python knows
+    needs: ClassVar[str] = "A live widget needs"
+
+
+@cache
+def widget(kind: type[Live]) -> type[Any]:
+    """Make the class of a live widget, once; it needs anywidget, which may not be installed."""
+    try:
+        import anywidget
+        import traitlets
+        from ipywidgets import ValueWidget
+    except ImportError as error:
+        raise MocapError(f"{kind.needs} anywidget: pip install 'mocap[notebooks]'.") from error
+    parts: dict[str, Any] = {name: traitlets.Any(value) for name, value in (kind.shared | kind.kept).items()}
+    for name, trait in parts.copy().items():
+        trait.tag(sync=name in kind.shared)
+        if check := getattr(kind, f"check_{name}", None):
+            parts[f"_{name}"] = traitlets.validate(name)(
+                lambda self, proposal, check=check: check(self, proposal["value"])
+            )
+    bases = (kind, anywidget.AnyWidget, *([ValueWidget] if "value" in parts else []))
+    return type(kind.__name__, bases, {"_esm": joined(*kind.scripts), **parts})
+
+
+def display_live(still: tuple[dict[str, str], dict[str, Any]], widget: Any) -> None:  # noqa: ANN401
+    """Show a picture and a widget as two outputs of a cell, of which the reader sees one.
+
+    Parameters
+    ----------
+    still : the data and the metadata of a picture, as `Picture` and `Player` give them.
+    widget : the widget.
+    """
+    from IPython.display import display
+
+    data, metadata = still
+    widget.add_class(LIVE)
+    display(still_bundle(data), metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
+    live = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
+    display({WIDGET: live}, raw=True)  # type: ignore[no-untyped-call]
+
+
+def still_bundle(data: dict[str, str]) -> dict[str, str]:
+    """Put the HTML of a picture where the rule finds it."""
+    return data | {"text/html": f'<div class="{STILL}">{data["text/html"]}</div>{_RULE}'}

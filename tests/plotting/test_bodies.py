@@ -1,0 +1,54 @@
+"""Bodies as lines on flat axes: every bone is drawn, where the joints are."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+
+from mocap.body.kinematics import joint_positions
+from mocap.body.skeleton import Skeleton
+from mocap.datasets.samples import sample
+from mocap.plotting import bones, flat_bodies, target_poses
+from mocap.plotting.style import COLOURS
+
+
+def test_bones_have_a_line_each_and_know_their_side():
+    body = Skeleton(["hips", "lleg", "rleg", "lfoot"], [-1, 0, 0, 1], np.arange(12).reshape(4, 3))
+    starts, ends, sides = bones(body)
+    assert list(zip(starts, ends, sides, strict=True)) == [(0, 1, "middle"), (0, 2, "middle"), (1, 3, "left")]
+
+
+def sides(walk):
+    """Give where the left and the right hip of frame 90 are, seen along z."""
+    points = joint_positions(walk)[90]
+    return [points[walk.skeleton.index(name), :2] for name in ("lfemur", "rfemur")]
+
+
+def test_bodies_are_drawn_flat_where_they_are_from_the_side_and_from_the_front():
+    walk = sample("walk_straight")
+    side, front = (
+        flat_bodies(walk, [0, 90], view=view, ax=Figure().add_subplot()) for view in ("side", "front")
+    )
+    for ax, across in ((side, 2), (front, 0)):
+        points = joint_positions(walk)[90][:, [across, 1]]
+        drawn = np.concatenate(ax.collections[1].get_segments())
+        np.testing.assert_allclose(drawn.max(axis=0), points.max(axis=0), atol=1e-12)
+        assert {tuple(colour) for colour in ax.collections[0].get_colors()} == {
+            to_rgba(colour) for colour in COLOURS.values()
+        }
+    assert side.get_xlabel() == "z (m)" and not side.xaxis_inverted()
+    assert front.get_xlabel() == "x (m)" and not front.xaxis_inverted()
+    left, right = (front.transData.transform(at)[0] for at in sides(walk))
+    assert left > right  # of one who comes to the reader
+    plt.close(flat_bodies(walk, [0]).figure)
+
+
+def test_poses_stand_in_rows_with_their_targets_seen_from_behind():
+    walk = sample("walk_straight")
+    axes = target_poses([walk] * 3, [0, 60, 120], targets=[[0, 1], [0.1, 1], [0.2, 1]], columns=2)
+    assert [ax.get_lines()[0].get_xydata()[0].tolist() for ax in axes[:3]] == [[0, 1], [0.1, 1], [0.2, 1]]
+    assert all(len(ax.collections) == 1 for ax in axes[:3])
+    assert axes[0].xaxis_inverted()  # so its left is at the left
+    lines = axes[0].collections[0]
+    left = np.array([tuple(colour) == to_rgba(COLOURS["left"]) for colour in lines.get_colors()])
+    assert np.concatenate(np.array(lines.get_segments())[left])[:, 0].mean() > 0

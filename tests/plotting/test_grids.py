@@ -1,0 +1,71 @@
+"""Grids show the numbers that they are given, in seconds, with what is marked in the middles of its cells."""
+
+import numpy as np
+import pytest
+
+from mocap.blending import Curve, Warp, register
+from mocap.matching import distance_grid, point_cloud, time_path
+from mocap.methods.match_webs import minima_1d
+from mocap.plotting import boxes_image, distance_image, walk_rows, warp_image, web_image
+from tests.blending.registered import walks
+from tests.strategies import wave
+
+
+def test_the_distance_image_shows_centimetres_in_seconds():
+    grid = distance_grid(wave(40), wave(60, phase=1.0), window=10)
+    image = distance_image(grid, fps=30, minima=[[3, 5]], names=("a", "b"))
+    assert np.asarray(image.get_array()) == pytest.approx(100 * np.sqrt(grid))
+    assert image.get_extent() == pytest.approx([0, 51 / 30, 31 / 30, 0])
+    (dots,) = image.axes.lines
+    assert np.ravel(dots.get_data()) == pytest.approx([5.5 / 30, 3.5 / 30])
+    assert image.axes.get_ylabel() == "a (s)"
+
+
+def test_paths_and_minima_lie_on_the_middles_of_their_cells():
+    grid = np.abs(np.subtract.outer(np.arange(6.0), np.arange(8.0))) / 100
+    path = np.stack([np.arange(6), np.arange(6)], axis=1)
+    ax = web_image(grid, marks=minima_1d(grid), paths=[path], rate=10)
+    assert ax.collections[0].get_segments()[0] == pytest.approx((path + 0.5) / 10)
+    marked = np.round(ax.lines[0].get_xydata() * 10 - 0.5).astype(int).tolist()
+    assert all([n, n] in marked for n in range(6))
+    assert ax.images[0].get_array().max() == pytest.approx(7)
+    assert not len(web_image(grid).lines[0].get_xydata())
+
+
+def test_the_curve_lies_on_the_cells_of_the_path():
+    pair = register([walks()[0.8, 0], walks()[1.4, 0]])
+    grid = np.sqrt(distance_grid(*(point_cloud(clip[::4]) for clip in pair.clips), window=5))
+    path = time_path(grid, slack=36)
+    ax = warp_image(grid, path, curve=pair.times[1])
+    own, u = ax.lines[0].get_data()
+    assert (own[0], u[0]) == pytest.approx((path[0, ::-1] + 2) / 30)
+    x, y = ax.lines[1].get_data()
+    assert np.abs(np.interp(u, y, x) - own).max() < 0.2
+    left, right, bottom, top = ax.images[0].get_extent()
+    assert (left, top) == pytest.approx((1.5 / 30, 1.5 / 30))
+    assert (right, bottom) == pytest.approx(((grid.shape[1] + 1.5) / 30, (grid.shape[0] + 1.5) / 30))
+    assert ax.images[0].get_array().max() == pytest.approx(100 * grid.max())
+
+
+@pytest.mark.parametrize("curve", [None, Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))])
+def test_a_grid_may_stand_without_path_or_curve(curve):
+    (cells,) = warp_image(np.ones((3, 4)), [], warp=Warp(rate=10.0, window=1), curve=curve).lines
+    assert not len(cells.get_xdata())
+
+
+def test_boxes_lie_over_the_costs_of_all_pairs():
+    costs = np.arange(12.0).reshape(3, 4)
+    ax = boxes_image(costs, (-60, 60), [[-60, -10], [-30, 30], [5, 60]])
+    np.testing.assert_array_equal(ax.images[0].get_array(), costs.T)
+    assert ax.lines[0].get_xydata().tolist() == [[-60, -60], [0, -30], [60, 5]]
+
+
+def test_rows_show_transitions_by_cost_and_nothing_after_the_end():
+    costs = np.array([[0.0, 150.0, np.nan], [300.0, 0.0, 0.0]])
+    image = walk_rows(costs, highest=400.0)
+    steps, transitions = image.axes.images
+    assert steps.get_array().mask.tolist() == np.isnan(costs).tolist()
+    assert transitions is image
+    assert image.get_array().compressed().tolist() == [150.0, 300.0]
+    assert image.get_clim() == (0, 400.0)
+    assert image.axes.get_xlabel() == "step of the walk"
