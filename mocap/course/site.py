@@ -1,40 +1,28 @@
-"""The course as HTML pages without kernel and network: with pictures, players and a search."""
+"""The course as HTML pages without kernel and network, beside the reference pages of the package."""
 
 from __future__ import annotations
 
+import base64
 import copy
 import html
+import io
 import json
-import re
+import pkgutil
 import tempfile
-from collections import Counter
 from collections.abc import Callable, Iterable
+from importlib.util import find_spec
 from pathlib import Path
-from string import Template
-from typing import Any, NamedTuple
+from typing import Any
 
+import mocap
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course.notebooks import execute, read
+from mocap.course.notebooks import execute, library, read
 from mocap.errors import MocapError
 
-PAGE = Path(__file__).with_name("page.html")
-MOVING = Path(__file__).with_name("moving.js")
+HERE = Path(__file__).parent
+MOVING = HERE / "moving.js"
 STILL = "mocap-still"  # the class of a picture that stands in for a widget
-PAGES = {  # beside the notebooks
-    "GLOSSARY": "Glossary",
-    "FORMULAS": "Formula sheet",
-    "PAPERS": "Papers",
-    "PROJECT": "Project",
-}
-MATH = re.compile(r"(```.*?```|`[^`]*`)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)
-UPRIGHT = re.compile(r"\\(?:operatorname|mathrm)\s*\{([A-Za-z]\w*)\}")
-ARG = re.compile(r"\\arg\b")  # which the converter does not know
-NAMED = r"<m(?:i|text)>[a-z]{2,}\d?</m(?:i|text)>"  # a function's name, such as sin
-BEFORE = re.compile(rf"(</(?:mi|mn|mrow|msub|msup|msubsup|mfrac|msqrt)>)(?=(?:<msup>)?{NAMED})")
-AFTER = re.compile(rf"({NAMED}|<msup>{NAMED}<mn>\d</mn></msup>)(?=<(?:mi|mn|mrow|ms|mf))")
-BARS = {r">\lVert<": ">‖<", r">\rVert<": ">‖<", r">\|<": ">‖<", r">\lvert<": ">|<", r">\rvert<": ">|<"}
-THIN = r'\1<mspace width="0.167em" />'
-HEADING = re.compile(r'<h(\d) id="[^"]*">(.*?)<a class="anchor-link" href="[^"]*">¶</a></h\1>', re.DOTALL)
+PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT")  # beside the notebooks
 NOTE = '<p class="note">{}</p>'
 STILL_NOTES = {
     False: "A still picture: its controls move where the notebook runs.",
@@ -48,17 +36,27 @@ LIVE = {  # what needs no Python, by its class
     "moving": "the sliders show recorded positions",
 }
 RUN = (
-    "To run {} live, in a checkout of the package: <code>pip install '.[notebooks]'</code>, "
+    "To run it live, in a checkout of the package: <code>pip install '.[notebooks]'</code>, "
     "then <code>mocap lab</code>."
 )
+DARK = '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
+INDEX = """# Motion graphs
 
+```{{toctree}}
+:caption: The course
+:maxdepth: 1
 
-class Section(NamedTuple):
-    """A heading of a page, its level, and its place in the page."""
+{}
+```
 
-    level: int
-    at: str
-    heading: str
+```{{toctree}}
+:caption: The package
+:maxdepth: 1
+
+{}
+```
+"""
+REFERENCE = "{0}\n{1}\n\n.. automodule:: {0}\n   :members:\n   :imported-members:\n"
 
 
 def build_site(
@@ -68,23 +66,23 @@ def build_site(
     *,
     moving: bool = False,
 ) -> Path:
-    """Write the notebooks and pages of a folder as HTML, with a menu and a search.
+    """Write the notebooks and pages of a folder as HTML, beside the reference pages of the package.
 
     Parameters
     ----------
     notebooks : the course's folder.
-    out : the folder for the pages; `index.html` leads to the first notebook.
-    progress : wraps the files while they are converted.
+    out : the folder for the pages; `index.html` lists them.
+    progress : wraps the notebooks while they are prepared.
     moving : run the notebooks, and record positions of each experiment's first control; else a still picture
         stands there.
 
     Returns
     -------
-    The first page.
+    The page of the first notebook.
 
     Raises
     ------
-    MocapError : if nbconvert or latex2mathml is not installed, there are no notebooks, or one does not run.
+    MocapError : if Sphinx is not installed, there are no notebooks, or one does not run.
 
     Examples
     --------
@@ -92,35 +90,27 @@ def build_site(
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    files = sorted(notebooks.glob("*.ipynb")) + [notebooks / f"{name}.md" for name in PAGES]
-    if len(files) == len(PAGES):
+    nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
+    if not files:
         raise MocapError(f"The folder {notebooks} holds no notebooks.")
+    if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
+        raise MocapError("The site needs Sphinx, MyST-NB and Furo: pip install 'mocap[site]'.")
     make_folder(out)
-    contents = {file.stem: _contents(file) for file in files}
-    titles = {name: PAGES.get(name) or page_title(name, notebook) for name, notebook in contents.items()}
-    index: list[dict[str, str]] = []
-    for file in progress(files):
-        name, notebook = file.stem, contents[file.stem]
-        fill_in(notebook, recorded_of(file, notebook) if moving and file.suffix == ".ipynb" else {})
-        body, sections = _anchored(body_of(notebook))
-        write_text(out / f"{name}.html", _page(name, titles, body, sections))
-        index += _searched(name, titles[name], body, sections)
-    write_text(out / "search.js", f"const sections = {json.dumps(index, ensure_ascii=False)};\n")
-    first = f"{files[0].stem}.html"
-    start = f'<a href="{first}">{html.escape(titles[files[0].stem])}</a>'
-    head = f'<meta charset="utf-8"><title>mocap</title><meta http-equiv="refresh" content="0; url={first}">'
-    write_text(out / "index.html", f'<!DOCTYPE html>\n<html lang="en">{head}\n{start}\n')
-    return out / first
-
-
-def _contents(file: Path) -> Any:  # noqa: ANN401
-    """Read a notebook, or a Markdown page as a notebook of one cell."""
-    if file.suffix == ".ipynb":
-        return read(file)
-    from nbformat.v4 import new_markdown_cell, new_notebook
-
-    text = file.read_text("utf-8")
-    return new_notebook(cells=[new_markdown_cell(text, id="page")])
+    with tempfile.TemporaryDirectory() as folder:
+        titles = []
+        for file in progress(files):
+            notebook = read(file)
+            titles.append(f"{page_title(file.stem, notebook)} <{file.stem}>")
+            fill_in(notebook, recorded_of(file, notebook) if moving else {})
+            _unpack_pictures(notebook, Path(folder), file.stem)
+            notebook.cells.insert(1, nbformat.v4.new_markdown_cell(_note(notebook), id="note"))
+            write_text(Path(folder, file.name), nbformat.writes(notebook))
+        for page in PAGES:
+            write_text(Path(folder, f"{page}.md"), (notebooks / f"{page}.md").read_text("utf-8"))
+        index = INDEX.format("\n".join([*titles, *PAGES]), "\n".join(_write_reference(Path(folder))))
+        write_text(Path(folder, "index.md"), index)
+        _run_sphinx(Path(folder), out)
+    return out / f"{files[0].stem}.html"
 
 
 def page_title(name: str, notebook: Any) -> str:  # noqa: ANN401
@@ -174,108 +164,44 @@ def _moving(recorded: dict[str, Any]) -> str:
     )
 
 
-def body_of(notebook: Any) -> str:  # noqa: ANN401
-    """Convert a notebook's cells; formulas become MathML, which browsers draw themselves."""
-    try:
-        import latex2mathml  # noqa: F401 - `_mathml` needs it
-        from nbconvert import HTMLExporter
-    except ImportError as error:
-        raise MocapError("The site needs nbconvert and latex2mathml: pip install 'mocap[site]'.") from error
-    formulas: list[str] = []
-
-    def keep(found: re.Match[str]) -> str:
-        if found[1]:
-            return found[1]
-        formulas.append(_mathml(found[2] or found[3], "block" if found[2] else "inline"))
-        return f"FORMULA{len(formulas) - 1}."
-
+def _unpack_pictures(notebook: Any, folder: Path, stem: str) -> None:  # noqa: ANN401
+    """Write the pictures that are attached to cells as files, which Sphinx finds."""
     for cell in notebook.cells:
-        if cell.cell_type == "markdown":
-            cell.source = MATH.sub(keep, cell.source)
-    exporter = HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
-    body, _ = exporter.from_notebook_node(notebook)
-    body = re.sub(r"FORMULA(\d+)\.", lambda found: formulas[int(found[1])], body)
-    return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", body)
+        for name, data in cell.pop("attachments", {}).items():
+            (folder / f"{stem}-{name}").write_bytes(base64.b64decode(data["image/png"]))
+            cell.source = cell.source.replace(f"attachment:{name}", f"{stem}-{name}")
 
 
-def _mathml(formula: str, display: str) -> str:
-    """Convert a formula, with thin spaces around the names of functions, as TeX sets them."""
-    from latex2mathml.converter import convert
-
-    converted = convert(UPRIGHT.sub(r"\\text{\1}", ARG.sub(r"\\text{arg}", formula)), display=display)
-    for left, bar in BARS.items():  # which the converter leaves as they are after \big
-        converted = converted.replace(left, bar)
-    return AFTER.sub(THIN, BEFORE.sub(THIN, converted))
-
-
-def _anchored(body: str) -> tuple[str, list[Section]]:
-    """Give each heading the name that links in Markdown use, and list the headings."""
-    sections: list[Section] = []
-    names: Counter[str] = Counter()
-
-    def named(found: re.Match[str]) -> str:
-        heading = _text(found[2])
-        name = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") or "section"
-        at = f"{name}-{names[name]}" if names[name] else name
-        names[name] += 1
-        sections.append(Section(int(found[1]), at, heading))
-        link = f'<a class="anchor-link" href="#{at}" aria-label="Link to this section">¶</a>'
-        return f'<h{found[1]} id="{at}">{found[2]}{link}</h{found[1]}>'
-
-    return HEADING.sub(named, body), sections
-
-
-def _text(part: str) -> str:
-    """Take the words out of HTML: those of formulas and of code, too."""
-    part = re.sub(r"(?s)<(script|style)\b.*?</\1>", " ", part)
-    part = re.sub(r"(?s)<math.*?</math>", lambda found: re.sub(r"<[^>]*>", " ", found[0]), part)
-    part = re.sub(r"</(?:p|div|li|td|th|tr|pre|h\d|summary)>|<br\s*/?>", " ", part)
-    return " ".join(html.unescape(re.sub(r"<[^>]*>", "", part)).replace("¶", " ").split())
-
-
-def _searched(name: str, title: str, body: str, sections: list[Section]) -> list[dict[str, str]]:
-    """Return the text under each heading, for the search."""
-    parts = re.split(r'<h\d id="[^"]*">.*?</h\d>', body, flags=re.DOTALL)[1:]
-    return [
-        {"page": title, "heading": section.heading, "at": f"{name}.html#{section.at}", "text": _text(part)}
-        for section, part in zip(sections, parts, strict=True)
-    ]
-
-
-def _page(name: str, titles: dict[str, str], body: str, sections: list[Section]) -> str:
-    inner = "".join(
-        f'<li><a href="#{s.at}">{html.escape(s.heading)}</a></li>' for s in sections if s.level == 2
-    )
-    menu = "\n".join(
-        f'<li><a href="{other}.html"{" aria-current=page" * (other == name)}>{html.escape(shown)}</a>'
-        f"{f'<ul>{inner}</ul>' * (other == name and inner != '')}</li>"
-        for other, shown in titles.items()
-    )
-    parts = {"menu": menu, "note": _note(name, body), "body": body, "code": _code_style()}
-    return filled(PAGE, titles[name], parts)
-
-
-def filled(page: Path, title: str, parts: dict[str, str]) -> str:
-    """Fill in a page's template: its title, its parts, and the script that moves recordings."""
-    moving = MOVING.read_text("utf-8")
-    return Template(page.read_text("utf-8")).substitute(parts, title=html.escape(title), moving=moving)
-
-
-def _note(name: str, body: str) -> str:
+def _note(notebook: Any) -> str:  # noqa: ANN401
     """Say what moves on a page, what does not, and how to run it."""
-    if name in PAGES:
-        return NOTE.format(f"This page is text. {RUN.format('the notebooks')}")
-    live = [said for part, said in LIVE.items() if f'class="{part}' in body]
-    if not live:
-        return NOTE.format(f"This page is still: code and controls do not run here. {RUN.format('it')}")
-    said = " and ".join(filter(None, [", ".join(live[:-1]), live[-1]]))
-    return NOTE.format(f"On this page {said}; code and other controls are still. {RUN.format('it')}")
-
-
-def _code_style() -> str:
-    from pygments.formatters import HtmlFormatter
-
-    light, dark = (
-        HtmlFormatter(style=style).get_style_defs(".highlight") for style in ("friendly", "native")
+    shown = "".join(
+        output.get("data", {}).get("text/html", "")
+        for cell in notebook.cells
+        for output in cell.get("outputs", ())
     )
-    return f"{light}\n@media screen and (prefers-color-scheme: dark) {{\n{dark}\n}}"
+    live = [said for part, said in LIVE.items() if f'class="{part}' in shown]
+    said = "This page is still: code and controls do not run here."
+    if live:
+        parts = " and ".join(filter(None, [", ".join(live[:-1]), live[-1]]))
+        said = f"On this page {parts}; code and other controls are still."
+    return NOTE.format(f"{said} {RUN}") + DARK
+
+
+def _write_reference(folder: Path) -> list[str]:
+    """Write a page for the face of each room, and list them."""
+    make_folder(folder / "reference")
+    rooms = [
+        room.name
+        for room in pkgutil.walk_packages(mocap.__path__, "mocap.")
+        if room.ispkg and "._" not in room.name
+    ]
+    for room in rooms:
+        write_text(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
+    return [f"reference/{room}" for room in rooms]
+
+
+def _run_sphinx(folder: Path, out: Path) -> None:
+    """Make the pages; what Sphinx warns of, such as a paper that two rooms cite, is not shown."""
+    from sphinx.application import Sphinx
+
+    Sphinx(folder, HERE, out, folder / ".doctrees", "html", status=None, warning=io.StringIO()).build()

@@ -13,8 +13,7 @@ from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import slots, whose
-from mocap.course.lab.own.matches import window_distances
-from mocap.course.lab.own.tools import tools
+from mocap.course.lab.own.building import tools, window_distances
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph

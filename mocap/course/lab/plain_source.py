@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import ast
-import dis
 import inspect
 import textwrap
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from importlib import import_module
-from types import CodeType, FunctionType, ModuleType
+from types import FunctionType, ModuleType
 from typing import Any, NamedTuple
 
+from mocap.course.names import names_of
 from mocap.errors import MocapError
-
-NAMED = ("LOAD_GLOBAL", "LOAD_NAME")  # the second in the body of a class
 
 
 class Plain(NamedTuple):
@@ -48,7 +45,7 @@ def plain_source(function: FunctionType, known: Collection[str] = ()) -> Plain:
 
 def _gather(function: FunctionType, known: set[str], imports: set[str], helpers: dict[str, str]) -> None:
     """Collect what a function uses, its helpers' helpers first."""
-    for name in (*_used(function.__code__), *_around(_source(function))):
+    for name in sorted(names_of(_source(function))[1]):
         if name in known or name not in function.__globals__:
             continue
         known.add(name)
@@ -63,23 +60,6 @@ def _gather(function: FunctionType, known: set[str], imports: set[str], helpers:
             helpers[name] = f"{name} = {value!r}\n"
         else:
             raise MocapError(f"It uses `{name}`, a {type(value).__name__} that no short text can make.")
-
-
-def _used(code: CodeType) -> Iterator[str]:
-    """Yield the global names of a function and of the functions in it, not those of attributes."""
-    named = (step.argval for step in dis.get_instructions(code) if step.opname in NAMED)
-    yield from (name for name in named if name != "__name__")  # which bodies of classes read
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from _used(constant)
-
-
-def _around(source: str) -> Iterator[str]:
-    """Yield the names in the decorators and defaults of a function, which its own code does not hold."""
-    made = ast.parse(source).body[0]
-    if isinstance(made, ast.FunctionDef):
-        given = [*made.decorator_list, *made.args.defaults, *filter(None, made.args.kw_defaults)]
-        yield from (node.id for part in given for node in ast.walk(part) if isinstance(node, ast.Name))
 
 
 def _import(name: str, value: Any) -> str:  # noqa: ANN401

@@ -23,9 +23,10 @@ WORDS = 200  # characters of a caption at most
 LOOK = {"card": 3.0, "still": 5.0, "moving": 9.0, "player": 10.0}  # seconds of a scene at least
 SHORTEST, MIDDLE = 150.0, 180.0  # seconds of a film
 ENDS = (".", "!", "?", ")", '"', "…")
-LAST, LEARNT = "Read on", "What you learnt"
+LEARNT = "What you learnt"
 ALT = re.compile(r' alt="([^"]*)"')
-SKIPPED = (LAST, "Your bets", "Where to go from here")
+SKIPPED = ("Read on", "Your bets", "Where to go from here")
+UNSEEN = ("ask:", "exercise:", "check:", "solution:", "slide:skip")
 
 
 @dataclass
@@ -94,13 +95,10 @@ def script_of(notebook: Any, recorded: Mapping[str, Any]) -> list[Scene]:  # noq
 
 
 def _scenes(notebook: Any, recorded: Mapping[str, Any]) -> Iterator[Scene]:  # noqa: ANN401
+    """Yield what each section shows; one without a picture is a card of its words."""
     for number, section in enumerate(_sections(notebook, recorded)):
-        if section.heading in SKIPPED:
-            continue
-        if number == 0 and section.scenes:
-            section.scenes[0].counts = 0
-        elif section.scenes:
-            section.scenes[0].counts = min(section.scenes[0].counts, 2)
+        if section.scenes:
+            section.scenes[0].counts = min(section.scenes[0].counts, 2) if number else 0
         elif section.words:
             yield Scene("card", section.heading, section.words, 0 if section.heading == LEARNT else 3)
         yield from section.scenes
@@ -110,35 +108,36 @@ def _sections(notebook: Any, recorded: Mapping[str, Any]) -> list[_Section]:  # 
     made, hunted = [_Section("")], False
     for cell in notebook.cells:
         tags = cell.metadata.get("tags", ())
-        if any(tag.startswith(("ask:", "exercise:", "check:", "solution:", "slide:skip")) for tag in tags):
+        if any(tag.startswith(UNSEEN) for tag in tags):
             continue
         if cell.cell_type == "markdown":
             hunted = "**Bug hunt" in cell.source  # what is shown after it is wrong on purpose
-            _read(cell, made, plain="answer" not in tags and "prediction" not in tags)
+            plain = "answer" not in tags and "prediction" not in tags
+            for block in blocks(cell.source):
+                if block.startswith("#"):
+                    made.append(_Section(spoken(block.lstrip("# "))))
+                else:
+                    _read(block, cell, made[-1], plain=plain)
         elif not hunted:
             made[-1].scenes += _shown(cell, made[-1], recorded)
-    return [section for section in made if section.heading]
+    return [section for section in made if section.heading and section.heading not in SKIPPED]
 
 
-def _read(cell: Any, made: list[_Section], *, plain: bool) -> None:  # noqa: ANN401
-    """Take headings, pictures and sentences from a cell of text; not those of a prediction."""
-    for block in blocks(cell.source):
-        section = made[-1]
-        if block.startswith("#"):
-            made.append(_Section(spoken(block.lstrip("# "))))
-        elif block.startswith("![") and "attachment:" in block:
-            name = block.rpartition("attachment:")[2].rstrip(")")
-            data = base64.b64decode(cell.attachments[name]["image/png"])
-            section.scenes.append(Scene("still", section.heading, "", 1, [data]))
-        elif section.heading == LEARNT:
-            lines = (spoken(line.lstrip("- ")) for line in shortened(block).splitlines())
-            section.words = "\n".join(filter(None, [section.words, *lines]))
-        elif plain and not block.startswith(("<", "$$", "```", "|", "**")):
-            section.before = _caption(sentences(block.lstrip("-*0123456789. "))) or section.before
-            if not section.words:
-                section.words = section.before
-                for scene in section.scenes:  # a picture above the first sentence
-                    scene.words = section.words
+def _read(block: str, cell: Any, section: _Section, *, plain: bool) -> None:  # noqa: ANN401
+    """Take a picture or sentences from a block of text; no sentences from a prediction."""
+    if block.startswith("![") and "attachment:" in block:
+        name = block.rpartition("attachment:")[2].rstrip(")")
+        data = base64.b64decode(cell.attachments[name]["image/png"])
+        section.scenes.append(Scene("still", section.heading, "", 1, [data]))
+    elif section.heading == LEARNT:
+        lines = (spoken(line.lstrip("- ")) for line in shortened(block).splitlines())
+        section.words = "\n".join(filter(None, [section.words, *lines]))
+    elif plain and not block.startswith(("<", "$$", "```", "|", "**")):
+        section.before = _caption(sentences(block.lstrip("-*0123456789. "))) or section.before
+        if not section.words:
+            section.words = section.before
+            for scene in section.scenes:  # a picture above the first sentence
+                scene.words = section.words
 
 
 def _caption(parts: Iterable[str]) -> str:

@@ -9,23 +9,24 @@ from __future__ import annotations
 import html
 import re
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from string import Template
 from typing import Any
 
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course import read
-from mocap.course.site import body_of, fill_in, filled, page_title, recorded_of
-from mocap.course.teaching.deck import Slide, deck_of, numbered
+from mocap.course.formulas import to_mathml
+from mocap.course.notebooks import read
+from mocap.course.site import MOVING, fill_in, page_title, recorded_of
+from mocap.course.teaching.deck import Slide, deck_of
 from mocap.errors import MocapError
 
 PAGE = Path(__file__).with_name("slides.html")
 NEEDED = ("LICENSE", "dist/reveal.css", "dist/reveal.js", "plugin/notes/notes.js")  # of reveal.js
-MARKER = re.compile(
-    r'<div class="cell[^>]*>(?:\s*<div[^>]*>|\s*</div>)*\s*<p>(SLIDE|NOTES)(\d+)\.</p>\s*(?:</div>\s*){3}'
-)
 LINK = re.compile(r'<a href="(?!https?:)([^"#]*)(#[^"]*)?"([^>]*)>(.*?)</a>', re.DOTALL)
+MATH = re.compile(r"(<(pre|code)\b.*?</\2>)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)  # but in code
 ANCHOR = re.compile(r'<a class="anchor-link".*?</a>', re.DOTALL)
 
 
@@ -91,7 +92,7 @@ def build_slides(
     return out / "index.html"
 
 
-def page_of(title: str, notebook: Any, names: Iterable[str]) -> str:  # noqa: ANN401
+def page_of(title: str, notebook: Any, names: Collection[str]) -> str:  # noqa: ANN401
     """Write the deck of a notebook as a page.
 
     Parameters
@@ -100,34 +101,50 @@ def page_of(title: str, notebook: Any, names: Iterable[str]) -> str:  # noqa: AN
     notebook : with its outputs.
     names : of the notebooks that have a deck; links to anything else become plain text.
     """
+    from nbformat.v4 import new_markdown_cell
     from pygments.formatters import HtmlFormatter
 
-    slides = deck_of(notebook)
-    parts = _converted(notebook, slides)
-    sections = [
-        _section(slide, count, parts["SLIDE", number], parts["NOTES", number])
-        for number, (count, slide) in enumerate(numbered(slides))
-    ]
-    body = LINK.sub(lambda link: _link(link, set(names)), ANCHOR.sub("", "\n".join(sections)))
-    code = HtmlFormatter(style="friendly").get_style_defs(".highlight")
-    return filled(PAGE, title, {"slides": body, "code": code})
-
-
-def _converted(notebook: Any, slides: list[Slide]) -> dict[tuple[str, int], str]:  # noqa: ANN401
-    """Convert the cells of all slides at once, and cut the HTML at the marks between them."""
-    from nbformat.v4 import new_markdown_cell, new_notebook
-
-    cells = []
-    for number, slide in enumerate(slides):
-        cells += [new_markdown_cell(f"SLIDE{number}."), *slide.cells]
-        cells += [new_markdown_cell(f"NOTES{number}."), new_markdown_cell("\n\n".join(slide.notes))]
-    for number, cell in enumerate(cells):
-        cell.id = f"part-{number}"
-    _, *pieces = MARKER.split(body_of(new_notebook(cells=cells, metadata=notebook.metadata)))
-    return {
-        (kind, int(number)): body
-        for kind, number, body in zip(*(pieces[n::3] for n in range(3)), strict=True)
+    sections, heading, count = [], "", 0
+    for slide in deck_of(notebook):
+        count = count + 1 if slide.heading == heading else 1
+        heading = slide.heading
+        notes = to_html([new_markdown_cell("\n\n".join(slide.notes))], notebook.metadata)
+        sections.append(_section(slide, count, to_html(slide.cells, notebook.metadata), notes))
+    body = LINK.sub(lambda link: _link(link, names), "\n".join(sections))
+    parts = {
+        "title": html.escape(title),
+        "slides": body,
+        "code": HtmlFormatter(style="friendly").get_style_defs(".highlight"),
+        "moving": MOVING.read_text("utf-8"),
     }
+    return Template(PAGE.read_text("utf-8")).substitute(parts)
+
+
+def to_html(cells: Iterable[Any], metadata: Any) -> str:  # noqa: ANN401
+    """Convert cells; formulas become MathML."""
+    from nbformat.v4 import new_notebook
+
+    made = ""
+    for cell in cells:
+        body, _ = exporter().from_notebook_node(new_notebook(cells=[cell], metadata=metadata))
+        if cell.cell_type == "markdown":
+            body = MATH.sub(_formula, ANCHOR.sub("", body))
+        made += re.sub(r' id="cell-id=[^"]*"', "", body)
+    return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", made)
+
+
+def _formula(found: re.Match[str]) -> str:
+    return found[1] or to_mathml(html.unescape(found[3] or found[4]), block=bool(found[3]))
+
+
+@cache
+def exporter() -> Any:  # noqa: ANN401
+    """Give what converts cells to HTML, or say what to install."""
+    try:
+        from nbconvert import HTMLExporter
+    except ImportError as error:
+        raise MocapError("Slides need nbconvert: pip install 'mocap[slides]'.") from error
+    return HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
 
 
 def _section(slide: Slide, count: int, body: str, notes: str) -> str:
@@ -141,7 +158,7 @@ def _section(slide: Slide, count: int, body: str, notes: str) -> str:
     return f'<section class="{slide.kind}">{heading}\n<div class="inner">{body}</div>{aside}</section>'
 
 
-def _link(found: re.Match[str], names: set[str]) -> str:
+def _link(found: re.Match[str], names: Collection[str]) -> str:
     """Keep links to other decks, and the words of links to pages that are no slides."""
     if found[1].removesuffix(".html") in names:
         return f'<a href="{found[1]}"{found[3]}>{found[4]}</a>'

@@ -6,6 +6,7 @@ import json
 import re
 from pathlib import Path
 from types import SimpleNamespace
+from typing import get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from mocap.course.lab.computed import computed, filled
 from mocap.course.lab.kept_bets import asked_before, summed_up
 from mocap.course.lab.page import to_html, to_text
 from mocap.course.lab.quizzes import asked
-from mocap.course.lab.reading import TEXTS, Choice, Order, file_of, read_questions
+from mocap.course.lab.reading import TEXTS, Choice, Number, Order, file_of, read_questions
 from mocap.errors import MocapError
 from tests.course.test_prose import PER, UNUSUAL
 
@@ -173,58 +174,19 @@ def test_marks_of_text():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new"),
     [
-        ('kind = "choice"', 'kind = "essay"', "a quiz has a kind: choice, number, order"),
-        ('kind = "choice"', "kind = []", "a quiz has a kind"),
-        ('right = "yes"\n', "", "'right' is missing"),
-        ('right = "yes"', 'right = "no"', "the right choice is among the wrong ones"),
-        ('right = "yes"', 'right = ""', "'right' is empty"),
-        ('right = "yes"', "right = 3", "'right' cannot be 3"),
-        ('no = "Look again."', 'no = ""', "no hint for the choice 'no'"),
-        ('no = "Look again."', "no = 3", "no hint for the choice 'no'"),
-        ('{ no = "Look again.", "at times" = "Not at times." }', "{}", "it needs a wrong choice"),
-        ('because = "It is."', 'because = "It is."\nplace = 4', "its place is not among the choices"),
-        ("tolerance = 0.5", "tolerance = 0", "its tolerance is not above 0"),
-        ("tolerance = 0.5", "tolerance = nan", "its tolerance is not above 0"),
-        ("tolerance = 0.5", "tolerance = true", "'tolerance' cannot be True"),
-        ('[1, "No."]', "[1]", "a slip is a pair of a number and its hint"),
-        ('[1, "No."]', "3", "a slip is a pair of a number and its hint"),
-        ('"third"]', '"second"]', "it needs at least 3 steps, all different"),
-        ('"third"]', "3]", "a step or a hint is no text"),
-        (', "second before third"]', "]", "it needs a hint for each two steps"),
-        ('choices = ["this", "that"]', 'choices = ["that"]', "it needs at least 2 choices"),
-        ('choices = ["this", "that"]', 'choices = ["that", 3]', "a choice is no text"),
-        ('came_out = "that"', 'came_out = "those"', "what came out is none of its choices: 'those'"),
-        ("high = 100\n", "", "a slider goes from low to high"),
-        ("high = 100", "high = -1", "a slider's low is below its high"),
-        ("low = 0", "low = 0\nstep = 0", "a slider goes from low to high, in steps above 0"),
-        ('ask = "Share"', 'ask = "Share"\nanswer = 3', "no field 'answer'; there are ask, came_out"),
-        ("[bet.share]", "[bets.share]", "a table is called quiz.NAME or bet.NAME, got 'bets'"),
-        ("[bet.which]", "[bet.share]", "Cannot declare"),
-        ("[quiz.more]", "[quiz.more", "99-test.toml: "),
-        ("\n[quiz.more]", 'bet = 3\nquiz.b = "x"\n[quiz.more]', "99-test.toml"),
+        ('kind = "choice"', 'kind = "essay"'),
+        ('right = "yes"\n', ""),
+        ('ask = "Share"', 'ask = "Share"\nanswer = 3'),
+        ("[bet.which]", "[bet.share]"),
+        ("[quiz.more]", "[quiz.more"),
     ],
 )
-def test_what_is_not_whole_is_said_in_a_sentence(old, new, said, tmp_path):
-    assert GOOD.count(old) == 1 or old == "\n[quiz.more]"
-    with pytest.raises(MocapError) as caught:
+def test_what_is_not_whole_is_said_in_a_sentence(old, new, tmp_path):
+    assert GOOD.count(old) == 1
+    with pytest.raises(MocapError, match=r"^99-test\.toml: .{4,180}$"):
         questions(tmp_path, GOOD.replace(old, new))
-    assert said in str(caught.value)
-    assert str(caught.value).startswith("99-test.toml")
-    assert len(str(caught.value)) <= 200
-
-
-@pytest.mark.parametrize("text", ["quiz = 3", "[quiz]\nmore = 3", "[bet]\nshare = 3", "bet = []"])
-def test_what_is_no_table_is_said(text, tmp_path):
-    with pytest.raises(MocapError, match=r"99-test\.toml"):
-        questions(tmp_path, text)
-
-
-def test_a_file_that_is_no_text_is_said(tmp_path):
-    (tmp_path / "99-test.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(MocapError, match=r"99-test\.toml: 'utf-8' codec"):
-        read_questions(tmp_path / "99-test.toml")
 
 
 @pytest.mark.parametrize(
@@ -254,10 +216,47 @@ def test_names_are_those_of_the_caller():
 # All files, and the notebooks
 
 
+def faults(one):  # noqa: C901 (a rule after the other)
+    """Say what is wrong with a question: no hint for a wrong answer, no answer, the same choice twice."""
+    for field, types in get_type_hints(type(one)).items():
+        allowed = [
+            kind.__origin__ if hasattr(kind, "__origin__") else kind for kind in get_args(types) or [types]
+        ]
+        allowed = [get_origin(types)] if get_origin(types) in (list, dict) else allowed
+        value = getattr(one, field)
+        if type(value) not in [*allowed, *[int] * (float in allowed)] or (value == "" and field != "unit"):
+            yield f"{field} cannot be {value!r}"
+    texts, different = [], []
+    if isinstance(one, Choice):
+        texts, different = [*one.wrong, *one.wrong.values()], [one.right, *one.wrong]
+        if not one.wrong or not 0 <= one.place <= 1 + len(one.wrong):
+            yield "it needs a wrong choice, and a place among the choices"
+    elif isinstance(one, Number):
+        texts = [hint for _, hint in one.slips]
+        if not one.tolerance > 0 or any(type(number) not in (int, float, str) for number, _ in one.slips):
+            yield "its tolerance is above 0, and a slip is a number and its hint"
+    elif isinstance(one, Order):
+        texts, different = [*one.steps, *one.hints], one.steps
+        if len(one.steps) < 3 or len(one.hints) != len(one.steps) - 1:
+            yield "it needs at least 3 steps, and a hint for each two that follow each other"
+    else:
+        texts = different = one.choices
+        if one.choices and (len(one.choices) < 2 or one.came_out not in one.choices):
+            yield "it needs at least 2 choices, of which one came out"
+        if not one.step > 0 or (one.low is None) != (one.high is None) or (one.high or 1) <= (one.low or 0):
+            yield "a slider goes from low to high, in steps above 0"
+    if not all(isinstance(text, str) and text.strip() for text in texts) or len({*different}) < len(
+        different
+    ):
+        yield "something is empty, or there twice"
+
+
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_a_file_is_whole_and_belongs_to_a_notebook(file):
     found = read_questions(file)
     assert found.quizzes or found.bets
+    for name, one in {**found.quizzes, **found.bets}.items():
+        assert list(faults(one)) == [], name
     assert (FOLDER / f"{file.stem}.ipynb").exists()
     assert file_of(file.stem.partition("-")[0]) == file
     assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words

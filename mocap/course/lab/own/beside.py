@@ -16,12 +16,8 @@ from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.course.lab.adopting import notebook_of
-from mocap.course.lab.guarding import Slot
-from mocap.course.lab.own.by_hand import PARTS
-from mocap.course.lab.own.pieces import build_own
-from mocap.course.lab.own.playing import play_own
-from mocap.course.lab.own.searching import follow_own
-from mocap.course.lab.own.tools import Tools, packages, tools
+from mocap.course.lab.own.building import PARTS, Tools, build_own, packages, tools
+from mocap.course.lab.own.walking import follow_own, play_own
 from mocap.errors import MocapWarning
 from mocap.graphs import build, prune
 from mocap.plotting import Picture, bodies_along, stack
@@ -44,14 +40,22 @@ class Walked(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the table: an exercise, its notebook, whose function ran, how often, and both's seconds."""
+    """A line of the table: an exercise, whose function ran, how often, and both's seconds."""
 
     name: str
-    notebook: str
     yours: bool
     calls: int
     seconds: float
     package_seconds: float
+
+    def cells(self, *, timed: bool) -> str:
+        """Write it as cells of a table."""
+        whose = "yours" if self.yours else "the package's"
+        if self.name in PARTS and not self.yours:
+            whose = f"made of <code>{PARTS[self.name]}</code>"
+        row = f"<td><code>{self.name}</code> ({notebook_of(self.name)})</td><td>{whose}</td>"
+        times = f"<td>{self.seconds:.2f}</td><td>{self.package_seconds:.2f}</td>"
+        return f"{row}<td>{self.calls}</td>{times if timed else ''}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +106,9 @@ class Beside:
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
         bundle, metadata = self.picture()._repr_mimebundle_()
-        text = html.escape(self.report())
-        bundle["text/html"] += f"<pre>{text}</pre>{self._table()}"
-        bundle["text/plain"] = self.report()
+        text = self.report()
+        bundle["text/html"] += f"<pre>{html.escape(text)}</pre>{self._table()}"
+        bundle["text/plain"] = text
         return bundle, metadata
 
     def picture(self) -> Picture:
@@ -115,29 +119,19 @@ class Beside:
             figure = bodies_along(walked.motion, seams=walked.seams, path=self.path.points)
             figure.suptitle(title, fontsize=11)
             figures.append(figure)
-        return stack(
-            figures,
-            f"Bodies walk along a black path, above in my walk, below in the package's. {self.report()}",
-        )
+        alt = f"Bodies walk along a black path, above in my walk, below in the package's. {self.report()}"
+        return stack(figures, alt)
 
     def _table(self) -> str:
         """Make the table; it has times where some function is one's own; else nothing is compared."""
         timed = any(line.yours for line in self.lines)
         head = "<th>exercise</th><th>whose</th><th>calls</th>"
-        head += "<th>seconds, mine</th><th>seconds, the package's</th>" * timed
-        rows = [head, *(_row(line, timed) for line in self.lines)]
+        rows = [head, *(line.cells(timed=timed) for line in self.lines)]
         if timed:
+            rows[0] += "<th>seconds, mine</th><th>seconds, the package's</th>"
             both = (f"<td>{walked.seconds:.1f}</td>" for walked in (self.own, self.stand_ins))
             rows.append(f"<td>the whole walk</td><td></td><td></td>{''.join(both)}")
         return f"<table>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
-
-
-def _row(line: Line, timed: bool) -> str:
-    whose = "yours" if line.yours else "the package's"
-    if line.name in PARTS and not line.yours:
-        whose = f"made of <code>{PARTS[line.name]}</code>"
-    row = f"<td><code>{line.name}</code> ({line.notebook})</td><td>{whose}</td><td>{line.calls}</td>"
-    return row + f"<td>{line.seconds:.2f}</td><td>{line.package_seconds:.2f}</td>" * timed
 
 
 def walk_beside(
@@ -161,37 +155,33 @@ def walk_beside(
 
     Notebook: 08-path-synthesis
     """
-    line = GroundPath(np.asarray(path, float))
-    ours, theirs = tools(), packages()
+    line, ours = GroundPath(np.asarray(path, float)), tools()
     for slot in vars(ours).values():
         slot.calls, slot.seconds = 0, 0.0
-    own = _own_walk(clips, line, (window, threshold), ours)
-    any_own = any(slot.yours for slot in vars(ours).values())
-    stand_ins = _own_walk(clips, line, (window, threshold), theirs) if any_own else own
-    pairs = zip(vars(ours).values(), vars(theirs if any_own else ours).values(), strict=True)
-    lines = tuple(_line(slot, other) for slot, other in pairs if slot.name != "next_edge")  # it steers
-    return Beside(line, own, stand_ins, _package_walk(clips, line, (window, threshold)), lines)
-
-
-def _line(slot: Slot, other: Slot) -> Line:
-    return Line(slot.name, notebook_of(slot.name), slot.yours, slot.calls, slot.seconds, other.seconds)
-
-
-def _own_walk(clips: Sequence[Motion], path: GroundPath, settings: tuple[int, float], by: Tools) -> Walked:
+    own = _own_walk(clips, line, window, threshold, ours)
+    stand_ins, theirs = own, ours
+    if any(slot.yours for slot in vars(ours).values()):
+        theirs = packages()
+        stand_ins = _own_walk(clips, line, window, threshold, theirs)
+    lines = tuple(
+        Line(name, slot.yours, slot.calls, slot.seconds, vars(theirs)[name].seconds)
+        for name, slot in vars(ours).items()
+        if name != "next_edge"  # it steers
+    )
     begun = time.perf_counter()
-    graph = build_own(clips, *settings, by)
-    walk = follow_own(graph, path.points, by)
-    motion = play_own(graph, walk, by)
-    ends = np.cumsum([0, *(len(edge.track) - 1 for edge in walk.edges)])
-    at = tuple(int(frame) for frame, edge in zip(ends, walk.edges, strict=False) if edge.match)
-    return Walked(motion, at, time.perf_counter() - begun)
-
-
-def _package_walk(clips: Sequence[Motion], path: GroundPath, settings: tuple[int, float]) -> Walked:
-    begun = time.perf_counter()
-    graph = prune(build(clips, window=settings[0], threshold=settings[1]))
+    graph = prune(build(clips, window=window, threshold=threshold))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # the report says how far it is off
-        followed = follow_path(graph, path)
+        followed = follow_path(graph, line)
     at = tuple(seam.frame for seam in seams(graph, followed.walk))
-    return Walked(followed.motion(), at, time.perf_counter() - begun)
+    package = Walked(followed.motion(), at, time.perf_counter() - begun)
+    return Beside(line, own, stand_ins, package, lines)
+
+
+def _own_walk(clips: Sequence[Motion], path: GroundPath, window: int, threshold: float, by: Tools) -> Walked:
+    begun = time.perf_counter()
+    graph = build_own(clips, window, threshold, by)
+    walk = follow_own(graph, path.points, by)
+    ends = np.cumsum([0, *(len(edge.track) - 1 for edge in walk.edges)])
+    at = tuple(int(frame) for frame, edge in zip(ends, walk.edges, strict=False) if edge.match)
+    return Walked(play_own(graph, walk, by), at, time.perf_counter() - begun)

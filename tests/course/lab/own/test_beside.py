@@ -7,6 +7,7 @@ import mocap
 from mocap import body, datasets
 from mocap.course import checks, lab
 from mocap.course.lab import own
+from mocap.course.lab.own.building import NAMES
 from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written, wrong
 
@@ -26,12 +27,12 @@ def plain(clips):
 def hand_in(names, right):
     """Adopt what a student wrote, in the order of the course; each uses those before it."""
     for name in names:
-        others = {other: lab.mine(other) for other in own.NAMES}
+        others = {other: lab.mine(other) for other in NAMES}
         lab.mine(written(name, None, others) if right(name) else wrong(name))
 
 
 def test_who_solves_all_walks_by_own_code_alone_and_saves_it(clips, plain, capsys, fresh, tmp_path):
-    hand_in(own.NAMES, lambda name: True)
+    hand_in(NAMES, lambda name: True)
     new_kernel()  # the file is enough
     beside = own.walk_beside(clips, PATH)
     said = capsys.readouterr().out
@@ -46,12 +47,12 @@ def test_who_solves_all_walks_by_own_code_alone_and_saves_it(clips, plain, capsy
     assert len(mocap.load(tmp_path / "mine.bvh")) == len(beside.motion)
     shown = beside._repr_mimebundle_()[0]["text/html"]
     assert "seconds, mine" in shown
-    assert f"{len(own.NAMES) - 1} of {len(own.NAMES) - 1} functions are yours" in shown
+    assert f"{len(NAMES) - 1} of {len(NAMES) - 1} functions are yours" in shown
 
 
 def test_who_solves_every_second_walks_by_own_code_where_there_is_some(clips, plain, capsys):
-    half = set(own.NAMES[::2])
-    hand_in(own.NAMES, half.__contains__)
+    half = set(NAMES[::2])
+    hand_in(NAMES, half.__contains__)
     beside = own.walk_beside(clips, PATH)
     assert "stands in from here on" not in capsys.readouterr().out
     assert {line.name for line in beside.lines if line.yours} == half - {"next_edge"}
@@ -60,11 +61,11 @@ def test_who_solves_every_second_walks_by_own_code_where_there_is_some(clips, pl
 
 
 def test_who_is_wrong_everywhere_gets_the_packages_walk_and_is_told_so(clips, plain, capsys, fresh):
-    hand_in(own.NAMES, lambda name: False)
+    hand_in(NAMES, lambda name: False)
     beside = own.walk_beside(clips, PATH)
     said = capsys.readouterr().out
     assert not any(line.yours for line in beside.lines)
-    assert said.count("stands in until yours passes its check.") >= len(own.NAMES)
+    assert said.count("stands in until yours passes its check.") >= len(NAMES)
     assert np.array_equal(beside.motion.root_positions, plain.motion.root_positions)
     assert not fresh.exists()
 
@@ -88,9 +89,9 @@ def best_angle(points, others):
 def test_without_a_function_of_ones_own_the_page_has_no_times(plain):
     bundle, metadata = plain._repr_mimebundle_()
     assert "seconds" not in bundle["text/html"]
-    assert bundle["text/html"].count("<tr>") == len(own.NAMES)
+    assert bundle["text/html"].count("<tr>") == len(NAMES)
     assert bundle["text/plain"].startswith(
-        f"0 of {len(own.NAMES) - 1} functions are yours, the others the package's.\nmy walk:  "
+        f"0 of {len(NAMES) - 1} functions are yours, the others the package's.\nmy walk:  "
     )
     assert metadata["image/png"]["alt"].startswith("Bodies walk along a black path")
     assert plain.stand_ins is plain.own
@@ -107,7 +108,7 @@ def test_walks_of_other_lengths_are_no_number_of_centimetres_apart(plain):
 
 def test_every_exercise_of_01_to_08_can_be_kept_and_comes_back_in_a_new_kernel(capsys, fresh):
     names = [name for name in solutions() if name in checks.all_checks()]
-    others = {name: lab.mine(name) for name in own.NAMES}
+    others = {name: lab.mine(name) for name in NAMES}
     for name in names:
         assert lab.mine(written(name, None, others)).kept, name
     new_kernel()
