@@ -13,15 +13,18 @@ Reading order
 4. `real_clips`: captured clips for notebooks that can do without
 5. `marked_values`: numbers in prose, and the expressions that compute them
 6. `notebooks`: read a notebook, find its cells by their tags, run it
-7. `handout`: copies without solutions
-8. `ledger`: which line of which paper is where
-9. `site`: the course as HTML pages
-10. `lite`: the course in JupyterLite
-11. `opening`: the course in JupyterLab
-12. `diagrams`: ideas drawn step by step
-13. `lab`: what students wrote is used, and what they thought is kept
-14. `marking`: marks for notebooks handed in, whose code runs sealed
-15. `teaching`: slides and films that are made from the notebooks
+7. `names`: which names some code defines and uses
+8. `handout`: copies without solutions
+9. `ledger`: which line of which paper is where
+10. `formulas`: formulas as MathML
+11. `site`: the course as HTML pages, beside the reference pages of the package
+12. `conf`: how Sphinx makes these pages
+13. `lite`: the course in JupyterLite
+14. `opening`: the course in JupyterLab
+15. `diagrams`: ideas drawn step by step
+16. `lab`: what students wrote is used, and what they thought is kept
+17. `marking`: marks for notebooks handed in, whose code runs sealed
+18. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------

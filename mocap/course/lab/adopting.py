@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import redirect_stdout
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from mocap.course.check import Verdict
@@ -90,13 +89,12 @@ def _take(slot: Slot, written: Callable[..., Any]) -> bool:
     slot.written = written
     if not all_checks()[slot.name].again(written).right:
         return False
-    slot.own, slot.stopped, slot.kept = written, "", False
-    if (file := place()) is None:
-        return True
+    slot.adopt(written, kept=False)
     try:
-        plain = plain_source(written, all_checks())  # type: ignore[arg-type]
-        _read[0] = keep(file, slot.name, notebook_of(slot.name), plain)
-        slot.kept = True
+        if file := place():
+            plain = plain_source(written, all_checks())  # type: ignore[arg-type]
+            _read[0] = keep(file, slot.name, notebook_of(slot.name), plain)
+            slot.kept = True
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
     return True
@@ -116,35 +114,27 @@ _read = [""]  # what the file held when it was read last
 
 def _refresh() -> None:
     """Read the file anew if it has changed: what was deleted from it goes, what passes its check comes."""
-    file = place()
+    file, text = place(), ""
     try:
         text = read_text(file)
     except MocapError as error:
-        text, file = "", None
         print(error)
     if text == _read[0]:
         return
     _read[0] = text
     found, said = run_sections(file, text, _slots()) if file else ({}, [])
-    for sentence in said:
-        print(sentence)
     for slot in _slots().values():
         if slot.kept and slot.name not in found:
-            slot.own, slot.kept = None, False
-    for name, function in found.items():
-        _take_from_file(name, function, file)
-
-
-def _take_from_file(name: str, function: Callable[..., Any], file: Path | None) -> None:
-    if name not in all_checks():
-        print(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
-        return
-    slot, verdict = _slots()[name], _judged(name, function)
-    slot.written = function
-    slot.own, slot.stopped, slot.kept = (function, "", True) if verdict.right else (None, "", False)
-    if not verdict.right:
-        print(f"{file}: {name} does not pass its check any more, so the package's stands in.")
-        print(verdict)
+            slot.adopt(None, kept=False)
+    for name in found.keys() - all_checks().keys():
+        said.append(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
+    for slot in (_slots()[name] for name in found if name in all_checks()):
+        verdict, slot.written = _judged(slot.name, found[slot.name]), found[slot.name]
+        slot.adopt(slot.written if verdict.right else None, kept=verdict.right)
+        if not verdict.right:
+            why = "does not pass its check any more, so the package's stands in."
+            said.append(f"{file}: {slot.name} {why}\n{verdict}")
+    print(*said, sep="\n", end="\n" * bool(said))
 
 
 def _judged(name: str, function: Callable[..., Any]) -> Verdict:

@@ -75,6 +75,10 @@ class Slot:
         self.kept, self.stopped, self._prints = False, "", False
         self.calls, self.seconds = 0, 0.0
 
+    def adopt(self, own: Callable[..., Any] | None, *, kept: bool) -> None:
+        """Put a function that has passed its check here, or take it away."""
+        self.own, self.stopped, self.kept = own, "", kept
+
     @property
     def yours(self) -> bool:
         """Whether the student's function runs here."""
@@ -129,30 +133,28 @@ def same_form(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     >>> same_form([{1, 2}, {3}], [{1}, {2}]), same_form([(1, [2.0])], [(4, [np.inf])])
     (True, True)
     """
-    if isinstance(wanted, set | frozenset | dict | str) or wanted is None:
-        kinds = (set, frozenset) if isinstance(wanted, set | frozenset) else (type(wanted),)
-        return isinstance(given, kinds)
+    if isinstance(wanted, set | frozenset):
+        return isinstance(given, set | frozenset)
+    if isinstance(wanted, dict | str) or wanted is None:
+        return isinstance(given, type(wanted))
+    here, there = _numbers(given), _numbers(wanted)
+    if there is None:  # items of different kinds
+        listed = isinstance(given, list | tuple | np.ndarray) and len(given) == len(wanted)
+        return listed and all(map(same_form, given, wanted))
+    return here is not None and here.shape == there.shape and not (np.isnan(here) & ~np.isnan(there)).any()
+
+
+def _numbers(value: Any) -> Any:  # noqa: ANN401
+    """Give a value as an array of numbers; None where it is something else."""
     try:
-        there = np.asarray(wanted, complex)
-    except (TypeError, ValueError):  # items of different kinds
-        return (
-            isinstance(given, list | tuple | np.ndarray)
-            and len(given) == len(wanted)
-            and all(map(same_form, given, wanted))
-        )
-    try:
-        here = np.asarray(given, complex)
+        return np.asarray(value, complex)
     except (TypeError, ValueError):
-        return False
-    return here.shape == there.shape and not bool((np.isnan(here) & ~np.isnan(there)).any())
+        return None
 
 
 def _seen(given: Any) -> str:  # noqa: ANN401
     """Describe an answer that will not do."""
-    try:
-        array = np.asarray(given, complex)
-    except (TypeError, ValueError):
+    array = _numbers(given)
+    if array is None:
         return f"an answer of the type {type(given).__name__} that does not fit"
-    if np.isnan(array).any():
-        return "NaN"
-    return f"an answer of the shape {array.shape}"
+    return "NaN" if np.isnan(array).any() else f"an answer of the shape {array.shape}"

@@ -42,7 +42,7 @@ def read_text(file: Path | None) -> str:
 
 
 class Section(NamedTuple):
-    """A part of the file: a function's name, its heading, the lines before its body, and its body."""
+    """A part of the file: a function's name, its heading, the line of its body, and its body."""
 
     name: str
     heading: str
@@ -59,11 +59,10 @@ def split(text: str) -> list[Section]:
     ('f', '# ---- f (notebook 01) ----\n', 2, 'def f(): ...\n')
     """
     found = [*HEADING.finditer(text)]
-    ends = [*(match.start() for match in found), len(text)]
+    starts, ends = [match.end() for match in found], [*(match.start() for match in found), len(text)]
     parts = [Section("", "", 0, text[: ends[0]])]
-    for match, end in zip(found, ends[1:], strict=True):
-        line = text.count("\n", 0, match.end())
-        parts.append(Section(match[1], match[0], line, text[match.end() : end]))
+    for match, start, end in zip(found, starts, ends[1:], strict=True):
+        parts.append(Section(match[1], match[0], text.count("\n", 0, start), text[start:end]))
     return parts
 
 
@@ -103,10 +102,6 @@ def _run(file: Path, part: Section, space: dict[str, Any]) -> list[str]:
     return []
 
 
-def _notebook(part: Section) -> str:
-    return part.heading.partition("notebook ")[2]
-
-
 def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     """Write a function into the file, in place of an earlier one of its name, and return the new text.
 
@@ -127,7 +122,8 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     except SyntaxError as error:
         raise MocapError(f"{file}, line {error.lineno}: {error.msg}; correct it, or delete it.") from error
     new = Section(name, f"# ---- {name} (notebook {notebook}) ----\n", 0, f"\n{plain.source}")
-    kept = sorted([*(part for part in sections if part.name != name), new], key=_notebook)
+    kept = [*(part for part in sections if part.name != name), new]
+    kept.sort(key=lambda part: part.heading.partition("notebook ")[2])
     imports = "\n".join(sorted(lines | plain.imports))
     start = f"{HEAD}\n{imports}\n" if imports else HEAD
     text = "\n\n".join([start, *(part.heading + part.body.rstrip() + "\n" for part in kept)])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-import symtable
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mocap.course.names import names_of
 from mocap.course.notebooks import read, tagged
 
 
@@ -36,11 +36,9 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
     >>> code_cells(new_notebook(cells=[cell]))
     [Cell(exercises=('speed',), source='def speed(): ...')]
     """
-    names: dict[int, list[str]] = {}
-    for name, cell in tagged(notebook, "exercise"):
-        names.setdefault(id(cell), []).append(name)
+    named = list(tagged(notebook, "exercise"))
     return [
-        Cell(tuple(names.get(id(cell), ())), cell.source)
+        Cell(tuple(name for name, own in named if own is cell), cell.source)
         for cell in notebook.cells
         if cell.cell_type == "code"
     ]
@@ -48,12 +46,11 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
 
 def course_sheets(folder: Path) -> list[Sheet]:
     """Read what each notebook of the course asks for."""
-    sheets = []
-    for file in sorted(folder.glob("*.ipynb")):
-        notebook = read(file)
-        names = tuple(name for name, _ in tagged(notebook, "exercise"))
-        sheets.append(Sheet(file.stem, names, _traits(notebook)))
-    return sheets
+    notebooks = {file.stem: read(file) for file in sorted(folder.glob("*.ipynb"))}
+    return [
+        Sheet(stem, tuple(name for name, _ in tagged(notebook, "exercise")), _traits(notebook))
+        for stem, notebook in notebooks.items()
+    ]
 
 
 def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: ANN401
@@ -101,7 +98,7 @@ def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = s
     >>> needed(cells, "f"), needed(cells[:1], "g")
     ([0, 1], [])
     """
-    known = [_names(plain, cell.source) for cell in cells]
+    known = [names_of(plain(cell.source)) for cell in cells]
     own = [number for number, cell in enumerate(cells) if exercise in cell.exercises]
     left = own or [number for number, (defined, _) in enumerate(known) if exercise in defined]
     found: set[int] = set()
@@ -113,20 +110,3 @@ def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = s
                 at = [other for other, (defined, _) in enumerate(known) if name in defined]
                 left += [other for other in at if other < number] or at
     return sorted(found)
-
-
-def _names(plain: Callable[[str], str], source: str) -> tuple[set[str], set[str]]:
-    """Return the names that a cell defines, and those that it uses."""
-    try:
-        top = symtable.symtable(plain(source), "", "exec")
-    except (SyntaxError, ValueError):
-        return set(), set()
-    made = [symbol for symbol in top.get_symbols() if symbol.is_assigned() or symbol.is_imported()]
-    defined = {symbol.get_name() for symbol in made}
-    used, tables = set(), [top]
-    while tables:
-        table = tables.pop()
-        tables += table.get_children()
-        symbols = [symbol for symbol in table.get_symbols() if symbol.is_referenced()]
-        used |= {symbol.get_name() for symbol in symbols if table is top or symbol.is_global()}
-    return defined, used

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from mocap.errors import MocapError
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
 LARGEST = 50 << 20  # bytes of a notebook
+MISSING = "its cell is missing."
 
 
 class Mark(NamedTuple):
@@ -100,15 +102,17 @@ def _read_all(folder: Path) -> list[_Handed]:
 
 
 def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
+    wrong = f"{path}: is not a notebook."
     try:
         if not file.is_file() or file.stat().st_size > LARGEST:
-            raise MocapError(f"{path}: is no file, or one of more than {LARGEST >> 20} MB.")
+            raise MocapError(f"{file}: is no file, or one of more than {LARGEST >> 20} MB.")
         notebook = read(file)
         return _Handed(path, code_cells(notebook), sheet_of(notebook, sheets), "")
     except MocapError as error:
-        return _Handed(path, [], None, str(error).replace(str(file), path))
+        wrong = str(error).replace(str(file), path)
     except Exception:  # nbformat lets some things pass that are no notebooks
-        return _Handed(path, [], None, f"{path}: is not a notebook.")
+        pass
+    return _Handed(path, [], None, wrong)
 
 
 def _marks(one: _Handed, seed: int, known: Path) -> Iterator[Mark]:
@@ -116,17 +120,13 @@ def _marks(one: _Handed, seed: int, known: Path) -> Iterator[Mark]:
     tags = [name for cell in one.cells for name in cell.exercises]
     asked = one.sheet.exercises if one.sheet else ()
     names = [*dict.fromkeys((*asked, *tags))]
-    strange = [f"`{name}`" for name in names if name not in all_checks()]
-    also = f" The course does not know the tag {strange[0]}." if strange else ""
+    strange = [f" The course does not know the tag `{name}`." for name in names if name not in all_checks()]
+    also = "".join(strange[:1])
     names = [name for name in names if name in all_checks()]
     if not names:
         yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
     for name, verdict in _judge_all(one.cells, names, seed, known).items():
-        said = str(verdict).replace(MISSING, MISSING + also)
-        yield Mark(one.path, name, verdict.right, said)
-
-
-MISSING = "its cell is missing."
+        yield Mark(one.path, name, verdict.right, str(verdict).replace(MISSING, MISSING + also))
 
 
 def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> dict[str, Verdict]:
@@ -148,16 +148,15 @@ def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> d
 
 
 def _judge(student: Sealed, name: str, seed: int) -> Verdict:
-    rng = np.random.default_rng(seed)
-    known = all_checks()[name]
-    seconds = 2 * SECONDS  # the limit of `allow` comes first
-    check = dataclasses.replace(known, draw=lambda _: known.draw(rng), seconds=seconds)
+    rng, known = np.random.default_rng(seed), all_checks()[name]
+    # The limit of `allow` comes before the check's own.
+    check = dataclasses.replace(known, draw=lambda _: known.draw(rng), seconds=2 * SECONDS)
     prepared = student.ask("prepare", name)
     if not prepared["found"]:
         return Verdict(False, f"{name}: {MISSING}")
     try:
         with np.errstate(all="ignore"):
-            verdict = check.verdict(_Answer(student, name))
+            verdict = check.verdict(partial(call, student, name))
     except Exception:  # an answer such as 10**400, which has no float
         verdict = Verdict(False, f"{name}: your answer cannot be compared with the right one.")
     if verdict.right or not prepared["error"]:
@@ -165,21 +164,16 @@ def _judge(student: Sealed, name: str, seed: int) -> Verdict:
     return Verdict(False, f"{name}: its cells raise {prepared['error']}")
 
 
-class _Answer:
-    """A student's function as a check calls it: the call happens in the student's process."""
-
-    def __init__(self, student: Sealed, name: str) -> None:
-        self.student, self.name = student, name
-
-    def __call__(self, *arguments: Any) -> Any:  # noqa: ANN401
-        reply = self.student.ask("call", self.name, arguments)
-        if reply.get("raised") == "NotImplementedError":
-            raise NotImplementedError
-        if "raised" in reply:
-            raise type(reply["raised"], (Exception,), {})(reply["said"])
-        for number, changed in reply["changed"]:
-            np.copyto(arguments[number], unpack(changed))
-        return unpack(reply["given"])
+def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401
+    """Call a student's function as a check calls it: the call happens in the student's process."""
+    reply = student.ask("call", name, arguments)
+    if reply.get("raised") == "NotImplementedError":
+        raise NotImplementedError
+    if "raised" in reply:
+        raise type(reply["raised"], (Exception,), {})(reply["said"])
+    for number, changed in reply["changed"]:
+        np.copyto(arguments[number], unpack(changed))
+    return unpack(reply["given"])
 
 
 def _not_handed_in(handed: Iterable[_Handed], marked: Sequence[Mark]) -> Iterator[Mark]:

@@ -3,6 +3,7 @@
 import json
 import pickle
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from mocap.course import lab
 from mocap.course.check import Check
 from mocap.course.checks import all_checks
-from mocap.course.marking.marks import _Answer
+from mocap.course.marking.marks import call
 from mocap.course.marking.student import Student
 
 
@@ -22,7 +23,7 @@ def over_the_channel(function):
         arguments = pickle.loads(pickle.dumps(arguments))
         return json.loads(json.dumps(getattr(Student, method)(here, *arguments)))
 
-    return _Answer(SimpleNamespace(ask=ask), "f")
+    return partial(call, SimpleNamespace(ask=ask), "f")
 
 
 @pytest.mark.parametrize("name", all_checks())
@@ -78,13 +79,13 @@ def test_a_function_that_ends_python_only_raises(ending):
 
 def test_a_reply_that_is_none_is_no_answer():
     for reply in ({}, {"given": 1}, {"given": ["eval", "1"], "changed": []}, [], 3):
-        answer = _Answer(SimpleNamespace(ask=lambda *_, reply=reply: reply), "f")
+        answer = partial(call, SimpleNamespace(ask=lambda *_, reply=reply: reply), "f")
         assert not DOUBLE.verdict(answer).right
 
 
 def test_a_changed_array_of_another_shape_is_no_answer():
     reply = {"given": 1, "changed": [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]]}
-    assert not DOUBLE.verdict(_Answer(SimpleNamespace(ask=lambda *_: reply), "f")).right
+    assert not DOUBLE.verdict(partial(call, SimpleNamespace(ask=lambda *_: reply), "f")).right
 
 
 def test_what_stands_in_for_a_wrong_function_gets_no_mark(tmp_path, monkeypatch):
