@@ -14,7 +14,7 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.cli.main import main
-from mocap.datasets import fetch_set, from_set, known_sets, list_set, resumed_downloads, set_clips
+from mocap.datasets import fetch_set, from_set, list_set, resumed_downloads, set_clips
 from mocap.datasets.known_sets import HASHES, SETS, Archive
 from mocap.errors import MocapError
 from mocap.files import load_save
@@ -22,7 +22,7 @@ from mocap.files import load_save
 
 def body_of(known):
     """Return a body with the joints that a set's legs and hips are said to have."""
-    right = [known_sets._right(name) for name in known.legs]
+    right = [name.replace("Left", "Right").replace("_L", "_R") for name in known.legs]
     parents = [-1, 0, 1, 2, 3, 0, 5, 6, 7]
     offsets = [[0, 0, 0], *[[x, -0.4, 0.1] for x in (0.1, 0, 0, 0, -0.1, 0, 0, 0)]]
     return Skeleton([known.hips, *known.legs, *right], parents, offsets)
