@@ -1,6 +1,5 @@
 """The bundled clips, held against real walks by one measure."""
 
-import time
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +14,7 @@ from mocap.body.kinematics import forward_kinematics, joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.datasets import generated
+from mocap.datasets.generated import generate_walk
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.datasets.walking_body import FOOT, SKELETON
 from mocap.errors import MocapError
@@ -313,19 +313,33 @@ def test_at_4_cm_the_graph_leads_into_every_style_and_out_again():
         assert all(frames[mask].mean() > 0.9 for mask in clip.labels.values()), clip.name
 
 
-# The mean of all joints' coordinates, metres: a change to the generator must not move these walks unawares.
+def weighed(motion: Motion) -> tuple[float, int]:
+    """Sum all coordinates of all joints with random weights, and count the marked frames."""
+    at = joint_positions(motion)
+    marks = [*motion.labels.values(), *motion.contacts.values()]
+    weights = np.random.default_rng(0).normal(size=at.shape)
+    return float((at * weights).sum() / np.sqrt(at.size)), int(np.sum(marks))
+
+
+# A change to the generator, or to a figure of `walker.toml`, must not move a walk unawares.
 GOLDEN = {
-    "walk_circle": (1.058985, 0.856156, 0.031291),
-    "walk_curve_1": (0.351358, 0.855440, -0.755514),
-    "walk_curve_2": (1.069521, 0.856688, 1.642299),
-    "walk_straight": (0.000530, 0.852552, 5.548321),
-    "stop_and_go": (2.139296, 0.858511, 4.088879),
+    "walk_circle": (0.873428, 11262),
+    "walk_curve_1": (1.090734, 11679),
+    "walk_curve_2": (0.572948, 11830),
+    "walk_straight": (-7.420826, 2862),
+    "sneak": (-0.694357, 10023),
+    "jog": (0.242195, 7555),
+    "stop_and_go": (2.845419, 10347),
+    "walk": (-0.192268, 1442),
 }
 
 
-@pytest.mark.parametrize(("name", "mean"), GOLDEN.items())
-def test_a_walk_stays_what_it_was(name, mean):
-    assert places(name).mean(axis=(0, 1)) == pytest.approx(mean, abs=1e-6)
+@pytest.mark.parametrize(("name", "golden"), GOLDEN.items())
+def test_a_walk_stays_what_it_was(name, golden):
+    if name in SAMPLES:
+        assert generated.generate(name).name == name
+    walk = sample(name) if name in SAMPLES else generate_walk([[0, 0], [0, 3], [2, 5]], style=name, seed=3)
+    assert weighed(walk) == pytest.approx(golden, abs=1e-6)
 
 
 def test_stop_and_go_stands_four_times_with_both_feet_side_by_side():
@@ -340,16 +354,6 @@ def test_stop_and_go_stands_four_times_with_both_feet_side_by_side():
     assert apart.max() < 0.16
 
 
-def test_the_clips_are_the_same_each_time_and_together_take_about_a_second():
-    start = time.process_time()
-    again = [generated.generate(name) for name in SAMPLES]
-    assert time.process_time() - start < 3  # 0.6 s on an idle machine
-    for name, motion in zip(SAMPLES, again, strict=True):
-        assert np.array_equal(motion.rotations, sample(name).rotations)
-        assert np.array_equal(motion.root_positions, sample(name).root_positions)
-        assert motion.name == name
-
-
 def test_the_clips_come_in_the_course_s_order():
     order = "walk_circle walk_curve_1 walk_curve_2 walk_straight sneak jog stop_and_go"
     assert list(SAMPLES) == order.split()
@@ -357,7 +361,7 @@ def test_the_clips_come_in_the_course_s_order():
 
 @pytest.mark.parametrize("style", generated.GAITS)
 def test_a_walk_follows_its_path(style):
-    motion = generated.generate_walk([[0, 0], [0, 5], [0, 10]], style=style, seed=3)
+    motion = generate_walk([[0, 0], [0, 5], [0, 10]], style=style, seed=3)
     root = motion.root_positions
     assert np.abs(root[:, 0]).max() < 0.06
     assert root[0, 2] == pytest.approx(0, abs=0.05)
@@ -371,12 +375,12 @@ def test_a_walk_follows_its_path(style):
     [
         (lambda: generated.generate("waltz"), "No bundled clip 'waltz'; there are: walk_circle, "),
         (
-            lambda: generated.generate_walk([[0, 0], [0, 5]], style="hop"),
+            lambda: generate_walk([[0, 0], [0, 5]], style="hop"),
             "No style 'hop'; there are: walk, sneak, jog",
         ),
-        (lambda: generated.generate_walk([[0, 0], [0, 5]], speed=0), "speed above 0, got 0"),
-        (lambda: generated.generate_walk([[0, 0], [0, 50]], speed=6), "longer than the legs"),
-        (lambda: generated.generate_walk([[0, 0]]), "two points"),
+        (lambda: generate_walk([[0, 0], [0, 5]], speed=0), "speed above 0, got 0"),
+        (lambda: generate_walk([[0, 0], [0, 50]], speed=6), "longer than the legs"),
+        (lambda: generate_walk([[0, 0]]), "two points"),
     ],
 )
 def test_bad_wishes_are_told(call, message):
