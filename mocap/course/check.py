@@ -231,7 +231,8 @@ def check_of(name: str, table: Mapping[str, Any], known: Mapping[str, Any], note
         if "→" in expression:
             lines = inspect.getsource(names[table["right"].partition("(")[0]])
             for change in expression.split("; "):
-                lines = lines.replace(*change.split(" → "))
+                old, new = change.split(" → ")
+                lines = lines.replace(old, new)
             exec(lines, names)
             expression = "right"
         expression = re.sub(r"\bright\b", lambda _: f"({table['right']})", expression)

@@ -33,7 +33,7 @@ def row_after(diagonal: Array, best: Array, costs: Array) -> Array:
 
 def draw_ground_step(rng: np.random.Generator) -> tuple[float, complex, Array, Points, Array]:
     turns = rng.uniform(-3, 3, 3) + np.array([np.zeros(3), rng.normal(0, 0.4, 3)])
-    moves = rng.normal(size=(3, 2)) @ [0.1, 0.1j]
+    moves = np.asarray(rng.normal(size=(3, 2)) @ [0.1, 0.1j], complex)
     place = complex(*rng.normal(size=2))
     return float(rng.uniform(-3, 3)), place, turns, moves, rng.dirichlet(np.ones(3))
 
