@@ -37,14 +37,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submodules=["checks", "diagrams", "homework_slips", "lab", "marking", "teaching"],
     submod_attrs={
-        "check": ["Check", "Mistake", "Verdict"],
-        "homework_slips": [
-            "chain_on_last",
-            "euler_from_zero_to_pi",
-            "homework_heading",
-            "lay_in_full",
-            "turn_in_place",
-        ],
         "real_clips": ["people"],
         "notebooks": ["read", "run", "shown_source", "tagged"],
         "handout": ["hand_out"],
