@@ -32,7 +32,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "joint_limits": ["Bend", "joint_bends"],
         "judgements": ["Judgement", "Measure", "judgement_table"],
         "judging": ["judge"],
-        "standing_feet": ["PlantSlide", "plant_slides"],
+        "standing_feet": ["PlantSlide", "mean_slide", "plant_slides"],
         "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
     },
 )

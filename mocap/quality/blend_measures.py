@@ -19,6 +19,7 @@ from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
+from mocap.quality.standing_feet import feet_of, plant_marks
 
 
 class BlendJolts(NamedTuple):
@@ -152,11 +153,8 @@ def ground_slides(motion: Motion, legs: Sequence[Leg] | None = None) -> Array:
 
     Notebook: 09b-blend-window
     """
-    feet = [joint for leg in legs_of(motion.skeleton, legs) for joint in leg[2:]]
-    names = [motion.skeleton.names[joint] for joint in feet]
-    if missing := [name for name in names if name not in motion.contacts]:
-        raise MocapError(f"'{motion.name}' does not say when '{missing[0]}' stands; mark_plants finds out.")
-    stands = np.stack([motion.contacts[name] for name in names], axis=-1)
+    feet = feet_of(legs_of(motion.skeleton, legs))
+    stands = np.stack(list(plant_marks(motion, feet).values()), axis=-1)
     steps = np.linalg.norm(np.diff(joint_positions(motion)[:, feet][..., [0, 2]], axis=0), axis=-1)
     return np.asarray(100 * steps * (stands[1:] & stands[:-1]))
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
@@ -85,21 +84,18 @@ class Report:
     def table(self) -> str:
         """Write the report in a few aligned lines."""
         motion, side = self.motion, "left" if self.turn > 0 else "right"
+        doubt = "" if SMALLEST < self.height < TALLEST else ": is its scale right?"
         rows = [
             ("clip", motion.name),
             ("frames", f"{len(motion)} at {motion.fps:g} Hz, {motion.duration:.2f} s"),
             ("joints", f"{len(motion.skeleton)}"),
-            ("height", f"{self.height:.2f} m{self._doubt()}"),
+            ("height", f"{self.height:.2f} m{doubt}"),
             ("heading", f"turns {side} by {abs(np.degrees(self.turn)):.0f}° in all"),
             ("path", f"{self.path:.2f} m over the ground"),
             ("flaws", "none found" if not self.flaws else str(self.flaws[0])),
             *(("", str(flaw)) for flaw in self.flaws[1:]),
         ]
         return "\n".join(f"{name:<8} {text}" for name, text in rows)
-
-    def _doubt(self) -> str:
-        """Ask for the unit of length where nobody is so small or so tall."""
-        return "" if SMALLEST < self.height < TALLEST else ": is its scale right?"
 
 
 def warn_of_size(motions: Iterable[Motion]) -> None:
@@ -115,7 +111,7 @@ def warn_of_size(motions: Iterable[Motion]) -> None:
     >>> warn_of_size([generate("walk_straight")])
     """
     for motion in motions:
-        height = _height(joint_positions(motion))
+        height = height_of(joint_positions(motion))
         if not SMALLEST < height < TALLEST:
             tall = f"'{shortened(motion.name)}' is {height:.2g} m tall: is its scale right?"
             warnings.warn(tall, MocapWarning, stacklevel=2)
@@ -158,62 +154,57 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     headings = np.unwrap(heading(motion.rotations[:, 0]))
     steps = np.diff(motion.root_positions[:, [0, 2]], axis=0)
     turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
+    found = {
+        "frozen": (_frozen(motion), ""),
+        "nothing but zeros": (_zeros(motion), ""),
+        "teleport": _teleports(motion),
+        "snap": _snaps(motion, turns),
+        "Euler flip": _flips(motion, turns, angles or {}),
+        "under the floor": _under(motion, positions),
+    }
     flaws = [
-        *_frozen(motion),
-        *_zeros(motion),
-        *_teleports(motion),
-        *_snaps(motion, turns),
-        *_flips(motion, turns, angles or {}),
-        *_under(motion, positions),
+        Flaw(kind, np.flatnonzero(marks).tolist(), detail)
+        for kind, (marks, detail) in found.items()
+        if marks.any()
     ]
-    return Report(
-        motion, _height(positions), float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum()), flaws
-    )
+    turn, path = float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum())
+    return Report(motion, height_of(positions), turn, path, flaws)
 
 
-def _height(positions: Array) -> float:
+def height_of(positions: Array) -> float:
     """Measure how far a body reaches up, the median over its frames (F, J, 3)."""
     return float(np.median(np.ptp(positions[..., 1], axis=1)))
 
 
-def _frames(flags: ArrayLike, after: int = 0) -> list[int]:
-    """List where flags are True, each plus `after`."""
-    return [int(frame) + after for frame in np.flatnonzero(flags)]
-
-
-def _frozen(motion: Motion) -> list[Flaw]:
-    """Find frames that repeat the one before exactly, as no living body does."""
+def _frozen(motion: Motion) -> Mask:
+    """Mark frames that repeat the one before exactly, as no living body does."""
     numbers = np.hstack([motion.root_positions, motion.rotations.reshape(len(motion), -1)])
-    same = (numbers[1:] == numbers[:-1]).all(axis=1)
-    frames = [f + 1 for start, stop in runs(same) if stop - start >= FROZEN for f in range(start, stop)]
-    return [Flaw("frozen", frames)] if frames else []
+    same = np.append(False, (numbers[1:] == numbers[:-1]).all(axis=1))
+    for start, stop in runs(same):
+        same[start:stop] = stop - start >= FROZEN
+    return same
 
 
-def _zeros(motion: Motion) -> list[Flaw]:
-    """Find frames in which the root is at the origin and no joint is turned."""
+def _zeros(motion: Motion) -> Mask:
+    """Mark frames in which the root is at the origin and no joint is turned."""
     unturned = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2)) < STILL
-    frames = _frames(unturned & (np.abs(motion.root_positions).max(axis=1) < STILL))
-    return [Flaw("nothing but zeros", frames)] if frames else []
+    return np.asarray(unturned & (np.abs(motion.root_positions).max(axis=1) < STILL))
 
 
-def _teleports(motion: Motion) -> list[Flaw]:
-    """Find steps of the root that are much longer than those around them."""
+def _teleports(motion: Motion) -> tuple[Mask, str]:
+    """Mark steps of the root that are much longer than those around them."""
     speeds = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
-    around = [speeds[max(0, i - AROUND) : i + AROUND + 1] for i in range(len(speeds))]
-    usual = np.array([np.median(few) for few in around])
-    frames = _frames((speeds > TELEPORT) & (speeds > SUDDEN * usual), 1)
-    return [Flaw("teleport", frames, f"{speeds.max() / motion.fps:.2f} m at most")] if frames else []
+    usual = [np.median(speeds[max(0, i - AROUND) : i + AROUND + 1]) for i in range(len(speeds))]
+    sudden = (speeds > TELEPORT) & (speeds > SUDDEN * np.array(usual))
+    return np.append(False, sudden), f"{speeds.max(initial=0) / motion.fps:.2f} m at most"
 
 
-def _snaps(motion: Motion, turns: Array) -> list[Flaw]:
-    """Find joints that turn too fast. Rotations show them without the flips of Euler angles."""
-    fast = _too_fast(motion, turns)
-    if not fast.any():
-        return []
-    joint = motion.skeleton.names[int(turns.max(axis=0).argmax())]
-    return [
-        Flaw("snap", _frames(fast.any(axis=1), 1), f"'{joint}' by {np.degrees(turns.max()):.0f}° at most")
-    ]
+def _snaps(motion: Motion, turns: Array) -> tuple[Mask, str]:
+    """Mark joints that turn too fast. Rotations show them without the flips of Euler angles."""
+    most = turns.max(axis=0, initial=0)
+    joint = motion.skeleton.names[int(most.argmax())]
+    marks = np.append(False, _too_fast(motion, turns).any(axis=1))
+    return marks, f"'{joint}' by {np.degrees(most.max()):.0f}° at most"
 
 
 def _too_fast(motion: Motion, turns: Array) -> Mask:
@@ -221,25 +212,21 @@ def _too_fast(motion: Motion, turns: Array) -> Mask:
     return (turns > SNAP) & (turns * motion.fps > FAST)
 
 
-def _flips(motion: Motion, turns: Array, angles: Mapping[str, Array]) -> list[Flaw]:
-    """Find angles that jump although their joint does not."""
+def _flips(motion: Motion, turns: Array, angles: Mapping[str, Array]) -> tuple[Mask, str]:
+    """Mark angles that jump although their joint does not."""
     flips = np.zeros(turns.shape, bool)
-    for name, numbers in angles.items():
-        if name in motion.skeleton.names:
-            joint = motion.skeleton.index(name)
-            jumps = np.abs(np.diff(numbers, axis=0)).max(axis=1, initial=0.0)
-            further = jumps > FLIP * np.degrees(turns[:, joint])
-            flips[:, joint] = _too_fast(motion, np.radians(jumps)) & further
-    frames = _frames(flips.any(axis=1), 1)
-    names = [motion.skeleton.names[joint] for joint in _frames(flips.any(axis=0))]
-    detail = f"angles of {', '.join(names[:3])}; as rotations they are smooth"
-    return [Flaw("Euler flip", frames, detail)] if frames else []
+    for name in set(angles) & set(motion.skeleton.names):
+        joint = motion.skeleton.index(name)
+        jumps = np.abs(np.diff(angles[name], axis=0)).max(axis=1, initial=0.0)
+        further = jumps > FLIP * np.degrees(turns[:, joint])
+        flips[:, joint] = _too_fast(motion, np.radians(jumps)) & further
+    names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:3]]
+    return np.append(False, flips.any(axis=1)), f"angles of {', '.join(names)}; as rotations they are smooth"
 
 
-def _under(motion: Motion, positions: Array) -> list[Flaw]:
-    """Find frames in which a joint is under the floor."""
-    lowest = positions[..., 1].min(axis=1)
-    if not (frames := _frames(lowest < -UNDER)):
-        return []
-    joint = motion.skeleton.names[int(positions[..., 1].min(axis=0).argmin())]
-    return [Flaw("under the floor", frames, f"'{joint}' by {-100 * lowest.min():.0f} cm at most")]
+def _under(motion: Motion, positions: Array) -> tuple[Mask, str]:
+    """Mark frames in which a joint is under the floor."""
+    lowest = positions[..., 1].min(axis=0)
+    joint = motion.skeleton.names[int(lowest.argmin())]
+    marks = positions[..., 1].min(axis=1) < -UNDER
+    return marks, f"'{joint}' by {-100 * lowest.min():.0f} cm at most"

@@ -13,7 +13,8 @@ it sees those of knees, elbows, hips, wrists and the neck, not those of shoulder
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from scipy.signal import savgol_filter
@@ -28,23 +29,157 @@ from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.matching.point_clouds import point_cloud
-from mocap.quality.clip_flaws import FAST, UNDER
+from mocap.quality.clip_flaws import FAST, UNDER, height_of
 from mocap.quality.joint_limits import joint_bends
 from mocap.quality.judgements import Judgement, Measure
-from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, Spread, jumps
-from mocap.quality.standing_feet import plant_slides
+from mocap.quality.seam_measures import LEAP, MOSTLY, USUAL, jumps, largest_jumps
+from mocap.quality.standing_feet import feet_of, mean_slide, plant_slides
 
 WINDOW = 1 / 3  # seconds: jumps in a window are compared with those in the clips' windows
-SEAM = 1.5  # times what all but one in a thousand windows of the clips do
-TREMBLE, FLAT = 3.0, 0.1  # millimetres from a smooth curve through so many seconds
+FLAT = 0.1  # seconds of a smooth curve, from which a joint trembles
 STILL = 0.02  # m/s: a jump of velocity that one who stands still makes
-ALOFT = 0.25  # metres; in 153 clips the lowest joint comes down to 12.5 cm at least, also on stairs
-SLIDE = 2.5  # centimetres that a planted foot may wander
-SKATE, SLOWEST, SLOW = 8.0, 25, 0.5  # percent of the body's speed; the percentile of the frames; least m/s
-LOPSIDED = 20.0  # millimetres between a left bone and its partner
-STRETCH = 5.0  # millimetres by which a bone may change its length
+SLOWEST, SLOW = 25, 0.5  # percentile of the frames in which a foot skates; the least speed of a body, m/s
+ALOFT = 25.0  # centimetres; in 153 clips the lowest joint comes down to 12.5 cm at least, also on stairs
 SHORTEST, TALLEST = 0.75, 2.5  # metres, of one who walks; a grown body in inches, read as cm, is 0.7 at most
-OFF = 15.0  # centimetres from the path, as `steering.follow_path` warns
+
+
+class Judged(NamedTuple):
+    """What is judged, as for `judge`; `places` are the joints' positions, (F, J, 3). None is not known."""
+
+    motion: Motion
+    places: Array
+    legs: Sequence[Leg] | None
+    against: Sequence[Motion]
+    path: GroundPath | None
+    stretch: Mapping[str, float] | None
+
+
+Found = tuple[float, str] | None
+"""A value in the unit of its row in `MEASURES`, and where it is worst; None where there is none."""
+
+
+def _jolt(body: Judged) -> Found:
+    own, fps = jumps(body.motion)[0], body.motion.fps
+    usual = float(np.percentile(own, MOSTLY))
+    if body.against:
+        clips = [jumps(resample(clip, fps))[0] for clip in body.against]
+        usual = float(np.percentile(largest_jumps(clips, max(2, round(WINDOW * fps))), USUAL))
+    frame = 1 + int(own[1:-1].argmax())
+    apart = np.linalg.norm(np.diff(body.places[frame - 1 : frame + 2], 2, axis=0), axis=-1)
+    most = body.motion.skeleton.names[int(apart.max(axis=0).argmax())]
+    return float(own.max()) / max(usual, STILL), f"frame {frame}, most '{most}'"
+
+
+def _tremble(body: Judged) -> Found:
+    points = point_cloud(body.motion)
+    window = max(5, 2 * round(FLAT * body.motion.fps / 2) + 1)
+    window = min(window, len(points) - 1 + len(points) % 2)
+    off = np.sqrt(((points - savgol_filter(points, window, 3, axis=0)) ** 2).sum(-1).mean(-1))
+    return 1000 * float(np.median(off)), ""
+
+
+def _sunk(body: Judged) -> Found:
+    heights = body.places[..., 1]
+    frame, joint = map(int, np.unravel_index(int(heights.argmin()), heights.shape))
+    depth = max(0.0, -float(heights[frame, joint]))
+    return 100 * depth, f"'{body.motion.skeleton.names[joint]}', frame {frame}"
+
+
+def _turn(body: Judged) -> Found:
+    motion = body.motion
+    turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1]) * motion.fps
+    frame, joint = map(int, np.unravel_index(int(turns.argmax()), turns.shape))
+    return float(np.degrees(turns.max())), f"'{motion.skeleton.names[joint]}', frame {frame + 1}"
+
+
+def _lopsided(body: Judged) -> Found:
+    skeleton = body.motion.skeleton
+    partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    gaps = 1000 * np.abs(lengths - lengths[partners])
+    worst = int(gaps.argmax())
+    sided = partners != list(range(len(skeleton)))
+    return (float(gaps[worst]), f"'{skeleton.names[worst]}'") if sided else None
+
+
+def _aloft(body: Judged) -> Found:
+    lowest = body.places[..., 1].min(axis=1)
+    high = 100 * float(lowest.min())
+    return (high, f"lowest in frame {int(lowest.argmin())}") if high > ALOFT else None
+
+
+def _slide(body: Judged) -> Found:
+    slides = plant_slides(
+        mark_plants(body.motion, body.legs), feet_of(body.legs or ()), positions=body.places
+    )
+    if not slides:
+        return 0.0, "no foot stands"
+    worst = max(slides, key=lambda slide: slide.far)
+    return mean_slide(slides), f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
+
+
+def _skate(body: Judged) -> Found:
+    fps, feet = body.motion.fps, body.places[:, feet_of(body.legs or ())][..., [0, 2]]
+    slowest = (np.linalg.norm(np.diff(feet, axis=0), axis=-1) * fps).min(axis=1)
+    steps = np.linalg.norm(np.diff(body.motion.root_positions[:, [0, 2]], axis=0), axis=-1)
+    return 100 * float(np.percentile(slowest, SLOWEST)) / max(SLOW, float(steps.mean()) * fps), ""
+
+
+def _bent(body: Judged) -> Found:
+    bends = joint_bends(body.motion, body.legs or ())
+    if not bends:
+        return None
+    worst = max(bends, key=lambda bend: float(bend.share.max()))
+    frame = int(worst.share.argmax())
+    where = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+    return float(worst.share[frame]), where
+
+
+def _bones(body: Judged) -> Found:
+    stretch = body.stretch or {}
+    worst = max(stretch, key=stretch.__getitem__, default="")
+    return 1000 * stretch.get(worst, 0.0), worst and f"'{worst}'"
+
+
+def _path(body: Judged) -> Found:
+    assert body.path is not None
+    off, _ = cKDTree(body.path.resampled(0.01).points).query(body.motion.root_positions[:, [0, 2]])
+    return 100 * float(off.mean()), f"{100 * off.max():.0f} cm in frame {int(off.argmax())}"
+
+
+def _size(body: Judged) -> Found:
+    """Compare a body with the smallest and the tallest people; one who lies down is as long as tall."""
+    height = height_of(body.places)
+    if not SHORTEST <= height <= TALLEST:
+        height = float(np.median(np.ptp(body.places, axis=1).max(axis=-1)))
+    times = max(SHORTEST / max(height, 1e-9), height / TALLEST)
+    if times <= 1:
+        return 0.0, ""
+    inches = f" (in inches it would be {2.54 * height:.3g} m)" if SHORTEST / 2 < height < SHORTEST else ""
+    warnings.warn(
+        f"'{shortened(body.motion.name)}' is {height:.3g} m tall, as nobody is who walks{inches}: "
+        "is its scale right?",
+        MocapWarning,
+        stacklevel=3,
+    )
+    return times, f"{height:.3g} m tall"
+
+
+MEASURES: tuple[tuple[str, str, Callable[[Judged], Found], str, float], ...] = (
+    ("tremble", "motion", _tremble, "mm", 3.0),
+    ("sunk", "motion", _sunk, "cm", 100 * UNDER),
+    ("turn", "motion", _turn, "°/s", float(np.degrees(FAST))),
+    ("lopsided", "motion", _lopsided, "mm", 20.0),
+    ("aloft", "motion", _aloft, "cm", ALOFT),
+    ("slide", "legs", _slide, "cm", 2.5),
+    ("skate", "legs", _skate, "% of speed", 8.0),
+    ("bent", "motion", _bent, "of its limit", 1.0),
+    ("bones", "stretch", _bones, "mm", 5.0),
+    ("path", "path", _path, "cm", 15.0),  # as `steering.follow_path` warns
+    ("size", "motion", _size, "of its limit", 1.0),
+)
+"""A row for each measure: its name, what it needs, its function, its unit and its limit."""
+ALONE, BESIDE_CLIPS = ("times usual", LEAP), ("times the clips'", 1.5)  # the units and limits of "jolt"
 
 
 def judge(
@@ -105,140 +240,22 @@ def judge(
         raise MocapError(
             f"To judge '{shortened(motion.name)}' takes 12 frames or more, it has {len(motion)}."
         )
-    places, left_out = joint_positions(motion), []
-    measures = [_jolt(motion, against), _tremble(motion), _sunk(motion, places), _fastest(motion)]
-    measures += filter(None, (_lopsided(motion), _aloft(places)))
+    left_out: tuple[str, ...] = ()
     try:
         legs = find_legs(motion.skeleton) if legs is None else legs
         if not legs:
             raise MocapError("no legs are named.")
-        measures += [_slide(motion, places, legs), _skate(motion, places, legs)]
     except MocapError as error:
-        legs = ()
-        left_out.append(f"feet and knees: {error}")
-    if (bent := _bent(motion, legs)) is not None:
-        measures.append(bent)
-    if stretch is not None:
-        measures.append(_stretched(stretch))
-    if path is not None:
-        measures.append(_off(motion, path))
-    height = float(np.median(np.ptp(places[..., 1], axis=1)))
-    measures.append(_size(motion, places, height))
+        legs, left_out = None, (f"feet and knees: {error}",)
+    body = Judged(motion, joint_positions(motion), legs, against, path, stretch)
+    measures = []
+    for name, needs, measure, unit, limit in (
+        ("jolt", "motion", _jolt, *(BESIDE_CLIPS if against else ALONE)),
+        *MEASURES,
+    ):
+        if getattr(body, needs) is not None and (found := measure(body)):
+            measures.append(Measure(name, found[0], limit, unit, found[1]))
     lengths = np.linalg.norm(motion.skeleton.offsets, axis=-1)
     bones = dict(zip(motion.skeleton.names[1:], lengths[1:].tolist(), strict=True))
-    return Judgement(motion.name, len(motion), motion.fps, tuple(measures), tuple(left_out), height, bones)
-
-
-def _jolt(motion: Motion, against: Sequence[Motion]) -> Measure:
-    own = jumps(motion)[0]
-    frame = 1 + int(own[1:-1].argmax())
-    apart = np.linalg.norm(np.diff(joint_positions(motion)[frame - 1 : frame + 2], 2, axis=0), axis=-1)
-    where = f"frame {frame}, most '{motion.skeleton.names[int(apart.max(axis=0).argmax())]}'"
-    if not against:
-        usual = max(float(np.percentile(own, MOSTLY)), STILL)
-        return Measure("jolt", float(own.max()) / usual, LEAP, "times usual", where)
-    clips = [jumps(resample(clip, motion.fps)) for clip in against]
-    velocity, acceleration = zip(*clips, strict=True)
-    windows = Spread(velocity, acceleration, np.inf, np.empty(0)).within(max(2, round(WINDOW * motion.fps)))
-    usual = max(float(np.percentile(windows[0], USUAL)), STILL)
-    return Measure("jolt", float(own.max()) / usual, SEAM, "times the clips'", where)
-
-
-def _tremble(motion: Motion) -> Measure:
-    points = point_cloud(motion)
-    window = max(5, 2 * round(FLAT * motion.fps / 2) + 1)
-    window = min(window, len(points) - 1 + len(points) % 2)
-    off = np.sqrt(((points - savgol_filter(points, window, 3, axis=0)) ** 2).sum(-1).mean(-1))
-    return Measure("tremble", 1000 * float(np.median(off)), TREMBLE, "mm")
-
-
-def _sunk(motion: Motion, places: Array) -> Measure:
-    frame, joint = map(int, np.unravel_index(int(places[..., 1].argmin()), places.shape[:2]))
-    depth = max(0.0, -float(places[frame, joint, 1]))
-    return Measure("sunk", 100 * depth, 100 * UNDER, "cm", f"'{motion.skeleton.names[joint]}', frame {frame}")
-
-
-def _aloft(places: Array) -> Measure | None:
-    """Find a body that never comes down to the ground; one who climbs stairs stood below them."""
-    lowest = places[..., 1].min(axis=1)
-    where = f"lowest in frame {int(lowest.argmin())}"
-    high = float(lowest.min())
-    return Measure("aloft", 100 * high, 100 * ALOFT, "cm", where) if high > ALOFT else None
-
-
-def _fastest(motion: Motion) -> Measure:
-    turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1]) * motion.fps
-    frame, joint = map(int, np.unravel_index(int(turns.argmax()), turns.shape))
-    where = f"'{motion.skeleton.names[joint]}', frame {frame + 1}"
-    return Measure("turn", float(np.degrees(turns.max())), float(np.degrees(FAST)), "°/s", where)
-
-
-def _lopsided(motion: Motion) -> Measure | None:
-    skeleton = motion.skeleton
-    partners = [skeleton.partner(joint) for joint in range(len(skeleton))]
-    if partners == list(range(len(skeleton))):
-        return None
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    gaps = 1000 * np.abs(lengths - lengths[partners])
-    worst = int(gaps.argmax())
-    return Measure("lopsided", float(gaps[worst]), LOPSIDED, "mm", f"'{skeleton.names[worst]}'")
-
-
-def _slide(motion: Motion, places: Array, legs: Sequence[Leg]) -> Measure:
-    """Measure how far each planted joint is from its mean place at most, on average over the plants."""
-    feet = [joint for leg in legs for joint in leg[2:]]
-    slides = plant_slides(mark_plants(motion, legs), feet, positions=places)
-    if not slides:
-        return Measure("slide", 0.0, SLIDE, "cm", "no foot stands")
-    worst = max(slides, key=lambda slide: slide.far)
-    where = f"'{worst.joint}', frames {worst.start} to {worst.stop - 1}"
-    return Measure("slide", float(np.mean([slide.far for slide in slides])), SLIDE, "cm", where)
-
-
-def _skate(motion: Motion, places: Array, legs: Sequence[Leg]) -> Measure:
-    feet = places[:, [joint for leg in legs for joint in leg[2:]]][..., [0, 2]]
-    slowest = (np.linalg.norm(np.diff(feet, axis=0), axis=-1) * motion.fps).min(axis=1)
-    steps = np.linalg.norm(np.diff(motion.root_positions[:, [0, 2]], axis=0), axis=-1)
-    speed = max(SLOW, float(steps.mean()) * motion.fps)
-    return Measure("skate", 100 * float(np.percentile(slowest, SLOWEST)) / speed, SKATE, "% of speed")
-
-
-def _bent(motion: Motion, legs: Sequence[Leg]) -> Measure | None:
-    """Find the joint that bends most beyond its limit, as a share of it."""
-    bends = joint_bends(motion, legs)
-    if not bends:
-        return None
-    worst = max(bends, key=lambda bend: float(bend.share.max()))
-    frame = int(worst.share.argmax())
-    where = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
-    return Measure("bent", float(worst.share[frame]), 1.0, "of its limit", where)
-
-
-def _stretched(stretch: Mapping[str, float]) -> Measure:
-    """Find the bone that changes its length most."""
-    worst = max(stretch, key=stretch.__getitem__, default="")
-    return Measure("bones", 1000 * stretch.get(worst, 0.0), STRETCH, "mm", worst and f"'{worst}'")
-
-
-def _size(motion: Motion, places: Array, height: float) -> Measure:
-    """Compare a body with the smallest and the tallest people; one who lies down is as long as tall."""
-    if not SHORTEST <= height <= TALLEST:
-        height = float(np.median(np.ptp(places, axis=1).max(axis=-1)))
-    times = max(SHORTEST / max(height, 1e-9), height / TALLEST)
-    if times <= 1:
-        return Measure("size", 0.0, 1.0, "of its limit")
-    inches = f" (in inches it would be {2.54 * height:.3g} m)" if SHORTEST / 2 < height < SHORTEST else ""
-    warnings.warn(
-        f"'{shortened(motion.name)}' is {height:.3g} m tall, as nobody is who walks{inches}: "
-        "is its scale right?",
-        MocapWarning,
-        stacklevel=3,
-    )
-    return Measure("size", times, 1.0, "of its limit", f"{height:.3g} m tall")
-
-
-def _off(motion: Motion, path: GroundPath) -> Measure:
-    line = path.resampled(0.01).points
-    off, _ = cKDTree(line).query(motion.root_positions[:, [0, 2]])
-    where = f"{100 * off.max():.0f} cm in frame {int(off.argmax())}"
-    return Measure("path", 100 * float(off.mean()), OFF, "cm", where)
+    height = height_of(body.places)
+    return Judgement(motion.name, len(motion), motion.fps, tuple(measures), left_out, height, bones)

@@ -12,7 +12,7 @@ from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
-from mocap.quality.standing_feet import plant_slides
+from mocap.quality.standing_feet import feet_of, mean_slide, plant_slides
 
 # Percent of the clips' own windows: all but one window in a thousand.
 USUAL = 99.9
@@ -48,12 +48,20 @@ class Spread(NamedTuple):
         >>> usual.within(2)[0]
         array([3., 3.])
         """
-        return self._largest(self.velocity, frames), self._largest(self.acceleration, frames)
+        return largest_jumps(self.velocity, frames), largest_jumps(self.acceleration, frames)
 
-    def _largest(self, kind: Sequence[Array], frames: int) -> Array:
-        windows = (sliding_window_view(jumps, min(frames, len(jumps))).max(axis=-1) for jumps in kind)
-        largest = np.concatenate(list(windows))
-        return np.sort(largest[np.isfinite(largest)])
+
+def largest_jumps(kind: Sequence[Array], frames: int) -> Array:
+    """List the largest jump in each window of `frames` frames of some clips, sorted; NaN counts as a leap.
+
+    Examples
+    --------
+    >>> largest_jumps([np.array([1.0, 3, 2]), np.array([0.5])], 2)
+    array([0.5, 3. , 3. ])
+    """
+    windows = [sliding_window_view(jumps, min(frames, len(jumps))).max(axis=-1) for jumps in kind]
+    largest = np.concatenate(windows)
+    return np.sort(largest[np.isfinite(largest)])
 
 
 class SeamQuality(NamedTuple):
@@ -140,7 +148,7 @@ def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread
     if not clips:
         raise MocapError("A seam is measured against its clips; none were given.")
     require_alike(clips)
-    feet = _feet(legs_of(clips[0].skeleton, legs))
+    feet = feet_of(legs_of(clips[0].skeleton, legs))
     velocity, acceleration = (tuple(kind) for kind in zip(*map(jumps, clips), strict=True))
     leap = LEAP * float(np.percentile(np.concatenate(velocity), MOSTLY))
     leaping = [jump > leap for jump in velocity]
@@ -187,7 +195,7 @@ def seam_quality(
     Notebook: 04-blending
     """
     before = motion if before is None else before
-    feet = _feet(legs_of(motion.skeleton, legs))
+    feet = feet_of(legs_of(motion.skeleton, legs))
     _check_seam(motion, seam, before)
     around = slice(max(seam[0] - 1, 0), seam[1] + 1)
     usually = usual.within(len(range(len(motion))[around]))
@@ -197,11 +205,12 @@ def seam_quality(
     )
     path, old = (m.root_positions[around][:, [0, 2]] for m in (motion, before))
     positions = joint_positions(motion)
+    slides = plant_slides(motion, feet, positions=positions)
     depth = np.maximum(usual.floor - positions[around][:, feet, 1], 0.0).max()
     return SeamQuality(
         velocity,
         acceleration,
-        _slide(motion, seam, positions, feet),
+        mean_slide(one for one in slides if one.touches(seam)),
         100 * float(depth),
         100 * float(np.linalg.norm(path - old, axis=-1).max()),
     )
@@ -214,11 +223,6 @@ def _usual(largest: Array) -> float:
     return float(np.percentile(largest, USUAL))
 
 
-def _feet(legs: Sequence[Leg]) -> list[int]:
-    """List the legs' ankles and balls."""
-    return [joint for leg in legs for joint in leg[2:]]
-
-
 def _check_seam(motion: Motion, seam: tuple[int, int], before: Motion) -> None:
     """Raise an error unless the seam is in the motion, and `before` is the same motion."""
     if not 0 <= seam[0] < seam[1] <= len(motion):
@@ -228,9 +232,3 @@ def _check_seam(motion: Motion, seam: tuple[int, int], before: Motion) -> None:
     require_alike([motion, before])
     if len(before) != len(motion):
         raise MocapError(f"Before there were {len(before)} frames, now {len(motion)}: not the same motion.")
-
-
-def _slide(motion: Motion, seam: tuple[int, int], positions: Array, feet: Sequence[int]) -> float:
-    """Average a joint's largest distance from its mean place, cm, over the plants that touch a seam."""
-    slides = [one.far for one in plant_slides(motion, feet, positions=positions) if one.touches(seam)]
-    return float(np.mean(slides)) if slides else 0.0

@@ -1,12 +1,13 @@
 """How far does a foot that stands slide over the ground? One measure for seams, motions and characters."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, runs
+from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.kinematics import joint_positions
+from mocap.body.limbs import Leg
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
@@ -56,15 +57,42 @@ def plant_slides(
 
     Notebook: 18-motion-matching
     """
-    names = motion.skeleton.names
-    planted = list(motion.contacts) if joints is None else [names[joint] for joint in joints]
-    if missing := [name for name in planted if name not in motion.contacts]:
-        raise MocapError(f"'{motion.name}' does not say when '{missing[0]}' stands; mark_plants finds out.")
+    marks = plant_marks(motion, joints)
     places = (joint_positions(motion) if positions is None else positions)[..., [0, 2]]
     slides = []
-    for name in planted:
-        for start, stop in runs(motion.contacts[name]):
+    for name, stands in marks.items():
+        for start, stop in runs(stands):
             stood = places[start:stop, motion.skeleton.index(name)]
             far = np.linalg.norm(stood - stood.mean(axis=0), axis=-1).max()
             slides.append(PlantSlide(name, start, stop, 100 * float(far)))
     return slides
+
+
+def mean_slide(slides: Iterable[PlantSlide]) -> float:
+    """Average how far plants slide, cm; 0 if there are none.
+
+    Examples
+    --------
+    >>> mean_slide([PlantSlide("lfoot", 3, 9, 1.5), PlantSlide("lfoot", 30, 39, 0.5)]), mean_slide([])
+    (1.0, 0.0)
+    """
+    far = [slide.far for slide in slides]
+    return float(np.mean(far)) if far else 0.0
+
+
+def plant_marks(motion: Motion, joints: Sequence[int] | None = None) -> dict[str, Mask]:
+    """Give the marks (F,) of when joints stand, by name; of all that have marks by default.
+
+    Raises
+    ------
+    MocapError : for a joint of which the motion does not say when it stands.
+    """
+    names = motion.contacts if joints is None else [motion.skeleton.names[joint] for joint in joints]
+    if missing := [name for name in names if name not in motion.contacts]:
+        raise MocapError(f"'{motion.name}' does not say when '{missing[0]}' stands; mark_plants finds out.")
+    return {name: motion.contacts[name] for name in names}
+
+
+def feet_of(legs: Sequence[Leg]) -> list[int]:
+    """List the legs' ankles and balls."""
+    return [joint for leg in legs for joint in leg[2:]]

@@ -14,7 +14,7 @@ from mocap.body.planar import on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footskate import clean_up
 from mocap.quality.seam_measures import USUAL, Spread, jumps
-from mocap.quality.standing_feet import plant_slides
+from mocap.quality.standing_feet import mean_slide, plant_slides
 from mocap.steering.characters import Character
 from mocap.steering.obedience import Delay, measure_delay
 from mocap.steering.steered_motion import steer
@@ -121,8 +121,7 @@ def judge_control(
 
 def _mean_slide(motion: Motion) -> float:
     """Average the slides of plants, cm; two frames are too few to slide."""
-    slides = [slide.far for slide in plant_slides(motion) if slide.stop - slide.start > 2]
-    return float(np.mean(slides or [0.0]))
+    return mean_slide(slide for slide in plant_slides(motion) if slide.stop - slide.start > 2)
 
 
 def _wags(motion: Motion, headings: Array) -> float:
