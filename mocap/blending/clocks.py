@@ -115,14 +115,10 @@ def _closed(registration: Registration, weights: Array, fps: float) -> Array:
     """For constant weights t(u) = Σ w (S(u) - S(u₀)) is known, so only its inverse is to be found."""
 
     def elapsed(u: Array) -> Array:
-        return np.asarray(
-            sum(w * (curve(u) - curve(first)) for w, curve in zip(weights, registration.times, strict=True))
-        )
+        return np.asarray(weights @ np.array([curve(u) - curve(first) for curve in registration.times]))
 
     def slope(u: Array) -> Array:
-        return np.asarray(
-            sum(w * curve.slope(u) for w, curve in zip(weights, registration.times, strict=True))
-        )
+        return np.asarray(weights @ np.array([curve.slope(u) for curve in registration.times]))
 
     first, last = registration.span
     points = np.linspace(first, last, max(int((last - first) / FINE), 8) + 1)

@@ -13,7 +13,7 @@ from mocap.body.motion import Motion
 SHORTEST = 0.02  # seconds on the common clock: what is left of a plant beside a cut or the span's end
 
 
-class ContactMatch(NamedTuple):
+class SharedPlant(NamedTuple):
     """A plant that all clips have: when it starts and stops in each of them, on the common clock.
 
     joint : the one that stands.
@@ -21,7 +21,7 @@ class ContactMatch(NamedTuple):
 
     Examples
     --------
-    >>> match = ContactMatch("lfoot", np.array([0.2, 0.3]), np.array([0.8, 0.9]))
+    >>> match = SharedPlant("lfoot", np.array([0.2, 0.3]), np.array([0.8, 0.9]))
     >>> weights = np.array([0.25, 0.75])
     >>> float(weights @ match.starts), float(weights @ match.stops)
     (0.275, 0.875)
@@ -39,19 +39,10 @@ class _Plant(NamedTuple):
     stop: float
     clip: int
 
-    def part(self, low: float, high: float) -> "_Plant":
-        """Cut away what lies before `low` and after `high`."""
-        return _Plant(max(self.start, low), min(self.stop, high), self.clip)
-
-    @property
-    def lasts(self) -> bool:
-        """Whether it is long enough to be a plant."""
-        return self.stop - self.start >= SHORTEST
-
 
 def match_contacts(
     clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
-) -> tuple[ContactMatch, ...]:
+) -> tuple[SharedPlant, ...]:
     """Match the plants of registered clips: in each match one of every clip, all at about the same time.
 
     In the paper: [KG03, constraint matches].
@@ -84,8 +75,8 @@ def match_contacts(
     for joint in joints:
         for group in _groups(_plants(joint, clips, times, span)):
             for parts in _split(group, len(clips)):
-                starts, stops = ([part[n] for part in parts] for n in (0, 1))
-                matches.append(ContactMatch(joint, frozen(starts, np.float64), frozen(stops, np.float64)))
+                starts, stops = [own[0].start for own in parts], [own[-1].stop for own in parts]
+                matches.append(SharedPlant(joint, frozen(starts, np.float64), frozen(stops, np.float64)))
     return tuple(matches)
 
 
@@ -117,11 +108,18 @@ def _plants(
     joint: str, clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
 ) -> list[_Plant]:
     """List the plants of all clips on the common clock, by their starts."""
-    plants = []
-    for number, (clip, curve) in enumerate(zip(clips, times, strict=True)):
-        for start, stop in plants_on_clock(clip, curve)[joint]:
-            plants.append(_Plant(float(start), float(stop), number).part(*span))
-    return sorted(plant for plant in plants if plant.lasts)
+    plants = [
+        _Plant(float(start), float(stop), number)
+        for number, (clip, curve) in enumerate(zip(clips, times, strict=True))
+        for start, stop in plants_on_clock(clip, curve)[joint]
+    ]
+    return sorted(_within(plants, *span))
+
+
+def _within(plants: Sequence[_Plant], low: float, high: float) -> list[_Plant]:
+    """Cut away what lies before `low` and after `high`, and leave out what is then too short."""
+    parts = [_Plant(max(plant.start, low), min(plant.stop, high), plant.clip) for plant in plants]
+    return [part for part in parts if part.stop - part.start >= SHORTEST]
 
 
 def _groups(plants: Sequence[_Plant]) -> list[list[_Plant]]:
@@ -136,17 +134,11 @@ def _groups(plants: Sequence[_Plant]) -> list[list[_Plant]]:
     return groups
 
 
-def _split(group: Sequence[_Plant], count: int) -> list[list[_Plant]]:
-    """Give the matches of a group: in each, one plant of every clip."""
+def _split(group: Sequence[_Plant], count: int) -> list[list[list[_Plant]]]:
+    """Give the matches of a group: in each, the plants of every clip."""
     of_clips = [[plant for plant in group if plant.clip == clip] for clip in range(count)]
-    if not all(of_clips):
-        return []
     most = max(of_clips, key=len)
     cuts = [(before.stop + after.start) / 2 for before, after in pairwise(most)]
-    matches = []
-    for low, high in zip([-np.inf, *cuts], [*cuts, np.inf], strict=True):
-        parts = [[plant.part(low, high) for plant in own] for own in of_clips]
-        parts = [[part for part in own if part.lasts] for own in parts]
-        if all(parts):
-            matches.append([_Plant(own[0].start, own[-1].stop, own[0].clip) for own in parts])
-    return matches
+    ends = zip([-np.inf, *cuts], [*cuts, np.inf], strict=True)
+    matches = [[_within(own, low, high) for own in of_clips] for low, high in ends]
+    return [parts for parts in matches if all(parts)]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.blending.splicing import lay_window_on, splice
+from mocap.blending.joining import lay_window_on, splice
 from mocap.body import rotations
 from mocap.body.motion import Motion
 

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, require_alike
 from mocap.errors import MocapError
@@ -40,7 +39,13 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
     Notebook: 04-blending
     """
     require_alike([a, b])
-    alpha = checked_weights(weights, len(a), len(b))
+    alpha = np.asarray(weights, float)
+    if len(a) != len(b) or alpha.shape != (len(a),):
+        raise MocapError(
+            f"Blending needs as many frames of each motion as weights, got {len(a)}, {len(b)}, {alpha.shape}."
+        )
+    if not ((alpha >= 0) & (alpha <= 1)).all():
+        raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
     owner = np.stack([alpha < 0.5, np.arange(len(a))], axis=1)  # a or b, and which frame
     alpha = alpha[:, None]  # (F, 1)
     return replace(
@@ -50,25 +55,3 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
         labels=gather_marks([a.labels, b.labels], owner),
         contacts=gather_marks([a.contacts, b.contacts], owner),
     )
-
-
-def checked_weights(weights: ArrayLike, frames: int, others: int) -> Array:
-    """Check blend weights, and give them as an array: one for each frame of two motions.
-
-    Raises
-    ------
-    MocapError : for motions of different lengths, another number of weights, and weights outside [0, 1].
-
-    Examples
-    --------
-    >>> checked_weights([1, 0.5, 0], 3, 3)
-    array([1. , 0.5, 0. ])
-    """
-    alpha = np.asarray(weights, float)
-    if frames != others or alpha.shape != (frames,):
-        raise MocapError(
-            f"Blending needs as many frames of each motion as weights, got {frames}, {others}, {alpha.shape}."
-        )
-    if not ((alpha >= 0) & (alpha <= 1)).all():
-        raise MocapError(f"Blend weights must lie in [0, 1], got {alpha.tolist()}.")
-    return alpha

@@ -12,7 +12,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.blending.clocks import Weights, frame_times
-from mocap.blending.contact_matches import ContactMatch
+from mocap.blending.contact_matches import SharedPlant
 from mocap.blending.registering import Registration
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, turning
@@ -162,7 +162,7 @@ def poses(
     return np.stack([x, height, z], axis=-1), mean
 
 
-def _contacts(matches: Sequence[ContactMatch], times: Array, shares: Array) -> dict[str, Mask]:
+def _contacts(matches: Sequence[SharedPlant], times: Array, shares: Array) -> dict[str, Mask]:
     """Mark each matched plant from the mean of its starts to the mean of its stops."""
     marks = {match.joint: np.zeros(len(times), bool) for match in matches}
     for match in matches:

@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, Points, frozen
-from mocap.blending.contact_matches import ContactMatch, match_contacts
+from mocap.blending.contact_matches import SharedPlant, match_contacts
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import from_ground, on_ground
@@ -43,13 +43,8 @@ class Warp(NamedTuple):
     spacing: float = 0.3
 
 
-class _Pair(NamedTuple):
-    """A clip registered on the reference: its curves, where they hold, and what the path costs."""
-
-    times: Curve
-    angles: Curve
-    span: tuple[float, float]
-    cost: float
+_Pair = tuple[Curve, Curve, tuple[float, float], float]
+"""A clip registered on the reference: its curves of time and angle, where they hold, and the path's mean."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +67,7 @@ class Registration:
     centres: tuple[Array, ...]
     span: tuple[float, float]
     costs: Array
-    contacts: tuple[ContactMatch, ...] = ()
+    contacts: tuple[SharedPlant, ...] = ()
 
     @cached_property
     def durations(self) -> Array:
@@ -151,21 +146,17 @@ def register(
         _identity(clip) if n == reference else _register_pair(clouds[reference], cloud, rate, warp, frames)
         for n, (clip, cloud) in enumerate(zip(clips, clouds, strict=True))
     ]
-    times = tuple(pair.times for pair in pairs)
-    span = _common_span(clips, pairs)
+    times, angles, holds, costs = zip(*pairs, strict=True)
+    # All curves hold, and no clip is at its end yet.
+    limits = [*holds, *(t.inverse([0, clip.duration]) for t, clip in zip(times, clips, strict=True))]
+    span = max(float(low) for low, _ in limits), min(float(high) for _, high in limits)
     if span[1] - span[0] < (warp.window - 1) / rate:
         raise MocapError("The clips have less than one window in common; give longer ones, or less slack.")
-    _warn(clips, reference, [pair.cost for pair in pairs], span)
-    return Registration(
-        tuple(clips),
-        reference,
-        times,
-        tuple(pair.angles for pair in pairs),
-        tuple(_window_centres(clip, warp.window / rate) for clip in clips),
-        span,
-        frozen([pair.cost for pair in pairs], np.float64),
-        match_contacts(clips, times, span),
-    )
+    _warn(clips, reference, costs, span)
+    centres = tuple(_window_centres(clip, warp.window / rate) for clip in clips)
+    plants = match_contacts(clips, times, span)
+    costs = frozen(costs, np.float64)
+    return Registration(tuple(clips), reference, times, angles, centres, span, costs, plants)
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) -> int:
@@ -199,7 +190,7 @@ def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: i
     angles = fit_curve(u, _path_angles(ours, theirs, path, warp.window), spacing=warp.spacing)
     # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
     beyond = 0.0 if slack else (half + 1) / rate
-    return _Pair(times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path))
+    return times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path)
 
 
 def _path_angles(ours: Array, theirs: Array, path: Indices, window: int) -> Array:
@@ -215,19 +206,8 @@ def _path_angles(ours: Array, theirs: Array, path: Indices, window: int) -> Arra
 def _identity(clip: Motion) -> _Pair:
     """Register the reference on itself."""
     h = clip.duration
-    return _Pair(
-        Curve(0.0, h, frozen([-h / 2, h / 2, 3 * h / 2], np.float64)),
-        Curve(0.0, h, frozen(np.zeros(3), np.float64)),
-        (0.0, h),
-        0.0,
-    )
-
-
-def _common_span(clips: Sequence[Motion], pairs: Sequence[_Pair]) -> tuple[float, float]:
-    """Find where all curves hold and no clip is at its end yet."""
-    limits = [pair.span for pair in pairs]
-    limits += [tuple(pair.times.inverse([0, c.duration])) for c, pair in zip(clips, pairs, strict=True)]
-    return max(float(low) for low, _ in limits), min(float(high) for _, high in limits)
+    line, zero = frozen([-h / 2, h / 2, 3 * h / 2], np.float64), frozen(np.zeros(3), np.float64)
+    return Curve(0.0, h, line), Curve(0.0, h, zero), (0.0, h), 0.0
 
 
 def _window_centres(clip: Motion, seconds: float) -> Array:
@@ -239,18 +219,14 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
 
 
 def _warn(clips: Sequence[Motion], reference: int, costs: Sequence[float], span: tuple[float, float]) -> None:
-    worst = int(np.argmax(costs))
+    worst, said = int(np.argmax(costs)), []
     if costs[worst] > UNLIKE:
-        warnings.warn(
+        said.append(
             f"'{clips[reference].name}' and '{clips[worst].name}' may not be the same kind of motion: "
-            f"{100 * costs[worst]:.0f} cm along the path.",
-            MocapWarning,
-            stacklevel=3,
+            f"{100 * costs[worst]:.0f} cm along the path."
         )
     shortest, common = min(clip.duration for clip in clips), span[1] - span[0]
     if common < shortest / 2:
-        warnings.warn(
-            f"The clips have only {common:.2f} s in common; the shortest one lasts {shortest:.2f} s.",
-            MocapWarning,
-            stacklevel=3,
-        )
+        said.append(f"The clips have only {common:.2f} s in common; the shortest one lasts {shortest:.2f} s.")
+    for sentence in said:
+        warnings.warn(sentence, MocapWarning, stacklevel=3)

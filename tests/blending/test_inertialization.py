@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocap.blending.inertialization import inertialize
-from mocap.blending.splicing import lay_window_on
+from mocap.blending.joining import lay_window_on
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from mocap.blending.inertialization import inertialize
 from mocap.blending.interpolation import blend
-from mocap.blending.joining import join
-from mocap.blending.splicing import lay_window_on
+from mocap.blending.joining import join, lay_window_on
 from mocap.blending.weights import linear_weights
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, SkeletonMismatch

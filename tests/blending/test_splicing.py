@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.blending.splicing import lay_window_on, splice
+from mocap.blending.joining import lay_window_on, splice
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud

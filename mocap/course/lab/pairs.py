@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Mask
-from mocap.blending.joining import join
-from mocap.blending.splicing import lay_window_on
+from mocap.blending.joining import join, lay_window_on
 from mocap.body.motion import Motion
 from mocap.body.planar import lay_on, place
 from mocap.errors import MocapError
