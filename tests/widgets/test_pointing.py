@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocap.blending import splicing
+from mocap.blending import joining
 from mocap.errors import MocapError
 from mocap.matching import distance_grids
 from mocap.plotting import grids, stick_figures
@@ -30,7 +30,7 @@ GRID = distance_grids.distance_grid(*CLIPS, window=10)  # shape (31, 41)
 def lay(at=(3, 20)):
     """Lay the windows over each other, as a notebook does."""
     (a, b), (i, j) = CLIPS, at
-    return stick_figures.laid_over(a[i : i + 10], splicing.lay_window_on(a, i, b, j, 10)[j : j + 10])
+    return stick_figures.laid_over(a[i : i + 10], joining.lay_window_on(a, i, b, j, 10)[j : j + 10])
 
 
 def experiment():
