@@ -16,6 +16,7 @@ Reading order (notebooks 00 to 09)
 8. `eight_node_search`: the walks that a search takes up on the eight-node graph, as a tree
 9. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
 10. `jolts`: what a blend adds to the velocities of its clips
+11. `pens`: arrows, words, discs and steps that several of them share
 
 References
 ----------

@@ -11,8 +11,8 @@ import matplotlib.pyplot as plt
 import networkx as nx
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+from mocap.course.diagrams.pens import disc
 from mocap.course.diagrams.small_graphs import EIGHT_PLACES
 from mocap.plotting.graph_drawing import node_link
 from mocap.plotting.style import CURVES, PATH, QUIET
@@ -23,12 +23,8 @@ Lengths = Mapping[int, Mapping[int, float]]
 """`lengths[a][b]` is the length of the edge from a to b."""
 
 FATES = {
-    "expanded": CURVES[0],
-    "complete": PATH,
-    "cut": CURVES[1],
-    "a dead end": "#000000",
-    "too long": "#666666",
-    "waiting": QUIET,
+    **{"expanded": CURVES[0], "complete": PATH, "cut": CURVES[1]},
+    **{"a dead end": "#000000", "too long": "#666666", "waiting": QUIET},
 }
 """What may happen to a walk, and its colour."""
 
@@ -79,12 +75,7 @@ def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list
 
 
 def search_steps(
-    graph: nx.MultiDiGraph,
-    start: int,
-    goal: int,
-    *,
-    longest: int = 8,
-    step: int | None = None,
+    graph: nx.MultiDiGraph, start: int, goal: int, *, longest: int = 8, step: int | None = None
 ) -> Figure:
     """Draw the search for the shortest walk between two nodes of the eight-node graph, after some steps.
 
@@ -183,10 +174,6 @@ def _draw_tree(ax: Axes, fates: Mapping[Walk, str], columns: Mapping[Walk, float
     ends = min(columns.values()), max(columns.values())
     ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
     ax.set_axis_off()
-    dots = [
-        Line2D([], [], linestyle="", marker="o", color="white" if fate == "waiting" else colour)
-        for fate, colour in FATES.items()
-    ]
-    for dot, colour in zip(dots, FATES.values(), strict=True):
-        dot.set_markeredgecolor(colour)
+    faces = {fate: "white" if fate == "waiting" else colour for fate, colour in FATES.items()}
+    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
     ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False, fontsize=8)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading
+from mocap.course.diagrams.pens import arrow, say, trace
 from mocap.plotting.style import COLOURS, CURVES, FLOOR, QUIET, SOURCES
 
 INK = COLOURS["middle"]
@@ -62,16 +63,15 @@ def _draw_sheet(ax: Axes, sheet: Sheet, angle: float) -> None:
     """Draw a sheet's axes, a point, and where a turn leads it, with the formula below."""
     first, second = sheet.names
     for name, axis in zip(sheet.names, sheet.axes, strict=True):
-        _arrow(ax, 0j, 1.25 * axis, INK)
-        ax.text((1.38 * axis).real, (1.38 * axis).imag, name, ha="center", va="center", fontsize=12)
+        arrow(ax, 0j, 1.25 * axis, INK)
+        say(ax, 1.38 * axis, name, fontsize=12)
     arc = 0.55 * np.exp(1j * np.linspace(START, START + angle, 30)) * sheet.axes[0]
-    ax.plot(arc.real, arc.imag, color=INK, linewidth=1)
-    middle = 0.7 * np.exp(1j * (START + angle / 2)) * sheet.axes[0]
-    ax.text(middle.real, middle.imag, "θ", color=INK, ha="center", va="center", fontsize=12)
+    trace(ax, arc, color=INK, linewidth=1)
+    say(ax, 0.7 * np.exp(1j * (START + angle / 2)) * sheet.axes[0], "θ", color=INK, fontsize=12)
     for colour, turn in ((QUIET, START), (CURVES[0], START + angle)):
         point = np.exp(1j * turn) * sheet.axes[0]
-        ax.plot([0, point.real], [0, point.imag], color=colour, linewidth=1.5)
-        ax.plot(point.real, point.imag, "o", color=colour, markersize=8)
+        trace(ax, np.array([0, point]), color=colour, linewidth=1.5)
+        trace(ax, point, marker="o", color=colour, markersize=8)
     ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=sheet.title)
     ax.title.set_fontsize(11)
     ax.set_axis_off()
@@ -213,13 +213,13 @@ def compass(headings: Mapping[str, float], ax: Axes) -> None:
 
 def _draw_heading(ax: Axes, angle: float, colour: str, wide: float = 1.8) -> None:
     """Draw a heading as an arrow: z points up the page and x to the left, so θ points to i exp(iθ)."""
-    _arrow(ax, 0j, 1j * np.exp(1j * angle), colour, wide)
+    arrow(ax, 0j, 1j * np.exp(1j * angle), colour, wide)
 
 
 def _draw_compass(ax: Axes) -> None:
     """Write the quarters around the arrows."""
     for place, word in ((1.2j, "0°"), (-1.2j, "±180°"), (-1.25 + 0j, "90°"), (1.25 + 0j, "−90°")):
-        ax.text(place.real, place.imag, word, ha="center", va="center", color=INK, fontsize=9)
+        say(ax, place, word, color=INK, fontsize=9)
     ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal")
     ax.set_axis_off()
 
@@ -231,7 +231,7 @@ def _draw_walker(ax: Axes, motion: Motion, colour: str, *, at: int) -> None:
     ax.plot(x[at], z[at], "o", color=colour, markersize=7)
     facing = float(heading(motion.rotations[at, 0]))
     here = complex(x[at], z[at])
-    _arrow(ax, here, here + 0.8 * complex(np.sin(facing), np.cos(facing)), colour)
+    arrow(ax, here, here + 0.8 * complex(np.sin(facing), np.cos(facing)), colour)
 
 
 def _draw_way(ax: Axes, start: complex, end: complex, *, turns: bool) -> None:
@@ -239,9 +239,4 @@ def _draw_way(ax: Axes, start: complex, end: complex, *, turns: bool) -> None:
     share = np.linspace(0, 1, 40)
     around = start * np.exp(1j * np.angle(end / start) * share)
     line = around if turns else start + (end - start) * share
-    ax.plot(line.real, line.imag, color=INK, linewidth=1, linestyle="--")
-
-
-def _arrow(ax: Axes, start: complex, end: complex, colour: str, wide: float = 1.8) -> None:
-    style = {"arrowstyle": "-|>", "color": colour, "linewidth": wide, "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=style)
+    trace(ax, line, color=INK, linewidth=1, linestyle="--")

@@ -9,14 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.plotting.style import COLOURS, MARK, QUIET, SOURCES
 from mocap.quality.blend_measures import blend_jolts
 from mocap.quality.seam_measures import jumps
-
-FIRST, SECOND, RESULT = SOURCES[0], SOURCES[1], COLOURS["middle"]
 
 
 def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint and a step)
@@ -79,28 +76,23 @@ def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint a
 def _velocities(ax: Axes, motions: tuple[Motion, ...], joint: str) -> None:
     """Draw a joint's velocity in the direction in which the first motion travels."""
     travelled = motions[0].root_positions[-1] - motions[0].root_positions[0]
-    ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
-    tracks = [_speed(motion, joint, ahead) for motion in motions]
-    styles = _styles(("first clip", "second clip, aligned", "the blend"))
-    for motion, track, style in zip(motions, tracks, styles, strict=True):
-        ax.plot((np.arange(len(track)) + 0.5) / motion.fps, track, **style)
+    ahead, tracks = travelled / max(float(np.linalg.norm(travelled)), 1e-9), []
+    for motion, look in zip(motions, _looks("first clip", "second clip, aligned", "the blend"), strict=True):
+        places = joint_positions(motion)[:, motion.skeleton.index(joint)]
+        tracks.append(np.diff(places, axis=0) @ ahead * motion.fps)
+        ax.plot((np.arange(len(tracks[-1])) + 0.5) / motion.fps, tracks[-1], **look)
     name = "root" if joint == motions[0].skeleton.names[0] else joint
     low, high = min(map(np.min, tracks)), max(map(np.max, tracks))
     ax.set(ylabel=f"forward velocity of '{name}' (m/s)", ylim=(low - 0.1, high + 0.35 * (high - low) + 0.1))
 
 
-def _speed(motion: Motion, joint: str, ahead: Array) -> Array:
-    track = joint_positions(motion)[:, motion.skeleton.index(joint)]
-    return np.asarray(np.diff(track, axis=0) @ ahead * motion.fps)
-
-
 def _jolts(ax: Axes, motions: tuple[Motion, ...]) -> None:
     """Draw the jolts of two clips and of their blend; at the ends there are none."""
-    for motion, style in zip(motions, _styles(("first clip", "second clip", "the blend")), strict=True):
-        ax.plot(np.arange(1, len(motion) - 1) / motion.fps, jumps(motion)[0][1:-1], **style)
+    for motion, look in zip(motions, _looks("first clip", "second clip", "the blend"), strict=True):
+        ax.plot(np.arange(1, len(motion) - 1) / motion.fps, jumps(motion)[0][1:-1], **look)
     ax.axhline(0, color=QUIET, linewidth=0.8)
 
 
-def _styles(labels: tuple[str, ...]) -> list[dict[str, Any]]:
-    looks = zip((FIRST, SECOND, RESULT), (2.6, 2.6, 1.3), labels, strict=True)
+def _looks(*labels: str) -> list[dict[str, Any]]:
+    looks = zip((*SOURCES[:2], COLOURS["middle"]), (2.6, 2.6, 1.3), labels, strict=True)
     return [{"color": colour, "linewidth": width, "label": label} for colour, width, label in looks]

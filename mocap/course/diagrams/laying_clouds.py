@@ -10,7 +10,7 @@ from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
-from mocap.errors import MocapError
+from mocap.course.diagrams.pens import require_step
 from mocap.matching.point_clouds import align, point_cloud, rms_distance
 from mocap.plotting.bodies import bones
 from mocap.plotting.style import CURVES, QUIET, SOURCES
@@ -36,8 +36,7 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
 
     Notebook: 02-matching
     """
-    if step not in range(1, len(STEPS) + 1):
-        raise MocapError(f"This diagram has the steps 1 to {len(STEPS)}, got {step}.")
+    require_step(step, len(STEPS))
     angle = align(*(point_cloud(motion).reshape(-1, 3) for motion in (first, second))).angle
     centre = PlanarTransform(0.0, *_mean(first))
     if step > 1:

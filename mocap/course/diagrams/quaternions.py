@@ -13,6 +13,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.course.diagrams.pens import arrow, say, trace
 from mocap.plotting.axes import ground_axes, to_picture
 from mocap.plotting.stick_figures import StickFigure
 from mocap.plotting.style import COLOURS, CURVES, MARK, QUIET
@@ -69,16 +70,13 @@ def _draw_turning(ax: Axes, points: Array) -> None:
     for number, point in enumerate(points):
         same = [name for name, other in zip(NAMES, points, strict=False) if abs(other - point) < 1e-9]
         colour = CURVES[0] if number == last else QUIET
-        style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4 + (number == last), "shrinkB": 0}
-        ax.annotate("", (point.real, point.imag), (0, 0), arrowprops=style)
-        at = 1.2 * point
-        ax.text(at.real, at.imag, ", ".join(same), ha="center", va="center", color=colour)
+        arrow(ax, 0j, point, colour, 1.4 + (number == last), shrinkA=2)
+        say(ax, 1.2 * point, ", ".join(same), color=colour)
     for before, after, radius in zip(points, points[1:], (0.7, 0.4), strict=False):
         turn = np.angle(after / before)
         way = radius * before / abs(before) * np.exp(1j * np.linspace(0, turn, 30))
-        ax.plot(way.real, way.imag, color=MARK, linewidth=1.5)
-        at = way[15] * (radius + 0.15) / radius
-        ax.text(at.real, at.imag, f"{np.degrees(turn):+.0f}°", ha="center", va="center", fontsize=9)
+        trace(ax, way, color=MARK, linewidth=1.5)
+        say(ax, way[15] * (radius + 0.15) / radius, f"{np.degrees(turn):+.0f}°", fontsize=9)
     ax.axhline(0, color=QUIET, linewidth=0.6)
     ax.axvline(0, color=QUIET, linewidth=0.6)
     ax.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
@@ -113,11 +111,10 @@ def double_cover(angle: float = 300, step: int = 2) -> Figure:
     _draw_circle(circle, points)
     if step == 2:
         for degrees in (turn, turn - 360):
-            style = {"color": CURVES[0], "linestyle": "-"}
-            if abs(degrees) > 180:
-                style = {"color": CURVES[1], "linestyle": "--"}
-            _draw_way(dial, 90, degrees, 0.75 if degrees >= 0 else 0.6, style)
-            _draw_way(circle, 0, degrees / 2, 0.75 if degrees >= 0 else 0.6, style)
+            long = abs(degrees) > 180
+            style = {"color": CURVES[long], "linestyle": "--" if long else "-"}
+            for ax, start, share in ((dial, 90, degrees), (circle, 0, degrees / 2)):
+                _draw_way(ax, start, share, 0.75 if degrees >= 0 else 0.6, style)
     dial.set_title(f"the body: {angle:.0f}°")
     w, along = np.cos(np.radians(half)), np.sin(np.radians(half))
     circle.set_title(f"q = ({w:.2f}, {along:.2f} along the axis)")
@@ -129,23 +126,22 @@ def double_cover(angle: float = 300, step: int = 2) -> Figure:
 def _draw_circle(ax: Axes, points: dict[str, float]) -> None:
     """Draw a circle with named points at angles in degrees."""
     around = np.exp(1j * np.linspace(0, 2 * np.pi, 90))
-    ax.plot(around.real, around.imag, color=QUIET, linewidth=0.8)
+    trace(ax, around, color=QUIET, linewidth=0.8)
     for name, degrees in points.items():
         at = np.exp(1j * np.radians(degrees))
-        ax.plot([0, at.real], [0, at.imag], color=COLOURS["middle"], linewidth=1.2)
-        ax.plot(at.real, at.imag, "o", color=COLOURS["middle"], markersize=7)
+        trace(ax, np.array([0, at]), color=COLOURS["middle"], linewidth=1.2)
+        trace(ax, at, marker="o", color=COLOURS["middle"], markersize=7)
         beside = "left" if at.real > 0.5 else "right" if at.real < -0.5 else "center"
         above = 1.33 if name == "no turn" else 1.16  # a small turn must not hide it
-        ax.text(1.1 * at.real, above * at.imag, name, ha=beside, va="center")
+        say(ax, 1.1 * at.real + 1j * above * at.imag, name, ha=beside)
     ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 
 
 def _draw_way(ax: Axes, start: float, degrees: float, radius: float, style: dict[str, str]) -> None:
     """Draw the arc of a turn from an angle, degrees, and write how far it goes."""
     way = radius * np.exp(1j * np.radians(start + np.linspace(0, degrees, 60)))
-    ax.plot(way.real, way.imag, linewidth=2.4, **style)  # type: ignore[arg-type]  # colour and line style
-    middle = way[30] * (radius - 0.22) / radius
-    ax.text(middle.real, middle.imag, f"{degrees:+.0f}°", ha="center", va="center", color=style["color"])
+    trace(ax, way, linewidth=2.4, **style)
+    say(ax, way[30] * (radius - 0.22) / radius, f"{degrees:+.0f}°", color=style["color"])
 
 
 def turns_in_order(body: Skeleton, step: int = 2) -> Figure:

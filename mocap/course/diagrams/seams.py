@@ -43,9 +43,7 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
     for letter, height, colour in (("i", FIRST, SOURCES[0]), ("j", SECOND, SOURCES[1])):
         for place in places:
             _frame(rows, (int(place), height), colour, _named(letter, int(place)))
-        rows.add_patch(
-            Rectangle((-0.55, height - 0.12), window + 0.1, BOX + 0.24, fill=False, edgecolor=MARK, lw=2.5)
-        )
+        _mark_window(rows, height, window)
     _result(rows, places.astype(float), alpha, (step, window))
     names = ["clip A", "clip B,\naligned", "result"]
     rows.set(xlim=(-AROUND - 0.7, window + AROUND - 0.3), ylim=(-0.4, FIRST + 1.4))
@@ -65,6 +63,12 @@ def _named(letter: str, steps: int) -> str:
     return f"${letter}$" if steps == 0 else f"${letter}{steps:+d}$"
 
 
+def _mark_window(ax: Axes, height: float, window: int) -> None:
+    """Put a frame around the window of a row."""
+    corner, wide = (-0.55, height - 0.12), window + 0.1
+    ax.add_patch(Rectangle(corner, wide, BOX + 0.24, fill=False, edgecolor=MARK, lw=2.5))
+
+
 def _frame(ax: Axes, corner: tuple[float, float], colour: str, name: str) -> None:
     """Draw a frame as a box with a name in it."""
     place, height = corner
@@ -82,20 +86,16 @@ def _result(ax: Axes, places: Array, alpha: Array, drawn: tuple[int, int]) -> No
         inside = 0 <= place < window
         if step < (3 if inside else 4):
             continue
-        left = place - BOX / 2
-        ax.add_patch(Rectangle((left, RESULT), BOX, BOX * share, facecolor=SOURCES[0], alpha=0.6))
-        ax.add_patch(
-            Rectangle((left, RESULT + BOX * share), BOX, BOX * (1 - share), facecolor=SOURCES[1], alpha=0.6)
-        )
+        for low, high, colour in ((0.0, share, SOURCES[0]), (share, 1.0, SOURCES[1])):
+            corner = place - BOX / 2, RESULT + BOX * low
+            ax.add_patch(Rectangle(corner, BOX, BOX * (high - low), facecolor=colour, alpha=0.6))
         name = "mix" if inside else _named("i" if place < 0 else "j", int(place))
         ax.text(place, RESULT + BOX / 2, name, ha="center", va="center", fontsize=9)
         if inside:
             for start in (FIRST, SECOND):
                 ax.plot([place, place], [start - 0.12, RESULT + BOX], color=QUIET, lw=0.6, zorder=0)
     if step >= 3:
-        ax.add_patch(
-            Rectangle((-0.55, RESULT - 0.12), window + 0.1, BOX + 0.24, fill=False, edgecolor=MARK, lw=2.5)
-        )
+        _mark_window(ax, RESULT, window)
 
 
 def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:

@@ -1,7 +1,7 @@
 """Small graphs, step by step: the homework's segments in rows, and Tarjan's search with its low links."""
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import networkx as nx
@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from mocap._shared.arrays import Array
+from mocap.course.diagrams.pens import disc
 from mocap.plotting.graph_drawing import node_link
 from mocap.plotting.style import MARK, QUIET, SOURCES
 
@@ -52,12 +53,8 @@ def segments_in_rows(graph: nx.DiGraph, names: list[str], *, step: int | None = 
         box.set(edgecolor="black" if dead else "white", linewidth=3 if dead else 0.5)
         ax.add_patch(box)
         ax.text(x + BOX / 2, y, str(node), ha="center", va="center", fontsize=7, color="white", zorder=4)
-    taken = [
-        (at[a], at[b])
-        for a, b, kind in graph.edges(data="kind")
-        if kind == "transition" and step in (None, a)
-    ]
-    _draw_lines(ax, np.array(taken, float).reshape(-1, 2, 2))
+    taken = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "transition" and step in (None, a)]
+    _draw_lines(ax, np.array([(at[a], at[b]) for a, b in taken], float).reshape(-1, 2, 2))
     _frame(ax, names, max(x for x, _ in at.values()))
     return figure
 
@@ -68,10 +65,8 @@ def _draw_lines(ax: Axes, ends: Array) -> None:
     leave = ends[:, 0] + np.stack([np.full(len(down), BOX), -GAP * down], axis=1)
     enter = ends[:, 1] + np.stack([np.full(len(down), 0.1), GAP * down], axis=1)
     few = len(ends) < 20
-    lines = LineCollection(
-        list(np.stack([leave, enter], axis=1)), colors=MARK, linewidths=1.8 if few else 0.7, zorder=0.5
-    )
-    ax.add_collection(lines)
+    lines = list(np.stack([leave, enter], axis=1))
+    ax.add_collection(LineCollection(lines, colors=MARK, linewidths=1.8 if few else 0.7, zorder=0.5))
     for sign, marker in ((1, "v"), (-1, "^")):
         ax.plot(*enter[down == sign].T, marker, color=MARK, markersize=6 if few else 4, zorder=3)
 
@@ -81,25 +76,18 @@ def _frame(ax: Axes, names: list[str], last: int) -> None:
     ax.set(xlim=(-0.5, last + 1.5), ylim=(-2 * len(names) + 1, 1), xlabel="segment of the clip, in order")
     ax.spines[["top", "right", "left"]].set_visible(False)
     ax.tick_params(left=False)
-    handles = [
-        Line2D([], [], color=MARK, marker="v", markersize=5),
-        Rectangle((0, 0), 1, 1, facecolor=QUIET, edgecolor="black", linewidth=3),
-    ]
-    names = ["a match: may follow", "nothing follows"]
-    ax.legend(handles, names, ncols=2, loc="lower right", bbox_to_anchor=(1, 1), fontsize=8, frameon=False)
+    match = Line2D([], [], color=MARK, marker="v", markersize=5, label="a match: may follow")
+    dead = Rectangle((0, 0), 1, 1, facecolor=QUIET, edgecolor="black", linewidth=3, label="nothing follows")
+    ax.legend(
+        handles=[match, dead], ncols=2, loc="lower right", bbox_to_anchor=(1, 1), fontsize=8, frameon=False
+    )
 
 
 Node = Hashable
 
 EIGHT_PLACES: dict[Node, tuple[float, float]] = {
-    1: (0, 1),
-    2: (1, 2),
-    3: (1, 0),
-    4: (-0.2, -0.6),
-    5: (3.6, 2.4),
-    6: (2.2, 2),
-    7: (3, 1),
-    8: (2.2, 0),
+    **{1: (0, 1), 2: (1, 2), 3: (1, 0), 4: (-0.2, -0.6)},
+    **{5: (3.6, 2.4), 6: (2.2, 2), 7: (3, 1), 8: (2.2, 0)},
 }
 """Where the nodes of `graphs.notes_example` stand in the pictures of the course."""
 
@@ -227,22 +215,13 @@ def _write_numbers(ax: Axes, state: SearchState, places: Mapping[Node, tuple[flo
 def _legend(ax: Axes, components: int) -> None:
     faces = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
     faces |= {f"component {n + 1}, complete": SOURCES[n] for n in range(components)}
-    discs = [
-        Line2D([], [], linestyle="", marker="o", markersize=9, color=face, markeredgecolor="black")
-        for face in faces.values()
-    ]
-    here = Line2D([], [], linestyle="", marker="o", markersize=9, color="white", markeredgecolor="black")
-    here.set_markeredgewidth(3)
+    look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
+    discs = [disc(face, **look) for face in faces.values()]
     ax.legend(
-        [*discs, here],
+        [*discs, disc("white", markeredgewidth=3, **look)],
         [*faces, "the search stands here"],
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        ncols=3,
-        fontsize=8,
-        frameon=False,
-        title="beside a node: index / low link",
-        title_fontsize=9,
+        **{"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3, "fontsize": 8, "frameon": False},
+        **{"title": "beside a node: index / low link", "title_fontsize": 9},
     )
 
 

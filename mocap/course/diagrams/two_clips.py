@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from mocap.course.diagrams.pens import arrow
 from mocap.plotting.style import COLOURS, MARK, PATH, QUIET, SOURCES
 
 Leap = tuple[int, float, int, float]
@@ -103,9 +104,7 @@ def _draw_walk(ax: Axes) -> None:
     """Draw the pieces of clip that the walk plays, numbered in their order."""
     for number, (clip, start, end) in enumerate(WALK, 1):
         lift = -clip - (0.18, 0.18, 0.32, 0.46)[number - 1]
-        ax.annotate(
-            "", (end, lift), (start, lift), arrowprops={"arrowstyle": "-|>", "color": PATH, "linewidth": 2.2}
-        )
+        arrow(ax, start + 1j * lift, end + 1j * lift, PATH, 2.2, shrinkA=2, shrinkB=2)
         ax.text(start - 0.12, lift, str(number), ha="center", va="center", fontsize=9)
 
 
@@ -113,14 +112,8 @@ def _draw_leap(ax: Axes, leap: Leap, number: int) -> None:
     """Draw a transition as an arrow: bent above its clip, or straight to the other one."""
     source, leaves, target, enters = leap
     bend = "arc3,rad=0.28" if source == target else "arc3,rad=0"
-    style = {"arrowstyle": "-|>", "color": PATH if number >= 3 else MARK, "linewidth": 1.8}
-    ax.annotate(
-        "",
-        (enters, -target),
-        (leaves, -source),
-        arrowprops=style | {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6},
-        zorder=3,
-    )
+    colour, look = PATH if number >= 3 else MARK, {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}
+    arrow(ax, leaves - 1j * source, enters - 1j * target, colour, **look).set_zorder(3)
 
 
 def _draw_nodes(ax: Axes, leaps: Sequence[Leap], *, pruned: bool) -> None:

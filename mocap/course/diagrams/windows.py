@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
@@ -16,12 +18,14 @@ from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
+from mocap.course.diagrams.pens import require_step
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints, matching_clouds, point_cloud
 from mocap.plotting.axes import ground_axes, keep_inside, to_picture
 from mocap.plotting.stick_figures import StickFigure
 from mocap.plotting.style import COLOURS, FLOOR, QUIET, SOURCES
 
+STYLES = "-", (0, (2, 1))  # of the first body, and of the second
 WINDOW_STEPS = ("one frame", "a window", "its joints", "the point cloud")
 
 
@@ -42,7 +46,7 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
 
     Notebook: 02-matching
     """
-    _require_step(step, len(WINDOW_STEPS))
+    require_step(step, len(WINDOW_STEPS))
     points, cloud = joint_positions(motion), point_cloud(motion)
     figure = Figure(figsize=(5.2, 4.8))
     above_and_below = np.concatenate([points, points * [1, 0, 1]])  # the shadow must fit as well
@@ -56,10 +60,9 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
     if step == 4:
         below = to_picture(cloud.reshape(-1, 3) * [1, 0, 1])
         ax.plot(*below.T, ".", color=QUIET, markersize=1.5, zorder=1)
-    counts = ("", f"{len(motion)} frames", "a point on each")
     sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {cloud[..., 0].size} points"
-    what = (*counts, sums)[step - 1]
-    ax.set_title(f"{WINDOW_STEPS[step - 1]}{': ' if what else ''}{what}", fontsize=11)
+    counts = ("", f": {len(motion)} frames", ": a point on each", f": {sums}")
+    ax.set_title(WINDOW_STEPS[step - 1] + counts[step - 1], fontsize=11)
     return figure
 
 
@@ -95,7 +98,7 @@ def matched_windows(first: Motion, second: Motion) -> Figure:
         StickFigure(first.skeleton, ax).pose(here[0])
         other = StickFigure(second.skeleton, ax, 0.75)
         for part in other.bones.values():
-            part.set(linestyle=(0, (2, 1)), linewidth=1.8)
+            part.set(linestyle=STYLES[1], linewidth=1.8)
         other.pose(here[1])
         ax.set_title(f"{words}: {np.sqrt((gaps[frame] ** 2).mean()):.1f} cm RMS", fontsize=11)
     _sides_and_bodies(figure, [first.name, second.name])
@@ -104,12 +107,11 @@ def matched_windows(first: Motion, second: Motion) -> Figure:
 
 def _sides_and_bodies(figure: Figure, names: Sequence[str]) -> None:
     """Say below the panels which line is whose."""
-    keys = [figure.axes[0].plot([], [], [], color=COLOURS[side], label=side)[0] for side in ("left", "right")]
-    for name, style in zip(names, ("-", (0, (2, 1))), strict=True):
-        (line,) = figure.axes[0].plot([], [], [], color=COLOURS["middle"], linestyle=style, label=name)
-        keys.append(line)
-    (thread,) = figure.axes[0].plot([], [], [], color=QUIET, linewidth=1, label="joint to joint")
-    figure.legend(handles=[*keys, thread], loc="lower center", ncols=5, frameon=False, fontsize=9)
+    looks: list[tuple[str, dict[str, Any]]] = [(side, {"color": COLOURS[side]}) for side in ("left", "right")]
+    looks += [(name, {"color": COLOURS["middle"], "ls": ls}) for name, ls in zip(names, STYLES, strict=True)]
+    looks += [("joint to joint", {"color": QUIET, "lw": 1})]
+    keys = [Line2D([], [], label=label, **look) for label, look in looks]
+    figure.legend(handles=keys, loc="lower center", ncols=5, frameon=False, fontsize=9)
 
 
 CIRCLE_STEPS = ("each from its own middle", "where a turn can move each point", "what no turn can remove")
@@ -134,7 +136,7 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
 
     Notebook: 02c-most-pairs
     """
-    _require_step(step, len(CIRCLE_STEPS))
+    require_step(step, len(CIRCLE_STEPS))
     figure = Figure(figsize=(5.6, 5.2), layout="constrained")
     ax = figure.add_subplot()
     places = [_from_middle(motion, joints) for motion in (first, second)]
@@ -197,7 +199,7 @@ def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:
     rows, columns = (count - window + 1 for count in numbers.shape)
     if min(rows, columns) < 1 or window < 1:
         raise MocapError(f"Windows of {window} frames do not fit into an array of shape {numbers.shape}.")
-    _require_step(step, window)
+    require_step(step, window)
     sums = sum(numbers[f : f + rows, f : f + columns] for f in range(step))
     figure = Figure(figsize=(8.4, 4.2), layout="constrained")
     frames, windows = figure.subplots(1, 2, width_ratios=(numbers.shape[1], columns))
@@ -228,8 +230,3 @@ def _box(corner: tuple[int, int], shape: tuple[int, int]) -> Rectangle:
     """Frame the cells of an array's part that starts at a row and a column."""
     at = corner[1] - 0.5, corner[0] - 0.5
     return Rectangle(at, shape[1], shape[0], fill=False, edgecolor=SOURCES[0], linewidth=2.5, zorder=3)
-
-
-def _require_step(step: int, last: int) -> None:
-    if step not in range(1, last + 1):
-        raise MocapError(f"This diagram has the steps 1 to {last}, got {step}.")

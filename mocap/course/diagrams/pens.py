@@ -1,0 +1,38 @@
+"""Pens that several diagrams share: arrows and words at points of a plane, legends' discs, and steps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
+
+from mocap.errors import MocapError
+
+
+def arrow(ax: Axes, start: complex, end: complex, colour: str, wide: float = 1.8, **style: Any) -> Annotation:  # noqa: ANN401
+    """Draw an arrow from a point across + i up to another."""
+    look = {"arrowstyle": "-|>", "color": colour, "linewidth": wide, "shrinkA": 0, "shrinkB": 0} | style
+    return ax.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=look)
+
+
+def say(ax: Axes, at: complex, words: str, **look: Any) -> None:  # noqa: ANN401
+    """Write words with their middle at a point across + i up."""
+    ax.text(at.real, at.imag, words, **({"ha": "center", "va": "center"} | look))
+
+
+def trace(ax: Axes, way: Any, **look: Any) -> None:  # noqa: ANN401
+    """Draw a line through complex points, or a dot on one."""
+    ax.plot(way.real, way.imag, **look)
+
+
+def disc(face: str, **look: Any) -> Line2D:  # noqa: ANN401
+    """Make a disc for a legend."""
+    return Line2D([], [], linestyle="", marker="o", color=face, **look)
+
+
+def require_step(step: int, last: int) -> None:
+    """Refuse a step that a diagram does not have."""
+    if step not in range(1, last + 1):
+        raise MocapError(f"This diagram has the steps 1 to {last}, got {step}.")
