@@ -9,6 +9,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import combinations, product
 from pathlib import Path
 
@@ -30,10 +31,9 @@ from mocap.graphs import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
 from mocap.quality import seam_quality, spread
 from mocap.steering import (
-    Beam,
     Controller,
     Followed,
-    Prices,
+    Settings,
     Wishes,
     follow_as_2002,
     follow_path,
@@ -129,13 +129,15 @@ def against_the_paper(graph: CompiledGraph) -> list[str]:
     best, seconds = timed(lambda: follow_path(graph, s_curve()))
     lines = [*HEAD, row("layers, K = 50", best, seconds)]
     for width in (10, 30, 100, 300):
-        found, took = timed(lambda width=width: follow_path(graph, s_curve(), beam=Beam(width=width)), 1)
+        found, took = timed(
+            lambda width=width: follow_path(graph, s_curve(), settings=Settings(width=width)), 1
+        )
         lines.append(row(f"layers, K = {width}", found, took))
     start = Wishes(start=best.walk[0][0], slide=0)
-    eq9 = {"prices": Prices(seam=0, match=0, stray=0), "tries": 1}
+    eq9 = Settings(seam=0, match=0, stray=0, rescue=0, tries=1)
     for width in (50, 300):
-        beam = Beam(width=width, rescue=0)
-        found, took = timed(lambda beam=beam: follow_path(graph, s_curve(), start, beam=beam, **eq9), 1)
+        same = replace(eq9, width=width)
+        found, took = timed(lambda same=same: follow_path(graph, s_curve(), start, settings=same), 1)
         lines.append(row(f"layers, Eq. 9 alone, K = {width}", found, took))
     for look, nodes in product([(20, 7), (30, 10), (45, 15), (60, 20), (90, 28)], (300, 3000)):
         budget = Budget(nodes=nodes)
@@ -176,8 +178,8 @@ def trade_off(found: dict[str, CompiledGraph]) -> list[str]:
 
 def _mean(graph: CompiledGraph, price: float) -> tuple[float, float, float]:
     """Average seams per second, and centimetres from the path in both ways, over the shapes."""
-    beam, prices = Beam(width=100, rescue=max(1.5, 2 * price)), Prices(seam=price)
-    walks = [follow_path(graph, draw(), beam=beam, prices=prices, tries=1) for draw in SHAPES.values()]
+    settings = Settings(seam=price, width=100, rescue=max(1.5, 2 * price), tries=1)
+    walks = [follow_path(graph, draw(), settings=settings) for draw in SHAPES.values()]
     near, equal = (np.mean([100 * off.mean() for off in offs]) for offs in _offs(walks))
     return float(np.mean([w.seams_per_second for w in walks])), float(near), float(equal)
 

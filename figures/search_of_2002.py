@@ -16,7 +16,7 @@ import mocap
 from mocap import datasets, graphs
 from mocap.body import GroundPath
 from mocap.graphs import CompiledGraph
-from mocap.steering import Beam, Followed, Prices, Wishes, follow_as_2002, follow_path
+from mocap.steering import Followed, Settings, Wishes, follow_as_2002, follow_path
 from mocap.synthesis import Budget
 
 LOOKS = [(10, 3), (20, 7), (30, 10), (45, 15), (60, 20), (90, 28)]
@@ -71,7 +71,7 @@ def table(graph: CompiledGraph, paths: list[GroundPath], *, most: bool) -> list[
 
     lines = [*HEAD, row("layers, all terms", layered)]
     for width in (50, 300):
-        eq9 = {"prices": Prices(seam=0, match=0, stray=0), "beam": Beam(width=width, rescue=0), "tries": 1}
+        eq9 = {"settings": Settings(seam=0, match=0, stray=0, width=width, rescue=0, tries=1)}
         found = each(lambda path, start, eq9=eq9: follow_path(graph, path, start, **eq9))
         lines.append(row(f"layers, Eq. 9 alone, width {width}", found))
     for nodes in (300, 3000, 30000)[: 2 + most]:

@@ -36,7 +36,7 @@ MODULES = {
     "body": "planar rotations",
     "graphs": "components pruning compiled_graph edge_tables motion_graph",
     "synthesis": "bounded_search",
-    "steering": "search_states beam_search path_objective",
+    "steering": "layered_search path_search path_objective",
     "feet": "leg_ik ankle_targets root_height knee_smoothing footskate footplants",
 }
 ABOVE = {"body": "matching blending feet", "matching": "graphs", "blending": "graphs quality"}

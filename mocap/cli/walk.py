@@ -93,9 +93,9 @@ def walk(
         return 0
     line = files.load_path(path, scale=unit)
     wishes = steering.Wishes(labels=[_label(text) for text in label])
-    beam = steering.Beam(width=width or 100, progress=bar("searching"))
+    settings = steering.Settings(width=width or 100, progress=bar("searching"))
     found = _graph(graph, clips, Sources(skeleton, scale), out)
-    followed = steering.follow_path(found, line, wishes, beam=beam, bend=math.radians(bend or 0))
+    followed = steering.follow_path(found, line, wishes, settings=settings, bend=math.radians(bend or 0))
     tell(walked=followed.report())
     write_out(followed.motion(clean=clean or bool(bend)), out)
     return 130 if followed.found.stopped else 0

@@ -4,11 +4,12 @@ A walk from the graph turns only where its clips turn; path editing can turn it 
 how much a walk must be turned beyond what it turns by itself, and not how far it strays.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from mocap._shared.arrays import Mask
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY
@@ -17,10 +18,10 @@ from mocap.editing.line_rounding import round_line
 from mocap.editing.path_editing import Ride
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
-from mocap.steering.beam_search import Found
 from mocap.steering.followed import Followed
 from mocap.steering.own_turning import OwnTurning, bending_on, own_ride, turning_of
 from mocap.steering.path_objective import Route, Wishes, make_route
+from mocap.steering.path_search import Found
 from mocap.synthesis.walk_to_motion import to_motion
 
 # Metres, and a share of the line: how far the search goes on beyond its end; the rest is cut.
@@ -55,49 +56,23 @@ class BentWalk(Followed):
 
     def report(self) -> str:
         """Say how well the walk keeps to the path, and where the path was rounded and by how much."""
-        line = f"{self.bent.report()}; {self.seams_per_second:.2f} seams per second"
-        if self.unlabelled.any():
-            line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
-        return line + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
+        return self._told(f"{self.bent.report()}; ")
 
 
-@dataclass(frozen=True, eq=False)
-class BendingPlan:
-    """What is prepared once to lay walks of a graph on a path.
+def plan_bending(
+    graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float
+) -> tuple[Route, Callable[[Found], BentWalk]]:
+    """Round a path for the usual pace of some clips, and lay out the wishes along it.
 
     Parameters
     ----------
-    graph, path : as for `follow_path`.
-    wishes : with metres along the rounded path.
+    graph, path, wishes : as for `follow_path`.
     limit : the fastest that a walk is turned, radians per second.
-    own : how the graph's walks turn by themselves.
-    route : the path, rounded for the clips' usual pace, so that the search reckons with what can be turned,
-        and a little further.
-    """
 
-    graph: CompiledGraph
-    path: GroundPath
-    wishes: Wishes
-    limit: float
-    own: OwnTurning
-    route: Route
-
-    def lay(self, found: Found) -> BentWalk:
-        """Lay a walk that was found on the path, and measure how well it follows."""
-        graph = self.graph
-        walk = [graph.edges[edge] for edge in found.edges]
-        ride = own_ride(graph, self.own, found.edges)
-        bent = bend(to_motion(graph.source, walk), self.path, limit=self.limit, ride=ride)
-        walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), len(bent.motion))) + 1]
-        track = bent.motion.root_positions[:, [0, 2]]
-        at_length = np.hypot(*(track - self.path.at(bent.ride.along)).T)
-        unlabelled = _unlabelled(bent, self.wishes)
-        place = (graph.source, self.path, walk, IDENTITY)
-        return BentWalk(*place, track, bent.along, bent.off, at_length, unlabelled, found, bent)
-
-
-def plan_bending(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float) -> BendingPlan:
-    """Round a path for the usual pace of some clips, and lay out the wishes along it.
+    Returns
+    -------
+    The route, which is rounded, so that the search reckons with what can be turned, and goes a little
+    further; and how to lay a walk that was found on the path.
 
     Raises
     ------
@@ -113,11 +88,9 @@ def plan_bending(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: 
     def rounded(where: float) -> float:
         return float(np.interp(where, line.asked, line.along))
 
-    wishes = replace(
-        wishes,
-        labels=[(rounded(where), label) for where, label in wishes.labels],
-        times=[(rounded(where), seconds) for where, seconds in wishes.times],
-    )
+    labels = [(rounded(where), label) for where, label in wishes.labels]
+    times = [(rounded(where), seconds) for where, seconds in wishes.times]
+    wishes = replace(wishes, labels=labels, times=times)
     points = line.path.points
     way = points[-1] - points[-2]
     # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.
@@ -125,7 +98,24 @@ def plan_bending(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: 
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
     route = make_route(graph, longer, wishes)
     bending = bending_on(own, longer, len(route.points))
-    return BendingPlan(graph, path, wishes, limit, own, replace(route, slide=0.0, bending=bending))
+    return replace(route, slide=0.0, bending=bending), partial(_lay, graph, path, wishes, limit)
+
+
+def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, found: Found) -> BentWalk:
+    """Lay a walk that was found on the path, and measure how well it follows."""
+    walk = [graph.edges[edge] for edge in found.edges]
+    ride = own_ride(graph, turning_of(graph), found.edges)
+    bent = bend(to_motion(graph.source, walk), path, limit=limit, ride=ride)
+    walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), len(bent.motion))) + 1]
+    track = bent.motion.root_positions[:, [0, 2]]
+    at_length = np.hypot(*(track - path.at(bent.ride.along)).T)
+    unlabelled = np.zeros(len(track), bool)
+    for where, label in sorted(wishes.labels):
+        there = bent.ride.along >= where
+        bears = bent.motion.labels.get(label, np.zeros(len(track), bool))
+        unlabelled[there] = bool(label) & ~bears[there]
+    place = (graph.source, path, walk, IDENTITY)
+    return BentWalk(*place, track, bent.along, bent.off, at_length, unlabelled, found, bent)
 
 
 def _steady(own: OwnTurning, fps: float, length: float) -> Ride:
@@ -135,13 +125,3 @@ def _steady(own: OwnTurning, fps: float, length: float) -> Ride:
         raise MocapError("The clips of this graph only stand: no walk of theirs can be laid on a path.")
     along = np.arange(0.0, length + 1.0, float(np.median(walks)))
     return Ride(GroundPath(np.array([[0.0, 0.0], [0.0, along[-1]]])), along, np.zeros((4, 2)))
-
-
-def _unlabelled(bent: Bent, wishes: Wishes) -> Mask:
-    """Mark the frames without the label asked for there."""
-    lacks = np.zeros(len(bent.along), bool)
-    for where, label in sorted(wishes.labels):
-        there = bent.ride.along >= where
-        bears = bent.motion.labels.get(label, np.zeros_like(lacks))
-        lacks[there] = bool(label) & ~bears[there]
-    return lacks

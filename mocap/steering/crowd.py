@@ -1,7 +1,7 @@
 """Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3].
 
 This serves a few characters whose paths are given and cross. A group that stays together and must find its
-way among obstacles is planned by `methods.groups`.
+way among obstacles is planned by `groups`.
 """
 
 import warnings
@@ -21,10 +21,11 @@ from mocap.editing.path_editing import moving_frames
 from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Beam
 from mocap.steering.followed import Followed
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Prices, Wishes
+from mocap.steering.path_objective import Settings, Wishes
+
+Search = Callable[[GroundPath, Wishes], Followed]
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
 ASIDE = 1.3  # times the distance to keep: how far a path is bent around another
@@ -47,7 +48,7 @@ def walk_crowd(  # noqa: PLR0913 (where, how far apart, and how to search)
     paths: Sequence[GroundPath],
     *,
     apart: float = 0.8,
-    beam: Beam | None = None,
+    settings: Settings | None = None,
     pool: Executor | None = None,
     bend: float = 0.0,
 ) -> Crowd:
@@ -64,7 +65,7 @@ def walk_crowd(  # noqa: PLR0913 (where, how far apart, and how to search)
     graph : pruned.
     paths : one per character.
     apart : the least distance between the roots of any two, metres.
-    beam : how thoroughly to search.
+    settings : as for `steering.follow_path`.
     bend : as for `steering.follow_path`: all are laid on their paths, which are bent around others.
     pool : a `concurrent.futures.ProcessPoolExecutor` for many characters; by default one after the other.
 
@@ -91,14 +92,19 @@ def walk_crowd(  # noqa: PLR0913 (where, how far apart, and how to search)
     """
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
-    compiled, beam = compile_graph(graph), beam or Beam(width=100)
-    walks = list((pool.map if pool else map)(partial(follow_path, compiled, beam=beam, bend=bend), paths))
+    compiled, settings = compile_graph(graph), settings or Settings(width=100)
+    alone = partial(follow_path, compiled, settings=settings, bend=bend)
+    walks = list((pool.map if pool else map)(alone, paths))
+    # Who gives way is free to leave the path or to slow down.
+    wide = replace(
+        settings, width=3 * (settings.width or 100), rescue=30.0, crowding=60.0, stray=0.0, tries=1
+    )
+    search = partial(follow_path, compiled, settings=wide, bend=bend)
     waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
     for character, path in enumerate(paths):
         before = tracks[:character]
         if _clearance(tracks[character], before) < apart:
             lines = [path, *(_around(path, tracks[character], before, apart) if bend else ())]
-            search = partial(_search, compiled, beam, bend)
             found = _give_way(search, lines, before, apart, compiled.fps)
             walks[character], waits[character], tracks[character] = found
     nearest = np.array([[_nearest(a, b) if a is not b else np.inf for b in tracks] for a in tracks])
@@ -113,19 +119,8 @@ def walk_crowd(  # noqa: PLR0913 (where, how far apart, and how to search)
     return Crowd(walks, waits, nearest)
 
 
-def _search(graph: CompiledGraph, beam: Beam, bend: float, path: GroundPath, wishes: Wishes) -> Followed:
-    """Find a walk along a path that is free to leave it or to slow down."""
-    wide = replace(beam, width=3 * (beam.width or 100), rescue=30.0)
-    prices = Prices(crowding=60.0, stray=0.0)
-    return follow_path(graph, path, wishes, beam=wide, prices=prices, tries=1, bend=bend)
-
-
 def _give_way(
-    search: Callable[[GroundPath, Wishes], Followed],
-    lines: Sequence[GroundPath],
-    before: Sequence[Array],
-    apart: float,
-    fps: float,
+    search: Search, lines: Sequence[GroundPath], before: Sequence[Array], apart: float, fps: float
 ) -> tuple[Followed, float, Array]:
     """Find a walk that keeps away from the tracks `before`, with the shortest wait that is enough.
 
@@ -153,8 +148,7 @@ def _around(path: GroundPath, track: Array, before: Sequence[Array], apart: floa
     It swerves by a bump of `ASIDE` times the distance to keep, and comes back to the path at its ends.
     """
     nearest = min(before, key=lambda other: _nearest(track, other))
-    frames = np.arange(len(track))
-    frame = int(np.hypot(*(track - nearest[np.minimum(frames, len(nearest) - 1)]).T).argmin())
+    frame = int(_distances(track, nearest)[: len(track)].argmin())
     fine = path.resampled(0.1)
     along, here = fine.along, int(np.hypot(*(fine.points - track[frame]).T).argmin())
     bump = np.exp(-(((along - along[here]) / REACH) ** 2) / 2)
@@ -170,7 +164,11 @@ def _clearance(track: Array, others: Sequence[Array]) -> float:
 
 
 def _nearest(a: Array, b: Array) -> float:
-    """Measure the smallest distance of two tracks, metres; the shorter one stays at its end."""
+    """Measure the smallest distance of two tracks, metres."""
+    return float(_distances(a, b).min())
+
+
+def _distances(a: Array, b: Array) -> Array:
+    """Measure the distance of two tracks in each frame, metres; the shorter one stays at its end."""
     frames = np.arange(max(len(a), len(b)))
-    apart = a[np.minimum(frames, len(a) - 1)] - b[np.minimum(frames, len(b) - 1)]
-    return float(np.hypot(*apart.T).min())
+    return np.hypot(*(a[np.minimum(frames, len(a) - 1)] - b[np.minimum(frames, len(b) - 1)]).T)

@@ -4,17 +4,16 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Points
+from mocap._shared.arrays import Array, Mask, Points, runs
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Found
 from mocap.steering.path_objective import Route, least_progress
+from mocap.steering.path_search import Found
 from mocap.synthesis.walk_to_motion import to_motion
 
 ASTRAY = 0.15  # metres from the path at which a walk has left it
@@ -61,7 +60,7 @@ class Followed:
     along: Array
     off: Array
     off_at_length: Array
-    unlabelled: NDArray[np.bool_]
+    unlabelled: Mask
     found: Found
 
     def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
@@ -71,7 +70,7 @@ class Followed:
     @property
     def seconds(self) -> float:
         """The duration of the motion."""
-        return len(self.off) / self.graph.clips[0].fps
+        return len(self.off) / self.graph.fps
 
     @property
     def seams_per_second(self) -> float:
@@ -87,9 +86,8 @@ class Followed:
     @property
     def excess(self) -> float:
         """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
-        return float(
-            max(self.off.mean() / NEAR, self.off.max() / ASTRAY, self.seams_per_second / self.most_seams)
-        )
+        off = self.off
+        return float(max(off.mean() / NEAR, off.max() / ASTRAY, self.seams_per_second / self.most_seams))
 
     @property
     def progress(self) -> float:
@@ -99,30 +97,31 @@ class Followed:
     @property
     def departures(self) -> list[Departure]:
         """The stretches more than 15 cm off the path."""
-        astray = np.concatenate([[False], self.off > ASTRAY, [False]])
-        starts, ends = np.flatnonzero(np.diff(astray)).reshape(-1, 2).T
         return [
             Departure(float(self.along[a]), float(self.along[b - 1]), float(self.off[a:b].max()))
-            for a, b in zip(starts, ends, strict=True)
+            for a, b in runs(self.off > ASTRAY)
         ]
 
     def report(self) -> str:
         """Say in one line how well the walk follows the path."""
-        line = (
+        return self._told(
             f"{self.seconds:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
             f"{100 * self.off.mean():.1f} cm off on average, {100 * self.off.max():.1f} cm at worst "
             f"({100 * self.off_at_length.mean():.1f} cm at equal arc length), "
-            f"{self.seams_per_second:.2f} seams per second"
         )
+
+    def _told(self, line: str) -> str:
+        """Add to a line what is said of every walk."""
+        line += f"{self.seams_per_second:.2f} seams per second"
         if self.unlabelled.any():
-            line += f", {self.unlabelled.sum() / self.graph.clips[0].fps:.1f} s without the label asked for"
+            line += f", {self.unlabelled.sum() / self.graph.fps:.1f} s without the label asked for"
         return line + (f"; {self.found.stopped}: the best so far" if self.found.stopped else "")
 
 
 def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) -> Followed:
     """Measure how far a walk is from its path, and find the frames without the label asked for."""
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
-    label = route.label[np.minimum(found.along / route.spacing, len(route.points) - 1).astype(np.intp)]
+    label = route.label[route.point(found.along)]
     bears = graph.labels.bears[label, rows] if graph.labels.names else np.zeros(len(rows), bool)
     return Followed(
         graph.source,
@@ -142,7 +141,7 @@ def _distance(route: Route, body: Points, along: Array) -> Array:
     """Measure the distance of the body from the path within 0.5 m of where it should be."""
     reach = int(0.5 / route.spacing) + 1
     near = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
-    start = route.points[np.clip(near, 0, len(route.points) - 2)]  # (F, pieces)
-    piece = route.points[np.clip(near, 0, len(route.points) - 2) + 1] - start
+    near = np.clip(near, 0, len(route.points) - 2)  # (F, pieces)
+    start, piece = route.points[near], np.diff(route.points)[near]
     share = ((body[:, None] - start) * piece.conj()).real / np.abs(piece) ** 2
     return np.asarray(np.abs(body[:, None] - start - np.clip(share, 0, 1) * piece).min(axis=1))

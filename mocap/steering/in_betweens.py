@@ -20,9 +20,8 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.end_bending import STRETCH, TURN, Arrived, Limits, bend_to, played
-from mocap.steering.held_ends import stand
+from mocap.steering.held_ends import meet_poses, stand
 from mocap.steering.moments import Choices, Moment, choices
-from mocap.steering.pose_fading import meet_poses
 from mocap.steering.two_sided_search import Joined, TwoSided
 from mocap.synthesis.walk_to_motion import to_motion, with_plants
 
@@ -144,13 +143,14 @@ def in_between(
     (121, array([1., 3.]))
     """
     graph, limits = compile_graph(graph), limits or Limits()
-    frames = _frames(seconds, graph.fps)
+    if not (np.isfinite(seconds) and 2 / graph.fps <= seconds <= LONGEST):
+        raise MocapError(f"A motion lasts from {2 / graph.fps:.2f} to {LONGEST:g} s, got {seconds} s.")
+    frames = round(seconds * graph.fps)
     near = _near(graph, start, 1, limits), _near(graph, end, -1, limits)
     search = TwoSided(graph, near, frames, limits)
     source = with_plants(graph.source)
     found = [_changed(source, graph, joined, frames, limits) for joined in search.best(TRIED)]
-    chosen = _least(found, limits, search)
-    return _met(graph, chosen, start, end)
+    return _met(graph, _least(found, limits, search), start, end)
 
 
 def _near(graph: CompiledGraph, moment: Moment, way: int, limits: Limits) -> Choices:
@@ -163,13 +163,6 @@ def _near(graph: CompiledGraph, moment: Moment, way: int, limits: Limits) -> Cho
             f"of the clips, and {limits.pose:g} m is the limit: take a pose more like theirs."
         )
     return near.take(close)
-
-
-def _frames(seconds: float, fps: float) -> int:
-    """Give the number of frames from the first to the last."""
-    if not (np.isfinite(seconds) and 2 / fps <= seconds <= LONGEST):
-        raise MocapError(f"A motion lasts from {2 / fps:.2f} to {LONGEST:g} s, got {seconds} s.")
-    return round(seconds * fps)
 
 
 class _Changed(NamedTuple):
@@ -237,15 +230,9 @@ def _met(graph: CompiledGraph, changed: _Changed, start: Moment, end: Moment) ->
     motion = laid
     for _ in range(ROUNDS):
         motion, _ = meet_poses(stand(motion), start, end, speed=False)
-    edges = changed.joined.edges
+    edges, arrived = changed.joined.edges, changed.arrived
+    took = (arrived.turned, arrived.steps, changed.pace, faded, int(graph.blended[edges].sum()))
     walk = [graph.edges[edge] for edge in edges]
-    took = (
-        changed.arrived.turned,
-        changed.arrived.steps,
-        changed.pace,
-        faded,
-        int(graph.blended[edges].sum()),
-    )
     found = InBetween(motion, laid, graph.source, walk, start, end, *took)
     if found.kept < 1:
         warnings.warn(

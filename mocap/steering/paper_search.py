@@ -1,52 +1,39 @@
 """Path synthesis as the paper does it: branch and bound with the cost of Eq. 9 [KGP02, 5.1]."""
 
-from typing import NamedTuple
-
 import numpy as np
 
-from mocap._shared.arrays import ranges
 from mocap.body.ground_path import GroundPath
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Found
 from mocap.steering.followed import Followed, account
 from mocap.steering.path_following import start_of
 from mocap.steering.path_objective import Route, Wishes, least_progress, make_route
+from mocap.steering.path_search import Found
 from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_ahead
+from mocap.synthesis.ground_walks import GroundWalks, Stand
 
 
-class PathState(NamedTuple):
-    """A walk's state: its clip is placed by p ↦ turn · p + move, and it is `along` metres along its path."""
-
-    turn: complex
-    move: complex
-    along: float
-
-
-class PathCost:
+class PathCost(GroundWalks):
     """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk ends when P' is as long as P.
 
     `cost` and `done` are the `step` and the `done` of a `synthesis.Problem`.
     """
 
     def __init__(self, graph: CompiledGraph, route: Route) -> None:
-        self.graph, self.route = graph, route
-        self.number: dict[SearchEdge, int] = {edge: number for number, edge in enumerate(graph.edges)}
-        self.step = least_progress(graph, route)
+        super().__init__(graph)
+        self.route, self.progress = route, least_progress(graph, route)
 
-    def cost(self, state: PathState, edge: SearchEdge) -> tuple[float, PathState]:
-        """Give the cost of an edge after a walk in this state, and the next state."""
-        graph, e = self.graph, self.number[edge]
-        rows = slice(graph.tracks.first[e], graph.tracks.first[e] + graph.frames[e])
-        along = state.along + np.cumsum(self.step[rows])
-        off = np.abs(state.turn * graph.tracks.ground[rows] + state.move - self.route.at(along))
-        turn, move = state.turn * graph.turn[e], state.move + state.turn * graph.move[e]
-        return float((off**2).sum()), PathState(turn, move, float(along[-1]))
+    def cost(self, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
+        """Give the cost of an edge after a walk that stands so, and where it leads."""
+        points, after = self.step(stand, edge)
+        along = stand.along + np.cumsum(self.progress[self.rows(edge)])
+        off = np.abs(points - self.route.at(along))
+        return float((off**2).sum()), after._replace(along=float(along[-1]))
 
-    def done(self, state: PathState) -> bool:
+    def done(self, stand: Stand) -> bool:
         """Say whether the walk has reached the end of the path."""
-        return state.along >= self.route.length
+        return stand.along >= self.route.length
 
 
 def follow_as_2002(
@@ -89,17 +76,14 @@ def follow_as_2002(
     compiled = compile_graph(graph)
     route = make_route(compiled, path, wishes)
     start = start_of(compiled, route, wishes)
-    state = PathState(complex(start.turn[0]), complex(start.move[0]), 0.0)
-    cost = PathCost(compiled, route)
-    problem = Problem(compiled.source.graph, cost.cost, cost.done)
-    node = compiled.nodes[int(start.node[0])]
-    result = search_ahead(problem, node, state, look=look, budget=budget)
+    stand = Stand(complex(start.turn[0]), complex(start.move[0]))
+    walks = PathCost(compiled, route)
+    problem = Problem(compiled.source.graph, walks.cost, walks.done)
+    result = search_ahead(problem, compiled.nodes[int(start.node[0])], stand, look=look, budget=budget)
     if not result.walk:
         raise NoWalk(f"The search was {result.stopped} before its first step.")
-    edges = np.array([cost.number[edge] for edge in result.walk])
-    rows = ranges(compiled.tracks.first[edges], compiled.frames[edges])
-    along = np.cumsum(cost.step[rows])
-    found = Found(
-        edges, state.turn, state.move, along, result.cost, result.expanded, result.cut, result.stopped
-    )
+    edges = np.array([walks.number[edge] for edge in result.walk])
+    along = np.cumsum(np.concatenate([walks.progress[walks.rows(edge)] for edge in result.walk]))
+    counts = result.expanded, result.cut, result.stopped
+    found = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
     return account(compiled, path, route, found)

@@ -14,31 +14,29 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Beam, Found, find_walk
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.followed import Departure, Followed, account
-from mocap.steering.path_objective import Prices, Route, Wishes, make_route
-from mocap.steering.search_states import States, start_states
+from mocap.steering.layered_search import States, start_states
+from mocap.steering.path_objective import Route, Settings, Wishes, make_route
+from mocap.steering.path_search import Found, find_walk
 
 AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
 
-def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
+def follow_path(
     graph: MotionGraph | CompiledGraph,
     path: GroundPath,
     wishes: Wishes | None = None,
     *,
-    beam: Beam | None = None,
-    prices: Prices | None = None,
-    tries: int = 3,
+    settings: Settings | None = None,
     bend: float = 0.0,
 ) -> Followed:
     """Find a walk whose root, seen from above, follows a path [KGP02, 5.1].
 
-    The search is a beam search; its time is linear in the path's length. No single price of a seam suits all
-    paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the search
-    is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk is
-    taken. Where no clip turns as the path does, the walk cuts the corner and returns; a warning says where.
+    The search is a `LayeredSearch`; its time is linear in the path's length. No single price of a seam suits
+    all paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the
+    search is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk
+    is taken. Where no clip turns as the path does, the walk cuts the corner; a warning says where.
 
     With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
     its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet
@@ -49,9 +47,7 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
     graph : pruned, so that walks do not end; compile it yourself to follow many paths.
     path : where to walk.
     wishes : labels, times and the start.
-    beam : how thoroughly to search.
-    prices : what deviations cost.
-    tries : the largest number of searches; 1 for one search with this beam and these prices.
+    settings : how thoroughly to search, and what deviations cost.
     bend : the fastest that a walk is turned beyond its own turning, radians per second: `editing.LIMIT`, 60°
         per second, looks right. 0 leaves walks as they are.
 
@@ -82,46 +78,39 @@ def follow_path(  # noqa: PLR0913 (where, what for, and how thoroughly)
 
     Notebook: 08-path-synthesis
     """
-    wishes, compiled = wishes or Wishes(), compile_graph(graph)
-    if tries < 1:
-        raise MocapError(f"A path takes at least one search, got tries={tries}.")
-    route, measure = _objective(compiled, path, wishes, bend)
+    wishes, settings, compiled = wishes or Wishes(), settings or Settings(), compile_graph(graph)
+    if settings.tries < 1:
+        raise MocapError(f"A path takes at least one search, got tries={settings.tries}.")
+    measure: Callable[[Found], Followed]
+    if bend:
+        route, measure = plan_bending(compiled, path, wishes, bend)
+    else:
+        route = make_route(compiled, path, wishes)
+        measure = partial(account, compiled, path, route)
     starts = start_of(compiled, route, wishes)
     _require_labels(compiled, [label for _, label in sorted(wishes.labels)], starts.node)
 
-    def search(beam: Beam, prices: Prices) -> Followed:
-        return measure(find_walk(compiled, route, starts, beam, prices))
+    def search(settings: Settings) -> Followed:
+        return measure(find_walk(compiled, route, starts, settings))
 
-    beam = replace(beam or Beam(), width=(beam or Beam()).width_on(route))
-    followed = _best_of(search, beam, prices or Prices(), tries)
+    followed = _best_of(search, replace(settings, width=settings.width_on(route)))
     if not wishes.others:  # with others it leaves the path to give way
         _warn(followed.departures, "it turns too fast there" if bend else "no clips turn as it does there")
     return followed
 
 
-def _objective(
-    graph: CompiledGraph, path: GroundPath, wishes: Wishes, bend: float
-) -> tuple[Route, Callable[[Found], Followed]]:
-    """Lay out what a walk is asked for, and say how to measure one that was found."""
-    if bend:
-        plan = plan_bending(graph, path, wishes, bend)
-        return plan.route, plan.lay
-    route = make_route(graph, path, wishes)
-    return route, partial(account, graph, path, route)
-
-
-def _best_of(search: Callable[[Beam, Prices], Followed], beam: Beam, prices: Prices, tries: int) -> Followed:
+def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Followed:
     """Search; while `excess` is above 1, search again with a wider beam and another price of a seam."""
     begun = time.monotonic()
-    best = last = search(beam, prices)
-    for again in range(1, tries):
+    best = last = search(settings)
+    for again in range(1, settings.tries):
         if best.excess <= 1 or last.found.stopped:
             return best
-        seam = prices.seam * (AGAIN if best.seams_per_second > best.most_seams else 1 / AGAIN)
-        left = beam.seconds - (time.monotonic() - begun)
-        wider = replace(beam, width=round((1 + again / 2) * (beam.width or 0)), seconds=left)
+        seam = settings.seam * (AGAIN if best.seams_per_second > best.most_seams else 1 / AGAIN)
+        left = settings.seconds - (time.monotonic() - begun)
+        wider = round((1 + again / 2) * (settings.width or 0))
         try:
-            last = search(wider, replace(prices, seam=seam))
+            last = search(replace(settings, seam=seam, width=wider, seconds=left))
         except NoWalk:  # the time was over before the first step
             return best
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
@@ -148,7 +137,8 @@ def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
     heading = float(np.angle(first[-1] - first[0])) if wishes.heading is None else wishes.heading
     if not np.isfinite(heading):
         raise MocapError(f"The heading to start in must be a finite number of radians, got {heading}.")
-    return start_states(graph, nodes, complex(first[0]), heading)
+    turn = np.exp(1j * (heading - graph.going[nodes]))
+    return start_states(nodes, turn, first[0] - turn * graph.at[nodes])
 
 
 def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices) -> None:

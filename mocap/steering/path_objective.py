@@ -1,5 +1,7 @@
 """The path objective: a path, the wishes along it, and the price of each deviation from them."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -7,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.progress import Progress
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError
@@ -55,14 +58,15 @@ class Wishes:
 
 
 @dataclass(frozen=True)
-class Prices:
-    """What deviations cost; the unit is m², because a frame that is d metres off the path costs d².
+class Settings:
+    """How thoroughly to search, and what deviations cost.
 
-    With `Prices(seam=0, match=0, stray=0)` the distance is all that a walk pays for, as in [KGP02, Eq. 9].
+    The unit of prices is m², because a frame that is d metres off the path costs d². With
+    `Settings(seam=0, match=0, stray=0)` the distance is all that a walk pays for, as in [KGP02, Eq. 9].
 
     Parameters
     ----------
-    seam : for each transition.
+    seam : the price of each transition.
     match : times D, a transition's cost in m²; 30 is the price of 30 frames that are √D off the path.
     stray : times d⁴ in each frame, 1/m²; with 100, the cost of a frame 10 cm off the path is doubled.
     label : for each frame without the label asked for.
@@ -70,13 +74,18 @@ class Prices:
     crowding : times the square of the metres too near to another, in each frame.
     bend : of walks that are laid on the path: times the square of the radians per second by which a frame is
         turned beyond what it turns itself.
-    idle : of such walks: for each frame that moves on by less than the least progress.
+    width : walks that stay in each layer; by default 100, or 50 where the path is the only wish.
+    alike : walks at one node, in one cell of so many metres and so many radians, stand alike.
+    rescue : the largest expected cost of a walk that is about to leave the path, m².
+    tries : the largest number of searches; 1 for one search with this width and these prices.
+    seconds : time to search; after it the best walk so far is taken.
+    progress : wraps the layers, to show a bar.
 
     Examples
     --------
     Fewer transitions, further from the path:
 
-    >>> Prices(seam=1.0).seam
+    >>> Settings(seam=1.0).seam
     1.0
 
     Notebook: 08-path-synthesis
@@ -89,7 +98,16 @@ class Prices:
     late: float = 0.2
     crowding: float = 1.0
     bend: float = 0.05
-    idle: float = 0.1
+    width: int | None = None
+    alike: float = 0.1
+    rescue: float = 1.5
+    tries: int = 3
+    seconds: float = np.inf
+    progress: Progress = iter
+
+    def width_on(self, route: Route) -> int:
+        """Give the width, or its default for a route."""
+        return self.width or (50 if route.bare else 100)
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ A search from one side finds many walks that pass near the end, and few that sta
 are lengthened from both sides. Every node where one of each kind stands joins two of them: n walks from each
 side give up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
 
-The walks are `search_states.States`, whose `along` are their metres and whose `hop` is their last step. All
+The walks are `States`, whose `along` are their metres and whose `hop` is their last step. All
 places are in the world: p ↦ turn · p + move lays the clip of a walk's last node. Where walk a from the
 start meets walk b from the end, b's clip lies where a's should. The difference is what must be bent.
 """
@@ -15,11 +15,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Points, ranges
+from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering.end_bending import RISE, STRETCH, TURN, Limits
+from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
 from mocap.steering.moments import Choices
-from mocap.steering.search_states import States, prune
 
 # What a walk costs beside `TURN` and `STRETCH`: a seam costs as much as a second that is turned by 57° per
 # second.
@@ -91,11 +91,7 @@ class TwoSided:
     """
 
     def __init__(
-        self,
-        graph: CompiledGraph,
-        near: tuple[Choices, Choices],
-        frames: int,
-        limits: Limits,
+        self, graph: CompiledGraph, near: tuple[Choices, Choices], frames: int, limits: Limits
     ) -> None:
         self.graph, self.frames, self.limits = graph, frames, limits
         self.starts, self.ends = starts, ends = near
@@ -109,48 +105,21 @@ class TwoSided:
     def best(self, most: int) -> list[Joined]:
         """Join the walks of both sides, and give the cheapest ones; none where no two of them meet."""
         half, rest = self.frames / 2, (self.limits.pace - 0.5) * self.frames
-        seeds = (_seeds(self.first, self.starts), _seeds(self.last, self.ends))
-        there, middle = self.spread(self.steps, seeds[0], half, self.there)
+        there = _Front(self, self.steps, self.starts, half)
+        back = _Front(self, self.steps.backwards(), self.ends, rest)
+        for front in (there, back):
+            for _ in front:
+                pass
+        middle = States.join(there.arrived or [there.history[0].take(slice(0))])
         middle = middle.take(np.argsort(middle.cost, kind="stable")[:MEET])
-        back, _ = self.spread(self.steps.backwards(), seeds[1], rest, self.here)
-        one, other = _meetings(middle.node, back.node)
-        price = self.prices(middle.take(one), back.take(other))
+        behind = States.join(back.history)
+        one, other = _meetings(middle.node, behind.node)
+        price = self.prices(middle.take(one), behind.take(other))
         order = np.argsort(price, kind="stable")
         order = order[np.isfinite(price[order])]
         _, first = np.unique(one[order], return_index=True)  # with each walk from the start its best end
         cheap = order[np.sort(first)[:most]]
-        return [self.trace(there, middle, back, int(one[n]), int(other[n])) for n in cheap]
-
-    def spread(self, steps: Steps, seeds: States, most: float, goal: complex) -> tuple[States, States]:
-        """Lengthen walks until they are `most` frames long: give all of those before, and all beyond."""
-        order = np.argsort(steps.leaves, kind="stable")
-        first = np.searchsorted(steps.leaves[order], np.arange(len(steps.at) + 1))
-        size = max(1, round(LAYER * self.graph.fps))
-        waiting, history, beyond, number = {0: [seeds]}, [], [], 0
-        for layer in range(int(most / size) + 1):
-            while parts := waiting.pop(layer, []):
-                walks = self.select(steps, States.join(parts), goal)
-                history.append(walks)
-                count = first[walks.node + 1] - first[walks.node]
-                of, step = np.repeat(np.arange(len(count)), count), order[ranges(first[walks.node], count)]
-                longer = _longer(steps, walks, of, step, number)
-                number += len(walks.node)
-                over = longer.frames >= most
-                beyond.append(longer.take(over))
-                longer = longer.take(~over)
-                reached = np.maximum(longer.frames // size, layer)
-                for then in np.unique(reached).tolist():
-                    waiting.setdefault(then, []).append(longer.take(reached == then))
-        return States.join(history), States.join(beyond)
-
-    def select(self, steps: Steps, walks: States, goal: complex) -> States:
-        """Of walks that stand alike keep the cheapest, and of these the best by their way still to go."""
-        place = walks.move + walks.turn * steps.at[walks.node]
-        left = np.maximum(self.frames - walks.frames, 1) / self.graph.fps
-        short = np.log(np.maximum(np.abs(goal - place) / (self.speed * left), 1.0))
-        cells = (place.real / PLACE, place.imag / PLACE, np.angle(walks.turn) / ANGLE)
-        alike = np.stack([walks.node, *(np.floor(values).astype(np.intp) for values in cells)])
-        return prune(walks, walks.cost + STRETCH * left * short**2, alike, WIDTH)
+        return [self.join(there.trace(middle, int(one[n])), back.trace(behind, int(other[n]))) for n in cheap]
 
     def prices(self, one: States, other: States) -> Array:
         """Estimate what each pair of walks that meet costs with all that is left to bend.
@@ -178,12 +147,10 @@ class TwoSided:
         price += BEYOND * np.maximum(PEAK * further - np.log(limits.steps), 0.0)
         return np.where(np.abs(pace) <= (1 - RISE) * np.log(limits.pace), price, np.inf)
 
-    def trace(self, there: States, middle: States, back: States, one: int, other: int) -> Joined:
+    def join(self, there: States, back: States) -> Joined:
         """List the edges of two walks that meet."""
-        before, first = _trail(there, int(middle.trail[one]))
-        after, last = _trail(back, other)
-        steps = np.array([*before[::-1], int(middle.hop[one]), *after])
-        start, end = first - self.first, last - self.last
+        steps = np.concatenate([there.hop[1:], back.hop[:0:-1]])
+        start, end = int(there.node[0]) - self.first, int(back.node[0]) - self.last
         edges, turn = self.steps.edge[steps], complex(self.starts.turn[start])
         laid = complex(self.ends.turn[end])
         return Joined(
@@ -192,10 +159,57 @@ class TwoSided:
             frames=int(self.steps.frames[steps].sum()),
             turn=turn,
             move=complex(self.starts.move[start]),
-            end=complex(self.ends.move[end] + laid * self.steps.at[last]),
+            end=complex(self.ends.move[end] + laid * self.steps.at[self.last + end]),
             apart=float(np.angle(laid / (turn * np.prod(self.graph.turn[edges])))),
             cost=float(self.steps.cost[steps].sum()),
         )
+
+
+class _Front(LayeredSearch):
+    """The walks of one side, lengthened until they are `most` frames long."""
+
+    def __init__(self, of: TwoSided, steps: Steps, seeds: Choices, most: float) -> None:
+        first, goal = (of.first, of.there) if seeds is of.starts else (of.last, of.here)
+        nodes = first + np.arange(len(seeds.off))
+        super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH, every=True)
+        self.of, self.steps, self.most, self.goal = of, steps, most, goal
+        self.order = np.argsort(steps.leaves, kind="stable")
+        self.first = np.searchsorted(steps.leaves[self.order], np.arange(len(steps.at) + 1))
+
+    def expand(self, states: States) -> States:
+        """Lengthen every walk by every step that leaves its point."""
+        count = np.diff(self.first)[states.node]
+        of, step = np.repeat(np.arange(len(count)), count), self.order[ranges(self.first[states.node], count)]
+        steps, turn = self.steps, states.turn[of]
+        return States(
+            node=steps.enters[step],
+            turn=turn * steps.turn[step],
+            move=states.move[of] + turn * steps.move[step],
+            along=states.along[of] + steps.metres[step],
+            frames=states.frames[of] + steps.frames[step],
+            cost=states.cost[of] + steps.cost[step],
+            trail=of,
+            hop=step,
+        )
+
+    def score(self, states: States) -> Array:
+        """Rate walks by their cost, and by how much longer steps must become to reach the goal in time."""
+        place = states.move + states.turn * self.steps.at[states.node]
+        left = np.maximum(self.of.frames - states.frames, 1) / self.of.graph.fps
+        short = np.log(np.maximum(np.abs(self.goal - place) / (self.of.speed * left), 1.0))
+        return np.asarray(states.cost + STRETCH * left * short**2)
+
+    def cells(self, states: States) -> Indices:
+        """Give the point, and cells of the ground and of directions."""
+        return standing(states, self.steps.at, PLACE, ANGLE)
+
+    def layers(self, states: States) -> Indices:
+        """Count layers of `LAYER` seconds."""
+        return states.frames // max(1, round(LAYER * self.of.graph.fps))
+
+    def done(self, states: States) -> Mask:
+        """Say which walks are long enough."""
+        return states.frames >= self.most
 
 
 def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> Steps:
@@ -230,29 +244,6 @@ def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> Steps
     )
 
 
-def _seeds(first: int, choices: Choices) -> States:
-    """Start a walk at each choice."""
-    count = len(choices.off)
-    none, nothing = np.zeros(count, np.intp), np.zeros(count)
-    node = first + np.arange(count)
-    return States(node, choices.turn, choices.move, nothing, none, nothing, none - 1, none - 1)
-
-
-def _longer(steps: Steps, walks: States, of: Indices, step: Indices, number: int) -> States:
-    """Lengthen the walks `of` by one step each; the first walk is the one with this number."""
-    turn = walks.turn[of]
-    return States(
-        node=steps.enters[step],
-        turn=turn * steps.turn[step],
-        move=walks.move[of] + turn * steps.move[step],
-        along=walks.along[of] + steps.metres[step],
-        frames=walks.frames[of] + steps.frames[step],
-        cost=walks.cost[of] + steps.cost[step],
-        trail=number + of,
-        hop=step,
-    )
-
-
 def _meetings(one: Indices, other: Indices) -> tuple[Indices, Indices]:
     """Pair every row of one with the rows of the other that hold the same node, `PAIRS` of them at most."""
     order = np.argsort(other, kind="stable")
@@ -260,12 +251,3 @@ def _meetings(one: Indices, other: Indices) -> tuple[Indices, Indices]:
     count = stop - first
     count[np.cumsum(count) > PAIRS] = 0
     return np.repeat(np.arange(len(one)), count), order[ranges(first, count)]
-
-
-def _trail(history: States, walk: int) -> tuple[list[int], int]:
-    """List the steps of a walk from its last one to its first, and the point where it starts."""
-    steps = []
-    while history.hop[walk] >= 0:
-        steps.append(int(history.hop[walk]))
-        walk = int(history.trail[walk])
-    return steps, int(history.node[walk])

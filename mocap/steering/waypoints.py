@@ -10,10 +10,9 @@ from mocap.body.ground_path import GroundPath, spline
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.beam_search import Beam
 from mocap.steering.followed import Followed
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Prices, Wishes
+from mocap.steering.path_objective import Settings, Wishes
 
 
 class Waypoint(NamedTuple):
@@ -54,8 +53,7 @@ def through_waypoints(
     graph: MotionGraph | CompiledGraph,
     waypoints: Sequence[Waypoint],
     *,
-    beam: Beam | None = None,
-    prices: Prices | None = None,
+    settings: Settings | None = None,
     bend: float = 0.0,
 ) -> WaypointWalk:
     """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
@@ -67,7 +65,7 @@ def through_waypoints(
     ----------
     graph : pruned.
     waypoints : two or more; times count from the start of the motion.
-    beam, prices, bend : as for `steering.follow_path`; `prices.late` is the price of a delay.
+    settings, bend : as for `steering.follow_path`; `Settings.late` is the price of a delay.
 
     Raises
     ------
@@ -93,8 +91,7 @@ def through_waypoints(
         times.insert(0, (0.0, 0.0))
     if any(seconds == 0 for place, seconds in times if place > 0):
         raise MocapError("Only the first waypoint can be asked for at 0 s.")
-    wishes = Wishes(labels=labels, times=times)
-    followed = follow_path(graph, path, wishes, beam=beam, prices=prices, bend=bend)
+    followed = follow_path(graph, path, Wishes(labels=labels, times=times), settings=settings, bend=bend)
     return WaypointWalk(followed, [_arrival(followed, a, p) for a, p in zip(along, waypoints, strict=True)])
 
 

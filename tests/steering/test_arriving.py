@@ -23,9 +23,9 @@ from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
 from mocap.steering.end_bending import Limits, bend_to, level_rise, played
+from mocap.steering.held_ends import meet_poses
 from mocap.steering.in_betweens import in_between
 from mocap.steering.moments import Moment, choices
-from mocap.steering.pose_fading import meet_poses
 from mocap.steering.two_sided_search import TwoSided
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion, with_plants

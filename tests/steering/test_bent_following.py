@@ -16,10 +16,9 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
-from mocap.steering.beam_search import Beam
 from mocap.steering.bent_following import BentWalk
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Prices, Wishes
+from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import bundled, sneaking, walking
 from tests.editing.test_path_editing import acc99, slide
@@ -86,7 +85,7 @@ def test_the_search_asks_for_little_bending():
     """A walk found by its distance and bent afterwards is turned as much, or has more seams."""
     path = SOME["sine"]
     bent = quietly(walking(), path)
-    careless = quietly(walking(), path, prices=Prices(bend=0))
+    careless = quietly(walking(), path, settings=Settings(bend=0))
     assert np.square(bent.bent.turned).sum() < 0.6 * np.square(careless.bent.turned).sum()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)
@@ -133,7 +132,7 @@ def test_labels_and_times_are_kept_on_the_line():
 
 
 def test_a_search_that_is_stopped_says_so():
-    followed = quietly(walking(), SOME["sine"], beam=Beam(seconds=0.05))
+    followed = quietly(walking(), SOME["sine"], settings=Settings(seconds=0.05))
     assert followed.report().endswith("the best so far") or followed.progress > 0.97
 
 

@@ -8,9 +8,9 @@ import pytest
 from mocap.body.ground_path import GroundPath
 from mocap.editing.bending import LIMIT
 from mocap.errors import MocapError, MocapWarning
-from mocap.steering.beam_search import Beam
 from mocap.steering.crowd import walk_crowd
 from mocap.steering.path_following import follow_path
+from mocap.steering.path_objective import Settings
 from tests.bundled import walking
 from tests.steering.test_bent_following import straight_walker
 
@@ -25,7 +25,7 @@ def apart(a, b):
 
 
 def test_who_would_collide_gives_way():
-    alone = [follow_path(GRAPH, path, beam=Beam(width=100)) for path in CROSSING]
+    alone = [follow_path(GRAPH, path, settings=Settings(width=100)) for path in CROSSING]
     crowd = walk_crowd(GRAPH, CROSSING)
     assert apart(*(walk.track for walk in alone)) < 0.3
     assert crowd.nearest[0, 1] >= 0.8
@@ -47,7 +47,7 @@ def test_what_falls_short_is_told():
     """Two who start in one place cannot keep apart, whoever waits; it says which, and how near they come."""
     paths = [*CROSSING, GroundPath([[0, 0.1], [0, 6]])]
     with pytest.warns(MocapWarning, match=r"Characters 0 and 2 come as near as 0\.\d\d m, though 0\.80 m"):
-        crowd = walk_crowd(GRAPH, paths, beam=Beam(width=30))
+        crowd = walk_crowd(GRAPH, paths, settings=Settings(width=30))
     tracks = [
         np.concatenate([np.repeat(walk.track[:1], round(30 * wait), axis=0), walk.track])
         for walk, wait in zip(crowd.walks, crowd.waits, strict=True)
@@ -62,7 +62,7 @@ def test_who_is_far_apart_walks_as_if_alone():
     paths = [CROSSING[0], GroundPath([[9, 0], [9, 6]])]
     crowd = walk_crowd(GRAPH, paths)
     assert [w.walk for w in crowd.walks] == [
-        follow_path(GRAPH, path, beam=Beam(width=100)).walk for path in paths
+        follow_path(GRAPH, path, settings=Settings(width=100)).walk for path in paths
     ]
     assert crowd.waits == [0.0, 0.0]
     assert walk_crowd(GRAPH, paths[:1]).nearest.tolist() == [[np.inf]]

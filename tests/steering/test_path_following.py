@@ -19,10 +19,10 @@ from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from mocap.steering import followed as following
 from mocap.steering import path_following
-from mocap.steering.beam_search import Beam, find_walk
 from mocap.steering.followed import account
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Prices, Wishes
+from mocap.steering.path_objective import Settings, Wishes
+from mocap.steering.path_search import find_walk
 from tests.bundled import sneaking, walking
 
 GRAPH = walking()
@@ -72,16 +72,16 @@ def test_distance_at_equal_arc_length_is_that_of_eq_9():
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_with_every_term_off_the_cost_is_eq_9():
     """Then the search sums the squares of the distance at equal arc length, and nothing else."""
-    plain, beam = Prices(seam=0, match=0, stray=0), Beam(width=30, rescue=0)
-    followed = follow_path(GRAPH, s_curve(10), Wishes(slide=0), prices=plain, beam=beam, tries=1)
+    plain = Settings(seam=0, match=0, stray=0, width=30, rescue=0, tries=1)
+    followed = follow_path(GRAPH, s_curve(10), Wishes(slide=0), settings=plain)
     assert followed.found.cost == pytest.approx((followed.off_at_length**2).sum(), rel=1e-6)
-    slid = follow_path(GRAPH, s_curve(10), prices=plain, beam=beam, tries=1)
+    slid = follow_path(GRAPH, s_curve(10), settings=plain)
     assert slid.found.cost != pytest.approx((slid.off_at_length**2).sum(), rel=0.01)
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_dear_seams_are_few():
-    cheap, dear = (follow_path(GRAPH, s_curve(), prices=Prices(seam=seam), tries=1) for seam in (0.01, 2.0))
+    cheap, dear = (follow_path(GRAPH, s_curve(), settings=Settings(seam=s, tries=1)) for s in (0.01, 2.0))
     assert dear.seams_per_second < 0.8 * cheap.seams_per_second
 
 
@@ -90,31 +90,31 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     """By a second and a third, wider search, at another price; the best walk is taken."""
     tried, walks = [], []
 
-    def search(graph, route, starts, beam, prices):
-        tried.append((beam, prices))
-        return find_walk(graph, route, starts, beam, prices)
+    def search(graph, route, starts, settings):
+        tried.append(settings)
+        return find_walk(graph, route, starts, settings)
 
     def measure(*args):
         walks.append(account(*args))
         return walks[-1]
 
     def widths():
-        found = [beam.width for beam, _ in tried]
+        found = [settings.width for settings in tried]
         tried.clear()
         return found
 
     monkeypatch.setattr(path_following, "find_walk", search)
     monkeypatch.setattr(path_following, "account", measure)
-    once = follow_path(GRAPH, s_curve(), tries=1)
+    once = follow_path(GRAPH, s_curve(), settings=Settings(tries=1))
     assert once.excess > 1
     assert widths() == [50]
     better = follow_path(GRAPH, s_curve())
     assert better.excess == min(walk.excess for walk in walks)
-    assert (tried[1][1].seam > Prices.seam) == (once.seams_per_second > 1)
+    assert (tried[1].seam > Settings.seam) == (once.seams_per_second > 1)
     assert widths() in ([50, 75], [50, 75, 100])
     with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
-        slow.setattr("mocap.steering.beam_search.time", SimpleNamespace(monotonic=count().__next__))
-        stopped = follow_path(GRAPH, s_curve(), beam=Beam(width=100, seconds=30))
+        slow.setattr("mocap.steering.path_search.time", SimpleNamespace(monotonic=count().__next__))
+        stopped = follow_path(GRAPH, s_curve(), settings=Settings(width=100, seconds=30))
     assert stopped.found.stopped == "out of time"
     assert widths() == [100]
     for bound in ("NEAR", "ASTRAY", "SEAMS"):
@@ -132,12 +132,12 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
 def test_a_second_search_that_is_stopped_is_the_last(monkeypatch, left):
     searches = []
 
-    def search(graph, route, starts, beam, prices):
-        searches.append(beam)
-        late = replace(beam, seconds=left) if len(searches) == 2 else beam
-        return find_walk(graph, route, starts, late, prices)
+    def search(graph, route, starts, settings):
+        searches.append(settings)
+        late = replace(settings, seconds=left) if len(searches) == 2 else settings
+        return find_walk(graph, route, starts, late)
 
-    monkeypatch.setattr("mocap.steering.beam_search.time", SimpleNamespace(monotonic=count().__next__))
+    monkeypatch.setattr("mocap.steering.path_search.time", SimpleNamespace(monotonic=count().__next__))
     monkeypatch.setattr(path_following, "find_walk", search)
     assert follow_path(GRAPH, s_curve()).progress == 1.0
     assert len(searches) == 2

@@ -18,12 +18,11 @@ from mocap.feet.footskate import clean_up
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.methods.groups.flocking import RATE, Trajectories, nearest_two
-from mocap.steering.beam_search import Beam
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Prices, Wishes
+from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import with_plants
 
-PRICES = Prices(late=1.0)  # in m² per s²: in time, at 0.9 seams per second
+LATE = 1.0  # m² per s²: in time, at 0.9 seams per second
 EVERY = 1.0  # seconds between the places that are passed in time
 KEPT = 0.9  # a smaller share of planted frames is warned of
 NARROW = 40  # walks in a beam
@@ -76,7 +75,7 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     flock: Trajectories,
     *,
     bend: bool = True,
-    beam: Beam | None = None,
+    settings: Settings | None = None,
     pool: Executor | None = None,
     progress: Progress = iter,
 ) -> GroupWalkers:
@@ -92,7 +91,8 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     graph : pruned.
     flock : where the members go, as `play_group` gives it.
     bend : put each walk exactly onto its member's way.
-    beam : how thoroughly to search.
+    settings : as for `steering.follow_path`; by default a delay costs more, and with `bend` the search is
+        narrow, and done once.
     pool : a `concurrent.futures.ProcessPoolExecutor` for many members.
     progress : wraps the members, to show a bar.
 
@@ -129,7 +129,7 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
             "does it lead away from where the group starts?"
         )
     compiled = _with_plants(graph)
-    one = partial(_walk_one, compiled, bend=bend, beam=beam)
+    one = partial(_walk_one, compiled, bend=bend, settings=settings)
     walked = list((pool.map if pool else map)(one, progress(list(flock.places.T))))
     motions = tuple(motion for motion, _ in walked)
     kept = float(np.mean([share for _, share in walked]))
@@ -150,7 +150,9 @@ def _with_plants(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     return compile_graph(graph if marked is source else marked)
 
 
-def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool, beam: Beam | None) -> tuple[Motion, float]:
+def _walk_one(
+    graph: CompiledGraph, places: Points, *, bend: bool, settings: Settings | None
+) -> tuple[Motion, float]:
     """Walk one member's way, (F,) complex at ten places per second; say which share of plants is kept."""
     wanted, further = _at_rate(places, graph.fps), _carried_on(places)
     path = GroundPath(from_ground(further))
@@ -158,10 +160,10 @@ def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool, beam: Beam | 
     some = np.arange(0, len(further), round(EVERY * RATE))
     times = [(float(along[k]), float(k / RATE)) for k in some]
     # A walk that is put onto its way need not be searched for so thoroughly.
-    beam, tries = beam or Beam(width=NARROW if bend else None), 1 if bend else 3
+    settings = settings or Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # what matters is said of all together
-        found = follow_path(graph, path, Wishes(times=times), beam=beam, prices=PRICES, tries=tries)
+        found = follow_path(graph, path, Wishes(times=times), settings=settings)
     walked = found.motion()[: len(wanted)]
     if bend:
         ride = ride_of(walked)

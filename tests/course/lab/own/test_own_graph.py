@@ -15,8 +15,9 @@ from mocap.course.lab.own import building, walking
 from mocap.course.lab.own.building import find_matches, joint_cloud, packages, window_distances
 from mocap.errors import MocapError, NoWalk
 from mocap.graphs import compile_graph
-from mocap.steering.paper_search import PathCost, PathState
+from mocap.steering.paper_search import PathCost
 from mocap.steering.path_objective import Wishes, make_route
+from mocap.synthesis.ground_walks import Stand
 
 WINDOW, THRESHOLD = 10, 0.05
 PATH = body.arcs((0, 0), heading=0.0, pieces=[(2.0, 1.0), (2.0, -1.0)])
@@ -141,7 +142,7 @@ def test_what_a_walk_costs_is_eq_9_and_a_price_for_each_seam(cubic_graph, theirs
     walk = own.follow_own(cubic_graph, line.points, cubic, seam=0.2)
     compiled = compile_graph(theirs)
     cost = PathCost(compiled, make_route(compiled, line, Wishes()))
-    state, total = PathState(walk.turn, walk.move, 0.0), 0.0
+    state, total = Stand(walk.turn, walk.move), 0.0
     for key in keys(walk, theirs):
         more, state = cost.cost(state, key)
         total += more
@@ -168,7 +169,7 @@ def test_a_wide_beam_that_merges_nothing_finds_the_cheapest_walk_of_all(
     cost = PathCost(compiled, make_route(compiled, line, Wishes()))
     problem = synthesis.Problem(theirs.graph, cost.cost, cost.done)
     best = min(
-        synthesis.branch_and_bound(problem, start.node, PathState(start.turn, start.move, 0.0)).cost
+        synthesis.branch_and_bound(problem, start.node, Stand(start.turn, start.move)).cost
         for start in walking.starts(cubic_graph, line, cubic)
     )
     assert found.cost == pytest.approx(best, rel=1e-9)

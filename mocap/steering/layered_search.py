@@ -1,0 +1,167 @@
+"""One search in layers: many unfinished walks as arrays, lengthened together; the best of each layer go on.
+
+A depth-first search, as in the paper, is too slow for a dense graph: there are dozens of choices per second,
+and it tries few of them before the time is over. But what a walk can still do depends only on its node, its
+place and its direction. So here all walks advance together, a layer at a time: a few centimetres of a path,
+or a tenth of a second. The time is linear in the number of layers.
+
+Ground points are complex numbers z + ix, and p ↦ turn · p + move lays the clip of a walk's last node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array, Indices, Points
+
+
+class States(NamedTuple):
+    """N unfinished walks: where each ends, and its cost so far; each field has shape (N,).
+
+    Examples
+    --------
+    >>> zero = np.zeros(2, np.intp)
+    >>> walks = States(zero, zero + 1j, zero + 0j, zero + 0.0, zero, np.array([4.0, 3.0]), zero, zero - 1)
+    >>> walks.take(walks.cost.argsort()).cost
+    array([3., 4.])
+    """
+
+    node: Indices
+    turn: Points  # with move, places the node's clip
+    move: Points
+    along: Array  # metres
+    frames: Indices
+    cost: Array
+    trail: Indices  # the number of the state before, -1 at a start
+    hop: Indices  # what led here, -1 at a start
+
+    def take(self, chosen: slice | NDArray[Any]) -> States:
+        """Take some of the walks."""
+        return States._make(values[chosen] for values in self)
+
+    @staticmethod
+    def join(parts: Sequence[States]) -> States:
+        """Put several sets of walks into one."""
+        return States._make(np.concatenate(values) for values in zip(*parts, strict=True))
+
+
+def start_states(nodes: Indices, turn: Points, move: Points) -> States:
+    """Start a walk at each of some nodes, whose clips are laid by p ↦ turn · p + move."""
+    none = np.zeros(len(nodes), np.intp)
+    return States(nodes, turn, move, none + 0.0, none, none + 0.0, none - 1, none - 1)
+
+
+def standing(states: States, at: Points, place: float, turn: float) -> Indices:
+    """Round the state of walks to whole numbers (4, N): node, and cells of `place` metres and `turn` radians.
+
+    `at`, shape (nodes,), is where the root is at each node, in the coordinates of its clip.
+    """
+    body = (states.move + states.turn * at[states.node]) / place
+    cells = np.floor([body.real, body.imag, np.angle(states.turn) / turn])
+    return np.concatenate([states.node[None], cells.astype(np.intp)])
+
+
+def select(scores: Array, cells: Indices, width: int) -> Indices:
+    """Choose the best one of the walks that stand alike, and of these the `width` best, in order.
+
+    Parameters
+    ----------
+    scores : shape (N,); small is good.
+    cells : shape (C, N), whole numbers; walks with the same column stand alike.
+    width : how many to choose.
+
+    Examples
+    --------
+    >>> select(np.array([3.0, 1.0, 2.0]), np.array([[7, 7, 7], [1, 1, 2]]), 5)
+    array([1, 2])
+
+    Notebook: 08-path-synthesis
+    """
+    order = np.argsort(scores, kind="stable")
+    cells = cells[:, order]
+    alike = np.lexsort(cells)  # walks that stand alike come together, the best of them first
+    cells = cells[:, alike]
+    new = np.concatenate([[True], (cells[:, 1:] != cells[:, :-1]).any(axis=0)])
+    return np.asarray(order[np.sort(alike[new])[:width]])
+
+
+class LayeredSearch:
+    """A search in layers; iterate over it, and each round gives the walks that stayed.
+
+    The caller drives it, so that a clock, a bar, a key press or a picture can come between two rounds. A kind
+    of search says in its own `expand`, `score`, `cells`, `layers` and `done` what it looks for.
+
+    Parameters
+    ----------
+    starts : the first walks.
+    width : walks that stay in a round.
+    every : whether to keep every walk that arrives; else no walk goes on that costs as much as the best one.
+    """
+
+    def __init__(self, starts: States, width: int, *, every: bool = False) -> None:
+        self.waiting: dict[int, list[States]] = {0: [starts]}
+        self.width, self.every = width, every
+        self.history: list[States] = []
+        self.arrived: list[States] = []
+        self.expanded = self.cut = 0
+
+    def expand(self, states: States) -> States:
+        """Lengthen walks; the `trail` of a longer one is the row of the walk that it goes on from."""
+        raise NotImplementedError
+
+    def score(self, states: States) -> Array:
+        """Rate walks (N,), small is good: their cost, and what they are expected to cost still."""
+        raise NotImplementedError
+
+    def cells(self, states: States) -> Indices:
+        """Give columns of whole numbers (C, N) that are equal where walks stand alike."""
+        raise NotImplementedError
+
+    def layers(self, states: States) -> Indices:
+        """Say which layer each walk has reached (N,)."""
+        raise NotImplementedError
+
+    def done(self, states: States) -> NDArray[np.bool_]:
+        """Say which walks have arrived (N,)."""
+        raise NotImplementedError
+
+    def __iter__(self) -> Iterator[States]:
+        while self.waiting:
+            yield from self.rounds(min(self.waiting))
+
+    def rounds(self, layer: int) -> Iterator[States]:
+        """Work through a layer: keep its best walks, and put what they become into the layers they reach."""
+        while parts := self.waiting.pop(layer, []):
+            states = States.join(parts)
+            chosen = states.take(select(self.score(states), self.cells(states), self.width))
+            self.history.append(chosen)
+            self.cut += len(states.node) - len(chosen.node)
+            yield chosen
+            longer = self.expand(chosen)
+            longer = self.still_going(longer._replace(trail=longer.trail + self.expanded))
+            self.expanded += len(chosen.node)
+            # A walk that has not left the layer goes on in it, or it would compete with those ahead.
+            reached = np.maximum(self.layers(longer), layer)
+            for then in set(reached.tolist()):
+                self.waiting.setdefault(then, []).append(longer.take(reached == then))
+
+    def still_going(self, states: States) -> States:
+        """Put aside the walks that have arrived, and drop those that cannot become the best one."""
+        done = self.done(states)
+        if not done.any():
+            return states
+        self.arrived.append(states.take(done))
+        # No cost is below 0, so a walk that costs as much as the best one cannot become better.
+        best = np.inf if self.every else min(arrived.cost.min() for arrived in self.arrived)
+        return states.take(~done & (states.cost < best))
+
+    def trace(self, states: States, row: int) -> States:
+        """Give the states of one walk, from its start over all rounds to this row of some states."""
+        history, rows = States.join(self.history), [int(states.trail[row])]
+        while rows[-1] >= 0:
+            rows.append(int(history.trail[rows[-1]]))
+        return States.join([history.take(np.array(rows[-2::-1], int)), states.take(slice(row, row + 1))])

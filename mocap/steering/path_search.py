@@ -1,0 +1,227 @@
+"""The layered search for the best walk along a route: what its walks cost, and which of them go on.
+
+1. Of the walks in a layer that stand alike, only the best one stays (dominance).
+2. Of these, only the `width` best stay (the beam).
+3. Each of them is lengthened by every hop that leaves its node, and put into the layer that it reaches.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap.errors import NoWalk
+from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
+from mocap.steering.layered_search import LayeredSearch, States, standing
+from mocap.steering.own_turning import Bending
+from mocap.steering.path_objective import Route, Settings, least_progress
+
+LAYER = 0.15  # metres of path
+IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
+CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
+
+
+class Found(NamedTuple):
+    """The best walk found.
+
+    `edges` are numbers in the compiled graph; the first one's clip is placed by p ↦ turn · p + move. `along`
+    gives each frame's progress along the path, metres. `expanded` counts the walks that were lengthened,
+    `cut` those that were dropped. `stopped` is "", or the reason why the search ended early.
+    """
+
+    edges: Indices
+    turn: complex
+    move: complex
+    along: Array
+    cost: float
+    expanded: int
+    cut: int
+    stopped: str
+
+
+def find_walk(graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> Found:
+    """Find the best walk from one of the starts to the end of a route.
+
+    After Ctrl-C, or when the time is over, it is the best so far.
+
+    Raises
+    ------
+    NoWalk : where every walk ends before the route does, or the time is over before the first step.
+    """
+    search, stopped = PathSearch(graph, route, starts, settings), ""
+    deadline = time.monotonic() + settings.seconds
+    try:
+        for layer in settings.progress(range(int(route.length / LAYER) + 1)):
+            for _ in search.rounds(layer):
+                if time.monotonic() > deadline:
+                    stopped = "out of time"
+                    return search.found(stopped)
+    except KeyboardInterrupt:
+        stopped = "interrupted"
+    return search.found(stopped)
+
+
+class PathSearch(LayeredSearch):
+    """A search along a route, with H hops of T frames together and N nodes.
+
+    Parameters
+    ----------
+    graph, route : the graph, and the path with its wishes.
+    starts : where walks start.
+    settings : how thoroughly to search, and what deviations cost.
+    """
+
+    def __init__(self, graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> None:
+        super().__init__(starts, settings.width_on(route))
+        self.graph, self.route, self.settings = graph, route, settings
+        hops, bending = graph.hops, route.bending
+        progress = (
+            np.maximum(bending.own.step, CREEP / graph.fps) if bending else least_progress(graph, route)
+        )
+        before = np.concatenate([[0.0], np.cumsum(progress)])
+        parts = before[hops.starts + hops.counts] - before[hops.starts]  # (H, 2)
+        # Metres: a running sum over the frames of all edges (T,); what to subtract from it in both parts of
+        # each hop (H, 2), so that it counts from the hop's start; and the length of each hop (H,).
+        self.along, self.length = before[1:], parts.sum(axis=1)
+        self.since = before[hops.starts] - np.stack([np.zeros(len(parts)), parts[:, 0]], axis=1)
+        # The price of each hop's transition (H,); metres from each node in the next `AHEAD` seconds (N, 3).
+        self.price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)[hops.last]
+        self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
+
+    def expand(self, states: States) -> States:
+        """Lengthen every walk by every hop that leaves its node.
+
+        The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
+        prices. One departure from the paper: after each hop s moves half-way to the point of the path
+        abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved.
+        `Wishes.slide` is the share of that distance.
+        """
+        graph, length = self.graph, self.length
+        of, hop = graph.hops.leaving(states.node)
+        last, turn = graph.hops.last[hop], states.turn[of]
+        new = States(
+            graph.target[last],
+            turn * graph.turn[last],
+            states.move[of] + turn * graph.move[last],
+            states.along[of] + length[hop],
+            states.frames[of] + graph.hops.frames[hop],
+            states.cost[of] + (self.price[hop] + self.hop_costs(states, of, hop)),
+            of,
+            hop,
+        )
+        if self.route.bending:
+            return self.laid(new, self.route.bending)
+        return new._replace(along=new.along + self.slide(new, length[hop]))
+
+    def laid(self, states: States, bending: Bending) -> States:
+        """Put walks on the path, and turn them the way it goes."""
+        route, node = self.route, states.node
+        turn = np.exp(-1j * bending.own.going[node]) * route.ways[route.point(states.along)]
+        return states._replace(turn=turn, move=route.at(states.along) - turn * self.graph.at[node])
+
+    def slide(self, states: States, most: Array) -> Array:
+        """Give the metres by which s moves: a share of those to the point abreast, at most of `most` (N,)."""
+        body = states.move + states.turn * self.graph.at[states.node]
+        way = self.route.ways[self.route.point(states.along)]
+        abreast = ((body - self.route.near(states.along)) * way.conj()).real
+        return np.asarray(self.route.slide * np.minimum(np.maximum(abreast, -most), most))
+
+    def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
+        """List the frames that n hops play: their rows, which hop each belongs to, and metres along the path.
+
+        `start` (n,) are the metres along the path at which each of the hops begins.
+        """
+        row, of = self.graph.hops.rows(hop)
+        since = np.repeat(self.since[hop].ravel(), self.graph.hops.counts[hop].ravel())
+        return row, of, self.along[row] - since + start[of]
+
+    def hop_costs(self, states: States, chosen: Indices, hop: Indices) -> Array:
+        """Sum the costs of the frames of n hops (n,), which the walks `states.take(chosen)` take.
+
+        They are the distance from the path, or what it costs to bend the walk, and missed wishes.
+        """
+        graph, route, prices = self.graph, self.route, self.settings
+        if not len(hop):
+            return np.empty(0)
+        row, number, along = self.frames_along(hop, states.along[chosen])
+        of = chosen[number]
+        first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
+        body = states.move[of] + states.turn[of] * graph.tracks.ground[row]
+        if route.bending:
+            step = route.bending.own.step[row]
+            rates = route.bending.rates(row, route.point(along), graph.fps)
+            off = prices.bend * rates**2 + IDLE * (step < route.least / graph.fps)
+        else:
+            off = _square(body - route.at(along))
+            off += prices.stray * off**2
+        if route.bare:
+            return np.asarray(np.add.reduceat(off, first))
+        point, frame = route.point(along), states.frames[of] + np.arange(len(of)) - first[number]
+        label, late = route.label[point], frame / graph.fps - route.clock[point]
+        if graph.labels.names:
+            off += prices.label * ((label >= 0) & ~graph.labels.bears[label, row])
+        off += prices.late * np.where(np.isnan(late), 0.0, late) ** 2
+        off += self.crowding(body, frame)
+        return np.asarray(np.add.reduceat(off, first))
+
+    def crowding(self, body: Points, frame: Indices) -> Array:
+        """Compute the cost of bodies that are too near to others, of the shape of `body`."""
+        price = np.zeros(body.shape)
+        for other in self.route.others:
+            near = self.route.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
+            price += self.settings.crowding * np.maximum(near, 0.0) ** 2
+        return price
+
+    def score(self, states: States) -> Array:
+        """Rate walks by their cost plus the expected cost if their clips play on; small is good.
+
+        Without the second term a walk that has just paid for a turn looks worse than one about to leave the
+        path. The second term is at most `Settings.rescue` (m²), because a transition can still save the walk.
+        """
+        graph, node, route = self.graph, states.node, self.route
+        line = route.near(states.along[:, None] + self.ahead[node])
+        ahead = line if route.bending else states.move[:, None] + states.turn[:, None] * graph.ahead[node]
+        off = _square(ahead - line)
+        if len(route.others):  # to give way takes longer: look up to three times as far
+            body = states.move + states.turn * graph.at[node]
+            further = ahead[:, -1:] + (ahead[:, -1:] - body[:, None]) * [0, 1, 2]
+            then = np.arange(1, 4) * round(graph.fps * AHEAD[-1])
+            off += self.crowding(further, states.frames[:, None] + then)
+        loss = off.sum(axis=1) * graph.fps * AHEAD[0]  # each point ahead stands for the frames up to it
+        return np.asarray(states.cost + np.minimum(loss, self.settings.rescue))
+
+    def cells(self, states: States) -> Indices:
+        """Give the node, cells of the ground and of directions and, among others, the time."""
+        alike = standing(states, self.graph.at, self.settings.alike, self.settings.alike)
+        clock = states.frames * (4 / self.graph.fps) * bool(len(self.route.others))
+        return np.concatenate([alike, clock.astype(np.intp)[None]])
+
+    def layers(self, states: States) -> Indices:
+        """Count layers of `LAYER` metres along the path."""
+        return (states.along / LAYER).astype(np.intp)
+
+    def done(self, states: States) -> Mask:
+        """Say which walks are at the end of the route."""
+        return states.along >= self.route.length
+
+    def found(self, stopped: str) -> Found:
+        """Give the best walk; where none has arrived, the cheapest of the last layer."""
+        if not self.arrived and not stopped:
+            reached = max(float(states.along.max()) for states in self.history)
+            raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
+        last = States.join(self.arrived or self.history[-1:])
+        walk = self.trace(last, int(last.cost.argmin()))
+        hops = walk.hop[1:]
+        if not len(hops):
+            raise NoWalk(f"The search was {stopped} before its first step.")
+        along = self.frames_along(hops, walk.along[:-1])[2]
+        start = complex(walk.turn[0]), complex(walk.move[0])
+        counts = self.expanded, self.cut, stopped
+        return Found(self.graph.hops.edges(hops), *start, along, float(walk.cost[-1]), *counts)
+
+
+def _square(numbers: Points) -> Array:
+    return np.asarray(numbers.real**2 + numbers.imag**2)

@@ -1,0 +1,222 @@
+"""The search along a path: as good as trying everything where nothing is cut, and honest when stopped."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mocap.body.ground_path import GroundPath, s_curve
+from mocap.errors import NoWalk
+from mocap.graphs.compiled_graph import AHEAD, compile_graph
+from mocap.graphs.motion_graph import from_transitions
+from mocap.steering import path_search
+from mocap.steering.layered_search import States, start_states
+from mocap.steering.paper_search import PathCost
+from mocap.steering.path_following import follow_path, start_of
+from mocap.steering.path_objective import Settings, Wishes, make_route
+from mocap.steering.path_search import PathSearch
+from mocap.synthesis.bounded_search import Problem, branch_and_bound
+from mocap.synthesis.ground_walks import Stand
+from tests.bundled import sneaking, walking
+from tests.strategies import wave
+
+GRAPH = walking()
+FREE = {"seam": 0.0, "match": 0.0, "stray": 0.0}
+
+
+def search_on(graph=GRAPH, wishes=None, **settings):
+    route = make_route(graph, s_curve(), wishes or Wishes())
+    return PathSearch(graph, route, at_nodes(graph, [0]), Settings(**settings))
+
+
+def at_nodes(graph, nodes, heading=0.0):
+    """Stand at nodes over the origin, and go in one direction."""
+    nodes = np.array(nodes)
+    turn = np.exp(1j * (heading - graph.going[nodes]))
+    return start_states(nodes, turn, -turn * graph.at[nodes])
+
+
+def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds():
+    """The paper's search is the oracle; sliding along the path, which it does not know, is turned off."""
+    path = GroundPath([[0, 0], [0.1, 0.45], [0.3, 0.75]])
+    wishes, exact = Wishes(slide=0.0), Settings(**FREE, width=10**6, alike=1e-6, rescue=0.0)
+    route = make_route(GRAPH, path, wishes)
+    for node in (3, 200, 500):
+        start = at_nodes(GRAPH, [node], 0.2)
+        found = path_search.find_walk(GRAPH, route, start, exact)
+        cost, stand = PathCost(GRAPH, route), Stand(complex(start.turn[0]), complex(start.move[0]))
+        best = branch_and_bound(Problem(GRAPH.source.graph, cost.cost, cost.done), GRAPH.nodes[node], stand)
+        # A hop may ride on past the end of the path, to which the paper's walk stops: never for less.
+        assert found.cost >= best.cost - 1e-12
+        walked = 0.0
+        for edge in found.edges:
+            if cost.done(stand):
+                break
+            more, stand = cost.cost(stand, GRAPH.edges[edge])
+            walked += more
+        assert walked <= 1.2 * best.cost + 1e-3
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_a_wider_beam_costs_more_and_follows_better_and_the_work_is_linear_in_the_length():
+    narrow, wide = (follow_path(GRAPH, s_curve(15), settings=Settings(width=width)) for width in (3, 100))
+    assert wide.found.cost < narrow.found.cost
+    assert wide.found.expanded > 10 * narrow.found.expanded
+    assert wide.found.cut > 0
+    once = Settings(tries=1)
+    short, long = (follow_path(GRAPH, s_curve(m), settings=once).found.expanded for m in (10, 40))
+    assert 3 < long / short < 5
+
+
+def test_the_cost_is_what_the_walk_is_off():
+    followed = follow_path(GRAPH, GroundPath([[0, 0], [0, 6]]), settings=Settings(**FREE, tries=1))
+    assert followed.found.cost >= (followed.off**2).sum() - 1e-9
+
+
+def test_it_tells_how_far_it_has_come():
+    seen = []
+
+    def progress(layers):
+        for layer in layers:
+            seen.append((layer, len(layers)))
+            yield layer
+
+    follow_path(GRAPH, GroundPath([[0, 0], [0, 6]]), settings=Settings(progress=progress, tries=1))
+    assert seen == [(layer, 41) for layer in range(41)]
+
+
+def test_a_search_is_driven_from_outside_a_round_at_a_time():
+    """The rounds that it gives are its history, and the walk traced through them is the one that is found."""
+    wishes, settings = Wishes(), Settings()
+    route = make_route(GRAPH, s_curve(8), wishes)
+    starts = start_of(GRAPH, route, wishes)
+    search = PathSearch(GRAPH, route, starts, settings)
+    rounds = list(search)
+    assert [len(states.node) for states in rounds] == [len(states.node) for states in search.history]
+    assert max(len(states.node) for states in rounds) == search.width == 50
+    found = search.found("")
+    assert np.array_equal(found.edges, path_search.find_walk(GRAPH, route, starts, settings).edges)
+    last = States.join(search.arrived)
+    walk = search.trace(last, int(last.cost.argmin()))
+    assert np.array_equal(GRAPH.hops.edges(walk.hop[1:]), found.edges)
+    assert (np.diff(walk.cost) >= 0).all() and walk.trail[0] == -1
+    assert np.array_equal(GRAPH.target[GRAPH.hops.last[walk.hop[1:]]], walk.node[1:])
+
+
+def test_out_of_time_it_gives_the_best_so_far_and_says_so(monkeypatch):
+    with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
+        slow.setattr(path_search, "time", SimpleNamespace(monotonic=iter(range(10**6)).__next__))
+        followed = follow_path(GRAPH, s_curve(200), settings=Settings(seconds=90))
+    assert followed.found.stopped == "out of time"
+    assert 0 < followed.progress < 1
+    assert followed.report().endswith("out of time: the best so far")
+    with pytest.raises(NoWalk, match="out of time before its first step"):
+        follow_path(GRAPH, s_curve(), settings=Settings(seconds=-1))
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_an_interruption_gives_the_best_walk_so_far(monkeypatch):
+    rounds, expand = iter(range(40)), PathSearch.expand
+
+    def interrupted(*args):
+        if next(rounds, None) is None:
+            raise KeyboardInterrupt
+        return expand(*args)
+
+    monkeypatch.setattr(PathSearch, "expand", interrupted)
+    followed = follow_path(GRAPH, s_curve())
+    assert followed.found.stopped == "interrupted"
+    assert 0.05 < followed.progress < 0.9
+    assert followed.off.mean() < 0.1
+
+
+def test_a_graph_that_ends_is_told():
+    line = compile_graph(from_transitions([wave(120)], [], window=8))
+    with pytest.raises(NoWalk, match=r"Every walk ends after 2\.. m of the path: prune"):
+        follow_path(line, GroundPath([[0, 0], [0, 50]]))
+
+
+def test_walks_stand_alike_by_node_place_turn_and_where_others_walk_by_time():
+    apart = {"node": 1, "move": 0.2, "turn": np.exp(0.2j), "frames": 30}
+    one = start_states(np.array([7]), np.ones(1, complex), np.zeros(1, complex))
+    two = [one._replace(**{field: getattr(one, field) * 0 + value}) for field, value in apart.items()]
+    for others, told in (((), 4), ([np.zeros((9, 2))], 5)):
+        cells = search_on(wishes=Wishes(others=others)).cells(States.join([one, one, *two]))
+        assert len(np.unique(cells, axis=1).T) == told
+
+
+def test_a_seam_costs_its_price_and_its_squared_distance():
+    start = at_nodes(GRAPH, [3, 200, 500], 0.2)
+    dear = search_on(**FREE | {"seam": 0.7, "match": 11.0}).expand(start)
+    cheap = search_on(**FREE).expand(start)
+    edge = GRAPH.hops.last[dear.hop]
+    expected = np.where(GRAPH.blended[edge], 0.7 + 11.0 * GRAPH.cost[edge] ** 2, 0.0)
+    assert GRAPH.blended[edge].any()
+    assert dear.cost - cheap.cost == pytest.approx(expected)
+
+
+def test_a_hop_costs_what_its_frames_are_off():
+    """Against the frames of each hop, one after the other."""
+    graph = sneaking()
+    wishes = Wishes(labels=[(0, "sneak"), (5, "")], times=[(0, 0.0), (19, 30.0)])
+    search = search_on(graph, wishes)
+    route = search.route
+    start = at_nodes(graph, [3, 400], 0.2)
+    start = start._replace(along=np.array([1.0, 4.5]), frames=np.array([20, 90]))
+    of, hop = graph.hops.leaving(start.node)
+    costs = search.hop_costs(start, of, hop)
+    for number in range(0, len(hop), 3):
+        walk, cost = of[number], 0.0
+        rows, _ = graph.hops.rows(hop[[number]])
+        along = start.along[walk] + np.cumsum(np.maximum(graph.tracks.step[rows], 0.3 / 30))
+        for count, (row, metres) in enumerate(zip(rows, along, strict=True)):
+            body = start.move[walk] + start.turn[walk] * graph.tracks.ground[row]
+            off = abs(body - route.at(np.array([metres]))[0]) ** 2
+            cost += off + 100 * off**2
+            point = route.point(np.array([metres]))[0]
+            sneaks = graph.labels.bears[graph.label_number("sneak"), row]
+            cost += 0.1 * (route.label[point] >= 0 and not sneaks)
+            cost += 0.2 * ((start.frames[walk] + count) / 30 - route.clock[point]) ** 2
+        assert costs[number] == pytest.approx(cost, rel=1e-6)
+
+
+def test_the_promise_of_a_walk_is_bounded_by_what_a_transition_could_save():
+    walks = at_nodes(GRAPH, range(50))._replace(cost=np.arange(50.0))
+    none, half, every = (search_on(rescue=rescue).score(walks) - walks.cost for rescue in (0.0, 0.5, np.inf))
+    assert not none.any() and (every > 0).all()
+    assert half == pytest.approx(np.minimum(every, 0.5))
+
+
+def test_looking_ahead_a_walk_sees_others_in_its_way():
+    """Someone stands 2 m ahead: a second's walk away, and as far beyond as it takes to give way."""
+    walks = at_nodes(GRAPH, range(0, len(GRAPH.nodes), 40))
+    alone, seen = (
+        search_on(wishes=Wishes(others=others), crowding=50.0, rescue=np.inf).score(walks)
+        for others in ((), [np.tile([0.0, 2.0], (3, 1))])
+    )
+    assert (seen >= alone).all()
+    assert (seen > alone + 1.0).mean() > 0.5
+
+
+def test_a_body_pays_for_the_square_of_how_much_it_is_too_near():
+    """To another one that stands still at its end, 5 m ahead, from frame 1 on."""
+    search = search_on(wishes=Wishes(others=[np.array([[0.0, 2.0], [0.0, 5.0]])]), crowding=50.0)
+    body, frame = np.array([2.5, 2.5, 5 + 0.5j, 5.0, 9.0]) + 0j, np.array([0, 1, 1, 9, 9])
+    assert search.crowding(body, frame) == pytest.approx(50 * np.array([0.3, 0.0, 0.3, 0.8, 0.0]) ** 2)
+
+
+@pytest.mark.parametrize(("times", "seen"), [(1, 1), (2, 1), (3, 1), (4, 0)])
+def test_others_are_seen_up_to_three_times_as_far_ahead_as_the_clip(times, seen):
+    """Someone is there only at the moment at which the walk would be, if it went straight on."""
+    walk = at_nodes(GRAPH, [5])
+    body, end = (walk.move + walk.turn * points[5] for points in (GRAPH.at, GRAPH.ahead[:, -1]))
+    frame = times * round(GRAPH.fps * AHEAD[-1])
+    other = np.full((frame + 2, 2), 1000.0)
+    place = (body + times * (end - body))[0]
+    other[frame] = place.imag, place.real
+    alone, found = (
+        search_on(wishes=Wishes(others=others, apart=0.3), crowding=50.0, rescue=np.inf).score(walk)[0]
+        for others in ((), [other])
+    )
+    # The last point ahead stands for the frames since the one before.
+    assert found - alone == pytest.approx(seen * 50 * 0.3**2 * GRAPH.fps * AHEAD[0])
