@@ -10,6 +10,7 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.methods.groups.configurations import Configuration, compare, seen_from_itself
 from mocap.methods.groups.flocking import RATE, Trajectories
 
+EVERY = 1.0  # seconds between the frames that are looked at
 COVERED = 0.8  # a smaller share of the simulation near a node is warned of
 
 
@@ -25,7 +26,7 @@ class Clusters(NamedTuple):
     distances: Array
 
 
-def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: float = 1.0) -> Clusters:
+def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clusters:
     """Choose configurations that come again [LCF05, nodes]; how is ours.
 
     Each time the one with the most others within `reach` that no node has yet. Comparing is O(S² N³) for S
@@ -36,11 +37,10 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
     flock : as `simulate` gives it.
     nodes : how many to choose at most; fewer where all are covered.
     reach : metres, RMS.
-    every : seconds between the frames that are looked at.
 
     Raises
     ------
-    MocapError : for no frames, less than one node, a reach or a step not above 0, and a group that stands.
+    MocapError : for no frames, less than one node, a reach not above 0, and a group that stands.
 
     Warns
     -----
@@ -49,7 +49,7 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
     Examples
     --------
     >>> from mocap.methods.groups.flocking import simulate
-    >>> found = cluster(simulate(4, 60), nodes=4, reach=0.4, every=2.0)
+    >>> found = cluster(simulate(4, 60), nodes=4, reach=0.4)
     >>> len(found.nodes), found.covered > 0.8
     (4, True)
 
@@ -57,11 +57,9 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5, every: f
     """
     if not len(flock.places):
         raise MocapError("There is no frame to take nodes from.")
-    if not (nodes >= 1 and reach > 0 and 0 < every < np.inf):
-        raise MocapError(
-            f"Clusters take a node or more, a reach and a step above 0; got {nodes}, {reach} m, {every} s."
-        )
-    step = max(1, round(every * RATE))
+    if not (nodes >= 1 and reach > 0):
+        raise MocapError(f"Clusters take a node or more and a reach above 0; got {nodes}, {reach} m.")
+    step = round(EVERY * RATE)
     seen, _, _ = seen_from_itself(Configuration(flock.places[::step], flock.velocities[::step]))
     distances = _distances(seen)
     free: Mask = np.ones(len(distances), bool)

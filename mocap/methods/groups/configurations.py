@@ -109,24 +109,13 @@ def compare(
 
     Notebook: 19-group-graphs
     """
-    if rounds < 1 or not np.isfinite(starts).all():
+    if rounds < 1 or not starts or not np.isfinite(starts).all():
         raise MocapError(f"A comparison takes a round or more from finite turns, got {rounds} and {starts}.")
     pairs, shape = _pairs(first, second)
-    best: Match | None = None
-    for start in starts:
-        match = _by_turns(pairs, start, rounds)
-        if best is None:
-            best = match
-        else:
-            nearer = match.rms < best.rms
-            chosen = (
-                np.where(nearer.reshape(-1, *[1] * (new.ndim - 1)), new, old)
-                for new, old in zip(match, best, strict=True)
-            )
-            best = Match._make(chosen)
-    if best is None:
-        raise MocapError("A comparison starts from one turn or more, got none.")
-    return Match._make(part.reshape((*shape, *part.shape[1:])) for part in best)
+    tried = [_by_turns(pairs, start, rounds) for start in starts]
+    best = np.argmin([match.rms for match in tried], axis=0)
+    parts = (np.stack(part)[best, np.arange(len(best))] for part in zip(*tried, strict=True))
+    return Match._make(part.reshape((*shape, *part.shape[1:])) for part in parts)
 
 
 class _Pairs(NamedTuple):

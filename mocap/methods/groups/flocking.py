@@ -16,6 +16,7 @@ from mocap._shared.arrays import Array, Points
 from mocap.errors import MocapError
 
 RATE = 10.0  # frames per second
+SETTLE = 20.0  # seconds that are left out at the start
 APART = 0.6  # metres; members nearer than this collide
 MARGIN = 0.03  # metres, by which simulated members keep further apart
 DISC_FROM = 2.0  # metres from a disc at which a member begins to steer away
@@ -161,15 +162,13 @@ def push_apart(places: Points, apart: float) -> Points:
     return np.asarray(np.where(far < apart, gap / far * (apart - far) / 2, 0).sum(-1))
 
 
-def simulate(
-    count: int, seconds: float, *, rules: Flock | None = None, seed: int = 0, settle: float = 20.0
-) -> Trajectories:
+def simulate(count: int, seconds: float, *, rules: Flock | None = None, seed: int = 0) -> Trajectories:
     """Let a flock wander over open ground [LCF05, simulation].
 
     Parameters
     ----------
     count : members, from 2 on.
-    seconds : how long, after `settle` seconds that are left out.
+    seconds : how long, after 20 seconds that are left out.
     rules : their figures.
     seed : of the start, the drifting heading of the group, and the whims.
 
@@ -187,21 +186,19 @@ def simulate(
     """
     if not (2 <= count < np.inf and count == int(count)):
         raise MocapError(f"A group has two members or more, got {count}.")
-    if not (0.5 / RATE < seconds < np.inf and 0 <= settle < np.inf):
-        raise MocapError(
-            f"A flock settles and is then simulated for more than 0 seconds; got {settle} s and {seconds} s."
-        )
+    if not 0.5 / RATE < seconds < np.inf:
+        raise MocapError(f"A flock is simulated for more than 0 seconds, got {seconds}.")
     count, rules, random = int(count), rules or Flock(), np.random.default_rng(seed)
     rules.check()
     start = random.normal(0, 1.5, (2, count))
     now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
     whims, heading, bend, frames = Whims((count,), rules, random), 0.0, 0.0, []
-    for _ in range(round((seconds + settle) * RATE)):
+    for _ in range(round((seconds + SETTLE) * RATE)):
         bend += -bend / 3.0 / RATE + np.sqrt(1 / RATE) * 0.25 * random.normal()
         heading += np.clip(bend, -0.5, 0.5) / RATE
         now = advance(now, np.exp(1j * heading) * whims.drift(), rules)
         frames.append(now)
-    places, velocities = (np.array(part) for part in zip(*frames[round(settle * RATE) :], strict=True))
+    places, velocities = (np.array(part) for part in zip(*frames[round(SETTLE * RATE) :], strict=True))
     return Trajectories(places, velocities)
 
 

@@ -1,9 +1,7 @@
 """Characters for a group: each member's way is walked by a motion graph, in place and in time."""
 
 import warnings
-from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -70,14 +68,8 @@ class GroupWalkers:
         )
 
 
-def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show it)
-    graph: MotionGraph | CompiledGraph,
-    flock: Trajectories,
-    *,
-    bend: bool = True,
-    settings: Settings | None = None,
-    pool: Executor | None = None,
-    progress: Progress = iter,
+def walk_group(
+    graph: MotionGraph | CompiledGraph, flock: Trajectories, *, bend: bool = True, progress: Progress = iter
 ) -> GroupWalkers:
     """Walk each member's way by a character of a motion graph, in place and in time [ours].
 
@@ -91,9 +83,6 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
     graph : pruned.
     flock : where the members go, as `play_group` gives it.
     bend : put each walk exactly onto its member's way.
-    settings : as for `steering.follow_path`; by default a delay costs more, and with `bend` the search is
-        narrow, and done once.
-    pool : a `concurrent.futures.ProcessPoolExecutor` for many members.
     progress : wraps the members, to show a bar.
 
     Returns
@@ -129,8 +118,7 @@ def walk_group(  # noqa: PLR0913 (what to walk, how thoroughly, and how to show 
             "does it lead away from where the group starts?"
         )
     compiled = _with_plants(graph)
-    one = partial(_walk_one, compiled, bend=bend, settings=settings)
-    walked = list((pool.map if pool else map)(one, progress(list(flock.places.T))))
+    walked = [_walk_one(compiled, places, bend=bend) for places in progress(list(flock.places.T))]
     motions = tuple(motion for motion, _ in walked)
     kept = float(np.mean([share for _, share in walked]))
     wanted = np.stack([_at_rate(places, compiled.fps) for places in flock.places.T], axis=-1)
@@ -150,9 +138,7 @@ def _with_plants(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     return compile_graph(graph if marked is source else marked)
 
 
-def _walk_one(
-    graph: CompiledGraph, places: Points, *, bend: bool, settings: Settings | None
-) -> tuple[Motion, float]:
+def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool) -> tuple[Motion, float]:
     """Walk one member's way, (F,) complex at ten places per second; say which share of plants is kept."""
     wanted, further = _at_rate(places, graph.fps), _carried_on(places)
     path = GroundPath(from_ground(further))
@@ -160,7 +146,7 @@ def _walk_one(
     some = np.arange(0, len(further), round(EVERY * RATE))
     times = [(float(along[k]), float(k / RATE)) for k in some]
     # A walk that is put onto its way need not be searched for so thoroughly.
-    settings = settings or Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
+    settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # what matters is said of all together
         found = follow_path(graph, path, Wishes(times=times), settings=settings)

@@ -42,18 +42,6 @@ class Match(NamedTuple):
     frames: Array
 
 
-class _Found(NamedTuple):
-    """A match in the numbering of all frames, at the web's rate."""
-
-    start: int
-    stop: int
-    cost: float
-    via: int
-    generation: int
-    rows: Array
-    frames: Array
-
-
 def search(  # noqa: PLR0913 (a web, a query, and its limits)
     web: MatchWeb,
     clip: int,
@@ -111,7 +99,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     _check(web, limit, lengths, steps)
     low, high = (share * (query.stop - query.start) for share in lengths)
     found, asking, left_out = [query], [0], 0
-    places = np.array([query[:2]])
+    places = np.array([query[1:3]])
     while asking and (steps is None or found[-1].generation < steps):
         moving = [number for number in asking if _spread(web, found[number]) >= still]
         left_out += len(asking) - len(moving)
@@ -124,16 +112,17 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         before = len(found)
         for other, number in sorted(new, key=lambda pair: pair[0].cost):
             if not _is_among(other, places):
-                found.append(_composed(found[number], other, number))
+                found.append(_composed(web, found[number], other, number))
                 places = np.append(places, [other[:2]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
-    first, *others = (_match(web, one) for one in found)
+    first, *others = (_in_own_frames(web, one) for one in found)
     start, stop, _ = frames.indices(len(web.clips[clip]))
     return [first._replace(start=start, stop=stop), *others]
 
 
-def _query(web: MatchWeb, clip: int, frames: slice) -> _Found:
+def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
+    """Count the query, as all matches while they are searched for, in the numbering of all frames."""
     if not 0 <= clip < len(web.clips):
         raise MocapError(f"This web has clips 0 to {len(web.clips) - 1}, got {clip}.")
     motion = web.clips[clip]
@@ -148,7 +137,7 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> _Found:
             f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s."
         )
     rows = np.arange(start, stop, dtype=float)
-    return _Found(start, stop, 0.0, -1, 0, rows, rows)
+    return Match(clip, start, stop, 0.0, -1, 0, rows, rows)
 
 
 def _check(web: MatchWeb, below: float, lengths: tuple[float, float], steps: int | None) -> None:
@@ -164,9 +153,11 @@ def _check(web: MatchWeb, below: float, lengths: tuple[float, float], steps: int
         raise MocapError(f"A search takes 1 step or more, got {steps}.")
 
 
-def _spread(web: MatchWeb, found: _Found) -> float:
+def _spread(web: MatchWeb, found: Match) -> float:
     """Measure how far the points of a match are from their mean place, RMS in metres."""
-    points = point_cloud(cut_out(web, _match(web, found))[:: max(1, round(web.clips[0].fps / web.rate))])
+    points = point_cloud(
+        cut_out(web, _in_own_frames(web, found))[:: max(1, round(web.clips[0].fps / web.rate))]
+    )
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
 
 
@@ -178,24 +169,24 @@ def _is_among(other: Crossing, places: NDArray[np.integer[Any]]) -> bool:
     return bool((common > SAME * union).any())
 
 
-def _composed(match: _Found, other: Crossing, via: int) -> _Found:
+def _composed(web: MatchWeb, match: Match, other: Crossing, via: int) -> Match:
     """Lay a new match on the query: through the match that found it."""
-    inside = (match.frames >= other.own[0]) & (match.frames <= other.own[-1])
-    frames = np.interp(match.frames[inside], other.own, other.other)
-    return _Found(other.start, other.stop, other.cost, via, match.generation + 1, match.rows[inside], frames)
+    start, stop, cost, own, frames = other
+    inside = (match.frames >= own[0]) & (match.frames <= own[-1])
+    laid = np.interp(match.frames[inside], own, frames)
+    return Match(web.clip_at(start), start, stop, cost, via, match.generation + 1, match.rows[inside], laid)
 
 
-def _match(web: MatchWeb, found: _Found) -> Match:
+def _in_own_frames(web: MatchWeb, match: Match) -> Match:
     """Count a match in its clip's own frames."""
-    clip = web.clip_at(found.start)
-    start, stop = (round(float(web.own_frame(clip, number))) for number in (found.start, found.stop))
-    of_query = web.clip_at(int(found.rows[0])) if len(found.rows) else clip
-    rows, frames = web.own_frame(of_query, found.rows), web.own_frame(clip, found.frames)
-    stop = min(stop, len(web.clips[clip]))
-    return Match(clip, start, stop, found.cost, found.via, found.generation, rows, frames)
+    clip = match.clip
+    start, stop = (round(float(web.own_frame(clip, number))) for number in (match.start, match.stop))
+    of_query = web.clip_at(int(match.rows[0])) if len(match.rows) else clip
+    rows, frames = web.own_frame(of_query, match.rows), web.own_frame(clip, match.frames)
+    return match._replace(start=start, stop=min(stop, len(web.clips[clip])), rows=rows, frames=frames)
 
 
-def _warn(found: Sequence[_Found], left_out: int) -> None:
+def _warn(found: Sequence[Match], left_out: int) -> None:
     messages = []
     if left_out:
         messages.append(

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array, frozen
-from mocap._shared.progress import Progress
 from mocap.blending.clocks import checked
 from mocap.blending.mixing import mix
 from mocap.blending.registering import Registration
@@ -19,6 +18,7 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.methods.match_webs.random_blends import random_weights
 
+FPS = 30.0  # of the blends that are measured
 Measure = Callable[[Motion], ArrayLike]
 """Reads one number or a few off a motion."""
 
@@ -52,16 +52,8 @@ class MotionSpace:
         return cKDTree(self.values / self.scale)
 
 
-def sample_space(  # noqa: PLR0913 (what to measure, and how to sample)
-    registration: Registration,
-    measure: Measure,
-    *,
-    count: int = 200,
-    spread: float = 0.1,
-    seed: int = 0,
-    scale: ArrayLike | None = None,
-    fps: float = 30.0,
-    progress: Progress = iter,
+def sample_space(
+    registration: Registration, measure: Measure, *, count: int = 200, scale: ArrayLike | None = None
 ) -> MotionSpace:
     """Blend examples at random, and measure each blend: samples of a space of motions [KG04, sampling].
 
@@ -73,12 +65,8 @@ def sample_space(  # noqa: PLR0913 (what to measure, and how to sample)
     registration : the examples, from `blending.register`.
     measure : a function of a `Motion` that gives d numbers, such as `turn` or `hand_target`.
     count : of random blends, beside the examples. 0 leaves the examples alone.
-    spread : as for `random_weights`.
-    seed : another one gives other blends.
     scale : shape (d,): amounts of each number that count as equally far, such as 10° and 0.1 m/s. By default
         the standard deviations of the samples' values.
-    fps : frames per second of the blends that are measured.
-    progress : wraps the blends, to show a bar.
 
     Returns
     -------
@@ -87,7 +75,7 @@ def sample_space(  # noqa: PLR0913 (what to measure, and how to sample)
     Raises
     ------
     MocapError : for fewer than d + 1 examples, a measure that gives NaN, or now more and now fewer numbers,
-        a count below 0, a spread below 0, and a scale that is not d numbers above 0.
+        a count below 0, and a scale that is not d numbers above 0.
 
     Examples
     --------
@@ -103,12 +91,19 @@ def sample_space(  # noqa: PLR0913 (what to measure, and how to sample)
     if count < 0:
         raise MocapError(f"Take 0 samples or more, got {count}.")
     examples = np.eye(len(registration.clips))
-    numbers = len(_measured(registration, measure, examples[0], fps))
-    known = np.array([_measured(registration, measure, row, fps, numbers) for row in examples])
-    weights = random_weights(known, max(count, 1), spread=spread, seed=seed)[:count]
-    sampled = [_measured(registration, measure, row, fps, numbers) for row in progress(list(weights))]
-    values = np.concatenate([known, np.reshape(sampled, (count, numbers))])
-    return MotionSpace(registration, np.concatenate([examples, weights]), values, _scale(scale, values))
+    known = _measured(registration, measure, examples)
+    weights = random_weights(known, max(count, 1))[:count]
+    values = np.concatenate([known, _measured(registration, measure, weights, known.shape[1])])
+    if scale is None:
+        width = values.std(axis=0)
+        given = np.where(width > 0, width, 1.0)
+    else:
+        given = np.asarray(scale, float)
+    if given.shape != values.shape[1:] or not (np.isfinite(given).all() and (given > 0).all()):
+        raise MocapError(
+            f"A scale is {values.shape[1]} numbers above 0, got {shortened(str(given.tolist()))}."
+        )
+    return MotionSpace(registration, np.concatenate([examples, weights]), values, given)
 
 
 def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | None = None) -> Motion:
@@ -155,26 +150,14 @@ def _mixed(registration: Registration, weights: Array, fps: float | None, rounds
     return mix(few, weights[some] / weights[some].sum(), fps=fps, rounds=rounds)
 
 
-def _measured(
-    registration: Registration, measure: Measure, weights: Array, fps: float, numbers: int = 0
-) -> Array:
-    """Measure the blend of some weights: shape (d,)."""
-    value = np.atleast_1d(np.asarray(measure(_mixed(registration, weights, fps, rounds=0)), float))
-    if value.ndim != 1 or (numbers and len(value) != numbers) or not np.isfinite(value).all():
-        asked = f"{numbers} finite numbers" if numbers else "one or more finite numbers"
-        raise MocapError(
-            f"A measure gives {asked} for each blend; this one gave {shortened(str(value.tolist()))}."
-        )
-    return value
-
-
-def _scale(scale: ArrayLike | None, values: Array) -> Array:
-    if scale is None:
-        width = values.std(axis=0)
-        return np.where(width > 0, width, 1.0)
-    given = np.asarray(scale, float)
-    if given.shape != values.shape[1:] or not (np.isfinite(given).all() and (given > 0).all()):
-        raise MocapError(
-            f"A scale is {values.shape[1]} numbers above 0, got {shortened(str(given.tolist()))}."
-        )
-    return given
+def _measured(registration: Registration, measure: Measure, rows: Array, numbers: int = 0) -> Array:
+    """Measure the blends of some weights (M, C): shape (M, d)."""
+    values: list[Array] = []
+    for row in rows:
+        value = np.atleast_1d(np.asarray(measure(_mixed(registration, row, FPS, rounds=0)), float))
+        numbers = numbers or len(value)
+        if value.shape != (numbers,) or not np.isfinite(value).all():
+            got = shortened(str(value.tolist()))
+            raise MocapError(f"A measure gives {numbers} finite numbers for each blend; this one gave {got}.")
+        values.append(value)
+    return np.reshape(values, (len(rows), numbers))

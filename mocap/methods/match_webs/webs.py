@@ -22,6 +22,7 @@ from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.grid_pieces import Grid, Limits
 
+RATE = 30.0  # frames per second at which clips are compared
 OVERLAP = 10.0  # seconds that two parts of a long clip share: no query is longer
 
 
@@ -105,13 +106,11 @@ class MatchWeb:
         return np.asarray((np.asarray(number) - self.starts[clip]) * (self.clips[clip].fps / self.rate))
 
 
-def build_web(  # noqa: PLR0913 (what to find, how exactly, and where to work)
+def build_web(
     clips: Sequence[Motion],
     *,
     below: float = 0.12,
-    rate: float = 30.0,
     window: int = 5,
-    shape: PathShape = SHAPE,
     progress: Progress = iter,
     executor: Executor | None = None,
 ) -> MatchWeb:
@@ -126,21 +125,19 @@ def build_web(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     ----------
     clips : motions of one skeleton and one frame rate.
     below : the mean RMS distance that a path may have, metres. A search can ask for less, but not for more.
-    rate : frames per second at which the clips are compared.
-    window : frames in a window, at this rate.
-    shape : which paths to keep.
+    window : frames in a window, at the web's rate of 30 Hz.
     progress : wraps the pairs of pieces as they are worked through, to show a bar.
     executor : where to work: threads, processes or a cluster, as for `find_transitions`.
 
     Returns
     -------
     The web. A path stands for both of its clips, so each pair of clips is compared once. Stretches of one
-    clip that begin within `shape.least` of each other are not compared.
+    clip that begin within 0.3 s of each other are not compared.
 
     Raises
     ------
     SkeletonMismatch, MocapError : for no clips, different skeletons or rates, clips that are all too short,
-        a `below` or a rate that is not above 0, a window without frames, and shapes that allow no path.
+        a `below` that is not above 0, and a window without frames.
 
     Warns
     -----
@@ -155,10 +152,10 @@ def build_web(  # noqa: PLR0913 (what to find, how exactly, and where to work)
 
     Notebook: 16-match-webs
     """
-    _check(clips, below, shape)
-    low = [resample(clip, rate) for clip in clips]
+    _check(clips, below)
+    low = [resample(clip, RATE) for clip in clips]
     limits = Limits(
-        below, shape.slope, _frames(shape.least, rate), shape.off_minimum, _frames(shape.near, rate)
+        below, SHAPE.slope, round(SHAPE.least * RATE), SHAPE.off_minimum, round(SHAPE.near * RATE)
     )
     check_window(window, max(map(len, low)), "the longest clip")
     long = _long_enough(low, window + limits.least)
@@ -168,36 +165,28 @@ def build_web(  # noqa: PLR0913 (what to find, how exactly, and where to work)
     lengths = np.array([len(clip) * use for clip, use in zip(low, long, strict=True)])
     starts = np.cumsum([0, *lengths])
     grid = Grid(ready, np.cumsum([0, *(lengths + gap)[long]]), weights.taper, limits)
-    paths = grid.paths(round(OVERLAP * rate), progress, executor)
+    paths = grid.paths(round(OVERLAP * RATE), progress, executor)
     cells = np.concatenate([np.empty((0, 3)), *paths])
     first = np.searchsorted(grid.starts, cells[:, :2], side="right") - 1  # gaps before each cell
     return MatchWeb(
         tuple(clips),
         starts,
-        float(rate),
+        RATE,
         window,
         float(below),
-        shape,
+        SHAPE,
         cells[:, :2] - gap * first + window // 2,
         cells[:, 2],
         np.cumsum([0, *map(len, paths)]),
     )
 
 
-def _check(clips: Sequence[Motion], below: float, shape: PathShape) -> None:
+def _check(clips: Sequence[Motion], below: float) -> None:
     if not clips:
         raise MocapError("A web needs clips, got none.")
     require_alike(clips)
     if not (np.isfinite(below) and below > 0):
         raise MocapError(f"A web needs a distance above 0 m, got below={below}.")
-    if not (shape.slope >= 1 and shape.least > 0 and 0 <= shape.off_minimum < np.inf and shape.near >= 0):
-        raise MocapError(
-            f"A path needs slope 1 or more, least above 0 s, and no negative number; got {shape}."
-        )
-
-
-def _frames(seconds: float, rate: float) -> int:
-    return max(round(seconds * rate), 1)
 
 
 def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:

@@ -16,7 +16,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import heading, on_ground
 
 AHEAD = np.array([1 / 3, 2 / 3, 1.0])  # seconds: Holden's 20, 40 and 60 frames at 60 Hz
-SMOOTH = 0.2  # seconds; without it 27 % more cuts on CMU 16's walks
+SMOOTH = 0.2  # seconds, the standard deviation of a Gaussian; without it 27 % more cuts on CMU 16's walks
 GROUPS = {
     "feet": slice(0, 6),
     "foot velocities": slice(6, 12),
@@ -40,13 +40,8 @@ class BodyTrack(NamedTuple):
     heading: Array
 
 
-def body_track(motion: Motion, smooth: float = SMOOTH) -> BodyTrack:
+def body_track(motion: Motion) -> BodyTrack:
     """Follow the body over the ground, without the sway of its steps.
-
-    Parameters
-    ----------
-    motion : F frames.
-    smooth : seconds, the standard deviation of the Gaussian that smooths; 0 for none.
 
     Examples
     --------
@@ -56,15 +51,12 @@ def body_track(motion: Motion, smooth: float = SMOOTH) -> BodyTrack:
     """
     ground = on_ground(motion.root_positions)
     facing = np.unwrap(heading(motion.rotations[:, 0]))
-    if smooth:
-        spread = smooth * motion.fps
-        rows = np.stack([ground.real, ground.imag, facing])
-        ahead, left, facing = gaussian_filter1d(rows, spread, mode="nearest")
-        ground = ahead + 1j * left
-    return BodyTrack(ground, facing)
+    rows = np.stack([ground.real, ground.imag, facing])
+    ahead, left, facing = gaussian_filter1d(rows, SMOOTH * motion.fps, mode="nearest")
+    return BodyTrack(ahead + 1j * left, facing)
 
 
-def features(motion: Motion, smooth: float = SMOOTH) -> Array:
+def features(motion: Motion) -> Array:
     """Describe each frame by 27 numbers [Hol20]: what the body does, and where it will be.
 
     Both ankles' places (6) and velocities (6), the hips' velocity (3), where the body will be after 1/3, 2/3
@@ -73,7 +65,6 @@ def features(motion: Motion, smooth: float = SMOOTH) -> Array:
     Parameters
     ----------
     motion : F frames, two legs that `body.find_legs` knows.
-    smooth : seconds, as for `body_track`.
 
     Returns
     -------
@@ -92,7 +83,7 @@ def features(motion: Motion, smooth: float = SMOOTH) -> Array:
 
     Notebook: 18-motion-matching
     """
-    track, positions = body_track(motion, smooth), joint_positions(motion)
+    track, positions = body_track(motion), joint_positions(motion)
     speeds = velocities(positions, motion.fps)
     ankles = [leg.ankle for leg in find_legs(motion.skeleton)]
     columns = [_seen(positions[:, ankle], track, track.ground) for ankle in ankles]

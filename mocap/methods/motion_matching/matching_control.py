@@ -13,7 +13,7 @@ from mocap.methods.motion_matching.frame_features import FUTURE
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee, next_frame
 from mocap.methods.motion_matching.pose_database import PoseDatabase, warn_of_speed
 from mocap.methods.motion_matching.springs import fade
-from mocap.steering.characters import Pose
+from mocap.steering.characters import Pose, place_frames, require_command
 
 
 class Offset(NamedTuple):
@@ -123,13 +123,14 @@ class MotionMatcher:
         if self._wait <= 0 or self.frame >= self.database.last[self.frame]:
             self._wait = max(1, round(self.wants.every * self.fps))
             self._look(heading, speed, label)
-        root, turns = self._placed(self.frame, self.place)
+        table = self.database
+        root, turns = place_frames(self.place, table.roots[self.frame], table.turns[self.frame])
         offset = self.offset
         pose = Pose(
             root + offset.root,
             rotations.multiply(turns, rotations.from_rotvec(offset.turns)),
             blending=bool(self.cuts) and self._steps - self.cuts[-1] < 2 * self.wants.fade * self.fps,
-            contacts={name: bool(mark[self.frame]) for name, mark in self.database.contacts.items()},
+            contacts={name: bool(mark[self.frame]) for name, mark in table.contacts.items()},
         )
         self._advance()
         return pose
@@ -137,8 +138,7 @@ class MotionMatcher:
     def _take(self, command: tuple[float, float, str]) -> None:
         """Take a new command, which is searched for at once."""
         heading, speed, label = command
-        if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
-            raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
+        require_command(heading, speed)
         if self._command is None or speed != self._command[1]:
             warn_of_speed(self.database, speed)
         if label not in self._searches:
@@ -171,7 +171,8 @@ class MotionMatcher:
         turn /= abs(turn)
         move = complex(self.place.turn * table.ground[old] + self.place.move - turn * table.ground[new])
         place = PlanarTransform.from_complex(turn, move)
-        (root, turns), (new_root, new_turns) = self._placed(old, self.place), self._placed(new, place)
+        root, turns = place_frames(self.place, table.roots[old], table.turns[old])
+        new_root, new_turns = place_frames(place, table.roots[new], table.turns[new])
         shown = rotations.multiply(turns, rotations.from_rotvec(self.offset.turns))
         speed = _turned(table.root_speeds[old], self.place) - _turned(table.root_speeds[new], place)
         self.offset = Offset(
@@ -182,12 +183,6 @@ class MotionMatcher:
         )
         self.frame, self.place = new, place
         self.cuts.append(self._steps)
-
-    def _placed(self, frame: int, place: PlanarTransform) -> tuple[Array, Array]:
-        """Place one frame: root position and rotations."""
-        turns = self.database.turns[frame].copy()
-        turns[0] = place.apply_orientations(turns[0])
-        return place.apply_points(self.database.roots[frame]), turns
 
     def _advance(self) -> None:
         """Go on by one frame, and let the offset die away."""

@@ -11,7 +11,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import velocities
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.motion_matching.frame_features import GROUPS, SMOOTH, body_track, features
+from mocap.methods.motion_matching.frame_features import GROUPS, body_track, features
 
 WEIGHTS = {  # [Hol20]
     "feet": 0.75,
@@ -20,7 +20,6 @@ WEIGHTS = {  # [Hol20]
     "places ahead": 1.0,
     "directions ahead": 1.5,
 }
-LONGEST = 60.0  # seconds to smooth over
 END = 1.0  # seconds before a clip's end from which no frame is found: its future is not known
 
 
@@ -105,26 +104,17 @@ def standardise(values: Array, weights: Mapping[str, float]) -> tuple[Array, Arr
     return (values - mean) / scale, mean, scale
 
 
-def tabulate(
-    clips: Sequence[Motion],
-    *,
-    weights: Mapping[str, float] = WEIGHTS,
-    smooth: float = SMOOTH,
-    end: float = END,
-) -> PoseDatabase:
+def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS) -> PoseDatabase:
     """Prepare clips for motion matching; the time is linear in their frames.
 
     Parameters
     ----------
-    clips : of one skeleton and one rate; a clip no longer than `end` serves only to be played to its end.
+    clips : of one skeleton and one rate; a clip no longer than a second serves only to be played to its end.
     weights : of the groups of features, as for `standardise`.
-    smooth : seconds, as for `body_track`.
-    end : seconds before each clip's end that are not searched.
 
     Raises
     ------
-    MocapError : for no clips, none that is longer than `end`, seconds that make no sense, and as
-        `standardise`.
+    MocapError : for no clips, none that is longer than a second, and as `standardise`.
     SkeletonMismatch : for clips of different skeletons.
 
     Examples
@@ -136,10 +126,10 @@ def tabulate(
 
     Notebook: 18-motion-matching
     """
-    _check(clips, smooth, end)
+    _check(clips)
     frames, rate = [len(clip) for clip in clips], clips[0].fps
-    values, mean, scale = standardise(np.concatenate([features(clip, smooth) for clip in clips]), weights)
-    tracks = zip(*(_tracks(clip, smooth) for clip in clips), strict=True)
+    values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
+    tracks = zip(*(_tracks(clip) for clip in clips), strict=True)
     ground, facing, drift, spin = (np.concatenate(part) for part in tracks)
     left = np.concatenate([np.arange(count)[::-1] for count in frames])
     stops = np.cumsum(frames)
@@ -152,7 +142,7 @@ def tabulate(
         facing,
         drift,
         spin,
-        left >= end * rate,
+        left >= END * rate,
         np.repeat(stops - 1, frames),
         np.concatenate([clip.root_positions for clip in clips]),
         np.concatenate([clip.rotations for clip in clips]),
@@ -163,28 +153,24 @@ def tabulate(
     )
 
 
-def _check(clips: Sequence[Motion], smooth: float, end: float) -> None:
+def _check(clips: Sequence[Motion]) -> None:
     """Raise MocapError for clips that cannot be searched."""
-    if not (0 <= smooth <= LONGEST and 0 <= end < np.inf):
-        raise MocapError(
-            f"Seconds are from 0 on, to smooth up to {LONGEST:g}; got smooth={smooth}, end={end}."
-        )
     if not clips:
         raise MocapError("Motion matching needs at least one clip, got none.")
     require_alike(clips)
     longest = max(clips, key=len)
-    if len(longest) <= end * longest.fps + 1:
+    if len(longest) <= END * longest.fps + 1:
         raise MocapError(
-            f"No clip is longer than the {end:g} s that a search leaves out at its end; "
+            f"No clip is longer than the {END:g} s that a search leaves out at its end; "
             f"the longest, '{longest.name}', lasts {longest.duration:.2f} s."
         )
     if short := [clip.name for clip in clips if len(clip) < 2]:
         raise MocapError(f"'{short[0]}' has one frame: a velocity needs two.")
 
 
-def _tracks(clip: Motion, smooth: float) -> tuple[Points, Array, Points, Array]:
+def _tracks(clip: Motion) -> tuple[Points, Array, Points, Array]:
     """Follow the body, with its velocity and its turning."""
-    track = body_track(clip, smooth)
+    track = body_track(clip)
     moving: Points = np.gradient(track.ground) * clip.fps
     return *track, moving, velocities(track.heading, clip.fps)
 

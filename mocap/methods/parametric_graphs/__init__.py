@@ -51,7 +51,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "shrink_box",
             "smallest_good",
         ],
-        "parametric_motion_graphs": ["ParametricGraph", "build_parametric", "least_thresholds"],
+        "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
         "kinds_of_strides": ["build_kinds", "on_the_spot"],
         "parametric_files": ["load_parametric", "save_parametric"],
         "made_strides": ["MadeStride", "make_stride"],

@@ -7,8 +7,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
+from mocap.body.motion import Motion, concatenate
 from mocap.methods.parametric_graphs.nearest_windows import HALF
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, neighbours
 from mocap.methods.parametric_graphs.strides import mixed_way
@@ -38,22 +37,11 @@ class MadeStride:
         """Give the frame nearest to a phase."""
         return int(np.abs(self.phases - phase).argmin())
 
-    def placed(self, frames: slice, place: PlanarTransform) -> tuple[Array, Array]:
-        """Place some frames: root positions (n, 3) and rotations (n, J, 4)."""
-        turns = self.motion.rotations[frames].copy()
-        turns[:, 0] = place.apply_orientations(turns[:, 0])
-        return place.apply_points(self.motion.root_positions[frames]), turns
-
 
 def facing_windows(one: MadeStride, centre: int, other: MadeStride, into: int) -> tuple[Array, Array]:
     """Give the points (K, 3) of two strides' frames about their centres, to align one with the other."""
-    parts = [
-        (stride.motion, slice(at - HALF, at + HALF + 1)) for stride, at in ((one, centre), (other, into))
-    ]
-    roots = np.concatenate([motion.root_positions[some] for motion, some in parts])
-    turns = np.concatenate([motion.rotations[some] for motion, some in parts])
-    both = Motion(one.motion.skeleton, roots, turns, one.motion.fps)
-    points = joint_positions(both)[:, one.joints].reshape(2, -1, 3)
+    both = [stride.motion[at - HALF : at + HALF + 1] for stride, at in ((one, centre), (other, into))]
+    points = joint_positions(concatenate(both))[:, one.joints].reshape(2, -1, 3)
     return points[0], points[1]
 
 

@@ -5,19 +5,19 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array
+from mocap.blending.interpolation import blend
 from mocap.blending.weights import cubic_weights
-from mocap.body import rotations
+from mocap.body.motion import Motion, concatenate
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.methods.parametric_graphs.made_strides import MadeStride, facing_windows, make_stride
+from mocap.methods.parametric_graphs.made_strides import facing_windows, make_stride
 from mocap.methods.parametric_graphs.nearest_windows import HALF, WINDOW
-from mocap.methods.parametric_graphs.parametric_edges import Way
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
-from mocap.steering.characters import Pose
+from mocap.steering.characters import Pose, require_command
 
 
 class Chosen(NamedTuple):
@@ -36,15 +36,6 @@ class Chosen(NamedTuple):
     taken: Array
     got: Array
     cost: float
-
-
-class _Buffer(NamedTuple):
-    """Frames to be played before the next decision."""
-
-    roots: Array
-    turns: Array
-    blending: Mask
-    contacts: dict[str, Mask]
 
 
 class ParametricController:
@@ -89,7 +80,7 @@ class ParametricController:
         self.parameters = space.clipped(straight)
         self.chosen: list[Chosen] = []
         self.stride, self.place = make_stride(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
-        self._play([], self.stride.frame(0.0))
+        self._play([], 0, self.stride.frame(0.0))
 
     @property
     def skeleton(self) -> Skeleton:
@@ -104,7 +95,7 @@ class ParametricController:
     @property
     def frames_left(self) -> int:
         """The frames until the next decision."""
-        return len(self._buffer.roots) - self._next
+        return len(self._frames) - self._next
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame.
@@ -120,29 +111,31 @@ class ParametricController:
         MocapError : for a heading or speed that is no finite number, or a speed below 0.
         NoWalk : for a node that is not in the graph, or cannot be reached.
         """
-        if not (np.isfinite(heading) and np.isfinite(speed) and speed >= 0):
-            raise MocapError(f"A command is a finite heading and a speed from 0 on, got {heading}, {speed}.")
-        if self._next == len(self._buffer.roots):
+        require_command(heading, speed)
+        if not self.frames_left:
             self._choose(heading, speed, label)
-        frame = self._next
+        frame, motion = self._next, self._frames
         self._next += 1
-        buffer = self._buffer
-        marks = {name: bool(mark[frame]) for name, mark in buffer.contacts.items()}
-        return Pose(buffer.roots[frame], buffer.turns[frame], bool(buffer.blending[frame]), marks)
+        marks = {name: bool(mark[frame]) for name, mark in motion.contacts.items()}
+        return Pose(motion.root_positions[frame], motion.rotations[frame], frame in self._blended, marks)
 
-    def _play(self, before: list[_Buffer], first: int) -> None:
-        """Put the frames of the stride from `first` to its decision behind others."""
-        self.way = self._ways()
-        soonest = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
-        self._next, self._at = 0, max(soonest, first)
-        self._buffer = _joined([*before, _Playing(self.stride, self.place, first).until(self._at)])
-
-    def _ways(self) -> dict[str, Way]:
-        """Look up for each node that may follow which box and when."""
-        return {
+    def _play(self, before: list[Motion], blended: int, first: int) -> None:
+        """Put the frames of the stride from `first` to its decision behind others, whose last are blended."""
+        self.way = {
             node: self.graph.edge(self.node, node).look_up(self.parameters)
             for node in self.graph.graph.successors(self.node)
         }
+        soonest = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
+        self._next, self._at = 0, max(soonest, first)
+        parts = [*before, *self._laid(first, self._at)]
+        self._frames, self._blended = concatenate(parts), range(0)
+        if blended:
+            start = sum(map(len, before)) - blended
+            self._blended = range(start, start + blended)
+
+    def _laid(self, first: int, stop: int) -> list[Motion]:
+        """Place some frames of the stride: one motion, or none."""
+        return [self.place.apply_motion(self.stride.motion[first:stop])] if first < stop else []
 
     def _choose(self, heading: float, speed: float, label: str) -> None:
         """Choose the next stride, make it, and blend into it."""
@@ -151,15 +144,16 @@ class ParametricController:
         wished = self._wish(space, heading, speed)
         taken = np.clip(wished, way.low, way.high)
         made, centre = make_stride(space, taken), max(self.stride.frame(way.leave), self._at + HALF)
-        into, rest = made.frame(way.enter), _Playing(self.stride, self.place, self._at).until(centre - HALF)
+        into, rest = made.frame(way.enter), self._laid(self._at, centre - HALF)
         window, facing = facing_windows(self.stride, centre, made, into)
         lay = align(window, facing)
         cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=-1).mean()))
-        place = self.place @ lay
-        one, other = _Playing(self.stride, self.place, centre - HALF), _Playing(made, place, into - HALF)
         self.chosen.append(Chosen(node, wished, taken, made.values[space.columns], cost))
-        self.node, self.parameters, self.stride, self.place = node, taken, made, place
-        self._play([rest, _blend(one, other)], into + HALF + 1)
+        old = self._laid(centre - HALF, centre + HALF + 1)
+        self.node, self.parameters, self.stride, self.place = node, taken, made, self.place @ lay
+        new = self._laid(into - HALF, into + HALF + 1)
+        mixed = blend(*old, *new, cubic_weights(WINDOW))
+        self._play([*rest, mixed], WINDOW, into + HALF + 1)
 
     def _wish(self, space: StrideSpace, heading: float, speed: float) -> Array:
         """Say which parameters would obey the command: the turn still missing, and the speed."""
@@ -193,37 +187,3 @@ class ParametricController:
         off = dict(zip(space.parameters, np.abs(wished - np.clip(wished, way.low, way.high)), strict=True))
         usual = np.abs(np.median(space.strides.values[:, 1]) - speed)
         return float(off.get("turn", 0.0) + off.get("speed", usual))
-
-
-class _Playing(NamedTuple):
-    """A stride that is placed, from a frame on."""
-
-    stride: MadeStride
-    place: PlanarTransform
-    frame: int
-
-    def until(self, stop: int) -> _Buffer:
-        """Take the frames from this one until another."""
-        frames = slice(self.frame, stop)
-        roots, turns = self.stride.placed(frames, self.place)
-        marks = {name: mark[frames] for name, mark in self.stride.motion.contacts.items()}
-        return _Buffer(roots, turns, np.zeros(len(roots), bool), marks)
-
-
-def _blend(one: _Playing, other: _Playing) -> _Buffer:
-    """Blend the last frames of a stride with the first of the next, by cubic weights."""
-    old, new = one.until(one.frame + WINDOW), other.until(other.frame + WINDOW)
-    share = cubic_weights(WINDOW)
-    mixed = share[:, None] * old.roots + (1 - share)[:, None] * new.roots
-    turns = rotations.slerp(new.turns, old.turns, np.broadcast_to(share[:, None], old.turns.shape[:2]))
-    contacts = {name: np.where(share >= 0.5, mark, new.contacts[name]) for name, mark in old.contacts.items()}
-    return _Buffer(mixed, turns, np.ones(WINDOW, bool), contacts)
-
-
-def _joined(parts: list[_Buffer]) -> _Buffer:
-    """Put frames in a row."""
-    roots, turns, blending = (np.concatenate([part[place] for part in parts]) for place in range(3))
-    names = parts[0].contacts
-    return _Buffer(
-        roots, turns, blending, {n: np.concatenate([part.contacts[n] for part in parts]) for n in names}
-    )

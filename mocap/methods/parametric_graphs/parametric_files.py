@@ -1,73 +1,75 @@
 """Parametric motion graphs in `.npz` files: spaces, strides and edges, all that a character needs."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import networkx as nx
 import numpy as np
+from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
+from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from mocap.methods.parametric_graphs.stride_spaces import PARAMETERS, StrideSpace
 from mocap.methods.parametric_graphs.strides import Strides
 
 NAME, VERSION = "a parametric motion graph", 1
-_HEAD = {"nodes": ("U", ("K",)), "sources": ("i", ("E",)), "targets": ("i", ("E",))}
-_BODY = {
+_HEAD: Layout = {"nodes": ("U", ("K",)), "sources": ("i", ("E",)), "targets": ("i", ("E",))}
+_BODY: Layout = {
     "fps": ("f", ()),
     "joints": ("U", ("J",)),
     "parents": ("i", ("J",)),
     "offsets": ("f", ("J", 3)),
     "contact_names": ("U", ("C",)),
 }
-
-
-def _node(number: int) -> dict[str, tuple[str, tuple[int | str, ...]]]:
-    """Say which arrays a node has: N strides on G phases, S samples of d parameters."""
-    n, g, s, d = (f"{letter}{number}" for letter in "NGSd")
-    arrays: dict[str, tuple[str, tuple[int | str, ...]]] = {
-        "grid": ("f", (g,)),
-        "seconds": ("f", (n, g)),
-        "speeds": ("c", (n, g)),
-        "turning": ("f", (n, g)),
-        "heights": ("f", (n, g)),
-        "poses": ("f", (n, g, "J", 4)),
-        "contacts": ("b", (n, g, "C")),
-        "facts": ("f", (n, 2)),
-        "numbers": ("f", (3,)),  # sway, offset, how many were left out
-        "parameters": ("U", (d,)),
-        "values": ("f", (s, d)),
-        "mixes": ("f", (s, n)),
-        "low": ("f", (d,)),
-        "high": ("f", (d,)),
-    }
-    return {f"{key}_of_{number}": value for key, value in arrays.items()}
-
-
-def _edge(number: int) -> dict[str, tuple[str, tuple[int | str, ...]]]:
-    """Say which arrays an edge has: S sources of d parameters, boxes of t parameters."""
-    s, d, t = (f"{letter}e{number}" for letter in "Sdt")
-    arrays: dict[str, tuple[str, tuple[int | str, ...]]] = {
-        "at": ("f", (s, d)),
-        "box_low": ("f", (s, t)),
-        "box_high": ("f", (s, t)),
-        "leave": ("f", (s,)),
-        "enter": ("f", (s,)),
-        "unit": ("f", (d,)),
-        "least": ("f", ()),
-    }
-    return {f"{key}_of_edge_{number}": value for key, value in arrays.items()}
+_STRIDES: Layout = {  # n strides on g phases
+    "grid": ("f", ("g",)),
+    "speeds": ("c", ("n", "g")),
+    **dict.fromkeys(("seconds", "turning", "heights"), ("f", ("n", "g"))),
+    "poses": ("f", ("n", "g", "J", 4)),
+    "contacts": ("b", ("n", "g", "C")),
+}
+_SPACE: Layout = {  # s samples of d parameters
+    "values": ("f", ("s", "d")),
+    "mixes": ("f", ("s", "n")),
+    **dict.fromkeys(("low", "high"), ("f", ("d",))),
+}
+_NODE: Layout = {
+    **_STRIDES,
+    **_SPACE,
+    "facts": ("f", ("n", 2)),
+    "numbers": ("f", (3,)),  # sway, offset, how many were left out
+    "parameters": ("U", ("d",)),
+}
+_EDGE: Layout = {  # s sources of d parameters, boxes of t parameters
+    "at": ("f", ("s", "d")),
+    **dict.fromkeys(("box_low", "box_high"), ("f", ("s", "t"))),
+    **dict.fromkeys(("leave", "enter"), ("f", ("s",))),
+    "unit": ("f", ("d",)),
+    "least": ("f", ()),
+}
 
 
 def _kind(nodes: int, edges: int) -> Kind:
-    parts = {**_HEAD, **_BODY}
-    for number in range(nodes):
-        parts |= _node(number)
-    for number in range(edges):
-        parts |= _edge(number)
-    return Kind(NAME, VERSION, parts)
+    """Say which arrays a file has: a node or edge has its own, and sizes in small letters are its own."""
+    own = [(f"_of_{number}", _NODE) for number in range(nodes)]
+    own += [(f"_of_edge_{number}", _EDGE) for number in range(edges)]
+    parts = {
+        f"{key}{end}": (kind, tuple(f"{n}{end}" if str(n).islower() else n for n in shape))
+        for end, arrays in own
+        for key, (kind, shape) in arrays.items()
+    }
+    return Kind(NAME, VERSION, {**_HEAD, **_BODY, **parts}, _rules)
+
+
+def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
+    """Yield what must hold."""
+    nodes, ends = arrays["nodes"], np.concatenate([arrays["sources"], arrays["targets"]])
+    yield "nodes have names of their own", 0 < len(nodes) == len(set(nodes.tolist()))
+    yield "there are edges between its nodes", (ends >= 0) & (ends < len(nodes))
+    names = (part for key, part in arrays.items() if key.startswith("parameters"))
+    yield "spaces are asked by turn and speed", [set(part.tolist()) <= set(PARAMETERS) for part in names]
 
 
 def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
@@ -78,36 +80,29 @@ def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
     MocapError : for another suffix, and where the file cannot be written.
     """
     nodes, edges = list(graph.graph), list(graph.graph.edges)
-    strides = graph.space(nodes[0]).strides
+    first = graph.space(nodes[0]).strides
     arrays: dict[str, object] = {
-        "nodes": np.array(nodes),
-        "sources": np.array([nodes.index(a) for a, _ in edges]),
-        "targets": np.array([nodes.index(b) for _, b in edges]),
-        "fps": strides.fps,
-        "joints": np.array(strides.skeleton.names),
-        "parents": strides.skeleton.parents,
-        "offsets": strides.skeleton.offsets,
-        "contact_names": np.array(strides.contact_names),
+        "nodes": nodes,
+        "sources": [nodes.index(a) for a, _ in edges],
+        "targets": [nodes.index(b) for _, b in edges],
+        "fps": first.fps,
+        "joints": first.skeleton.names,
+        "parents": first.skeleton.parents,
+        "offsets": first.skeleton.offsets,
+        "contact_names": first.contact_names,
     }
     for number, node in enumerate(nodes):
-        arrays |= {f"{key}_of_{number}": value for key, value in _space_arrays(graph.space(node)).items()}
-    for number, pair in enumerate(edges):
-        edge = graph.edge(*pair)
-        own = (edge.at, edge.low, edge.high, edge.leave, edge.enter, edge.scale, np.float64(edge.least))
-        arrays |= dict(zip(_edge(number), own, strict=True))
+        space = graph.space(node)
+        strides = space.strides
+        own = {key: getattr(strides, key) for key in _STRIDES} | {key: getattr(space, key) for key in _SPACE}
+        own |= {"facts": strides.values, "parameters": space.parameters}
+        own["numbers"] = [strides.sway, strides.offset, float(strides.dropped)]
+        arrays |= {f"{key}_of_{number}": value for key, value in own.items()}
+    for number, (a, b) in enumerate(edges):
+        edge = graph.edge(a, b)
+        parts = (edge.at, edge.low, edge.high, edge.leave, edge.enter, edge.scale, edge.least)
+        arrays |= {f"{key}_of_edge_{number}": part for key, part in zip(_EDGE, parts, strict=True)}
     write_arrays(path, _kind(len(nodes), len(edges)), arrays)
-
-
-def _space_arrays(space: StrideSpace) -> dict[str, object]:
-    own = space.strides
-    keys = ("grid", "seconds", "speeds", "turning", "heights", "poses", "contacts")
-    return {
-        **{key: getattr(own, key) for key in keys},
-        "facts": own.values,
-        "numbers": np.array([own.sway, own.offset, own.dropped], float),
-        "parameters": np.array(space.parameters),
-        **{key: getattr(space, key) for key in ("values", "mixes", "low", "high")},
-    }
 
 
 def load_parametric(path: str | Path) -> ParametricGraph:
@@ -118,43 +113,30 @@ def load_parametric(path: str | Path) -> ParametricGraph:
     FormatError, MocapError : for a file that is missing, is another kind of file, or contradicts itself.
     """
     head = read_arrays(path, Kind(NAME, VERSION, _HEAD))
-    nodes, edges = [str(node) for node in head["nodes"]], len(head["sources"])
-    arrays = read_arrays(path, _kind(len(nodes), edges))
-    ends = np.concatenate([arrays["sources"], arrays["targets"]])
-    if not nodes or len(set(nodes)) < len(nodes) or ((ends < 0) | (ends >= len(nodes))).any():
-        raise FormatError(path, None, "edges between its nodes", "numbers that contradict each other")
-    skeleton = Skeleton([str(name) for name in arrays["joints"]], arrays["parents"], arrays["offsets"])
+    nodes, edges = head["nodes"].tolist(), list(zip(head["sources"], head["targets"], strict=False))
+    arrays = read_arrays(path, _kind(len(nodes), len(edges)))
     graph = nx.DiGraph()
     for number, node in enumerate(nodes):
-        graph.add_node(node, space=_space(path, arrays, number, skeleton))
-    for number, (a, b) in enumerate(zip(arrays["sources"], arrays["targets"], strict=True)):
-        at, low, high, leave, enter, unit, least = (arrays[key] for key in _edge(number))
-        edge = ParametricEdge(at, low, high, leave, enter, unit, float(least))
-        graph.add_edge(nodes[a], nodes[b], edge=edge)
+        graph.add_node(node, space=_space(arrays, f"_of_{number}"))
+    for number, (a, b) in enumerate(edges):
+        *parts, least = (arrays[f"{key}_of_edge_{number}"] for key in _EDGE)
+        graph.add_edge(nodes[a], nodes[b], edge=ParametricEdge(*parts, float(least)))
     return ParametricGraph(graph)
 
 
-def _space(path: str | Path, arrays: Arrays, number: int, skeleton: Skeleton) -> StrideSpace:
+def _space(arrays: Arrays, end: str) -> StrideSpace:
     """Put the space of a node together."""
-    own = {key.removesuffix(f"_of_{number}"): arrays[key] for key in _node(number)}
-    names = tuple(str(name) for name in own["parameters"])
-    if not set(names) <= set(PARAMETERS):
-        raise FormatError(path, None, "spaces asked by turn and speed", ", ".join(names))
-    sway, offset, dropped = own["numbers"]
+    sway, offset, dropped = arrays[f"numbers{end}"].tolist()
     strides = Strides(
-        skeleton,
+        Skeleton(arrays["joints"].tolist(), arrays["parents"], arrays["offsets"]),
         float(arrays["fps"]),
-        own["grid"],
-        own["seconds"],
-        own["speeds"],
-        own["turning"],
-        own["heights"],
-        own["poses"],
-        own["contacts"],
-        tuple(str(name) for name in arrays["contact_names"]),
-        own["facts"],
-        float(sway),
-        float(offset),
-        int(dropped),
+        **{key: arrays[f"{key}{end}"] for key in _STRIDES},
+        contact_names=tuple(arrays["contact_names"].tolist()),
+        values=arrays[f"facts{end}"],
+        sway=sway,
+        offset=offset,
+        dropped=int(dropped),
     )
-    return StrideSpace(strides, names, own["values"], own["mixes"], own["low"], own["high"])
+    return StrideSpace(
+        strides, tuple(arrays[f"parameters{end}"].tolist()), **{key: arrays[f"{key}{end}"] for key in _SPACE}
+    )

@@ -12,7 +12,6 @@ from mocap.methods.parametric_graphs.parametric_edges import (
     Sampling,
     build_edge,
     require_joinable,
-    smallest_good,
 )
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
 
@@ -117,22 +116,3 @@ def build_parametric(
     if stuck := [name for name in spaces if not graph.out_degree(name)]:
         raise NoWalk(f"Nothing follows '{stuck[0]}' below {100 * good:.1f} cm: raise T_GOOD, or add spaces.")
     return ParametricGraph(graph)
-
-
-def least_thresholds(
-    spaces: Mapping[str, StrideSpace], sampling: Sampling | None = None
-) -> dict[tuple[str, str], float]:
-    """Say for each pair of spaces from which T_GOOD on, in metres, the second can follow the first.
-
-    Examples
-    --------
-    >>> from mocap import body, datasets
-    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
-    >>> from mocap.methods.parametric_graphs.strides import cut_strides
-    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
-    >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> least_thresholds({"walk": space})[("walk", "walk")] < 0.05
-    True
-    """
-    sampling = sampling or Sampling(sources=25, targets=200)
-    return {(a, b): smallest_good(spaces[a], spaces[b], sampling) for a in spaces for b in spaces}

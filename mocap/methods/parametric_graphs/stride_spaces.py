@@ -16,6 +16,7 @@ from mocap.methods.parametric_graphs.strides import Strides, mixed_way
 PARAMETERS = ("turn", "speed")
 SMALLEST = 1e-3  # a bell's weight below this share of the largest counts as 0
 FEWEST = 5  # strides within two widths of each part of a range
+SAMPLES = 120, 400  # of a space asked by one parameter, and by two
 NEIGHBOURS = 2  # more than the parameters: with one more, as in [HG07, 4], boxes jump
 
 
@@ -145,15 +146,13 @@ def measure_mixes(strides: Strides, weights: Array) -> Array:
     return np.stack([turn, way / (weights @ strides.seconds)[:, one]], axis=-1)
 
 
-def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is sampled)
+def make_space(
     strides: Strides,
     width: ArrayLike,
     low: ArrayLike,
     high: ArrayLike,
     *,
     parameters: Sequence[str] = ("turn",),
-    samples: int | None = None,
-    seed: int = 0,
 ) -> StrideSpace:
     """Sample mixes all over the range, measure what each comes to, and keep both [KG04], for [HG07, nodes].
 
@@ -166,14 +165,12 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     width : of the bell for each parameter, (d,): radians, m/s; about 14° and 0.15 m/s for captured strides.
     low, high : the range asked for, (d,); it is cut to what the samples come to.
     parameters : what it is asked by, d of "turn" and "speed".
-    samples : 120 for one parameter, 400 for two by default.
-    seed : of the samples for two parameters.
 
     Raises
     ------
     MocapError : for unknown parameters, a range that is none or lies outside what the samples come to, a
-        width that is not above 0, fewer strides than d + 2, or samples of two parameters, and strides that do
-        not vary.
+        width that is not above 0, fewer strides than d + 2, too few samples in a range of two parameters, and
+        strides that do not vary.
 
     Warns
     -----
@@ -194,18 +191,15 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
     names = tuple(parameters)
     width, lowest, highest = (np.atleast_1d(np.asarray(value, float)) for value in (width, low, high))
     _check(names, width, lowest, highest)
-    columns, count = [PARAMETERS.index(name) for name in names], len(names)
-    samples = (120 if count == 1 else 400) if samples is None else samples
-    if samples < count + NEIGHBOURS:
-        raise MocapError(f"A space keeps {count + NEIGHBOURS} samples or more, got {samples}.")
+    columns = [PARAMETERS.index(name) for name in names]
     values = strides.values[:, columns]
     _check_strides(names, values, width)
-    if count == 1:
-        asked = np.linspace(lowest - width, highest + width, samples)
+    if len(names) == 1:
+        asked = np.linspace(lowest - width, highest + width, SAMPLES[0])
     else:
-        random = np.random.default_rng(seed)
-        around = values[random.integers(len(values), size=samples)]
-        asked = around + random.normal(size=(samples, count)) * width
+        random = np.random.default_rng(0)
+        around = values[random.integers(len(values), size=SAMPLES[1])]
+        asked = around + random.normal(size=around.shape) * width
     mixes = bell_weights(values, asked, width)
     come = measure_mixes(strides, mixes)[:, columns]
     lowest, highest = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
@@ -217,8 +211,8 @@ def make_space(  # noqa: PLR0913 (what it is asked by, and how finely it is samp
         )
     _warn_of_gaps(names, values, width, (lowest, highest))
     space = StrideSpace(strides, names, come, mixes, lowest, highest)
-    if count > 1 and len(space.reached) < count + NEIGHBOURS:
-        raise MocapError(f"Only {len(space.reached)} of {samples} samples lie in the range: widen it.")
+    if len(names) > 1 and len(space.reached) < len(names) + NEIGHBOURS:
+        raise MocapError(f"Only {len(space.reached)} of {len(asked)} samples lie in the range: widen it.")
     return space
 
 

@@ -173,7 +173,7 @@ def test_a_group_that_stands_has_no_direction():
     [
         ([0j, 1j], [0j, 1j, 2j], (0.0,), "Groups of 2 and 3 members cannot be matched"),
         ([0j, np.nan], [0j, 1j], (0.0,), "not finite"),
-        ([0j, 1j], [0j, 1j], (), "one turn or more"),
+        ([0j, 1j], [0j, 1j], (), "a round or more from finite turns"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(first, second, starts, sentence):

@@ -110,7 +110,6 @@ def test_two_are_pushed_just_apart(gap):
         ({"seconds": np.nan}, "more than 0 seconds"),
         ({"seconds": 1e-9}, "more than 0 seconds"),
         ({"count": 2.5}, "two members or more, got 2.5"),
-        ({"settle": -1.0}, "got -1.0 s and 5.0 s"),
         ({"rules": Flock(space=-1.0)}, "not below 0; space is -1.0"),
         ({"rules": Flock(pace=np.nan)}, "finite and not below 0; pace is nan"),
         ({"count": np.nan}, "two members or more, got nan"),

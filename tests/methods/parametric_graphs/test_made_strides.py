@@ -3,7 +3,6 @@
 import numpy as np
 
 from mocap.body.kinematics import joint_positions
-from mocap.body.planar import PlanarTransform
 from mocap.methods.parametric_graphs.made_strides import facing_windows, make_stride
 from mocap.methods.parametric_graphs.nearest_windows import WINDOW
 from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
@@ -32,14 +31,10 @@ def test_feet_hardly_slide_while_they_are_planted():
         assert np.median(steps) * 30 < 0.15  # m/s
 
 
-def test_it_can_be_placed_and_windowed():
+def test_it_can_be_windowed():
     made = make_stride(space(), np.array([0.0]))
     window, other = facing_windows(made, made.frame(0.5), made, made.frame(0.6))
     assert window.shape == other.shape == (WINDOW * len(made.joints), 3)
-    roots, turns = made.placed(slice(3, 9), PlanarTransform(np.pi / 2, 1.0, 2.0))
-    assert roots.shape == (6, 3) and turns.shape == (6, 38, 4)
-    here = made.motion.root_positions[3]
-    np.testing.assert_allclose(roots[0], [here[2] + 1, here[1], -here[0] + 2], atol=1e-9)
 
 
 def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
