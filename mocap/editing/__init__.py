@@ -50,9 +50,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
         "pins": ["Pins", "join_pins", "pin", "pin_errors", "plant_pins"],
-        "linear_bodies": ["Body", "body_of", "hinge_of"],
-        "reaching": ["Solved", "reach"],
-        "spacetime_solver": ["refined", "spacetime"],
+        "bodies": ["Body", "body_of"],
+        "solver": ["REACH", "Basis", "Solved", "solve"],
         "edits": ["edit"],
         "levels": ["Level", "hierarchy", "scattered_fit"],
         "bending": ["LIMIT", "Bent", "bend"],

@@ -14,7 +14,7 @@ from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept, ride_of
 from mocap.editing.pins import plant_pins
-from mocap.editing.spacetime_solver import spacetime
+from mocap.editing.solver import Basis, solve_quietly
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
@@ -105,7 +105,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
 
     Its own path is taken off and the line put in its place [Gle01]. That the line is rounded where it turns
     too fast is ours. The walk starts where the line starts, keeps its speed, and ends where the line does.
-    Where the clean-up would let go more than 5 % of the plants, `spacetime` brings them within reach first.
+    Where the clean-up would let go more than 5 % of the plants, the solver brings them within reach first.
 
     Parameters
     ----------
@@ -168,10 +168,7 @@ def _cleaned(laid: Motion) -> Motion:
     """Clean up the feet; where plants are let go, all frames are first changed a little to reach them."""
     found, warned = _clean(laid)
     if plants_kept(found, laid) < ENOUGH:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MocapWarning)  # the clean-up goes on from there
-            near = spacetime(laid, plant_pins(laid)).motion
-        nearer = _clean(near)
+        nearer = _clean(solve_quietly(laid, plant_pins(laid), [Basis(knots=0.125)]).motion)
         found, warned = max((found, warned), nearer, key=lambda pair: plants_kept(pair[0], laid))
     for warning in warned:
         warnings.warn(warning, MocapWarning, stacklevel=3)

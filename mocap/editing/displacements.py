@@ -167,20 +167,8 @@ def right_jacobian(turns: Array) -> Array:
     size = np.maximum(angle, 1e-4)  # below, both quotients are at their limits to 1e-9
     first = np.where(angle < size, 0.5, (1 - np.cos(size)) / size**2)
     second = np.where(angle < size, 1 / 6, (size - np.sin(size)) / size**3)
-    cross = cross_matrix(turns)
-    return np.asarray(np.eye(3) - first * cross + second * cross @ cross)
-
-
-def cross_matrix(vectors: Array) -> Array:
-    """Build [v]×, shape (..., 3, 3), with [v]× u = v × u.
-
-    Examples
-    --------
-    >>> cross_matrix(np.array([1.0, 2.0, 3.0])) @ np.array([0.0, 0.0, 1.0])
-    array([ 2., -1.,  0.])
-    """
-    cross = np.zeros((*vectors.shape, 3))
-    x, y, z = np.moveaxis(vectors, -1, 0)
+    x, y, z = np.moveaxis(turns, -1, 0)
+    cross = np.zeros((*turns.shape, 3))  # [v]×, with [v]× u = v × u
     cross[..., 0, 1], cross[..., 0, 2], cross[..., 1, 2] = -z, y, -x
-    cross[..., 1, 0], cross[..., 2, 0], cross[..., 2, 1] = z, -y, x
-    return cross
+    cross -= np.swapaxes(cross, -1, -2)
+    return np.asarray(np.eye(3) - first * cross + second * cross @ cross)

@@ -4,9 +4,8 @@ At each level the pinned frames are brought to their pins, each by itself, and w
 spline with the level's knots and added: m_k = m_{k-1} ⊕ d_k. The fit is that of [LWS97]: local, without a
 system to solve. Coarse levels move the body as a whole, fine ones add what is still asked.
 
-Teach the levels, and use `spacetime`: it is quicker, comes nearer, and undoes what it overshot. The levels
-win where an editor drags and wants a coarse answer at once. Where few frames are pinned, coarse knots must
-come first in either way: `spacetime` alone makes a hand fly, `refined` and the levels do not.
+Teach the levels, and use `solve` on splines: it is quicker, comes nearer, and undoes what it overshot. The
+levels win where an editor drags and wants a coarse answer at once.
 """
 
 from collections.abc import Sequence
@@ -17,14 +16,16 @@ from scipy import sparse
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.motion import Motion
+from mocap.editing.bodies import Body
 from mocap.editing.displacements import displaced, spline_basis
-from mocap.editing.linear_bodies import Body
 from mocap.editing.pins import Pins, pin_errors
-from mocap.editing.reaching import each_frame, ready
+from mocap.editing.solver import REACH, solve_quietly
 from mocap.errors import MocapError
 
-WEIGHT = 100.0
-PASSES = 4  # of inverse kinematics at each level: what is left the next level asks again
+# Few passes of inverse kinematics at each level: what is left the next level asks again.
+ASK = REACH._replace(passes=4)
+
+TOLERANCE = 1e-3  # metres: a level is the last if no pin is missed by more
 
 
 class Level(NamedTuple):
@@ -77,7 +78,12 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
 
     Notebook: 14-levels
     """
-    _require_data(basis, data, at)
+    if np.ndim(data) != 2 or np.shape(at) != np.shape(data)[:1]:
+        raise MocapError(
+            f"Each datum, a row of numbers, needs a frame; got {np.shape(data)}, {np.shape(at)}."
+        )
+    if np.size(at) and not 0 <= np.min(at) <= np.max(at) < basis.shape[0]:
+        raise MocapError(f"Data stand at frames 0 to {basis.shape[0] - 1}, got {min(at)} to {max(at)}.")
     return local_heights(basis[at], np.asarray(data, float))
 
 
@@ -98,26 +104,15 @@ def local_heights(weights: sparse.csr_array, data: Array) -> Array:
     return np.asarray(heights)
 
 
-def _require_data(basis: sparse.csr_array, data: Array, at: Indices) -> None:
-    """Raise `MocapError` unless there is a frame of the basis for each datum."""
-    if np.ndim(data) != 2 or np.shape(at) != np.shape(data)[:1]:
-        raise MocapError(
-            f"Each datum, a row of numbers, needs a frame; got {np.shape(data)}, {np.shape(at)}."
-        )
-    if np.size(at) and not (np.min(at) >= 0 and np.max(at) < basis.shape[0]):
-        raise MocapError(f"Data stand at frames 0 to {basis.shape[0] - 1}, got {min(at)} to {max(at)}.")
-
-
-def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why)
+def hierarchy(
     base: Motion,
     pins: Pins,
     body: Body | None = None,
     *,
     knots: Sequence[float] = (0.5, 0.25, 0.125, 0.06, 0.03),
-    tolerance: float = 1e-3,
     listen: bool = True,
 ) -> tuple[Motion, list[Level]]:
-    """Bring joints to their pins level by level, and end when the pins are met [LS99, levels].
+    """Bring joints to their pins level by level, and end when they are met to a millimetre [LS99, levels].
 
     A number listens to a frame only if a joint that it moves is pinned there: a foot that stands says nothing
     about the arm. This is ours, and needed: else a hand that is asked for in three frames stays 28 cm off.
@@ -126,9 +121,8 @@ def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why
     ----------
     base : F frames.
     pins : of F frames.
-    body : which joints turn, at what price; `body_of(base, pins.joints)` by default.
+    body : which joints turn, at what price; as for `solve`.
     knots : seconds between knots, level by level, each smaller than the one before.
-    tolerance : metres: a level is the last if no pin is missed by more.
     listen : False lets each number listen to all frames.
 
     Returns
@@ -137,7 +131,7 @@ def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why
 
     Raises
     ------
-    MocapError : as for `spacetime`, for knots that do not fall, and a tolerance that is not above 0.
+    MocapError : as for `solve`, and for knots that do not fall.
 
     Examples
     --------
@@ -152,22 +146,19 @@ def hierarchy(  # noqa: PLR0913 (the last one is for the notebook that shows why
 
     Notebook: 14-levels
     """
-    body, motion, levels = ready(base, pins, body, WEIGHT), base, []
     if not len(knots) or not all(0 < b < a for a, b in zip((np.inf, *knots), knots, strict=False)):
         raise MocapError(f"From level to level the knots come nearer, above 0 s; got {tuple(knots)[:8]}.")
-    if not tolerance > 0:
-        raise MocapError(f"A tolerance is above 0 metres, got {tolerance}.")
-    errors = pin_errors(motion, pins)
+    motion, levels, errors = base, [], pin_errors(base, pins)
     for seconds in knots:
-        if errors.max(initial=0.0) <= tolerance:
+        if errors.max(initial=0.0) <= TOLERANCE:
             break
         asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P)
         frames = np.asarray(asked.any(axis=1))
-        change, _ = each_frame(motion, pins.only(frames), body, WEIGHT, PASSES)
-        basis = spline_basis(len(base), seconds * base.fps)
+        _, _, change, body = solve_quietly(motion, pins.only(frames), [ASK], body)
         who = listeners(base, pins, body, asked) if listen else np.repeat(frames[:, None], len(body.price), 1)
-        curve = basis @ fitted(basis, change, who)
-        motion = displaced(motion, body.displacement(curve, len(base.skeleton)))
+        basis = spline_basis(len(base), seconds * base.fps)
+        fits = [scattered_fit(basis, change[at, n, None], np.flatnonzero(at)) for n, at in enumerate(who.T)]
+        motion = displaced(motion, body.displacement(basis @ np.hstack(fits), len(base.skeleton)))
         errors = pin_errors(motion, pins)
         rms = float(np.sqrt((errors[frames] ** 2).mean()))
         levels.append(Level(seconds, int(frames.sum()), float(errors.max()), rms))
@@ -179,20 +170,6 @@ def listeners(base: Motion, pins: Pins, body: Body, asked: Mask) -> Mask:
 
     A joint's turns listen where a joint below it is pinned; the root's place listens to all.
     """
-    listens = np.zeros((len(base), len(body.price)), bool)
-    listens[:, :3] = np.any(asked, axis=1)[:, None]
-    chains = [base.skeleton.path_to_root(joint)[1:] for joint in pins.joints]
-    for joint, columns in zip(body.joints, body.columns, strict=True):
-        below = [number for number, above in enumerate(chains) if joint in above]
-        listens[:, columns] = np.any(asked[:, below], axis=1)[:, None]
-    return listens
-
-
-def fitted(basis: sparse.csr_array, change: Array, listens: Mask) -> Array:
-    """Fit each of the body's numbers, a column of `change` (F, n), to the frames it listens to: (K, n)."""
-    control = np.zeros((basis.shape[1], change.shape[1]))
-    kinds, kind = np.unique(listens, axis=1, return_inverse=True)
-    for number in range(kinds.shape[1]):
-        frames, columns = np.flatnonzero(kinds[:, number]), np.flatnonzero(kind.ravel() == number)
-        control[:, columns] = scattered_fit(basis, change[np.ix_(frames, columns)], frames)
-    return control
+    above = [base.skeleton.path_to_root(joint)[1:] for joint in pins.joints]
+    moves = np.array([np.isin(body.joints, joints) for joints in above])  # (P, T)
+    return np.hstack([np.repeat(asked.any(axis=1)[:, None], 3, axis=1), asked @ moves])

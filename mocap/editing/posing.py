@@ -1,7 +1,7 @@
 """A key's pose, made by dragging joints: one frame, its other joints following.
 
-[WP95] let an animator set a pose's angles. Here joints are put to places, and `reach` turns the joints above
-them [ours].
+[WP95] let an animator set a pose's angles. Here joints are put to places, and the solver turns the joints
+above them [ours].
 """
 
 from __future__ import annotations
@@ -16,13 +16,14 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.linear_bodies import Body, body_of, require_reachable
+from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
-from mocap.editing.reaching import reach
+from mocap.editing.solver import Basis, solve
 from mocap.errors import MocapError
 
-WEIGHT = 3000.0  # of the places against the turns; a key is then met to a hundredth of a millimetre
-PASSES = 60  # at most; a root that is held asks for about 40, other poses for 7
+# With this weight a key is met to a hundredth of a millimetre. A root that is held asks for about 40 passes,
+# other poses for 7.
+POSE = Basis(weight=3000.0, damping=1e-3, passes=60)
 HEAVY = 1e10  # how many times its price a metre of a root costs that is held
 
 # How many times their prices the root and the joints of the trunk cost. With 1 the trunk leans by 30° so that
@@ -82,7 +83,7 @@ def posed(
     require_reachable(motion, pins)
     body = _body(motion, pins.joints, tuple(still))
     now = replace(motion[frame : frame + 1], name=f"{motion.name}[{frame}]")
-    return replace(reach(now, pins.at([frame]), body, weight=WEIGHT, passes=PASSES).motion, name=motion.name)
+    return replace(solve(now, pins.at([frame]), [POSE], body).motion, name=motion.name)
 
 
 @lru_cache(maxsize=1)
@@ -96,7 +97,7 @@ def _body(motion: Motion, pinned: tuple[int, ...], still: tuple[str, ...]) -> Bo
     """Choose the joints that turn; a root that is still does not move either."""
     body = body_of(motion, pinned, prices=dict.fromkeys(_trunk(motion.skeleton), TRUNK), still=still)
     root = HEAVY if motion.skeleton.names[0] in still else TRUNK
-    return replace(body, price=np.append(root * body.price[:3], body.price[3:]))
+    return body._replace(price=np.append(root * body.price[:3], body.price[3:]))
 
 
 def _trunk(skeleton: Skeleton) -> list[str]:

@@ -2,39 +2,40 @@
 
 The paper's steps: start from the old motion, scale the root's way, choose how far apart the knots are, solve
 for all frames at once, and solve again with more knots where something is not met. Here the start is a copy
-from body to body, so that trees and rest poses may differ, and triangles close the last millimetres.
+from body to body, so that trees and rest poses may differ, and the last knots are the frames.
 """
 
 import warnings
 
+import numpy as np
+
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.editing.bodies import Body, body_of
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
-from mocap.editing.edits import edit
+from mocap.editing.edits import let_go
 from mocap.editing.floors import dips_of, floor_pins
-from mocap.editing.linear_bodies import Body, body_of
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins
-from mocap.editing.spacetime_solver import WEIGHT, solved_in_time
+from mocap.editing.solver import CLOSE, Basis, solve_quietly
 from mocap.editing.stances import stance_of, stance_of_zero
 from mocap.editing.upright_bodies import Stance
-from mocap.errors import MocapWarning
+from mocap.errors import MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 
-# Seconds from knot to knot; the next where a plant is let go. A child takes steps 1.8 times as long as its
-# legs ask for: its accelerations grow by 27 % (a CMU walk) and 37 % (a bundled one) with 0.16, by 28 and 61 %
-# with 0.125. With 0.16 alone, 4 % of the CMU walk's planted frames are let go at 1.6 times; with all, none.
-KNOTS = (0.16, 0.125, 0.1)
+# Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°.
+RETARGET = (Basis(knots=0.125, calm=0.1), CLOSE, CLOSE)
 
-# What turns of knees and of the trunk cost, as a share of what they move. With 1 that child's knees
-# straighten to 0.1°, and 9 % of its planted frames are let go; with 4 they keep 6°, and no plant is let go.
-# A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.
+# What turns of knees and of the trunk cost, as a share of what they move. With 1 the knees of a child that
+# takes long steps straighten. A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.
 STIFF = 4.0
 
 # Metres. Feet that move more while they stand are cleaned up first. Without that, up to 6 % of the planted
 # frames of captured walks are let go on the new body; with it, none that stand on the old one.
 STILL = 0.001
+
+MOST = 0.5  # of a leg: hips that move by more to take the steps jump; a child's do at 3 times its own steps
 
 
 def retarget(
@@ -50,8 +51,8 @@ def retarget(
     In the paper: [Gle98, method].
 
     The motion is copied; pins say where its feet must be; the smallest smooth change over all frames at once
-    brings them there [Gle98], and `feet.clean_up` closes what is left (`edit`, where there are more pins).
-    Copied angle by angle, feet would slide, float and sink, and bodies with other rest poses would fold.
+    brings them there [Gle98]. Copied angle by angle, feet would slide, float and sink, and bodies with other
+    rest poses would fold.
 
     Parameters
     ----------
@@ -75,7 +76,8 @@ def retarget(
 
     Warns
     -----
-    MocapWarning : for steps that no leg takes: plants that are let go, pins that are missed.
+    MocapWarning : for steps that no leg takes: hips that move by more than half a leg, and pins that are
+        missed by more than 0.1 mm; plants among them are let go.
 
     Examples
     --------
@@ -93,32 +95,16 @@ def retarget(
     target = body if isinstance(body, Stance) else standing_like(body, source)
     base = copied(_standing(motion, source), source, target, scale=scale)
     dips = {role: dip * target.leg / source.leg for role, dip in dips_of(motion, source).items()}
-    plants, floor = (floor_pins(base, target, depth) for depth in (None, dips))
-    if pins is not None:
-        plants, floor = (join_pins(wishes, pins) for wishes in (plants, floor))
-    linear = _priced(base, target, floor)
-    if pins is None:
-        return _standing_again(base, (plants, floor), linear, target)
-    solved = solved_in_time(base, floor, linear, (KNOTS[0], WEIGHT)).motion
-    return edit(solved, plants, body=linear, legs=target.legs)
-
-
-def _standing_again(base: Motion, wishes: tuple[Pins, Pins], body: Body, target: Stance) -> Motion:
-    """Bring plants to their places, over the floor; where any is let go, with denser knots [Gle98].
-
-    A floor alone is no ceiling, so the weight need not rise slowly.
-    """
-    plants, floor = wishes
-    for knots in KNOTS:
-        solved = solved_in_time(base, floor, body, (knots, WEIGHT), again=True).motion
-        with warnings.catch_warnings(record=True) as said:
-            warnings.simplefilter("always", MocapWarning)
-            worn = clean_up(solved, target.legs, pins=plants)
-        if not said:
-            return worn
-    for warning in said:
-        warnings.warn(warning.message, stacklevel=3)
-    return worn
+    wishes = join_pins(floor_pins(base, target, dips), *([] if pins is None else [pins]))
+    worn = solve_quietly(base, wishes, RETARGET, _priced(base, target, wishes)).motion
+    if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
+        warnings.warn(
+            f"'{shortened(motion.name)}': the hips move by {100 * moved:.0f} cm to take these steps, "
+            f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return let_go(worn, wishes, floor_pins(base, target))
 
 
 def _priced(base: Motion, target: Stance, pins: Pins) -> Body:

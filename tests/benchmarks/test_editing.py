@@ -18,7 +18,7 @@ from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, plant_pins
 from mocap.editing.proportions import proportioned
 from mocap.editing.retargeted import retarget
-from mocap.editing.spacetime_solver import spacetime
+from mocap.editing.solver import Basis, solve
 from mocap.editing.stances import stance_of_walk
 from mocap.feet.footskate import clean_up
 from tests.editing.wishes import hand_at, stone, walk
@@ -90,6 +90,6 @@ def test_spacetime_grows_as_the_frames_do():
         pins = plant_pins(clip)
         up = np.array([0, 0.03, 0])
         up = Pins(pins.joints, pins.low + up, pins.high + up)
-        ratios.append(ratio(lambda clip=clip, up=up: spacetime(clip, up), clip, times=3))
+        ratios.append(ratio(lambda clip=clip, up=up: solve(clip, up, [Basis(knots=0.125)]), clip, times=3))
         print(f"\n{name}: {len(clip)} frames, {ratios[-1]:.0f} times forward kinematics")
     assert ratios[1] < 1.5 * ratios[0]

@@ -10,17 +10,15 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
+from mocap.editing.bodies import Body, body_of, hinge_of
 from mocap.editing.displacements import difference
 from mocap.editing.edits import edit
-from mocap.editing.linear_bodies import Body, body_of, hinge_of
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, bones, captured, hand, hand_at, plants_kept, smoothness, stone, walk
-
-DENSER = (0.5, 0.25, 0.125)
 
 
 @pytest.fixture(autouse=True)
@@ -54,7 +52,7 @@ def test_a_stone_under_a_step_of_a_run():
 def test_stones_under_a_captured_step(real_data, height):
     clip = captured(real_data)
     pins = stone(clip, height)
-    check(edit(clip, pins, knots=DENSER), clip, pins, 1.15)
+    check(edit(clip, pins), clip, pins, 1.15)
 
 
 def test_a_stone_under_any_captured_step(real_data):
@@ -111,7 +109,7 @@ def test_a_hand_held_while_the_body_walks_on(real_data):
 def test_a_hand_at_three_frames(real_data):
     clip = captured(real_data)
     pins = hand_at(clip, (180, 240, 300))
-    check(edit(clip, pins, knots=DENSER), clip, pins, 1.1)
+    check(edit(clip, pins), clip, pins, 1.1)
 
 
 def test_a_hand_on_a_rail_slides_along_it(real_data):
@@ -152,7 +150,7 @@ def test_an_arm_whose_elbow_twists_as_well_is_a_limb(real_data, name, wrist):
     assert pin_errors(edit(clip, pins), pins).max() < 1e-9
 
 
-def test_an_arm_that_is_straight_in_every_frame_shows_no_way_to_bend():
+def test_an_arm_that_is_straight_in_every_frame_bends():
     clip = walk()
     arm = [clip.skeleton.index(name) for name in ("lhumerus", "lradius")]
     turns = clip.rotations.copy()
@@ -160,7 +158,7 @@ def test_an_arm_that_is_straight_in_every_frame_shows_no_way_to_bend():
     clip = replace(clip, rotations=turns)
     wrist = joint_positions(clip)[:, clip.skeleton.index("lwrist")]
     pins = pin(clip, "lwrist", [240], wrist[240] + np.array([0.0, 0.05, 0.0]))
-    assert 1e-9 < pin_errors(edit(clip, pins), pins).max() < 0.005
+    assert pin_errors(edit(clip, pins), pins).max() < 1e-9
 
 
 def test_nothing_asked_changes_nothing():
@@ -195,9 +193,6 @@ def test_what_cannot_be_is_said():
     assert len(str(error.value)) <= 200
     with pytest.raises(MocapError, match="mark_plants finds out"):
         edit(replace(clip, contacts={}), hand(clip, [240], 240))
-    for knots, words in (((), "takes knots"), (0.0, "above 0 seconds"), ((0.5, np.nan), "got nan")):
-        with pytest.raises(MocapError, match=words):
-            edit(clip, hand(clip, [240], 240), knots=knots)
     apart = [pin(clip, j, [240], at[240, j] + np.array([0, y, 0])) for j, y in ((wrist, 0.1), (elbow, -0.1))]
     with pytest.warns(MocapWarning, match=r"frame 240: 'r\w+' is \d+\S* mm off its pin") as told:
         both = edit(clip, join_pins(*apart))
@@ -211,10 +206,8 @@ def test_a_limb_that_is_too_short_stays_within_its_reach():
     clip = walk()
     wrist = clip.skeleton.index("rwrist")
     far = pin(clip, wrist, [240], joint_positions(clip)[240, wrist] + np.array([0, 0.2, 1.0]))
-    elbow = clip.skeleton.index("rradius")
-    hinge = body_of(clip, [wrist])
-    axes = hinge.axes[hinge.joints.index(elbow)]
-    stiff = Body((elbow,), (axes,), np.array([1e9, 1e9, 1e9, 1e9]))
+    elbow = np.array([clip.skeleton.index("rradius")])
+    stiff = Body(elbow, np.array([[1.0, 0, 0]]), np.array([1e15, 1e15, 1e15, 1]))
     with pytest.warns(MocapWarning, match="'rwrist' is .* mm off its pin"):
         edited = edit(clip, far, body=stiff)
     assert 0.2 < pin_errors(edited, far).max() < 1

@@ -1,0 +1,235 @@
+"""The solver is as good as SciPy, its banded step as the plain one; each frame alone jolts."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import sparse
+from scipy.optimize import least_squares
+
+from mocap.body.kinematics import joint_positions
+from mocap.editing.bodies import Body, body_of
+from mocap.editing.displacements import spline_basis
+from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
+from mocap.editing.solver import CLOSE, REACH, Basis, Curve, Linear, linear, plain_step, solve, solve_quietly
+from mocap.errors import MocapError, MocapWarning
+from tests.editing.wishes import bar, bones, captured, hand_at, smoothness, stone, walk
+from tests.strategies import seeds
+
+SPLINES = Basis(knots=0.125)
+DENSER = [Basis(knots) for knots in (0.5, 0.25, 0.125)]
+
+
+@given(seeds)
+@settings(max_examples=5)
+def test_slopes_are_those_of_finite_differences(seed):
+    random = np.random.default_rng(seed)
+    clip = walk()[::50]
+    pins = bar(clip, 1.3, 3)
+    body = body_of(walk(), pins.joints)
+    x = random.normal(size=(len(clip), len(body.price))) * 0.3
+    here = linear(clip, body, x, pins)
+    active = here.slopes.any(axis=-1)
+    assert (active >= (pins.held.reshape(active.shape) | (here.gap != 0))).all()
+    for column in range(x.shape[1]):
+        step = np.zeros(x.shape)
+        step[:, column] = 1e-6
+        there = linear(clip, body, x + step, pins)
+        slopes = np.where(active & (here.gap != 0), (here.gap - there.gap) / 1e-6, 0.0)
+        np.testing.assert_allclose(np.where(here.gap != 0, here.slopes[..., column], 0), slopes, atol=1e-5)
+
+
+def test_a_rail_and_a_free_joint_give_rows_of_zeros():
+    clip = walk()[:3]
+    rail = pin(clip, "lwrist", [0, 1], [0.3, 1, -np.inf], [0.3, 1, np.inf])
+    body = body_of(walk(), rail.joints)
+    here = linear(clip, body, np.zeros((3, len(body.price))), rail)
+    assert not here.slopes[:, 2].any() and not here.slopes[2].any()
+    assert here.slopes[:2, :2].any(axis=-1).all()
+    assert here.worst == pytest.approx(pin_errors(clip, rail).max())
+
+
+@given(seeds, st.integers(1, 12), st.sampled_from([0.0, 1.5, 4.0, 20.0]), st.floats(0, 5), st.floats(0, 9))
+def test_the_banded_step_is_the_plain_one(seed, frames, knots, calm, damping):
+    random = np.random.default_rng(seed)
+    price = random.uniform(1, 9, 3)
+    curve = Curve(Basis(knots, calm, weight=30.0), Clip(frames), price)
+    c = random.normal(size=(curve.basis.shape[1], 3))
+    now = Linear(random.normal(size=(frames, 6)), random.normal(size=(frames, 6, 3)))
+    if c.shape[0] > frames:
+        return  # some splines are unseen, and the plain system is singular
+    plain = plain_step(curve, c, now, damping)
+    np.testing.assert_allclose(curve.step(c, now, np.array([[damping]])), plain, atol=1e-6)
+    cost = curve.cost(c, now.gap)
+    assert cost.shape == ((frames, 1) if curve.alone else (1, 1))
+
+
+class Clip:
+    """So many frames at one a second."""
+
+    fps = 1.0
+
+    def __init__(self, frames):
+        self.frames = frames
+
+    def __len__(self):
+        return self.frames
+
+
+def by_scipy(clip, pins, body, basis, weight):
+    """Return the least cost that SciPy finds."""
+    shape, root_price = (basis.shape[1], len(body.price)), np.sqrt(body.price)
+
+    def residuals(c):
+        x = basis @ c.reshape(shape)
+        return np.append((x * root_price).ravel(), weight * linear(clip, body, x, pins).gap.ravel())
+
+    def slopes(c):
+        here = linear(clip, body, basis @ c.reshape(shape), pins)
+        many = sparse.block_diag(list(here.slopes)) @ sparse.kron(basis, sparse.identity(shape[1]))
+        return sparse.vstack([sparse.kron(basis, sparse.diags(root_price)), -weight * many]).tocsr()
+
+    start = np.zeros(shape[0] * shape[1])
+    return least_squares(residuals, start, slopes, tr_solver="lsmr", x_scale="jac", max_nfev=60).cost * 2
+
+
+@pytest.mark.parametrize("real", [False, True])
+def test_the_cost_is_scipys(real, request):
+    clip = (captured(request.getfixturevalue("real_data")) if real else walk())[130:250]
+    pins = stone(clip, 0.1, 0)
+    solved = solve(clip, pins, [SPLINES])
+    gaps = linear(clip, solved.body, solved.change, pins).gap
+    own = (solved.change**2 @ solved.body.price).sum() + 300.0**2 * (gaps**2).sum()
+    assert own <= by_scipy(clip, pins, solved.body, spline_basis(len(clip), 15), 300.0) * (1 + 1e-3)
+
+
+def test_a_frame_is_as_near_as_scipy_brings_it():
+    clip = walk()[240:241]
+    pins = hand_at(walk(), [240]).at(slice(240, 241))
+    body = body_of(walk(), pins.joints)
+    solved = solve(clip, pins, [REACH._replace(passes=30)], body)
+    gaps = linear(clip, body, solved.change, pins).gap
+    own = (solved.change**2 @ body.price).sum() + 100.0**2 * (gaps**2).sum()
+    assert own <= by_scipy(clip, pins, body, sparse.eye_array(1, format="csr"), 100.0) * (1 + 1e-3)
+
+
+def test_frames_with_pins_meet_them_and_the_others_stay_to_the_last_bit():
+    clip = walk()
+    few = stone(clip, 0.3).only(slice(200, 300))
+    solved = solve(clip, few, [REACH], body_of(clip, few.joints))
+    assert solved.worst[-1] < 0.001
+    alone = np.ones(len(clip), bool)
+    alone[200:300] = False
+    assert np.array_equal(solved.motion.rotations[alone], clip.rotations[alone])
+    assert not solved.change[alone].any()
+    assert bones(solved.motion) < 1e-12
+
+
+@pytest.mark.parametrize(("fps", "least"), [(120.0, 5), (30.0, 3)])
+def test_each_frame_by_itself_jolts_and_all_at_once_do_not(fps, least):
+    clip = walk(fps)
+    alone = solve(clip, stone(clip, 0.2), [REACH])
+    assert alone.worst[-1] < 0.001
+    assert smoothness(alone.motion, clip) > least
+    pins = stone(clip, 0.15)
+    solved = solve(clip, pins, [SPLINES])
+    assert pin_errors(solved.motion, pins).max() < 0.003
+    assert smoothness(solved.motion, clip) < 1.15
+    assert bones(solved.motion) < 1e-12
+    assert solved.worst[-1] == pytest.approx(pin_errors(solved.motion, pins).max())
+
+
+def test_one_frame_of_a_hand_is_met_to_a_hundredth_of_a_millimetre():
+    clip = walk()
+    pins = hand_at(clip, [240]).only([240])
+    assert solve(clip, pins, [REACH._replace(weight=1000.0)]).worst[-1] < 1e-5
+
+
+def test_few_knots_leave_centimetres_and_many_jolt(real_data):
+    clip = captured(real_data)
+    pins = stone(clip, 0.2)
+    solved = {}
+    for knots in (0.5, 0.125, 0.03):
+        motion = solve_quietly(clip, pins, [Basis(knots)]).motion
+        solved[knots] = (pin_errors(motion, pins).max(), smoothness(motion, clip))
+    assert solved[0.5][0] > 1.5 * solved[0.125][0] > 1.5 * solved[0.03][0]
+    assert solved[0.125][0] < 0.0035 and solved[0.125][1] < 1.06
+    assert solved[0.03][1] > 3
+    motion = solve(clip, pins, DENSER).motion
+    assert pin_errors(motion, pins).max() < 0.0016
+    assert smoothness(motion, clip) < 1.07
+
+
+def test_a_bar_needs_a_weight_that_rises(real_data, monkeypatch):
+    clip = captured(real_data)
+    pins = bar(clip, 1.35, 230)
+    solved = solve(clip, pins, [SPLINES])
+    assert solved.worst[-1] < 0.0025
+    assert smoothness(solved.motion, clip) < 1.05
+    monkeypatch.setattr("mocap.editing.solver.CEILING", 0.0)
+    with pytest.warns(MocapWarning, match=r"'16_15', frame \d+: '\w+' is [\d.]+ mm off its pin"):
+        at_once = solve(clip, pins, [SPLINES._replace(passes=4)])
+    assert at_once.worst[-1] > 0.05
+    assert smoothness(at_once.motion, clip) > 1.5
+
+
+def test_a_hand_at_three_frames_while_the_feet_stand():
+    clip = walk()
+    pins = hand_at(clip, (180, 240, 300))
+    solved = solve(clip, pins, [SPLINES])
+    assert solved.worst[-1] < 0.002
+    # Narrow splines carry the hand out and back in half a second; wide ones first, and it rises slowly.
+    slow = solve(clip, pins, DENSER).motion
+    assert pin_errors(slow, pins).max() < 0.001
+    assert smoothness(slow, clip) < 1.05 < 2 < smoothness(solved.motion, clip)
+
+
+def test_nothing_asked_and_nothing_missed_change_nothing():
+    clip = walk()
+    empty = pin(clip, "lwrist", [], [0, 0, 0])
+    for way in (SPLINES, REACH, CLOSE):
+        solved = solve(clip, empty, [way])
+        assert np.array_equal(solved.motion.rotations, clip.rotations)
+        assert np.array_equal(solved.motion.root_positions, clip.root_positions)
+        assert solved.worst == [0.0]
+    assert np.abs(solve(clip, plant_pins(clip), [SPLINES]).change).max() < 1e-9
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3, 5])
+def test_a_few_frames_are_enough(frames):
+    clip = walk()[:frames]
+    wrist = joint_positions(clip)[0, clip.skeleton.index("lwrist")]
+    solved = solve(clip, pin(clip, "lwrist", [0], wrist + np.array([0, 0.1, 0])), [SPLINES])
+    assert solved.worst[-1] < 0.001
+    assert len(solved.motion) == frames
+
+
+def test_what_is_missed_is_said():
+    clip = walk()
+    wrist, elbow = (clip.skeleton.index(name) for name in ("rwrist", "rradius"))
+    at = joint_positions(clip)[240]
+    pins = join_pins(
+        pin(clip, wrist, [240], at[wrist] + [0, 0.1, 0]), pin(clip, elbow, [240], at[elbow] - [0, 0.1, 0])
+    )
+    with pytest.warns(MocapWarning, match=r"'walk_straight', frame 240: 'r\w+' is [\d.]+ mm off its pin"):
+        solve(clip, pins, [REACH])
+
+
+def test_bad_input():
+    clip, pins = walk(), plant_pins(walk())
+    for bases, words in (
+        ([], "a basis or more, got none"),
+        ([REACH._replace(passes=0)], "a pass or more"),
+        ([Basis(damping=-1.0)], "damping of 0 or more"),
+        ([Basis(weight=0.0)], "weight above 0"),
+        ([Basis(weight=np.inf)], "weight above 0"),
+        ([Basis(knots=np.nan)], "knots and calm of 0 s or more"),
+        ([SPLINES, Basis(calm=-1.0)], "knots and calm of 0 s or more"),
+    ):
+        with pytest.raises(MocapError, match=words) as error:
+            solve(clip, pins, bases)
+        assert len(str(error.value)) <= 200
+    with pytest.raises(MocapError, match="has 9 frames, its pins have 500"):
+        solve(clip[:9], pins, [SPLINES])
+    with pytest.raises(MocapError, match="turns joints that"):
+        solve(clip, pins, [SPLINES], Body(np.array([99]), np.eye(3)[:1], np.ones(4)))
