@@ -462,7 +462,7 @@ def draw_levels() -> Figure:
     side, curve = figure.subplots(1, 2, width_ratios=[1.6, 1])
     frames = range(start - 80, stop + 90, 60)
     plotting.flat_bodies(walk, frames, alpha=0.25, ax=side)
-    plotting.flat_bodies(editing.edit(walk, pins, knots=(0.5, 0.25, 0.125)), frames, ax=side)
+    plotting.flat_bodies(editing.edit(walk, pins), frames, ax=side)
     toes = joint_positions(walk)[start:stop, names.index("ltoes"), 2].mean()
     side.add_patch(Rectangle((toes - 0.22, 0), 0.36, 0.3, color=plotting.FLOOR, zorder=0))
     _, levels = editing.hierarchy(walk, pins)

@@ -106,7 +106,7 @@ class Solved(NamedTuple):
 def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = None) -> Solved:
     """Bring joints to their pins by the smallest smooth change, in one basis after the other.
 
-    In the paper: [Gle98, objective]; [LS99, inverse kinematics].
+    In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
 
     Steps of Levenberg and Marquardt, `plain_step`, on the control points c of x = B c. The time grows with
     the frames.
