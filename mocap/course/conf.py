@@ -1,6 +1,7 @@
 """How Sphinx makes the pages of the course: `site` copies the notebooks, and calls it with this file."""
 
 import re
+from typing import Any
 
 from docutils import nodes
 
@@ -25,22 +26,22 @@ html_math_renderer = "mathml"
 pygments_dark_style = "native"
 
 
-def setup(app):  # noqa: ANN001, ANN201 (as Sphinx calls it)
+def setup(app: Any) -> None:  # noqa: ANN401 (as Sphinx calls it)
     """Draw formulas as MathML, and keep the first names of authors from being letters of a list."""
     app.connect("autodoc-process-docstring", _keep_authors)
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
 
 
-def _inline(writer, node):  # noqa: ANN001, ANN202
+def _inline(writer: Any, node: Any) -> None:  # noqa: ANN401
     writer.body.append(to_mathml(node.astext()))
     raise nodes.SkipNode
 
 
-def _block(writer, node):  # noqa: ANN001, ANN202
+def _block(writer: Any, node: Any) -> None:  # noqa: ANN401
     writer.body.append(to_mathml(node.astext(), block=True))
     raise nodes.SkipNode
 
 
-def _keep_authors(*event):  # noqa: ANN002, ANN202
+def _keep_authors(*event: Any) -> None:  # noqa: ANN401
     lines = event[-1]
     lines[:] = [re.sub(r"^(\.\. \[\w+\] \w)\. ", r"\1\\. ", line) for line in lines]

@@ -127,7 +127,10 @@ def _longer(graph: OwnGraph, state: _State, line: GroundPath, seam: float, by: T
     if _is_given(by.lengthen):
         offered = [(edge.end, edge.track, edge.turn, edge.move, seam * bool(edge.match)) for edge in edges]
         walks = by.lengthen(state[1:5], offered, line.at, least)
-        return [_State(*walk, state.start, (*state.edges, e)) for walk, e in zip(walks, edges, strict=True)]
+        return [
+            _State._make((*walk, state.start, (*state.edges, e)))
+            for walk, e in zip(walks, edges, strict=True)
+        ]
     longer = []
     for edge in edges:
         placed = state.turn * edge.track + state.move
