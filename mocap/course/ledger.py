@@ -14,6 +14,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import networkx as nx
+
 from mocap._shared.atomic import write_text
 from mocap.course.notebooks import read, tagged
 from mocap.errors import MocapError
@@ -129,116 +131,108 @@ def ledger(root: Path) -> list[Row]:
     """
     if not (root / "tests").is_dir():
         raise MocapError(f"The ledger of papers reads the package's tests: there are none in {root}.")
-    known, tests, cells = functions(root / "mocap"), _Tests(root / "tests"), _Cells(root / "notebooks")
+    known, tests, cells = functions(root / "mocap"), _tests(root / "tests"), _cells(root / "notebooks")
     rows = []
     for key, paper in papers().items():
         for row in paper["rows"]:
             notebook = row.get("notebook", paper["notebook"])
             places = {(key, place) for place in _one_by_one(row["place"])}
-            chosen = _chosen(known, places)
-            held = tests.citing(places) or [tests.of(one) for one in chosen]
-            shown = [cell for one in chosen if (cell := cells.of(one, notebook))]
+            first = [one for one in known if one.first & places]  # their own, else all that cite it
+            chosen = (first or [one for one in known if one.cites & places])[:SHOWN]
+            held = [test.said for test in tests if test.cites & places]
+            shown = [cell for one in chosen if (cell := _cell_of(one, notebook, cells))]
             if not shown and "through" in row:
-                shown = [cells.calling(row["through"], notebook)]
-            lists = ([one.public for one in chosen], held, shown)
+                shown = [_calling(row["through"], [notebook], cells)]
+            lists = ([one.public for one in chosen], held or [_test_of(one, tests) for one in chosen], shown)
             found = (tuple(dict.fromkeys(filter(None, some))) for some in lists)
             rows.append(Row(key, row["place"], row["says"], row["departs"], *found))
     return rows
 
 
-def _chosen(known: Sequence[Function], places: set[tuple[str, str]]) -> list[Function]:
-    """Choose those that cite a place as their own, in the first paragraph or by "In the paper:", else all."""
-    first = [one for one in known if one.first & places]
-    return (first or [one for one in known if one.cites & places])[:SHOWN]
+class _Test(NamedTuple):
+    """A test: its file, its name as a sentence, all that it and its helpers use, and what it cites."""
+
+    file: Path
+    said: str
+    uses: set[str]
+    cites: frozenset[tuple[str, str]]
 
 
-class _Tests:
-    """The tests, each with what it cites, and all names that it and the helpers of its file use."""
-
-    def __init__(self, folder: Path) -> None:
-        self.uses: dict[tuple[Path, str], set[str]] = {}
-        self.cites: dict[tuple[Path, str], frozenset[tuple[str, str]]] = {}
-        for path in sorted(folder.rglob("test_*.py")):
-            body = ast.parse(path.read_text("utf-8")).body
-            nodes = {node.name: node for node in body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
-            names, file = {name: _names(node) for name, node in nodes.items()}, path.relative_to(folder)
-            for name in (name for name in nodes if name.startswith("test_")):
-                self.uses[file, name] = _with_helpers(name, names)
-                self.cites[file, name] = cited(ast.get_docstring(nodes[name]) or "")
-
-    def citing(self, places: set[tuple[str, str]]) -> list[str]:
-        """Name the tests that cite a place."""
-        return [_sentence(*test) for test, cites in self.cites.items() if cites & places]
-
-    def of(self, function: Function) -> str:
-        """Name a test that uses a function: in the tests of its file, else of its room."""
-        room, _, file = function.module.partition(".")
-        own, name = f"test_{file.rpartition('.')[2]}", function.name.rpartition(".")[2]
-        using = [test for test, names in self.uses.items() if test[0].parts[0] == room and name in names]
-        return _sentence(*min(using, key=lambda test: test[0].stem != own)) if using else ""
-
-
-def _sentence(path: Path, test: str) -> str:
-    return f"{test.removeprefix('test_').replace('_', ' ')} (`{path.as_posix()}`)"
-
-
-def _names(node: ast.AST) -> set[str]:
-    """List all names that some code uses, the fixtures that it asks for among them."""
-    named = {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
-    named |= {one.attr for one in ast.walk(node) if isinstance(one, ast.Attribute)}
-    return named | {one.arg for one in ast.walk(node) if isinstance(one, ast.arg)}
-
-
-def _with_helpers(name: str, uses: Mapping[str, set[str]]) -> set[str]:
-    """Add to a test's names those of the helpers that it uses, and theirs."""
-    found, left = {name}, [name]
-    while left:
-        new = uses.get(left.pop(), set()) - found
-        found |= new
-        left += new
+def _tests(folder: Path) -> list[_Test]:
+    found = []
+    for path in sorted(folder.rglob("test_*.py")):
+        body, file = ast.parse(path.read_text("utf-8")).body, path.relative_to(folder)
+        nodes = {node.name: node for node in body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+        uses = nx.DiGraph((name, used) for name, node in nodes.items() for used in _names(node))
+        uses.add_nodes_from(nodes)
+        for name in (name for name in nodes if name.startswith("test_")):
+            said = f"{name.removeprefix('test_').replace('_', ' ')} (`{file.as_posix()}`)"
+            cites = cited(ast.get_docstring(nodes[name]) or "")
+            found.append(_Test(file, said, nx.descendants(uses, name) | {name}, cites))
     return found
 
 
-class _Cells:
-    """The code cells of the notebooks, each with its notebook, the heading above it, and what it shows."""
-
-    def __init__(self, folder: Path) -> None:
-        self.cells: list[tuple[str, str, str]] = []
-        self.shown: dict[str, str] = {}
-        for path in sorted(folder.glob("*.ipynb")):
-            notebook, heading = read(path), path.stem
-            shown = {cell.id: name for name, cell in tagged(notebook, "source")}
-            for cell in notebook.cells:
-                if cell.cell_type == "markdown":
-                    heading = (re.findall(r"^#{1,3} (.+)$", cell.source, re.MULTILINE) or [heading])[-1]
-                elif cell.id in shown:
-                    self.shown.setdefault(shown[cell.id], _linked(path.stem, heading))
-                else:
-                    code = re.sub(r"^(?:from|import) .*$|#.*$", "", cell.source, flags=re.MULTILINE)
-                    self.cells.append((path.stem, heading, code))
-
-    def of(self, function: Function, notebook: str) -> str:
-        """Link the cell that shows a function's source, else the first of its notebook that calls it.
-
-        Its notebook is the one that its docstring names, or that of the paper.
-        """
-        whole = f"{function.module}.{function.name}"
-        if shown := [link for name, link in self.shown.items() if f"{name}.".startswith(f"{whole}.")]:
-            return shown[0]
-        return self.calling(function.name.rpartition(".")[2], function.notebook, notebook)
-
-    def calling(self, name: str, *notebooks: str) -> str:
-        """Link the first cell that calls a function, or else names it, in the first notebook that does."""
-        for own in filter(None, notebooks):
-            for use in (rf"\b{name}\(", rf"\b{name}\b")[: 2 if len(name) > SHORT else 1]:
-                for notebook, heading, code in self.cells:
-                    if notebook == own and re.search(use, code):
-                        return _linked(notebook, heading)
-        return ""
+def _names(node: ast.AST) -> Iterator[str]:
+    """Yield all names that some code uses, the fixtures that it asks for among them."""
+    for one in ast.walk(node):
+        for kind, field in ((ast.Name, "id"), (ast.Attribute, "attr"), (ast.arg, "arg")):
+            if isinstance(one, kind):
+                yield getattr(one, field)
 
 
-def _linked(name: str, heading: str) -> str:
-    return f"[{name.partition('-')[0]}]({name}.ipynb) {heading}"
+def _test_of(function: Function, tests: Sequence[_Test]) -> str:
+    """Name a test that uses a function: in the tests of its file, else of its room."""
+    room, *_, file = function.module.split(".")
+    name = function.name.rpartition(".")[2]
+    using = [test for test in tests if test.file.parts[0] == room and name in test.uses]
+    return min(using, key=lambda test: test.file.stem != f"test_{file}").said if using else ""
+
+
+class _Cell(NamedTuple):
+    """A cell of code: its notebook with the heading above it, its code, and what of the package it shows."""
+
+    notebook: str
+    link: str
+    code: str
+    shows: str
+
+
+def _cells(folder: Path) -> list[_Cell]:
+    found = []
+    for path in sorted(folder.glob("*.ipynb")):
+        notebook, heading = read(path), path.stem
+        shown = {cell.id: name for name, cell in tagged(notebook, "source")}
+        for cell in notebook.cells:
+            if cell.cell_type == "markdown":
+                heading = (re.findall(r"^#{1,3} (.+)$", cell.source, re.MULTILINE) or [heading])[-1]
+            else:
+                code = re.sub(r"^(?:from|import) .*$|#.*$", "", cell.source, flags=re.MULTILINE)
+                link = f"[{path.stem.partition('-')[0]}]({path.name}) {heading}"
+                shows = shown.get(cell.id, "")
+                found.append(_Cell(path.stem, link, "" if shows else code, shows))
+    return found
+
+
+def _cell_of(function: Function, notebook: str, cells: Sequence[_Cell]) -> str:
+    """Link the cell that shows a function's source, else the first of its notebook that calls it.
+
+    Its notebook is the one that its docstring names, or that of the paper.
+    """
+    whole = f"{function.module}.{function.name}."
+    for cell in cells:
+        if f"{cell.shows}.".startswith(whole):
+            return cell.link
+    return _calling(function.name.rpartition(".")[2], [function.notebook, notebook], cells)
+
+
+def _calling(name: str, notebooks: Sequence[str], cells: Sequence[_Cell]) -> str:
+    """Link the first cell that calls a function, or else names it, in the first notebook that does."""
+    for own in notebooks:
+        for use in (rf"\b{name}\(", rf"\b{name}\b")[: 2 if len(name) > SHORT else 1]:
+            for cell in cells:
+                if cell.notebook == own and re.search(use, cell.code):
+                    return cell.link
+    return ""
 
 
 def page(rows: Sequence[Row]) -> str:
