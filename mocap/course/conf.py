@@ -23,6 +23,7 @@ html_css_files = ["site.css"]
 html_js_files = [("moving.js", {"defer": ""})]
 html_copy_source = html_show_sourcelink = html_show_copyright = False
 html_math_renderer = "mathml"
+html_show_search_summary = False  # it would fetch pages, which browsers refuse without a server
 pygments_dark_style = "native"
 
 

@@ -43,7 +43,7 @@ def test_the_search_answers(page, site, artefacts):
 def test_the_menu_folds_on_a_phone(page, site, artefacts):
     page.set_viewport_size({"width": 390, "height": 844})
     page.goto(site.as_uri())
-    menu, fold = page.locator(".sidebar-drawer"), page.locator("label[for=__navigation]").first
+    menu, fold = page.locator(".sidebar-drawer"), page.locator(".nav-overlay-icon").first
     wait_until(lambda: menu.bounding_box()["x"] < -100)
     fold.click()
     wait_until(lambda: menu.bounding_box()["x"] >= 0)
