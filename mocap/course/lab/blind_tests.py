@@ -15,7 +15,7 @@ from typing import Any
 from PIL import Image
 
 from mocap.body.motion import Motion
-from mocap.course.lab.films import SIDES, packed
+from mocap.course.lab.films import packed
 from mocap.course.lab.pairs import Pair, Plan, make_pairs
 from mocap.course.lab.sensitivity import sentence
 from mocap.matching.transitions import Transitions
@@ -23,6 +23,7 @@ from mocap.plotting.picture import Picture, few_colours, small_png
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PICTURE, SCENE, joined
+from mocap.widgets.packing import SIDES
 
 STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
 
