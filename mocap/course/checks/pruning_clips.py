@@ -59,18 +59,10 @@ def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:
 
 
 def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
-    return {
-        node: "dead end"
-        if not on_cycle(successors, node)
-        else ("unreached" if after(successors, node) & kept else "sink")
-        for node in successors
-        if node not in kept
-    }
-
-
-def but(successors: Successors, kept: set[int], **other: str) -> dict[int, str]:
-    """Give the reasons with some of them replaced."""
-    return {
-        node: other.get(reason.replace(" ", "_"), reason)
-        for node, reason in reasons(successors, kept).items()
-    }
+    found = {}
+    for node in successors.keys() - kept:
+        if not on_cycle(successors, node):
+            found[node] = "dead end"
+        else:
+            found[node] = "unreached" if after(successors, node) & kept else "sink"
+    return found
