@@ -172,12 +172,12 @@ def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     for legs, amount in excesses:
         # The worst frames: no other frame within `span` is worse.
         for worst in np.flatnonzero((amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))):
-            away = np.where(marks[legs], np.abs(frames - worst), len(frames)).reshape(-1, len(frames))
-            for row, gaps in zip(kept[legs].reshape(away.shape), away, strict=True):  # rows of `kept` itself
-                if gaps.min() == away.min():
-                    near = int(gaps.argmin())
-                    row[max(near - span, 0) : near + span + 1] = False
-                    row[:] = settle(row, span)
+            away = np.where(marks[legs], np.abs(frames - worst), len(frames))  # (legs, 2, F)
+            for plant in np.argwhere(away.min(axis=-1) == away.min()):  # the nearest; two may be as near
+                near = int(away[tuple(plant)].argmin())
+                row = kept[legs][tuple(plant)]  # a part of `kept` itself
+                row[max(near - span, 0) : near + span + 1] = False
+                row[:] = settle(row, span)
     return kept
 
 

@@ -5,10 +5,8 @@ foot stands still, a knee that is nearly straight makes a centimetre of the mill
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from scipy import sparse
 
 from mocap._shared.arrays import Array
@@ -41,24 +39,6 @@ STEP = 1e-4  # metres, for slopes; half or twice as much makes no difference
 LOST_IN_POSES = 1e-7
 
 
-class Aimed(NamedTuple):
-    """A leg, where its ankle must be, and the direction from there to the hip, (F, 3)."""
-
-    track: LegTrack
-    target: FootTarget
-    inward: Array
-
-    def ankle(self, shift: Array) -> Array:
-        """Move the ankle's target towards the hip by `shift` (F,), metres."""
-        return np.asarray(self.target.ankle + shift[:, None] * self.inward)
-
-    def knee(self, rise: Array, shift: Array) -> Array:
-        """Find the knee, (F, 3), when the root has risen and the ankle's target is shifted."""
-        hip = self.track.hip + rise[:, None] * UP
-        swing = bend_and_swing(self.track, self.ankle(shift) - hip)[1]
-        return np.asarray(hip + rotations.rotate(swing, self.track.bones[0]))
-
-
 def smooth_knees(
     tracks: Sequence[LegTrack], targets: Sequence[FootTarget], rise: Array
 ) -> tuple[list[FootTarget], Array, Array]:
@@ -81,34 +61,46 @@ def smooth_knees(
     """
     if len(rise) < 3:
         return list(targets), rise, np.zeros(len(rise))
-    legs = [_aim(track, target) for track, target in zip(tracks, targets, strict=True)]
+    legs = list(zip(tracks, targets, strict=True))
     free = np.array([np.ones(len(rise), bool), *(~target.planted for target in targets)])  # (1 + L, F)
     ceiling, bound = _ceiling(legs), _bound(tracks)
-    change = np.zeros(free.shape)
+    change = np.zeros(free.shape)  # of the root's rise, and of the way that each ankle goes to its hip
     for left in reversed(range(PASSES)):
-        knees = np.stack([leg.knee(rise + change[0], x) for leg, x in zip(legs, change[1:], strict=True)])
+        risen, shifts = rise + change[0], change[1:]
+        knees = np.stack([_knee(*leg, risen, shift) for leg, shift in zip(legs, shifts, strict=True)])
         sizes = np.linalg.norm(np.diff(knees, 2, axis=1), axis=-1)
         if not left or not np.any(sizes > bound):
             break
         excess = np.where(sizes > bound, 1 - AIM * bound / np.maximum(sizes, bound), 0.0)
-        slopes = _slopes(legs, knees, rise, change) * free[:, None, :, None]
-        change += _solve_changes(knees, slopes, excess, change)
+        slopes = np.zeros((len(free), *knees.shape))  # how far each knee moves for each change
+        for n, (leg, shift) in enumerate(zip(legs, shifts, strict=True)):
+            slopes[0, n] = (knees[n] - _knee(*leg, risen - STEP, shift)) / STEP
+            slopes[1 + n, n] = (_knee(*leg, risen, shift + STEP) - knees[n]) / STEP
+        change += _solve_changes(knees, slopes * free[:, None, :, None], excess, change)
         change[0] = np.minimum(rise + change[0], ceiling) - rise
-    moved = [leg.target._replace(ankle=leg.ankle(x)) for leg, x in zip(legs, change[1:], strict=True)]
+    moved = [leg[1]._replace(ankle=_ankle(*leg, shift)) for leg, shift in zip(legs, change[1:], strict=True)]
     return moved, rise + change[0], np.pad((sizes / bound).max(axis=0) - 1, 1, constant_values=-1.0)
 
 
-def _aim(track: LegTrack, target: FootTarget) -> Aimed:
-    """Add the direction from an ankle's target to its hip."""
+def _ankle(track: LegTrack, target: FootTarget, shift: Array) -> Array:
+    """Move an ankle's target towards the hip by `shift` (F,), metres."""
     inward = track.hip - target.ankle
-    return Aimed(track, target, inward / np.linalg.norm(inward, axis=-1, keepdims=True))
+    inward = inward / np.linalg.norm(inward, axis=-1, keepdims=True)
+    return np.asarray(target.ankle + shift[:, None] * inward)
 
 
-def _ceiling(legs: Sequence[Aimed]) -> Array:
+def _knee(track: LegTrack, target: FootTarget, rise: Array, shift: Array) -> Array:
+    """Find the knee, (F, 3), when the root has risen and the ankle's target is shifted."""
+    hip = track.hip + rise[:, None] * UP
+    swing = bend_and_swing(track, _ankle(track, target, shift) - hip)[1]
+    return np.asarray(hip + rotations.rotate(swing, track.bones[0]))
+
+
+def _ceiling(legs: Sequence[tuple[LegTrack, FootTarget]]) -> Array:
     """Find how far the root may rise at most, (F,), metres, for planted feet to be reached."""
     highest = [
         np.where(target.planted, track.highest(target.ankle, track.hinge.reach), np.inf)
-        for track, target, _ in legs
+        for track, target in legs
     ]
     return np.asarray(np.min(highest, axis=0))
 
@@ -119,32 +111,16 @@ def _bound(tracks: Sequence[LegTrack]) -> Array:
     return np.asarray(np.maximum(np.percentile(own, USUAL, method="lower"), own) + LOST_IN_POSES)
 
 
-def _slopes(legs: Sequence[Aimed], knees: Array, rise: Array, change: Array) -> Array:
-    """Measure how far each knee moves for each change, shape (1 + L, L, F, 3): the rise, then the ankles."""
-    slopes = np.zeros((1 + len(legs), *knees.shape))
-    for n, leg in enumerate(legs):
-        lower = leg.knee(rise + change[0] - STEP, change[1 + n])
-        inner = leg.knee(rise + change[0], change[1 + n] + STEP)
-        slopes[0, n], slopes[1 + n, n] = (knees[n] - lower) / STEP, (inner - knees[n]) / STEP
-    return slopes
-
-
 def _solve_changes(knees: Array, slopes: Array, excess: Array, change: Array) -> Array:
     """Solve for changes (1 + L, F) that take the share `excess` (L, F - 2) off the knees' accelerations."""
-    kinds, frames = change.shape
-    # A sparse matrix from all changes to all second differences: each row is a coordinate of a knee in a
-    # frame, and depends on the changes in that frame and in the two next to it.
-    windows = sliding_window_view(slopes, 3, axis=2) * [1.0, -2.0, 1.0]  # (1 + L, L, F - 2, 3, 3 frames)
-    kind, _, frame, _, tap = np.ogrid[tuple(map(slice, windows.shape))]
-    column = np.broadcast_to(kind * frames + frame + tap, windows.shape)
-    row = np.broadcast_to(
-        np.arange(windows[0, ..., 0].size).reshape(windows[0, ..., :1].shape), windows.shape
-    )
-    entries = windows != 0
-    places = (row[entries], column[entries])
-    bends = sparse.csr_matrix((windows[entries], places), shape=(row.max() + 1, change.size))
-    weight = np.where(excess > 0, 1.0, QUIET)[..., None] * np.ones(3)
-    aim = -excess[..., None] * np.diff(knees, 2, axis=1)
-    cost = bends.T @ sparse.diags(weight.ravel()) @ bends + NEAR * sparse.identity(change.size)
-    pull = bends.T @ (weight * aim).ravel() - NEAR * change.ravel()
+    (kinds, frames), axes = change.shape, [*np.ndindex(len(knees), 3)]
+    second = sparse.diags([1.0, -2.0, 1.0], [0, 1, 2], shape=(frames - 2, frames))
+    # A block for each coordinate of a knee and each kind of change: its second differences, for each change.
+    blocks = [[second @ sparse.diags(slopes[kind, n, :, c]) for kind in range(kinds)] for n, c in axes]
+    bends = sparse.bmat(blocks, format="csr")
+    bends.eliminate_zeros()
+    weight = np.where(excess > 0, 1.0, QUIET).repeat(3, axis=0).ravel()
+    aim = -(excess[..., None] * np.diff(knees, 2, axis=1)).swapaxes(1, 2).ravel()
+    cost = bends.T @ sparse.diags(weight) @ bends + NEAR * sparse.identity(change.size)
+    pull = bends.T @ (weight * aim) - NEAR * change.ravel()
     return np.asarray(sparse.linalg.spsolve(cost.tocsc(), pull)).reshape(kinds, frames)

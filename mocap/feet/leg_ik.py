@@ -58,18 +58,14 @@ def pose_leg(track: LegTrack, ankle: Array, turn: ArrayLike) -> Array:
             f"{100 * (distance - hinge.reach)[frame]:.2g} cm out of its leg's reach; are its contacts true?"
         )
     bend, swing = bend_and_swing(track, wanted)
-    above = (motion.skeleton.parents[leg.hip], leg.hip, leg.knee)
-    frames = [rotations.from_matrix(track.poses.matrices[:, joint]) for joint in above]
     # In the world, each joint turns by what its parent does not turn it already.
     carried = rotations.multiply(swing, bend)
-    sole = rotations.from_rotvec(turn)
-    extra = (swing, bend, rotations.multiply(rotations.inverse(carried), sole))
-    # The same turns, seen from the parent's frame, come on top of the joints' own rotations.
-    local = (
-        rotations.multiply(rotations.multiply(rotations.inverse(frame), more), frame)
-        for frame, more in zip(frames, extra, strict=True)
-    )
-    return np.stack(
-        [rotations.multiply(more, motion.rotations[:, j]) for more, j in zip(local, leg[:3], strict=True)],
-        axis=1,
-    )
+    sole = rotations.multiply(rotations.inverse(carried), rotations.from_rotvec(turn))
+    posed = []
+    above = (motion.skeleton.parents[leg.hip], leg.hip, leg.knee)
+    for parent, joint, more in zip(above, leg[:3], (swing, bend, sole), strict=True):
+        # The same turn, seen from the parent's frame, comes on top of the joint's own rotation.
+        frame = rotations.from_matrix(track.poses.matrices[:, parent])
+        local = rotations.multiply(rotations.multiply(rotations.inverse(frame), more), frame)
+        posed.append(rotations.multiply(local, motion.rotations[:, joint]))
+    return np.stack(posed, axis=1)
