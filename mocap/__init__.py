@@ -14,6 +14,8 @@ Conventions, everywhere: y points up, and the ground is the plane y = 0. Units a
 radians. Vectors are columns, quaternions are (w, x, y, z). A body with heading 0 faces +z and has its left at
 +x. Files in other units are converted when they are read or written, and nowhere else.
 
+`mocap.plain` is motion graphs on a few pages: read it first. Its functions have quick twins in the rooms.
+
 Rooms
 -----
 The rooms of the package, from the ground floor up, with the notebooks that teach them. A room uses only rooms

@@ -40,7 +40,12 @@ def files(room: str) -> list[str]:
 
 
 def test_the_rooms_are_those_of_the_plan():
-    assert {path.name for path in PACKAGE.glob("*.py")} == {"__init__.py", "__main__.py", "errors.py"}
+    assert {path.name for path in PACKAGE.glob("*.py")} == {
+        "__init__.py",
+        "__main__.py",
+        "errors.py",
+        "plain.py",
+    }
     assert {"_shared", *LISTED} == {room for room in ROOMS if "/" not in room}
 
 

@@ -1,0 +1,430 @@
+"""Motion graphs on a few pages: clips in, a walk along a line out. Slow, right, and in reading order.
+
+    python -m mocap.plain my-clips/ path.csv -o walk.bvh
+
+Each function is the plain form of a quick one in the rooms of the package, and a test holds the two equal. In
+the comments F counts frames, J joints and n points; a window is K frames. A point of the ground is the
+complex number z + ix, so that turning about the vertical is a product, and p ↦ turn · p + move lays one clip
+on another. A node of the graph is (clip, frame): "this frame comes next". An edge of kind "clip" plays the
+frames between two nodes; one of kind "transition" blends K frames, from one clip into another.
+
+Notebooks: 01 to 08. The paper: [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from mocap.body.motion import Motion
+
+FPS = 30  # frames per second
+K = 10  # frames in a window: a third of a second
+BELOW = 0.04  # metres: windows that are more apart than this make no transition
+
+Array = NDArray[np.float64]
+Ground = NDArray[np.complexfloating[Any, Any]]
+Lay = tuple[complex, complex]  # turn and move
+Node = tuple[int, int]  # clip and frame
+Edge = tuple[Node, Node, int]
+State = Any
+Step = Callable[[State, Any], tuple[float, State]]
+Found = list[tuple[int, int, int, int, float, Lay]]  # clip, frame, clip, frame, metres, how to lay
+
+
+# 1. Bodies -------------------------------------------------------------------------------------------------
+
+
+def rotate(q: Array, v: Array) -> Array:
+    """Turn vectors v (..., 3) by unit quaternions q = (w, u) (..., 4): v + 2w (u × v) + 2 u × (u × v)."""
+    w, u = q[..., :1], q[..., 1:]
+    across = 2 * np.cross(u, v)
+    return np.asarray(v + w * across + np.cross(u, across))
+
+
+def multiply(p: Array, q: Array) -> Array:
+    """Multiply quaternions (..., 4): the turn that does q first, then p."""
+    w, u, s, v = p[..., :1], p[..., 1:], q[..., :1], q[..., 1:]
+    return np.concatenate([w * s - (u * v).sum(-1, keepdims=True), w * v + s * u + np.cross(u, v)], -1)
+
+
+def joint_positions(clip: Motion) -> Array:
+    """Go down the tree: a joint stands at its parent's place plus its offset, turned as the parent is."""
+    places, turns = [clip.root_positions], [clip.rotations[:, 0]]  # (F, 3), (F, 4) for each joint
+    for joint in range(1, len(clip.skeleton.parents)):
+        parent = clip.skeleton.parents[joint]
+        places.append(places[parent] + rotate(turns[parent], clip.skeleton.offsets[joint]))
+        turns.append(multiply(turns[parent], clip.rotations[:, joint]))
+    return np.stack(places, 1)  # (F, J, 3)
+
+
+# 2. Which moments are alike? -------------------------------------------------------------------------------
+
+
+def ground(points: Array) -> Ground:
+    """Look at points (..., 3) from above: complex numbers z + ix, shape (...)."""
+    return np.asarray(points[..., 2] + 1j * points[..., 0])
+
+
+def windows(clip: Motion) -> Array:
+    """Give the points of all windows of a clip: K frames of joints in each."""
+    points = joint_positions(clip)
+    apart = np.sort(np.unique(points[0].round(6), axis=0, return_index=True)[1])  # one of joints at one place
+    starts = range(len(points) - K + 1)
+    return np.array([points[i : i + K, apart].reshape(-1, 3) for i in starts])  # (F - K + 1, n, 3)
+
+
+def align(p: Array, q: Array) -> tuple[Ground, Ground]:
+    """Find the turn and the move that lay the points q (..., n, 3) on p best [KGP02, Eqs. 2-4]."""
+    g, h = ground(p), ground(q)
+    g_mean, h_mean = g.mean(-1), h.mean(-1)
+    turn = (np.conj(h - h_mean[..., None]) * (g - g_mean[..., None])).sum(-1)
+    turn = np.exp(1j * np.angle(turn))
+    return turn, g_mean - turn * h_mean
+
+
+def window_distance(p: Array, q: Array) -> Array:
+    """Lay the points q (..., n, 3) on p, and measure how far apart they are: RMS, metres [KGP02, Eq. 1]."""
+    turn, move = align(p, q)
+    aside = ground(p) - turn[..., None] * ground(q) - move[..., None]
+    return np.asarray(np.sqrt(np.mean(abs(aside) ** 2 + (p[..., 1] - q[..., 1]) ** 2, -1)))
+
+
+def distance_grid(a: Array, b: Array) -> Array:
+    """Compare each window of one clip (N, n, 3) with all windows of another (M, n, 3): shape (N, M)."""
+    return np.array([window_distance(window, b) for window in a])
+
+
+def local_minima(grid: Array, below: float) -> list[tuple[int, int]]:
+    """Find the cells below a threshold that are as low as all their eight neighbours [KGP02, 3.2]."""
+    around = np.pad(grid, 1, constant_values=np.inf)
+    low = np.argwhere(grid < below).tolist()
+    return [(i, j) for i, j in low if grid[i, j] == around[i : i + 3, j : j + 3].min()]
+
+
+def find_transitions(clips: Sequence[Motion]) -> Found:
+    """List where a walk may leave a clip and enter one, and how the second clip is laid on the first."""
+    points = [windows(clip) for clip in clips]
+    found: Found = []
+    for a in range(len(clips)):
+        for b in range(a, len(clips)):
+            for i, j in local_minima(distance_grid(points[a], points[b]), BELOW):
+                if a == b and j < i + K:
+                    continue  # a window is like itself; and what lies below the diagonal is the way back
+                cost = float(window_distance(points[a][i], points[b][j]))
+                turn, move = map(complex, align(points[a][i], points[b][j]))
+                found.append((a, i, b, j, cost, (turn, move)))
+                found.append((b, j, a, i, cost, (1 / turn, -move / turn)))
+    return sorted(found, key=lambda transition: transition[:4])
+
+
+# 3. From one clip into another -----------------------------------------------------------------------------
+
+
+def lay(clip: Motion, frames: slice, turn: complex, move: complex) -> tuple[Array, Array]:
+    """Take frames of a clip, laid elsewhere on the ground: roots (F, 3), rotations (F, J, 4)."""
+    roots, turns = clip.root_positions[frames].copy(), clip.rotations[frames].copy()
+    laid = turn * ground(roots) + move
+    roots[:, 2], roots[:, 0] = laid.real, laid.imag
+    half = np.angle(turn) / 2
+    turns[:, 0] = multiply(np.array([np.cos(half), 0, np.sin(half), 0]), turns[:, 0])
+    return roots, turns
+
+
+def slerp(p: Array, q: Array, share: Array | float) -> Array:
+    """Go a share of the way from p to q (..., 4), the short way round, at constant speed [KGP02, Eq. 6]."""
+    cosine = (p * q).sum(-1, keepdims=True)
+    q, angle = np.where(cosine < 0, -q, q), np.arccos(np.minimum(abs(cosine), 1))
+    near = angle < 1e-7
+    sine = np.where(near, 1, np.sin(angle))
+    arc = (np.sin((1 - share) * angle) * p + np.sin(share * angle) * q) / sine
+    return np.where(near, p, arc)
+
+
+def cubic_weights() -> Array:
+    """Give the first clip's weight in each frame of a window: from nearly 1 to 0, smoothly [KGP02, Eq. 7]."""
+    t = np.arange(1, K + 1) / K
+    return 2 * t**3 - 3 * t**2 + 1
+
+
+def blend(one: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Mix two windows: roots on straight lines, turns by slerp [KGP02, Eqs. 5-6]."""
+    alpha = cubic_weights()[:, None]
+    return alpha * one[0] + (1 - alpha) * other[0], slerp(other[1], one[1], alpha[..., None])
+
+
+def join(a: Motion, i: int, b: Motion, j: int) -> tuple[Array, Array]:
+    """Play a up to frame i, blend K frames of both, and play on with b, laid on a [KGP02, 3.3]."""
+    turn, move = map(complex, align(windows(a)[i], windows(b)[j]))
+    first, then = lay(a, slice(0, i), 1, 0), lay(b, slice(j + K, None), turn, move)
+    mixed = blend(lay(a, slice(i, i + K), 1, 0), lay(b, slice(j, j + K), turn, move))
+    roots, turns = zip(first, mixed, then, strict=True)
+    return np.concatenate(roots), np.concatenate(turns)
+
+
+# 4. The graph ----------------------------------------------------------------------------------------------
+
+
+def cut_and_join(clips: Sequence[Motion], transitions: Found) -> nx.MultiDiGraph:
+    """Cut the clips where transitions leave and enter, and join the pieces to a graph [KGP02, 3]."""
+    graph = nx.MultiDiGraph()
+    for clip, motion in enumerate(clips):
+        graph.add_nodes_from([(clip, 0), (clip, len(motion))])
+    for a, i, b, j, cost, laid in transitions:
+        graph.add_edge((a, i), (b, j + K), kind="transition", frames=K, cost=cost, lay=laid)
+    for (clip, start), (same, end) in pairwise(sorted(graph)):
+        if clip == same:
+            graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, cost=0.0, lay=(1, 0))
+    return graph
+
+
+def components(graph: nx.MultiDiGraph) -> list[set[Node]]:
+    """Find the sets in which each node can be reached from each other one [Tarjan 1972]."""
+    number: dict[Node, int] = {}  # the order in which nodes are met
+    low: dict[Node, int] = {}  # the smallest number that a node leads back to
+    waiting: list[Node] = []  # met, and in no component yet
+    found: list[set[Node]] = []
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), 2 * len(graph) + 1000))
+
+    def visit(node: Node) -> None:
+        number[node] = low[node] = len(number)
+        waiting.append(node)
+        for successor in graph.successors(node):
+            if successor not in number:
+                visit(successor)
+                low[node] = min(low[node], low[successor])
+            elif successor in waiting:
+                low[node] = min(low[node], number[successor])
+        if low[node] == number[node]:  # nothing in it leads further back: a component is complete
+            first = waiting.index(node)
+            found.append(set(waiting[first:]))
+            del waiting[first:]
+
+    for node in graph:
+        if node not in number:
+            visit(node)
+    return found
+
+
+def prune(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
+    """Keep the component that plays most frames of clip: in it a walk can go on for ever [KGP02, 3.4]."""
+
+    def frames(nodes: set[Node]) -> int:
+        inside = graph.subgraph(nodes).edges(data=True)
+        return sum(edge["frames"] for _, _, edge in inside if edge["kind"] == "clip")
+
+    return graph.subgraph(max(components(graph), key=frames)).copy()
+
+
+# 5. Walks --------------------------------------------------------------------------------------------------
+
+
+def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]:
+    """Walk at random: a second or more of clip, then a transition; cheap ones are likelier than dear ones."""
+    random = np.random.default_rng(seed)
+    node = sorted(graph)[random.integers(len(graph))]
+    walk, frames, since = [], 0, 0
+    while frames < seconds * FPS:
+        edges = list(graph.out_edges(node, keys=True, data=True))
+        onward = [edge for edge in edges if edge[3]["kind"] == "clip"]
+        leaving = [edge for edge in edges if edge[3]["kind"] == "transition"]
+        choices = leaving if leaving and (since >= FPS or not onward) else onward
+        odds = np.array([1 / (edge[3]["cost"] + 0.001) for edge in choices])
+        start, node, key, edge = choices[random.choice(len(choices), p=odds / odds.sum())]
+        walk.append((start, node, key))
+        frames, since = frames + edge["frames"], since + edge["frames"] if edge["kind"] == "clip" else 0
+    return walk
+
+
+def to_motion(
+    clips: Sequence[Motion],
+    graph: nx.MultiDiGraph,
+    walk: Sequence[Edge],
+    turn: complex = 1,
+    move: complex = 0,
+) -> tuple[Array, Array]:
+    """Play a walk: each clip is laid by the product of all transitions before it [KGP02, 4.1]."""
+    pieces = []
+    for start, end, key in walk:
+        (a, i), (b, j), edge = start, end, graph.edges[start, end, key]
+        piece = lay(clips[a], slice(i, i + edge["frames"]), turn, move)
+        turn, move = turn * edge["lay"][0], turn * edge["lay"][1] + move
+        if edge["kind"] == "transition":
+            piece = blend(piece, lay(clips[b], slice(j - K, j), turn, move))
+        pieces.append(piece)
+    roots, turns = zip(*pieces, strict=True)
+    return np.concatenate(roots), np.concatenate(turns)
+
+
+def branch_and_bound(
+    graph: nx.MultiDiGraph, node: Hashable, state: State, step: Step, done: Callable[[State], bool]
+) -> tuple[float, list[Edge]] | None:
+    """Find the cheapest walk from a node on: depth first, cheap edges first [KGP02, Eq. 8, 4.2].
+
+    step(state, edge) gives what an edge costs, 0 or more, and the next state; done(state) says when a walk is
+    complete. A walk that costs as much as the best complete one cannot become better: it is cut.
+    """
+    best: tuple[float, list[Edge]] | None = None
+    branches: list[Any] = [(0.0, node, state, [])]
+    while branches:
+        cost, node, state, walk = branches.pop()
+        if best and cost >= best[0]:
+            continue
+        if done(state):
+            best = cost, walk
+            continue
+        longer = []
+        for edge in graph.out_edges(node, keys=True):
+            more, after = step(state, edge)
+            longer.append((cost + more, edge[1], after, [*walk, edge]))
+        branches += sorted(longer, key=lambda branch: branch[0], reverse=True)  # the cheapest is popped first
+    return best
+
+
+# 6. A walk along a line ------------------------------------------------------------------------------------
+
+WIDTH = 50  # walks that go on from each layer of the line
+LAYER = 0.15  # metres of the line in a layer
+LOOK = 22  # frames that each walk looks ahead
+RESCUE = 1.5  # m²: what lies ahead costs no more than this, since a transition can leave it
+SEAM = 0.3  # m²: the price of a transition
+
+
+class Walk(NamedTuple):
+    """A walk of the search: what it costs, how far it has come (metres), and how its next clip is laid."""
+
+    cost: float
+    expected: float
+    along: float
+    node: Node
+    turn: complex
+    move: complex
+    edge: Edge | None = None
+    before: Walk | None = None  # the walk without its last edge
+
+    def edges(self) -> list[Edge]:
+        """List the edges from the first one on."""
+        return [*self.before.edges(), self.edge] if self.before and self.edge else []
+
+
+class Search:
+    """All walks advance along a line together, layer by layer; the best of each layer go on [KGP02, 5.1]."""
+
+    def __init__(self, clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> None:
+        """Prepare a search; `line` holds points of the ground, 1 cm apart."""
+        self.graph, self.line, self.end = graph, line, (len(line) - 1) / 100
+        self.roots = [ground(clip.root_positions) for clip in clips]
+        self.tracks = {edge: ground(to_motion(clips, graph, [edge])[0]) for edge in graph.edges(keys=True)}
+        self.ahead = {(clip, frame): self.roots[clip][frame : frame + LOOK] for clip, frame in graph}
+
+    def price(self, walk: Walk, track: Ground) -> tuple[float, float]:
+        """Give what a track costs [KGP02, Eq. 9], and how far it comes: root and line, at equal lengths."""
+        clip, frame = walk.node
+        along = walk.along + np.cumsum(abs(np.diff(track, prepend=self.roots[clip][max(frame - 1, 0)])))
+        wanted = self.line[np.clip(100 * along, 0, len(self.line) - 1).astype(int)]
+        off = abs(walk.turn * track + walk.move - wanted) ** 2  # m² in each frame
+        return float((off + 100 * off**2).sum()), float(along[-1])  # 10 cm off cost twice what Eq. 9 says
+
+    def look_ahead(self, walk: Walk) -> Walk:
+        """Expect what the walk will cost if its clip plays on."""
+        return walk._replace(expected=min(self.price(walk, self.ahead[walk.node])[0], RESCUE))
+
+    def lengthen(self, walk: Walk, edge: Edge) -> Walk:
+        """Let a walk take one more edge."""
+        cost, along = self.price(walk, self.tracks[edge])
+        turn, move = self.graph.edges[edge]["lay"]
+        cost += SEAM * (self.graph.edges[edge]["kind"] == "transition")
+        turn, move = walk.turn * turn, walk.turn * move + walk.move
+        return self.look_ahead(Walk(walk.cost + cost, 0, along, edge[1], turn, move, edge, walk))
+
+    def starts(self) -> list[Walk]:
+        """Start at each node from which the root goes somewhere: at the line's start, and along it."""
+        walks, way = [], self.line[30] - self.line[0]
+        for node, track in self.ahead.items():
+            if len(track) == LOOK and abs(track[-1] - track[0]) > 0.3:
+                turn = np.exp(1j * np.angle(way / (track[-1] - track[0])))
+                walks.append(self.look_ahead(Walk(0, 0, 0, node, turn, self.line[0] - turn * track[0])))
+        return walks
+
+    def best_of(self, walks: list[Walk]) -> list[Walk]:
+        """Cross out what stands where another one stands and costs more; keep the best of the others."""
+        kept: dict[Hashable, Walk] = {}
+        for walk in sorted(walks, key=lambda walk: walk.cost + walk.expected):
+            here = walk.turn * self.ahead[walk.node][0] + walk.move
+            kept.setdefault((walk.node, here.real // 0.1, here.imag // 0.1, np.angle(walk.turn) // 0.1), walk)
+        return list(kept.values())[:WIDTH]
+
+    def layers(self) -> Iterator[tuple[list[Walk], Walk | None]]:
+        """Search: in each layer yield the walks that go on, and the best one at the line's end so far."""
+        waiting: dict[int, list[Walk]] = {0: self.starts()}
+        best: Walk | None = None
+        while waiting:
+            layer = min(waiting)
+            kept = self.best_of(waiting.pop(layer))
+            for walk in kept:
+                for edge in self.graph.out_edges(walk.node, keys=True):
+                    new = self.lengthen(walk, edge)
+                    if best and new.cost >= best.cost:
+                        continue
+                    if new.along >= self.end:
+                        best = new
+                    else:
+                        waiting.setdefault(max(int(new.along / LAYER), layer), []).append(new)
+            yield kept, best
+
+
+def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tuple[Array, Array]:
+    """Walk along a line: the frames of the best walk, roots (F, 3) and rotations (F, J, 4)."""
+    search = Search(clips, graph, line)
+    *_, (_, best) = search.layers()
+    if best is None:
+        raise ValueError("No walk comes to the end of the line.")
+    first = best
+    while first.before:
+        first = first.before
+    return to_motion(clips, graph, best.edges(), first.turn, first.move)
+
+
+def points_along(corners: Array) -> Ground:
+    """Lay points on a line, 1 cm apart, from its corners (x, z), shape (N, 2)."""
+    corner = corners[:, 1] + 1j * corners[:, 0]
+    along = np.cumsum(abs(np.diff(corner, prepend=corner[0])))
+    return np.asarray(np.interp(np.arange(0, along[-1], 0.01), along, corner))
+
+
+def main(given: Sequence[str] | None = None) -> int:
+    """Read clips and a line, and write a walk along it."""
+    from mocap import MocapError, Motion, files, resample, save  # files are the package's
+
+    parser = argparse.ArgumentParser(prog="python -m mocap.plain", description=main.__doc__)
+    parser.add_argument("clips", nargs="+", type=Path, help="motion files, or folders of them")
+    parser.add_argument("path", type=Path, help="where to walk: .csv with points x, z in metres, or .svg")
+    parser.add_argument("-o", "--out", type=Path, default=Path("walk.bvh"), help="the file to write")
+    asked = parser.parse_args(given)
+    try:
+        line = points_along(files.load_path(asked.path).points)
+        loaded = files.load_all(asked.clips, skeleton=None, scale=None, progress=iter)
+        clips = [resample(clip, FPS) for clip in loaded]
+        graph = prune(cut_and_join(clips, find_transitions(clips)))
+        print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
+        roots, turns = follow(clips, graph, line)
+        off = [abs(line - point).min() for point in ground(roots)]
+        save(Motion(clips[0].skeleton, roots, turns, FPS, "walk"), asked.out)
+    except (MocapError, ValueError) as error:
+        print(f"mocap.plain: {error}", file=sys.stderr)
+        return 2
+    print(f"{asked.out}: {len(roots) / FPS:.1f} s, {100 * np.mean(off):.1f} cm off the line on average.")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
