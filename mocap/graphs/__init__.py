@@ -40,7 +40,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "choice_points": ["merge_choice_points"],
         "graph_summary": ["Summary", "summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
-        "edge_tables": ["EdgeTable", "FrameTable", "Hops", "edge_table", "frame_table", "require_node"],
+        "edge_tables": ["EdgeTable", "edge_table", "frame_table", "require_node"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
         "homework_graph": [
             "Segment",

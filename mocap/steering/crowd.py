@@ -171,4 +171,5 @@ def _nearest(a: Array, b: Array) -> float:
 def _distances(a: Array, b: Array) -> Array:
     """Measure the distance of two tracks in each frame, metres; the shorter one stays at its end."""
     frames = np.arange(max(len(a), len(b)))
-    return np.hypot(*(a[np.minimum(frames, len(a) - 1)] - b[np.minimum(frames, len(b) - 1)]).T)
+    apart = a[np.minimum(frames, len(a) - 1)] - b[np.minimum(frames, len(b) - 1)]
+    return np.asarray(np.hypot(*apart.T))

@@ -51,8 +51,8 @@ class States(NamedTuple):
 
 def start_states(nodes: Indices, turn: Points, move: Points) -> States:
     """Start a walk at each of some nodes, whose clips are laid by p ↦ turn · p + move."""
-    none = np.zeros(len(nodes), np.intp)
-    return States(nodes, turn, move, none + 0.0, none, none + 0.0, none - 1, none - 1)
+    none, zero = np.zeros(len(nodes), np.intp), np.zeros(len(nodes))
+    return States(nodes, turn, move, zero, none, zero, none - 1, none - 1)
 
 
 def standing(states: States, at: Points, place: float, turn: float) -> Indices:

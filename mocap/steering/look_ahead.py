@@ -60,11 +60,11 @@ class LookAhead:
         leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
         end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
         self.moved = end - graph.at[leaves]
-        self.seconds = hops.frames / graph.fps
+        self.seconds: Array = hops.frames / graph.fps
         self.price = np.where(graph.blended[hops.last], SEAM, 0.0)
         without = np.pad(np.cumsum(~bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
-        played = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
-        self.lacks = played.sum(axis=-1) / graph.fps
+        played: Indices = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
+        self.lacks: Array = played.sum(axis=-1) / graph.fps
 
     def start(self, node: int, turn: complex) -> WalksAhead:
         """Start with one walk without hops, at a node whose clip is turned by `turn`."""

@@ -218,9 +218,9 @@ class PathSearch(LayeredSearch):
         if not len(hops):
             raise NoWalk(f"The search was {stopped} before its first step.")
         along = self.frames_along(hops, walk.along[:-1])[2]
-        start = complex(walk.turn[0]), complex(walk.move[0])
-        counts = self.expanded, self.cut, stopped
-        return Found(self.graph.hops.edges(hops), *start, along, float(walk.cost[-1]), *counts)
+        edges, cost = self.graph.hops.edges(hops), float(walk.cost[-1])
+        turn, move = complex(walk.turn[0]), complex(walk.move[0])
+        return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
 
 
 def _square(numbers: Points) -> Array:

@@ -12,7 +12,7 @@ from mocap.body.motion import resample
 from mocap.body.planar import IDENTITY
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.files import load_save
-from mocap.graphs.motion_graph import MotionGraph, build, from_transitions
+from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import smallest_threshold
 from mocap.matching.transitions import Transition
@@ -63,42 +63,11 @@ def test_the_stretches_of_a_clip_are_the_clip(found):
     assert graph.count("transition") == len(found)
 
 
-@pytest.mark.filterwarnings("ignore:0 frames of clip stay")
-@given(transitions)
-def test_pruning_keeps_the_largest_set_of_nodes_that_reach_each_other(found):
-    whole = from_transitions(CLIPS, found, window=WINDOW)
-    reach = nx.floyd_warshall_numpy(nx.DiGraph(whole.graph), weight=None) < np.inf
-    mutual = reach & reach.T
-    nodes = list(whole.graph)
-    parts = [
-        MotionGraph(whole.clips, WINDOW, whole.graph.subgraph(np.array(nodes, "i,i")[row].tolist()))
-        for row in mutual
-    ]
-    most = max(part.frames for part in parts)
-    if all(part.graph.number_of_edges() == 0 for part in parts):
-        with pytest.raises(NoWalk, match="no cycle"):
-            prune(whole)
-        return
-    pruned = prune(whole)
-    assert pruned.frames == most
-    assert nx.is_strongly_connected(pruned.graph)
-    assert min(degree for _, degree in pruned.graph.out_degree()) >= 1
-
-
 def test_building_finds_transitions_below_the_threshold():
     loose, strict = (build(CLIPS, window=WINDOW, threshold=t) for t in (0.08, 0.02))
     costs = [cost for _, _, cost in strict.graph.edges(data="cost") if cost is not None]
     assert 0 < strict.count("transition") < loose.count("transition")
     assert max(costs) < 0.02
-
-
-def test_building_passes_on_the_precision():
-    single, double = (build(CLIPS, window=WINDOW, threshold=0.05, precision=p) for p in ("single", "double"))
-    costs = [[cost for _, _, cost in whole.graph.edges(data="cost")] for whole in (single, double)]
-    assert costs[0] != costs[1]
-    assert costs[1] == [
-        cost for _, _, cost in build(CLIPS, window=WINDOW, threshold=0.05).graph.edges(data="cost")
-    ]
 
 
 def test_pruning_leaves_the_graph_it_was_given_alone():

@@ -17,10 +17,6 @@ def test_delays_are_measured():
     delay = measure_delay(Controller(GRAPH), turns=6)
     assert 0.3 < delay.mean <= delay.slowest <= 8
     assert 0 < delay.step < delay.worst
-
-
-def test_the_parts_of_the_mean_delay():
-    delay = measure_delay(Controller(GRAPH), turns=6)
     assert 0 < delay.waiting < delay.mean
     assert 0 < delay.blending < delay.mean - delay.waiting
 

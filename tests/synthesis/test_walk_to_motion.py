@@ -22,7 +22,6 @@ from mocap.feet.footplants import mark_plants
 from mocap.graphs.edge_tables import edge_table
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
-from mocap.matching.distance_grids import distance_grid
 from mocap.matching.transitions import Transition
 from mocap.synthesis.random_walks import random_walk, wander
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
@@ -89,21 +88,6 @@ def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave,
     assert joint_positions(motion) == pytest.approx(expected, abs=1e-9)
 
 
-def test_transforms_add_up_along_a_walk():
-    """After every transition the frames are their clip's own, moved as a whole."""
-    walk = random_walk(GRAPH, seconds=20, seed=5)
-    motion, frame = to_motion(GRAPH, walk), 0
-    for edge in walk:
-        (clip, start), (_, end), _ = edge
-        data = GRAPH.graph.edges[edge]
-        if data["kind"] == "clip":
-            piece, source = motion[frame : frame + data["frames"]], CLIPS[clip][start:end]
-            assert distance_grid(piece, source, window=len(source))[0, 0] < 1e-12
-            assert piece.root_positions[:, 1] == pytest.approx(source.root_positions[:, 1])
-        frame += data["frames"]
-    assert frame == len(motion)
-
-
 def test_seams_are_no_rougher_than_the_clips():
     walk = random_walk(GRAPH, seconds=30, seed=1)
     speed = np.linalg.norm(np.diff(joint_positions(to_motion(GRAPH, walk)), 2, axis=0), axis=-1)
@@ -141,8 +125,12 @@ def test_bad_walks_are_refused():
     ):
         with pytest.raises(NoWalk, match=message):
             to_motion(GRAPH, walk)
-    with pytest.raises(NoWalk, match=r"no node \(7, 7\)"):
-        random_walk(GRAPH, seconds=1, start=(7, 7))
+    for node, words in (
+        ((7, 7), "none in that clip"),
+        ((0, 999), r"node \(0, 999\); the nearest is \(0, "),
+    ):
+        with pytest.raises(NoWalk, match=words):
+            random_walk(GRAPH, seconds=1, start=node)
     with pytest.raises(MocapError, match="longer than 0 s, got 0 s"):
         random_walk(GRAPH, seconds=0)
 
