@@ -20,7 +20,7 @@ from mocap.cli.graph import GRAPH
 from mocap.cli.loop import loop
 from mocap.cli.options import as_options
 from mocap.cli.retarget import retarget
-from mocap.cli.typed_commands import Run, add_commands
+from mocap.cli.typed_commands import Group, Run, add_commands
 from mocap.cli.view import view
 from mocap.cli.walk import walk
 from mocap.errors import MocapError, MocapWarning, shortened
@@ -28,7 +28,7 @@ from mocap.errors import MocapError, MocapWarning, shortened
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed
 ACTIONS = (*GRAPH.commands, "-h", "--help")  # before any other word, `build` may be left out
 FIRST: tuple[Run, ...] = (blend, info, judge, convert, warp, bend, loop, find, crowd, retarget)
-COMMANDS = {
+COMMANDS: dict[str, Run | Group] = {
     "demo": demo,
     "graph": GRAPH,
     "walk": walk,

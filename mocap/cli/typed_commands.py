@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args, get_origin
 
 if TYPE_CHECKING:
-    Parsers = argparse._SubParsersAction[argparse.ArgumentParser]
+    Parsers = argparse._SubParsersAction[Any]
 
 Run = Callable[..., int | None]
 _PARAMETER = re.compile(r"^(\w+)(?: \((\S+)\))? : (.*(?:\n +.*)*)", re.MULTILINE)
@@ -116,8 +116,9 @@ def _call(run: Run, options: argparse.Namespace) -> int:
 
 def _values(made: Run, options: argparse.Namespace) -> dict[str, Any]:
     """Give a function's parameters, or a dataclass's fields, the values of the options."""
-    kinds = {name: parameter.annotation for name, parameter in inspect.signature(made).parameters.items()}
-    return {
-        name: kind(**_values(kind, options)) if is_dataclass(kind) else getattr(options, name)
-        for name, kind in kinds.items()
-    }
+    values: dict[str, Any] = {}
+    for name, parameter in inspect.signature(made).parameters.items():
+        kind: Run = parameter.annotation
+        nested = is_dataclass(parameter.annotation)
+        values[name] = kind(**_values(kind, options)) if nested else getattr(options, name)
+    return values

@@ -131,8 +131,6 @@ def test_an_option_gets_an_answer_or_one_sentence(folder, monkeypatch, capfd, co
         (["info", "a.bvh", "--nope"], "unrecognized arguments: --nope (see mocap info --help)"),
         (["convert", "a.bvh", "a.bvh"], "is one of the files to convert"),
         (["convert", ".", "."], "is one of the files to convert"),
-        (["demo", "-o", "/dev/null/x"], "Cannot make the folder"),
-        (["demo", "--seconds", "-3"], "--seconds: '-3' is not a number"),
     ],
 )
 def test_what_would_be_ignored_or_fail_late_is_refused_at_once(folder, monkeypatch, capsys, words, message):

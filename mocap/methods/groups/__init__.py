@@ -36,10 +36,10 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "flocking": ["APART", "RATE", "Flock", "Trajectories", "nearest_two", "simulate"],
-        "configurations": ["Configuration", "Match", "compare", "seen_from_itself"],
-        "clustering": ["Clusters", "cluster"],
-        "group_clips": ["Drawn", "GroupClip", "accelerations", "bend_to", "part"],
+        "flocking": ["RATE", "Flock", "Trajectories", "nearest_two", "simulate"],
+        "configurations": ["Configuration", "compare", "seen_from_itself"],
+        "clustering": ["cluster"],
+        "group_clips": ["GroupClip", "bend_to"],
         "group_graphs": [
             "GroupGraph",
             "Placed",
@@ -52,6 +52,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "scenes": ["Scene"],
         "planning": ["GroupWalk", "plan_group"],
         "group_steering": ["clearances", "steer_group"],
-        "group_walkers": ["GroupWalkers", "walk_group"],
+        "group_walkers": ["walk_group"],
     },
 )

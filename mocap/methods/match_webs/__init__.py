@@ -40,7 +40,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "valleys": ["minima_1d"],
         "local_alignment": ["apart", "local_paths"],
-        "webs": ["MatchWeb", "PathShape", "build_web"],
+        "webs": ["MatchWeb", "build_web"],
         "web_files": ["load_web", "save_web"],
         "match_search": ["Match", "cut_out", "search"],
         "motion_measures": ["hand_target", "leap", "mean_speed", "turn"],

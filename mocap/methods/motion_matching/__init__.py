@@ -24,10 +24,10 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "frame_features": ["AHEAD", "BodyTrack", "GROUPS", "body_track", "features"],
-        "springs": ["fade", "spring", "spring_way"],
+        "frame_features": ["GROUPS", "features"],
+        "springs": ["spring", "spring_way"],
         "pose_database": ["PoseDatabase", "WEIGHTS", "standardise", "tabulate"],
-        "nearest_frames": ["FrameSearch", "Wants", "foresee", "next_frame"],
+        "nearest_frames": ["FrameSearch", "Wants", "foresee"],
         "matching_control": ["MotionMatcher"],
     },
 )

@@ -15,6 +15,7 @@ from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
 from mocap.methods.parametric_graphs.made_strides import facing_windows, make_stride
 from mocap.methods.parametric_graphs.nearest_windows import HALF, WINDOW
+from mocap.methods.parametric_graphs.parametric_edges import Way
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
 from mocap.steering.characters import Pose, require_command
@@ -121,7 +122,7 @@ class ParametricController:
 
     def _play(self, before: list[Motion], blended: int, first: int) -> None:
         """Put the frames of the stride from `first` to its decision behind others, whose last are blended."""
-        self.way = {
+        self.way: dict[str, Way] = {
             node: self.graph.edge(self.node, node).look_up(self.parameters)
             for node in self.graph.graph.successors(self.node)
         }
@@ -149,10 +150,10 @@ class ParametricController:
         lay = align(window, facing)
         cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=-1).mean()))
         self.chosen.append(Chosen(node, wished, taken, made.values[space.columns], cost))
-        old = self._laid(centre - HALF, centre + HALF + 1)
+        [old] = self._laid(centre - HALF, centre + HALF + 1)
         self.node, self.parameters, self.stride, self.place = node, taken, made, self.place @ lay
-        new = self._laid(into - HALF, into + HALF + 1)
-        mixed = blend(*old, *new, cubic_weights(WINDOW))
+        [new] = self._laid(into - HALF, into + HALF + 1)
+        mixed = blend(old, new, cubic_weights(WINDOW))
         self._play([*rest, mixed], WINDOW, into + HALF + 1)
 
     def _wish(self, space: StrideSpace, heading: float, speed: float) -> Array:

@@ -119,8 +119,9 @@ def load_parametric(path: str | Path) -> ParametricGraph:
     for number, node in enumerate(nodes):
         graph.add_node(node, space=_space(arrays, f"_of_{number}"))
     for number, (a, b) in enumerate(edges):
-        *parts, least = (arrays[f"{key}_of_edge_{number}"] for key in _EDGE)
-        graph.add_edge(nodes[a], nodes[b], edge=ParametricEdge(*parts, float(least)))
+        at, low, high, leave, enter, unit, least = (arrays[f"{key}_of_edge_{number}"] for key in _EDGE)
+        edge = ParametricEdge(at, low, high, leave, enter, unit, float(least))
+        graph.add_edge(nodes[a], nodes[b], edge=edge)
     return ParametricGraph(graph)
 
 

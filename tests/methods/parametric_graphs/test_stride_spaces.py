@@ -65,33 +65,6 @@ def test_the_formula_of_the_paper():
     np.testing.assert_allclose(weights, [[1, 0]])
 
 
-def test_equal_gaps_and_a_hit_are_no_division_by_zero():
-    _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [-1], [1]]), np.ones(1), 3)
-    np.testing.assert_array_equal(weights, [[1, 0, 0]])
-    near, weights = neighbours(np.zeros((1, 1)), np.array([[0.0], [1], [2]]), np.ones(1), 3)
-    assert near[0, 0] == 0 and weights[0, 0] == pytest.approx(1)
-
-
-def test_raw_strides_are_rough_and_the_bell_is_smooth():
-    """A change of 2 degrees in what is asked: how far do the mean poses go? [HG07, nodes]"""
-    smooth = space()
-    raw = StrideSpace(
-        smooth.strides,
-        ("turn",),
-        smooth.strides.values[:, :1],
-        np.eye(len(smooth.strides)),
-        smooth.low,
-        smooth.high,
-    )
-    at = np.linspace(smooth.low, smooth.high - np.radians(2), 40)
-    changes = []
-    for tested in (smooth, raw):
-        one, other = (tested.weights(asked) for asked in (at, at + np.radians(2)))
-        poses = tested.strides.poses[:, ::12].reshape(len(tested.strides), -1)
-        changes.append(np.median(np.linalg.norm((one - other) @ poses, axis=1)))
-    assert changes[1] > 5 * changes[0]
-
-
 def test_the_range_is_cut_to_what_the_strides_come_to():
     wide = make_space(strides(), 0.2, -9.0, 9.0)
     assert wide.low[0] > -2.5 and wide.high[0] < 2.5
