@@ -195,7 +195,7 @@ def plant_bars(plants: Mapping[str, Mapping[str, ArrayLike]], *, ax: Axes | None
     for row, sides in enumerate(plants.values()):
         for side, low in (("left", row - HEIGHT), ("right", row)):
             bars = [(start, stop - start) for start, stop in np.reshape(sides[side], (-1, 2))]
-            look = {"facecolor": COLOURS[side], "edgecolor": "#FFFFFF", "linewidth": 0.6}
+            look: dict[str, Any] = {"facecolor": COLOURS[side], "edgecolor": "#FFFFFF", "linewidth": 0.6}
             ax.broken_barh(bars, (low, HEIGHT), **look)
     ax.set_yticks(range(len(plants)), list(plants))
     ax.set(xlabel="common clock (s)", ylim=(len(plants) - 0.5, -0.5))
@@ -235,9 +235,9 @@ def match_tree(
     places, colours = _tree_places(matches), source_colours([*order, *kinds])
     links = [(places[match.via], places[n]) for n, match in enumerate(matches) if match.via >= 0]
     ax.add_collection(LineCollection(links, colors=QUIET, linewidths=0.8, zorder=0))
-    ax.scatter(*places.T, s=26, color=[colours[kind] for kind in kinds])
+    ax.scatter(places[:, 0], places[:, 1], s=26, color=[colours[kind] for kind in kinds])
     bad = places[np.zeros(len(matches), bool) if wrong is None else np.asarray(wrong, bool)]
-    ax.scatter(*bad.T, s=60, color=ASTRAY, marker="x", label="wrong" if len(bad) else None)
+    ax.scatter(bad[:, 0], bad[:, 1], s=60, color=ASTRAY, marker="x", label="wrong" if len(bad) else None)
     for kind, colour in colours.items():
         ax.plot([], [], "o", color=colour, label=kind)
     ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
@@ -287,8 +287,8 @@ def space_image(
     asked, given = (np.reshape(np.asarray(each, float), (-1, 2)).T for each in (wishes, got))
     ax.scatter(across[examples:], up[examples:], s=8, color=QUIET, label="samples")
     ax.scatter(across[:examples], up[:examples], s=42, color=COLOURS["middle"], label="examples")
-    ax.scatter(*asked, s=70, color=ASKED, marker="+", label="asked", zorder=3)
+    ax.scatter(asked[0], asked[1], s=70, color=ASKED, marker="+", label="asked", zorder=3)
     in_data: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.008}
     ax.quiver(*asked, *(given - asked), color=PATH, zorder=2, **in_data)
-    ax.scatter(*given, s=26, color=PATH, label="got", zorder=3)
+    ax.scatter(given[0], given[1], s=26, color=PATH, label="got", zorder=3)
     return ax

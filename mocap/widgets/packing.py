@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices
 from mocap.body.kinematics import joint_positions
@@ -56,7 +55,7 @@ def drawn(skeleton: Skeleton) -> Drawn:
     return Drawn(joints, lines, heads[-1] if heads else None)
 
 
-def packed(values: Array, low: ArrayLike, step: ArrayLike, kind: str) -> bytes:
+def packed(values: Array, low: Array | float, step: Array | float, kind: str) -> bytes:
     """Pack numbers over time, shape (F, ...), as whole multiples of a step above the lowest.
 
     Parameters

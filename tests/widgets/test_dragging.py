@@ -2,7 +2,6 @@
 
 import base64
 import io
-import sys
 
 import matplotlib
 
@@ -14,7 +13,7 @@ import pytest
 from PIL import Image
 
 from mocap.errors import MocapError
-from mocap.widgets import live, recording
+from mocap.widgets import recording
 from mocap.widgets.dragging import handles
 from mocap.widgets.experiments import explore
 from tests.course import driving
@@ -64,6 +63,8 @@ def test_handles_are_drawn_where_the_axes_have_their_points():
     left, top, right, bottom = handled.box
     assert 0 < left < right < 1
     assert 0 < top < bottom < 1
+    still = pixels(base64.b64decode(experiment.still()[0]["image/png"]))
+    assert np.abs(still - ringed).max() < 32  # what stays has the handles in it, in few colours
     high, wide = drawn.shape[:2]
     for x, z in handled.value:
         column = wide * (left + (right - left) * (3 - x) / 6)
@@ -73,14 +74,6 @@ def test_handles_are_drawn_where_the_axes_have_their_points():
         beside = np.s_[int(row) - 11 : int(row) + 12, int(column) - 11 : int(column) + 12]
         ys, xs = np.nonzero((ringed[beside] != drawn[beside]).any(axis=-1))
         assert (ys.mean(), xs.mean()) == pytest.approx((11, 11), abs=1.5)
-
-
-def test_what_stays_has_the_handles_in_it():
-    experiment = bent()
-    data, _ = experiment.still()
-    still = pixels(base64.b64decode(data["image/png"]))
-    assert still.shape == pixels(experiment.png).shape
-    assert np.any(np.abs(still - pixels(experiment.png)) > 100)
 
 
 def test_other_controls_stand_beside_the_handles():
@@ -125,25 +118,3 @@ def test_other_nonsense_is_refused():
         handles(plt.figure().add_subplot(yscale="log"), POINTS)
     with pytest.raises(MocapError, match="one control of handles"):
         explore(lambda a, b: None, alt="", a=handles(ground(), POINTS), b=handles(ground(), POINTS))
-
-
-def test_an_error_is_shown_in_the_pictures_place():
-    ax = ground()
-
-    def fail(way):
-        if way[0][0] > 1:
-            raise ValueError("too far")
-        return ax.figure
-
-    experiment = explore(fail, alt="Nothing.", way=handles(ax, POINTS))
-    experiment.controls["way"].value = [[2, 1], [0, 3], [0, 5]]
-    assert "ValueError: too far" in experiment.message.value
-    experiment.controls["way"].value = POINTS
-    assert experiment.error is None
-
-
-def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    live.widget.cache_clear()
-    with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
-        handles(ground(), POINTS)

@@ -1,6 +1,5 @@
 """Experiments, driven as a reader would drive them."""
 
-import base64
 import gc
 import io
 import sys
@@ -22,7 +21,6 @@ from mocap.plotting.axes import ground_axes
 from mocap.plotting.stick_figures import stick_figure
 from mocap.widgets import experiments, live
 from mocap.widgets.experiments import explore
-from mocap.widgets.live import LIVE, STILL, WIDGET
 from tests.strategies import wave
 
 pytest.importorskip("ipywidgets")
@@ -51,21 +49,6 @@ def test_moving_a_control_changes_the_picture():
     experiment.controls["frame"].value = 5
     assert experiment.error is None
     assert np.any(pixels(experiment.picture.value) != pixels(before))
-
-
-def test_the_output_is_a_picture_with_its_sentence_and_then_the_controls(monkeypatch):
-    shown = []
-    monkeypatch.setattr("IPython.display.display", lambda data, **options: shown.append((data, options)))
-    experiment = explore(fresh, alt="A line.", frame=(0, 9))
-    experiment._ipython_display_()
-    (data, options), (live, _) = shown
-    metadata = options["metadata"]
-    assert set(data) == {"image/png", "text/html", "text/plain"}
-    assert set(live) == {WIDGET}
-    assert LIVE in experiment.box._dom_classes
-    assert STILL in data["text/html"]
-    assert data["text/plain"] == "A line." == metadata["image/png"]["alt"]
-    assert pixels(base64.b64decode(data["image/png"])).shape == (200, 200, 3)
 
 
 def test_a_pose_drawn_over_the_kept_ground_is_the_pose_drawn_whole():

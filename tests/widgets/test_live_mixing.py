@@ -62,13 +62,6 @@ def test_clips_of_one_name_are_numbered():
     assert mixer.start.tolist() == [0.5, 0.5]
 
 
-def test_the_notebook_keeps_the_page_beside_the_live_sliders(mixer, monkeypatch):
-    outputs = []
-    monkeypatch.setattr("IPython.display.display", lambda data, **options: outputs.append(data))
-    mixer._ipython_display_()
-    assert set(outputs[0]) == {"text/html", "image/png", "text/plain"}
-
-
 @pytest.mark.parametrize(
     ("weights", "ease", "message"), [([1, 1], 0.4, "add up to 1"), ([1, 0], 0.0, "more than 0 s")]
 )

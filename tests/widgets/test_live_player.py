@@ -1,6 +1,5 @@
 """Linked players without a browser: Python's side of the traits."""
 
-import sys
 import warnings
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 
 from mocap.body import spline
 from mocap.errors import MocapError, MocapWarning
-from mocap.widgets import live
 from mocap.widgets.live_player import draw_path, linked
 from mocap.widgets.player import play
 from tests.strategies import wave
@@ -30,16 +28,6 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
     with pytest.raises(MocapError, match="frames 0 to 29"):
         player.frame = frame
     assert player.frame == 0
-
-
-def test_the_output_is_the_page_and_the_picture_and_then_the_live_player(monkeypatch):
-    shown = []
-    monkeypatch.setattr("IPython.display.display", lambda data, **options: shown.append((data, options)))
-    linked(play(wave(30)))._ipython_display_()
-    (data, options), (live, _) = shown
-    assert set(data) == {"text/html", "image/png", "text/plain"}
-    assert set(live) == {"application/vnd.jupyter.widget-view+json"}
-    assert data["text/plain"] == options["metadata"]["image/png"]["alt"]
 
 
 def test_frames_of_an_older_scene_do_not_count():
@@ -120,10 +108,3 @@ def test_an_error_is_shown_until_the_next_path():
     assert (canvas.error, canvas.message) == (None, "A stick figure plays wave, 1.0 s.")
     with pytest.raises(MocapError, match="No walk"):
         draw_path(follow, [[0, 0], [0, 1], [0, 2]])
-
-
-def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    live.widget.cache_clear()
-    with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
-        linked(play(wave(9)))

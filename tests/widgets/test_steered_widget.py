@@ -1,13 +1,12 @@
 """The widget of steered characters without a browser: what it answers, what it records, what it refuses."""
 
 import math
-import sys
 
 import numpy as np
 import pytest
 
 from mocap.errors import MocapError
-from mocap.widgets import live, steered_widget
+from mocap.widgets import steered_widget
 from mocap.widgets.steered_widget import steered
 from tests.widgets.steerable import Dot
 
@@ -96,15 +95,6 @@ def test_captured_people_leave_a_picture_and_no_numbers():
     assert "data:image/png" in data["text/html"] and "<script" not in data["text/html"]
 
 
-def test_a_cell_shows_the_recording_and_the_live_widget(page, monkeypatch):
-    shown = []
-    monkeypatch.setattr("IPython.display.display", lambda data, **options: shown.append(data))
-    page._ipython_display_()
-    assert set(shown[0]) == {"text/html", "image/png", "text/plain"}
-    assert set(shown[1]) == {"application/vnd.jupyter.widget-view+json"}
-    assert repr(page) == "Steered(quick, slow)"
-
-
 def test_one_character_is_dark_and_several_have_colours_of_their_own(page):
     assert len({member["colour"] for member in page.scene["members"]}) == 2
     assert steered({"dot": Dot()}).scene["members"][0]["colour"] == "#333333"
@@ -118,11 +108,3 @@ def test_speeds_rise_from_0_on(speeds):
 
 def test_it_starts_at_a_speed_that_may_be_asked_for():
     assert steered({"dot": Dot()}, speeds=(0.3, 0.9)).command[1] == 0.9
-
-
-def test_without_anywidget_one_sentence_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "anywidget", None)
-    live.widget.cache_clear()
-    with pytest.raises(MocapError, match=r"pip install 'mocap\[notebooks\]'"):
-        steered({"dot": Dot()})
-    live.widget.cache_clear()

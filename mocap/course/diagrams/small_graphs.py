@@ -216,13 +216,11 @@ def _legend(ax: Axes, components: int) -> None:
     faces = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
     faces |= {f"component {n + 1}, complete": SOURCES[n] for n in range(components)}
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
-    discs = [disc(face, **look) for face in faces.values()]
-    ax.legend(
-        [*discs, disc("white", markeredgewidth=3, **look)],
-        [*faces, "the search stands here"],
-        **{"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3, "fontsize": 8, "frameon": False},
-        **{"title": "beside a node: index / low link", "title_fontsize": 9},
-    )
+    discs = [disc(face, label=name, **look) for name, face in faces.items()]
+    discs.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
+    where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3}
+    words = {"title": "beside a node: index / low link", "title_fontsize": 9, "fontsize": 8}
+    ax.legend(handles=discs, frameon=False, **where, **words)
 
 
 def _draw_stack(ax: Axes, stack: Sequence[Node], most: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
@@ -112,7 +113,8 @@ def _draw_leap(ax: Axes, leap: Leap, number: int) -> None:
     """Draw a transition as an arrow: bent above its clip, or straight to the other one."""
     source, leaves, target, enters = leap
     bend = "arc3,rad=0.28" if source == target else "arc3,rad=0"
-    colour, look = PATH if number >= 3 else MARK, {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}
+    colour = PATH if number >= 3 else MARK
+    look: dict[str, Any] = {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}
     arrow(ax, leaves - 1j * source, enters - 1j * target, colour, **look).set_zorder(3)
 
 

@@ -1,0 +1,55 @@
+"""Live widgets: what a cell shows of them, and what is said where anywidget is missing."""
+
+import sys
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from mocap.blending import register
+from mocap.plotting.grids import distance_image
+from mocap.widgets import Mixer, explore, handles, live, play, steered
+from mocap.widgets.live import LIVE, STILL, WIDGET
+from mocap.widgets.live_player import linked
+from mocap.widgets.pointing import pointer
+from tests.blending.registered import walks
+from tests.strategies import wave
+from tests.widgets.steerable import Dot
+
+pytest.importorskip("anywidget")
+
+MADE = {
+    "experiment": lambda: explore(lambda n: Figure(figsize=(2, 2)), alt="Nothing at all.", n=(0, 9)),
+    "player": lambda: linked(play(wave(30))),
+    "mixer": lambda: Mixer(register([walks()[1.1, 120], walks()[1.1, -120]])),
+    "steered": lambda: steered({"dot": Dot()}),
+}
+NEEDY = {
+    "handles": lambda: handles(plt.figure().add_subplot(), [[0, 1]]),
+    "pointer": lambda: pointer(distance_image(np.ones((3, 3)), fps=30)),
+    "player": MADE["player"],
+    "steered": MADE["steered"],
+}
+
+
+@pytest.mark.parametrize("kind", MADE)
+def test_a_cell_shows_what_stays_with_its_sentence_and_then_the_live_widget(kind, monkeypatch):
+    shown = []
+    monkeypatch.setattr("IPython.display.display", lambda data, **options: shown.append((data, options)))
+    made = MADE[kind]()
+    made._ipython_display_()
+    (data, options), (widget, _) = shown
+    assert set(data) == {"image/png", "text/html", "text/plain"} and STILL in data["text/html"]
+    assert data["text/plain"] == options["metadata"]["image/png"]["alt"]
+    assert set(widget) == {WIDGET}
+    assert LIVE in getattr(made, "box", made)._dom_classes
+
+
+@pytest.mark.parametrize("kind", NEEDY)
+def test_without_anywidget_one_sentence_says_what_to_install(kind, monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    live.widget.cache_clear()
+    with pytest.raises(live.MocapError, match=r"needs? anywidget: pip install 'mocap\[notebooks\]'"):
+        NEEDY[kind]()
+    live.widget.cache_clear()
