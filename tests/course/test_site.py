@@ -15,6 +15,7 @@ from mocap.course.formulas import to_mathml
 from mocap.course.opening import stored
 from mocap.course.site import PAGES, STILL, build_site
 from mocap.errors import MocapError
+from mocap.widgets import live
 
 NAMES = ("00-quickstart", "01-skeletons-and-clips", "09-discussion")
 
@@ -71,7 +72,7 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
         link for link in dead(found) if ".ipynb" not in link
     ] == []  # a notebook that is not in this folder
     reference = (site / "reference" / "mocap.blending.html").read_text("utf-8")
-    assert 'id="mocap.blending.align"' in reference and "Examples" in reference
+    assert 'id="mocap.blending.join"' in reference and "Examples" in reference
     assert "L. Kovar, M. Gleicher" in reference
 
 
@@ -92,8 +93,8 @@ def test_each_page_says_what_is_live_and_how_to_run_it(site):
         assert "pip install '.[notebooks]'" in note and "mocap lab" in note
         assert len(re.findall(r"[.] ", note)) == 1
     text = (site / "00-quickstart.html").read_text("utf-8")
-    live = "the players play, quizzes and bets answer you and seams can be looked into"
-    assert f"On this page {live}; code and other controls are still." in text
+    playing = "the players play, quizzes and bets answer you and seams can be looked into"
+    assert f"On this page {playing}; code and other controls are still." in text
     blind = (site / "09-discussion.html").read_text("utf-8")
     assert "quizzes and bets answer you and the blind test can be taken;" in blind
     assert live.STILL == STILL

@@ -76,10 +76,6 @@ def marked(home, tmp_path_factory):
     return path
 
 
-def test_there_are_eleven_and_five():
-    assert (len(DISHONEST), len(UNLUCKY)) == (11, 5)
-
-
 @pytest.mark.parametrize("student", DISHONEST)
 def test_a_dishonest_student_gets_marks_only_for_what_is_right(student, marked):
     name = f"'{student}" if student.startswith("=") else student

@@ -38,11 +38,6 @@ def test_each_has_figures(name):
     assert len(figures) in (1, 3, 4, 6)
 
 
-def test_there_are_ten_and_one():
-    assert len(board.BOARD) == 11
-    assert len({heading for heading, _ in board.BOARD.values()}) == 11
-
-
 def test_the_command_writes_them_and_a_sheet_of_all(tmp_path, monkeypatch, capsys):
     few = {name: board.BOARD[name] for name in ("04-laid-on", "11-pinned")}
     monkeypatch.setattr(board, "BOARD", few)
