@@ -21,6 +21,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "slides": ["build_slides"],
         "films": ["render_film"],
-        "board": ["board_sheet", "write_board"],
+        "board": ["write_board"],
     },
 )

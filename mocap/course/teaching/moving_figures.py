@@ -75,7 +75,7 @@ class Figures:
         pen = _Pen(canvas, targets[frame] * [1, 0, 1] + [0, 0.9, 0], distance)
         pen.ground(targets[frame])
         if len(self.scene["asked"]) > 1:
-            pen.line(_flat(np.array(self.scene["asked"])), "#BBBBBB", 6)
+            pen.line(np.insert(np.array(self.scene["asked"]), 1, 0.0, axis=1), "#BBBBBB", 6)
         bodies = list(zip(self.scene["characters"], self.points, strict=True))
         for character, cloud in bodies:
             self._trail(pen, character, cloud)
@@ -85,9 +85,8 @@ class Figures:
 
     def _trail(self, pen: _Pen, character: dict[str, Any], cloud: Array) -> None:
         root, fps = cloud[:, 0] * [1, 0, 1], character["fps"]
-        starts = [(round(s["start"] * fps), s["colour"]) for s in character["sources"]] or [
-            (0, character["path_colour"])
-        ]
+        sources = character["sources"] or [{"start": 0, "colour": character["path_colour"]}]
+        starts = [(round(source["start"] * fps), source["colour"]) for source in sources]
         for (start, colour), (end, _) in zip(starts, [*starts[1:], (len(root), "")], strict=True):
             pen.line(root[start : end + 1 : 4], colour, 3)
         for seam in character["seams"]:
@@ -190,7 +189,3 @@ def _unpacked(character: dict[str, Any], data: bytes) -> Array:
 def _at(character: dict[str, Any], cloud: Array, time: float) -> Array:
     """Give the pose nearest to a time; who has come to the end stands there."""
     return np.asarray(cloud[min(len(cloud) - 1, round(time * character["fps"]))])
-
-
-def _flat(places: Array) -> Array:
-    return np.stack([places[:, 0], np.zeros(len(places)), places[:, 1]], -1)

@@ -23,7 +23,7 @@ from mocap.course.site import MOVING, fill_in, page_title, recorded_of
 from mocap.course.teaching.deck import Slide, deck_of
 from mocap.errors import MocapError
 
-PAGE = Path(__file__).with_name("slides.html")
+PAGE, LIST = (Path(__file__).with_name(name) for name in ("slides.html", "decks.html"))
 NEEDED = ("LICENSE", "dist/reveal.css", "dist/reveal.js", "plugin/notes/notes.js")  # of reveal.js
 LINK = re.compile(r'<a href="(?!https?:)([^"#]*)(#[^"]*)?"([^>]*)>(.*?)</a>', re.DOTALL)
 MATH = re.compile(r"(<(pre|code)\b.*?</\2>)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DOTALL)  # but in code
@@ -88,7 +88,10 @@ def build_slides(
         titles[file.stem] = page_title(file.stem, notebook)
         fill_in(notebook, recorded_of(file, notebook) if moving else {})
         write_text(out / f"{file.stem}.html", page_of(titles[file.stem], notebook, {f.stem for f in files}))
-    write_text(out / "index.html", _list_of(titles))
+    rows = "\n".join(
+        f'<li><a href="{name}.html">{html.escape(said)}</a></li>' for name, said in titles.items()
+    )
+    write_text(out / "index.html", Template(LIST.read_text("utf-8")).substitute(rows=rows))
     return out / "index.html"
 
 
@@ -163,16 +166,3 @@ def _link(found: re.Match[str], names: Collection[str]) -> str:
     if found[1].removesuffix(".html") in names:
         return f'<a href="{found[1]}"{found[3]}>{found[4]}</a>'
     return found[4]
-
-
-def _list_of(titles: dict[str, str]) -> str:
-    rows = "\n".join(
-        f'<li><a href="{name}.html">{html.escape(said)}</a></li>' for name, said in titles.items()
-    )
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width">'
-        "<title>Slides · mocap</title><style>body{font:18px/1.6 system-ui,sans-serif;max-width:46rem;"
-        "margin:2rem auto;padding:0 1rem}</style>\n<h1>Slides</h1>\n<p>Arrows or Space go on, S opens the "
-        f"notes for the speaker, O shows all slides, F fills the screen.</p>\n<ul>\n{rows}\n</ul></html>\n"
-    )
