@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Mask
 from mocap.blending.clocks import frame_times
 from mocap.blending.mixing import mix
 from mocap.blending.registering import Registration
@@ -73,10 +73,15 @@ def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | N
     times, _ = frame_times(whole, weights, fps=made.fps)
     alone = np.where(times <= start, own, np.where(times >= stop, other, -1))
     name = f"{registration.clips[own].name} to {entered.name}"
-    clips = zip(whole.clips, whole.times, strict=True)
+    return replace(made, name=name, contacts=_contacts(whole, made, times, alone))
+
+
+def _contacts(registration: Registration, made: Motion, times: Array, alone: Array) -> dict[str, Mask]:
+    """Take the marks of the clip that plays alone, `alone` being its number or -1, and the matched ones."""
+    clips = zip(registration.clips, registration.times, strict=True)
     played = [clip.at(curve(times) * clip.fps).contacts for clip, curve in clips]
     contacts, never = {}, np.zeros(len(made), bool)
     for joint in dict.fromkeys([*played[0], *played[1]]):
         marks = [each.get(joint, never) for each in played]
         contacts[joint] = np.select([alone == 0, alone == 1], marks, made.contacts.get(joint, never))
-    return replace(made, name=name, contacts=contacts)
+    return contacts

@@ -35,7 +35,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "footplants": ["mark_plants", "runs"],
-        "footprints": ["Footprint", "find_footprints", "standing_tracks"],
+        "footprints": ["find_footprints", "standing_tracks"],
         "ankle_targets": ["place_plants"],
         "footskate": ["clean_up"],
     },

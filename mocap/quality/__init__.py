@@ -26,13 +26,12 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "blend_measures": ["BlendJolts", "added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
-        "clip_flaws": ["Flaw", "Report", "inspect", "warn_of_size"],
+        "blend_measures": ["added_jolt", "blend_jolts", "ground_slides", "knee_turns"],
+        "clip_flaws": ["inspect", "warn_of_size"],
         "falling": ["SEGMENTS", "Segment", "centre_of_mass", "gravity"],
-        "joint_limits": ["Bend", "joint_bends"],
-        "judgements": ["Judgement", "Measure", "judgement_table"],
+        "judgements": ["judgement_table"],
         "judging": ["judge"],
-        "standing_feet": ["PlantSlide", "mean_slide", "plant_slides"],
-        "seam_measures": ["SeamQuality", "Spread", "jumps", "seam_quality", "spread"],
+        "standing_feet": ["plant_slides"],
+        "seam_measures": ["Spread", "jumps", "seam_quality", "spread"],
     },
 )

@@ -1,6 +1,7 @@
 """Walks to register, generated and captured; what is measured of their blends; and the ways that fail."""
 
 import itertools
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -109,13 +110,7 @@ def strike_errors(registration):
 
 def at_times(motion, seconds):
     """A motion at other times: a clip as it would be, had it been played at another pace."""
-    frames = np.clip(np.asarray(seconds) * motion.fps, 0, len(motion) - 1)
-    before = np.minimum(frames.astype(int), len(motion) - 2)
-    share = (frames - before)[:, None]
-    first, second = motion.root_positions[before], motion.root_positions[before + 1]
-    turns = rotations.slerp(motion.rotations[before], motion.rotations[before + 1], share)
-    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
-    return Motion(motion.skeleton, first + share * (second - first), turns, motion.fps, motion.name)
+    return replace(motion.at(np.asarray(seconds) * motion.fps), labels={}, contacts={})
 
 
 def frame_by_frame(a, b, *, stretch=False):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.blending.clocks import checked, clock_speed, frame_times
+from mocap.blending.clocks import frame_times
 from mocap.blending.registering import register
 from mocap.errors import MocapError
 from tests.blending.registered import walks
@@ -12,11 +12,6 @@ from tests.blending.registered import walks
 @pytest.fixture(scope="module")
 def pair():
     return register([walks()[0.8, 0], walks()[1.4, 0]])
-
-
-def test_the_two_means_of_the_paces_1_and_2():
-    assert clock_speed([1, 2], [0.5, 0.5]) == pytest.approx(2 / 3)
-    assert clock_speed([1, 2], [0.5, 0.5], "rates") == pytest.approx(3 / 4)
 
 
 @pytest.mark.parametrize("weight", [0.0, 0.25, 1.0, 1.1, -0.1])
@@ -78,7 +73,3 @@ def test_a_clock_that_would_stop_and_weights_that_are_none_are_refused(pair, wei
     with pytest.raises(MocapError, match=message) as error:
         frame_times(pair, weights, **{"fps": 30.0} | settings)
     assert len(str(error.value)) <= 200
-
-
-def test_checked_weights_are_an_array():
-    assert checked((1, 0), 2).tolist() == [1, 0]

@@ -30,15 +30,6 @@ def matched(*clips, curves=None):
     return [(match.starts.round(3).tolist(), match.stops.round(3).tolist()) for match in found]
 
 
-def test_one_plant_of_each_clip_is_a_match_and_its_blend_is_their_mean():
-    clips = standing((0.2, 0.8)), standing((0.3, 0.9))
-    (match,) = match_contacts(clips, [SAME, SAME], SPAN)
-    assert match.joint == "foot"
-    weights = np.array([0.25, 0.75])
-    assert float(weights @ match.starts) == pytest.approx(0.275)
-    assert float(weights @ match.stops) == pytest.approx(0.875)
-
-
 def test_times_are_those_of_the_common_clock():
     assert matched(standing((1.0, 2.0)), standing((2.2, 4.2)), curves=[SAME, TWICE]) == [
         ([1.0, 1.1], [2.0, 2.1])

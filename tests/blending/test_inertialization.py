@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.blending.inertialization import inertialize
@@ -40,7 +40,6 @@ def test_the_offset_dies_away_by_the_quintic():
     assert offset == pytest.approx(wanted, abs=1e-9)
 
 
-@settings(max_examples=20)
 @given(seeds, st.integers(1, 5))
 def test_any_two_poses_can_be_cut_without_a_spin(seed, window):
     a = random_motion(seed, frames=10)

@@ -4,26 +4,27 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.blending.inertialization import inertialize
 from mocap.blending.interpolation import blend
-from mocap.blending.joining import join, lay_window_on
+from mocap.blending.joining import join, lay_window_on, splice
 from mocap.blending.weights import linear_weights
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
+from mocap.matching.point_clouds import point_cloud
 from tests.strategies import planar, random_motion, wave
 
 A, B = wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)
-GRID = distance_grid(A, B, window=8)[20:90, 20:60]
+GRIDS = {window: distance_grid(A, B, window=window) for window in (1, 8)}
+GRID = GRIDS[8][20:90, 20:60]
 LEAVE, ENTER = (20 + int(n) for n in np.unravel_index(GRID.argmin(), GRID.shape))
 both = pytest.mark.parametrize("way", [join, inertialize])
 
 
 @both
-@settings(max_examples=20)
 @given(i=st.integers(0, 100), j=st.integers(0, 70), window=st.integers(1, 20))
 def test_before_the_window_it_is_a_and_after_it_b_laid_on(way, i, j, window):
     joined = way(A, i, B, j, window)
@@ -36,7 +37,6 @@ def test_before_the_window_it_is_a_and_after_it_b_laid_on(way, i, j, window):
 
 
 @both
-@settings(max_examples=20)
 @given(transform=planar)
 def test_where_b_was_captured_does_not_matter(way, transform):
     here, there = (joint_positions(way(A, LEAVE, b, ENTER, 8)) for b in (B, transform.apply_motion(B)))
@@ -100,6 +100,18 @@ def test_motions_must_go_together(way):
         way(A, 0, B, 0, 0)
 
 
-def test_weights_must_lie_between_0_and_1():
-    with pytest.raises(MocapError, match=r"lie in \[0, 1\]"):
-        join(A, 0, B, 0, 5, weights=lambda window: np.full(window, 1.5))
+@given(st.sampled_from([*GRIDS]), st.integers(0, 112), st.integers(0, 82), planar)
+def test_the_windows_agree_as_well_as_the_distance_grid_says(window, i, j, transform):
+    laid = lay_window_on(A, i, transform.apply_motion(B), j, window)
+    gaps = point_cloud(A)[i : i + window] - point_cloud(laid)[j : j + window]
+    assert (gaps**2).sum(-1).mean() == pytest.approx(GRIDS[window][i, j], abs=1e-9)
+
+
+@pytest.mark.parametrize(("i", "j"), [(0, 0), (1, 1), (3, 89), (120, 90), (0, 90)])
+def test_spliced_frames_stand_in_a_row(i, j):
+    middle = A[5:7]
+    spliced = splice(A, i, middle, B, j)
+    for field in ("root_positions", "rotations"):
+        parts = getattr(A, field)[:i], getattr(middle, field), getattr(B, field)[j:]
+        assert np.array_equal(getattr(spliced, field), np.concatenate(parts))
+    assert spliced.name == "a to b"

@@ -16,7 +16,7 @@ from mocap.body.motion import resample
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.datasets import sample
 from mocap.datasets.generated import generate_walk
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapWarning
 from mocap.feet import clean_up, mark_plants
 from mocap.files.load_save import load
 from mocap.matching.point_clouds import align, point_cloud
@@ -321,12 +321,3 @@ def test_many_clips_have_a_short_name_and_the_course_starts_with_the_reference()
     assert blend.name == "4 clips"
     start = registration.centre(2, registration.span[0])
     assert abs(on_ground(point_cloud(blend)[0]).mean() - start) < 0.1
-
-
-@pytest.mark.parametrize(
-    ("weights", "settings", "message"),
-    [([1.0], {}, "2 weights"), (HALF, {"fps": -1}, "above 0, got -1"), (HALF, {"pace": "x"}, "No pace 'x'")],
-)
-def test_what_cannot_be_mixed_is_refused(weights, settings, message):
-    with pytest.raises(MocapError, match=message):
-        mix(generated((0.8, 0), (1.4, 0)), weights, **settings)

@@ -98,15 +98,6 @@ def test_slow_walkers_stand_on_both_feet_for_longer(real_data):
     assert run == 0
 
 
-@given(masks)
-def test_runs_put_together_are_the_marks(marks):
-    again = np.zeros(len(marks), bool)
-    for start, stop in runs(marks):
-        assert not again[start:stop].any()
-        again[start:stop] = True
-    assert np.array_equal(again, marks)
-
-
 @given(masks, st.integers(1, 8))
 def test_settled_marks_have_no_short_runs_and_settle_no_further(marks, span):
     settled = settle(marks, span)

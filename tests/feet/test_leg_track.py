@@ -32,10 +32,6 @@ def test_the_hinge_says_how_far_a_leg_reaches():
     assert np.all(hinge.straight < 0)  # to stretch a bent knee is to turn it back
 
 
-def test_the_hinge_is_worked_out_once():
-    assert TRACK.hinge is TRACK.hinge
-
-
 def test_no_knee_becomes_straighter_than_eight_degrees_or_than_it_is():
     thigh, shank, _ = LEFT.lengths(CLIP.skeleton)
     bent = np.sqrt(thigh**2 + shank**2 + 2 * thigh * shank * np.cos(BENT))

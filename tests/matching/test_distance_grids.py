@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import PlanarTransform
@@ -35,14 +35,12 @@ def test_the_oracle_is_the_closed_form_window_by_window():
         assert grid[i, j] == pytest.approx(squared_distance(align(p, q), p, q, np.full(12, 1 / 12)))
 
 
-@settings(max_examples=40)
 @given(seeds, st.integers(1, 7))
 def test_the_grid_is_the_loop_over_windows(seed, window):
     a, b = random_points(seed, 9), random_points(seed + 1, 7)
     assert distance_grid(a, b, window=window) == pytest.approx(distance_oracle(a, b, window), abs=1e-12)
 
 
-@settings(max_examples=40)
 @given(seeds, st.integers(1, 5))
 def test_so_it_is_with_weights_and_taper(seed, window):
     a, b = random_points(seed, 9), random_points(seed + 1, 7)
@@ -58,7 +56,6 @@ def test_a_joint_without_weight_does_not_count():
     assert distance_grid(a, b, window=3, joint_weights=[0, 1, 1, 1, 1, 1]) == pytest.approx(less)
 
 
-@settings(max_examples=60)
 @given(seeds, st.integers(1, 12), st.sampled_from([0.0, 1.0, 100.0, 3e4]), planar)
 def test_the_error_bound_holds_wherever_a_clip_is(seed, window, away, transform):
     """`away` metres from the origin, and walking on from there."""

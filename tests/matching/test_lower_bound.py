@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap import load, resample
@@ -41,7 +41,6 @@ def measured(ready, taper):
 
 
 @precisions
-@settings(max_examples=25)
 @given(seeds, st.integers(1, 6), st.integers(1, 5), st.sampled_from([0.01, 1.0, 100.0]), st.booleans())
 def test_the_bound_is_below_the_distance_of_random_clouds(dtype, seed, window, points, size, weighted):
     random = np.random.default_rng(seed)

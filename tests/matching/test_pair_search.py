@@ -1,6 +1,5 @@
 """Both searches against the minima of the whole grid, however it is cut and wherever the work is done."""
 
-import os
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -233,17 +232,6 @@ def test_any_number_of_workers_gives_the_same_bit_for_bit(executor, workers, met
     here = find_transitions(CLIPS, window=8, below=0.1, method=method)
     with executor(workers) as pool:
         there = find_transitions(CLIPS, window=8, below=0.1, method=method, executor=pool)
-    assert all(np.array_equal(a, b) for a, b in zip(here.columns, there.columns, strict=True))
-
-
-def test_a_cluster_gives_the_same(monkeypatch):
-    distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(pair_search, "WIDE_BLOCK", 40)
-    here = find_transitions(CLIPS, window=8, below=0.1, method="bound")
-    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
-    with cluster, distributed.Client(cluster) as client:
-        assert os.getpid() not in client.run(os.getpid).values()
-        there = find_transitions(CLIPS, window=8, below=0.1, method="bound", executor=client.get_executor())
     assert all(np.array_equal(a, b) for a, b in zip(here.columns, there.columns, strict=True))
 
 

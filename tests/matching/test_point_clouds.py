@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from scipy.optimize import minimize
 
 from mocap.body import rotations
@@ -26,7 +26,6 @@ from tests.oracles import squared_distance
 from tests.strategies import planar, random_motion, seeds, wave
 
 
-@settings(max_examples=25)
 @given(seeds)
 def test_no_optimiser_finds_a_better_alignment(seed):
     """As in [KGP02, Eqs. 2-4]."""

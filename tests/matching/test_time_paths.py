@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.motion import resample
@@ -70,7 +70,6 @@ def test_a_valley_of_twice_the_pace_is_followed():
 
 
 @given(seeds, sides, sides, slopes)
-@settings(max_examples=40)
 def test_no_path_has_a_lower_sum(seed, rows, columns, slope):
     grid = random_grid(seed, rows, columns)
     best = least_sum(grid, slope)
@@ -110,7 +109,6 @@ def test_with_a_wide_limit_the_sum_is_within_a_tenth_of_plain_dynamic_time_warpi
 
 
 @given(seeds, st.integers(4, 8), st.integers(4, 8), slopes)
-@settings(max_examples=15)
 def test_free_ends_give_the_least_mean_of_all_ends(seed, rows, columns, slope):
     grid, slack = random_grid(seed, rows, columns), 2
     begins = [(i, 0) for i in range(slack + 1)] + [(0, j) for j in range(1, slack + 1)]
@@ -181,7 +179,6 @@ def test_without_a_limit_one_body_stands_still_while_the_other_goes_on():
 
 
 @given(seeds, st.integers(2, 7), st.integers(2, 7), slopes)
-@settings(max_examples=25)
 def test_begun_anywhere_the_sums_are_those_of_a_local_alignment(seed, rows, columns, slope):
     costs = random_grid(seed, rows, columns) - 0.5
     sums = path_sums(costs, np.ones(costs.shape, bool), slope=slope)
