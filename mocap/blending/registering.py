@@ -154,9 +154,8 @@ def register(
         raise MocapError("The clips have less than one window in common; give longer ones, or less slack.")
     _warn(clips, reference, costs, span)
     centres = tuple(_window_centres(clip, warp.window / rate) for clip in clips)
-    plants = match_contacts(clips, times, span)
-    costs = frozen(costs, np.float64)
-    return Registration(tuple(clips), reference, times, angles, centres, span, costs, plants)
+    plants, means = match_contacts(clips, times, span), frozen(costs, np.float64)
+    return Registration(tuple(clips), reference, times, angles, centres, span, means, plants)
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) -> int:

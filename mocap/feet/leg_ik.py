@@ -65,7 +65,7 @@ def pose_leg(track: LegTrack, ankle: Array, turn: ArrayLike) -> Array:
     above = (motion.skeleton.parents[leg.hip], leg.hip, leg.knee)
     for parent, joint, more in zip(above, leg[:3], (swing, bend, sole), strict=True):
         # The same turn, seen from the parent's frame, comes on top of the joint's own rotation.
-        frame = rotations.from_matrix(track.poses.matrices[:, parent])
-        local = rotations.multiply(rotations.multiply(rotations.inverse(frame), more), frame)
+        above_it = rotations.from_matrix(track.poses.matrices[:, parent])
+        local = rotations.multiply(rotations.multiply(rotations.inverse(above_it), more), above_it)
         posed.append(rotations.multiply(local, motion.rotations[:, joint]))
     return np.stack(posed, axis=1)

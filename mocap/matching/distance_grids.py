@@ -56,8 +56,8 @@ class Cloud(NamedTuple):
     def part(self, windows: slice) -> "Cloud":
         """Take the windows that start at these frames, with all frames that they cover."""
         frames = slice(windows.start, windows.stop + self.paths.shape[1] - 1)
-        of_frames, of_windows = self[:2], self[2:]
-        return Cloud(*(array[frames] for array in of_frames), *(array[windows] for array in of_windows))
+        parts: list[Any] = [*(array[frames] for array in self[:2]), *(array[windows] for array in self[2:])]
+        return Cloud(*parts)
 
 
 def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type[np.floating[Any]]) -> Cloud:

@@ -139,7 +139,7 @@ def _by_products(a: Stretch, b: Stretch, taper: Array, below: float) -> Indices:
     for tile in tiles(a.stop - a.start, b.stop - b.start, upper=a.start == b.start):
         parts = [stretch.part(windows) for stretch, windows in zip((a, b), tile, strict=True)]
         corner, clouds = zip(*parts, strict=True)
-        minima = local_minima(cloud_distances(*clouds, taper), below**2) + corner
+        minima = local_minima(cloud_distances(clouds[0], clouds[1], taper), below**2) + corner
         own = minima - [a.start - a.first, b.start - b.first]
         mine = (own >= [part.start for part in tile]) & (own < [part.stop for part in tile])
         found.append(minima[mine.all(axis=1)])  # those of the neighbours are found in their own tiles
@@ -150,7 +150,7 @@ def _by_bound(a: Stretch, b: Stretch, taper: Array, below: float, far: float) ->
     """Find the minima of a block among the pairs within reach: rows and columns, shape (2, N)."""
     found, values = [np.empty((2, 0), np.intp)], [np.empty(0, a.cloud.heights.dtype)]
     for pairs in _near_pairs(a, b, len(taper), far):
-        distances = pair_distances(a.cloud, b.cloud, *pairs, taper)
+        distances = pair_distances(a.cloud, b.cloud, pairs[0], pairs[1], taper)
         low = distances < below**2
         found.append(pairs[:, low])
         values.append(distances[low])

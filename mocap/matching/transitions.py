@@ -114,7 +114,8 @@ def _record(source: int, leave: int, target: int, enter: int, cost: float, *way:
 
 def from_columns(*columns: NDArray[Any]) -> Transitions:
     """Make transitions of their eight `columns`."""
-    return Transitions(*columns[:5], PlanarTransform(*columns[5:]))
+    source, leave, target, enter, cost, *way = columns
+    return Transitions(source, leave, target, enter, cost, PlanarTransform(*way))
 
 
 def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to work)
@@ -184,7 +185,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     require_alike(clips)
     for clip in clips:
         check_window(window, len(clip), f"'{clip.name}'")
-    each = below if isinstance(below, Mapping) else {None: below}
+    each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}
     _check_thresholds(each, clips)
     for name, choice, choices in (("precision", precision, Precision), ("method", method, Method)):
         if choice not in (known := get_args(choices)):
@@ -203,7 +204,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     return transitions[transitions.cost < _limits(each, clips, window, transitions)]
 
 
-def _check_thresholds(below: Mapping[tuple[str, str] | None, float], clips: Sequence[Motion]) -> None:
+def _check_thresholds(below: Mapping[Any, float], clips: Sequence[Motion]) -> None:
     if not below:
         raise MocapError("There is no threshold: name one for at least one pair of labels.")
     known = sorted({label for clip in clips for label in clip.labels})
@@ -245,9 +246,7 @@ def _both_ways(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
     return from_columns(*(column.astype(np.int32) for column in records), np.tile(found[2], 2)[order], *ways)
 
 
-def _limits(
-    below: Mapping[tuple[str, str] | None, float], clips: Sequence[Motion], window: int, found: Transitions
-) -> Array:
+def _limits(below: Mapping[Any, float], clips: Sequence[Motion], window: int, found: Transitions) -> Array:
     """Give each transition its threshold: NaN, which no cost is below, where no pair of labels applies."""
     limits = np.full(len(found), np.nan)
     for pair, metres in ({pair and pair[::-1]: m for pair, m in below.items()} | dict(below)).items():
@@ -262,7 +261,9 @@ def _labelled(
     label: str | None, clips: Sequence[Motion], window: int, clip: Integers, start: Integers
 ) -> NDArray[np.bool_]:
     """Mark the windows in which a label is on in any of their frames; all of them for no label."""
-    on = np.full(len(clip), label is None)
+    if label is None:
+        return np.ones(len(clip), bool)
+    on = np.zeros(len(clip), bool)
     for number, motion in enumerate(clips):
         if label in motion.labels:
             mine = clip == number
