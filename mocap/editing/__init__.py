@@ -8,10 +8,10 @@ Reading order (notebooks 10 to 14)
 ---------------------------------
  1. `displacements`: what an edit adds to a motion, and the splines that keep it smooth
  2. `pins`: where joints shall be, and for how long
- 3. `linear_bodies`: which joints may turn, at what price, and how pinned joints move with them
- 4. `reaching`: each frame by itself brought to its pins
- 5. `spacetime_solver`: all frames at once, by the smallest smooth change
- 6. `edits`: one face for edits: spacetime, then feet and limbs put to their places
+ 3. `bodies`: which joints may turn, about which axes, at what price
+ 4. `steps`: how a change may run over time, and one step of the solver
+ 5. `solver`: the smallest smooth change, for each frame by itself or for all at once
+ 6. `edits`: one face for edits: a calm change, to the last digit
  7. `levels`: from coarse to fine, by inverse kinematics and splines in turn
  8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
  9. `line_rounding`: a line rounded where a walk would turn too fast on it
@@ -50,27 +50,27 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "displacements": ["Displacement", "difference", "displaced", "spline_basis"],
         "pins": ["Pins", "join_pins", "pin", "pin_errors", "plant_pins"],
-        "bodies": ["Body", "body_of"],
-        "solver": ["REACH", "Basis", "Solved", "solve"],
+        "bodies": ["body_of"],
+        "steps": ["Basis"],
+        "solver": ["REACH", "solve"],
         "edits": ["edit"],
-        "levels": ["Level", "hierarchy", "scattered_fit"],
-        "bending": ["LIMIT", "Bent", "bend"],
-        "line_rounding": ["RoundedLine", "Rounding", "round_line"],
+        "levels": ["hierarchy", "scattered_fit"],
+        "bending": ["LIMIT", "bend"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
-        "body_roles": ["ROLES", "roles"],
+        "body_roles": ["roles"],
         "copied_motion": ["copied"],
         "floors": ["floor_pins"],
         "proportions": ["proportioned"],
         "retargeted": ["retarget", "standing_like"],
-        "stances": ["stance_of", "stance_of_walk", "stance_of_zero", "standing_heights"],
+        "stances": ["stance_of", "stance_of_zero"],
         "upright_bodies": ["Stance"],
         "keys": ["Key", "cardinal", "keys_around", "offsets"],
         "looping": ["looped", "repeated"],
         "posing": ["posed"],
         "retiming": ["at_frames", "old_seconds", "retime"],
-        "scaling": ["gains", "scaled", "scaled_height"],
-        "warp_plans": ["TimeKey", "WarpPlan", "Wish", "load_plan", "warp"],
-        "mirroring": ["Symmetry", "mirror", "mirrored_name", "symmetry"],
-        "cycles": ["Loop", "find_loop", "loop"],
+        "scaling": ["scaled"],
+        "warp_plans": ["load_plan", "warp"],
+        "mirroring": ["mirror", "mirrored_name"],
+        "cycles": ["find_loop", "loop"],
     },
 )

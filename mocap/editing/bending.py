@@ -14,7 +14,8 @@ from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept, ride_of
 from mocap.editing.pins import plant_pins
-from mocap.editing.solver import Basis, solve_quietly
+from mocap.editing.solver import solve_quietly
+from mocap.editing.steps import Basis
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up

@@ -7,7 +7,8 @@ from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, Basis, solve_quietly, warn_of_gaps
+from mocap.editing.solver import CLOSE, solve_quietly, warn_of_gaps
+from mocap.editing.steps import Basis
 
 # The splines' calm makes the change, and what they leave is closed frame by frame. Accelerations around a
 # stone of 20 cm on captured walks grow by 4 % in the median; without calm by 30 %.

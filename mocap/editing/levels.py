@@ -172,4 +172,4 @@ def listeners(base: Motion, pins: Pins, body: Body, asked: Mask) -> Mask:
     """
     above = [base.skeleton.path_to_root(joint)[1:] for joint in pins.joints]
     moves = np.array([np.isin(body.joints, joints) for joints in above])  # (P, T)
-    return np.hstack([np.repeat(asked.any(axis=1)[:, None], 3, axis=1), asked @ moves])
+    return np.hstack([np.repeat(asked.any(axis=1, keepdims=True), 3, axis=1), asked @ moves])

@@ -18,7 +18,8 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.pins import Pins, join_pins, pin, plant_pins
-from mocap.editing.solver import Basis, solve
+from mocap.editing.solver import solve
+from mocap.editing.steps import Basis
 from mocap.errors import MocapError
 
 # With this weight a key is met to a hundredth of a millimetre. A root that is held asks for about 40 passes,

@@ -17,15 +17,17 @@ from mocap.editing.copied_motion import copied
 from mocap.editing.edits import let_go
 from mocap.editing.floors import dips_of, floor_pins
 from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, Basis, solve_quietly
+from mocap.editing.solver import CLOSE, solve_quietly
 from mocap.editing.stances import stance_of, stance_of_zero
+from mocap.editing.steps import Basis
 from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapWarning, shortened
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 
-# Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°.
-RETARGET = (Basis(knots=0.125, calm=0.1), CLOSE, CLOSE)
+# Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°. Few passes are
+# enough for plants.
+RETARGET = (Basis(knots=0.125, calm=0.1, passes=5), CLOSE, CLOSE)
 
 # What turns of knees and of the trunk cost, as a share of what they move. With 1 the knees of a child that
 # takes long steps straighten. A hand that reaches for a rail leans the body by 17° with 1, and by 12° with 4.

@@ -51,14 +51,13 @@ def old_seconds(keys: TimeKeys, seconds: ArrayLike) -> Array:
     return np.asarray(np.clip(curve(np.clip(np.asarray(seconds, float), new[0], new[-1])), old[0], old[-1]))
 
 
-def retime(motion: Motion, keys: TimeKeys, *, smooth: bool = True) -> Motion:
+def retime(motion: Motion, keys: TimeKeys) -> Motion:
     """Let a motion's moments happen at other times [WP95, time warp].
 
     Parameters
     ----------
     motion : F frames.
     keys : two or more pairs (new second, old second); both rise, and the old ones lie on the clip.
-    smooth : see `at_frames`.
 
     Returns
     -------
@@ -87,21 +86,21 @@ def retime(motion: Motion, keys: TimeKeys, *, smooth: bool = True) -> Motion:
     if count > MOST:
         raise MocapError(f"These time keys ask for {count:.3g} frames; at most {MOST} are made.")
     times = new[0] + np.arange(int(count)) / motion.fps
-    return at_frames(motion, old_seconds(keys, times) * motion.fps, smooth=smooth)
+    return at_frames(motion, old_seconds(keys, times) * motion.fps)
 
 
-def at_frames(motion: Motion, frames: ArrayLike, *, smooth: bool = True) -> Motion:
+def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     """Show a motion at moments between its frames.
 
     Between frames i and i + 1 the root, and each joint's rotation vector log(q_i⁻¹ q), run along a cubic
     Hermite curve whose slopes are the central differences at both frames (one-sided at the clip's ends)
-    [ours]. Straight lines and slerp change speed at each old frame, which shows in slow motion.
+    [ours]. Straight lines and slerp, as in `Motion.at`, change speed at each old frame, which shows in slow
+    motion.
 
     Parameters
     ----------
     motion : F frames.
     frames : shape (N,), from 0 to F - 1; those outside show the first or the last frame.
-    smooth : False for straight lines and slerp.
 
     Returns
     -------
@@ -124,21 +123,19 @@ def at_frames(motion: Motion, frames: ArrayLike, *, smooth: bool = True) -> Moti
     last = len(motion) - 1
     moments = np.clip(moments, 0, last)
     start = np.minimum(moments.astype(int), max(last - 1, 0))
-    root, turn = _between(motion, start, moments - start, smooth)
+    root, turn = _between(motion, start, moments - start)
     nearest = np.round(moments).astype(int)
-    marks = (
-        {name: mark[nearest] for name, mark in kind.items()} for kind in (motion.labels, motion.contacts)
-    )
-    labels, contacts = marks
+    labels = {name: mark[nearest] for name, mark in motion.labels.items()}
+    contacts = {name: mark[nearest] for name, mark in motion.contacts.items()}
     return replace(motion, root_positions=root, rotations=turn, labels=labels, contacts=contacts)
 
 
-def _between(motion: Motion, start: Indices, share: Array, smooth: bool) -> tuple[Array, Array]:
+def _between(motion: Motion, start: Indices, share: Array) -> tuple[Array, Array]:
     """Give roots and rotations at a share of the way from frame `start` to the next."""
     last = len(motion) - 1
     frames = [np.clip(start + step, 0, last) for step in (-1, 0, 1, 2)]
     base = motion.rotations[start]
-    weigh = _hermite_weights(frames, share) if smooth else np.stack([0 * share, 1 - share, share, 0 * share])
+    weigh = _hermite_weights(frames, share)
     log = [
         rotations.to_rotvec(rotations.multiply(rotations.inverse(base), motion.rotations[f])) for f in frames
     ]

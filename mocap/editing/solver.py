@@ -16,24 +16,18 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import sparse
-from scipy.linalg import block_diag, solveh_banded
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
-from mocap.editing.displacements import displaced, right_jacobian, spline_basis
+from mocap.editing.displacements import displaced
 from mocap.editing.pins import Pins, Rows, pin_errors, require_pins_of
+from mocap.editing.steps import Basis, Curve, linear
 from mocap.errors import MocapError, MocapWarning
 
 TOLERANCE = 0.005  # metres: what the solver may leave without a warning
 MET = 5e-10  # metres: pins that are so near are met
-
-# Metres: a joint so near to the end of its box shall keep to it in the next step. With 0 a head under a bar
-# leaves the bar and comes back, and 100 passes do not end; with 1e-3 they end as soon.
-NEAR = 1e-4
 
 GAIN = 3e-5  # share of the cost: what a pass must gain, or it is the last; a hundredth where it does not help
 FALL, RISE = 3.0, 10.0  # the damping falls so where a pass helps, and rises so where it does not
@@ -41,40 +35,6 @@ FALL, RISE = 3.0, 10.0  # the damping falls so where a pass helps, and rises so 
 # Times the damping, at first, where pins hold a ceiling. The first pass is then one of a small weight, and
 # the body bows. With the weight at once a neck folds by up to 360°.
 CEILING = 1000.0
-
-RIDGE = 1e-10  # of the least price: a clip of fewer frames than splines leaves some of them unseen
-
-
-class Basis(NamedTuple):
-    """How a change may run over time, and how it is solved for.
-
-    Parameters
-    ----------
-    knots : seconds between the knots of its splines: 0.5 leaves centimetres, 0.125 millimetres, and below
-        accelerations grow. With 0 each frame has its own numbers.
-    calm : τ, seconds: a change dies away within about τ of a pin. With 0 bends cost nothing.
-    weight : w, per metre. On splines 100 leaves 10 mm on a stone of 20 cm, 300 leaves 3 mm, 1000 no less.
-    damping : λ at first, as a share of the prices: a step is one of the weight w / √(1 + λ).
-    passes : at most.
-
-    Examples
-    --------
-    >>> Basis(knots=0.125).alone, REACH.alone
-    (False, True)
-
-    Notebook: 14-levels
-    """
-
-    knots: float = 0.0
-    calm: float = 0.0
-    weight: float = 300.0
-    damping: float = 1.0
-    passes: int = 30
-
-    @property
-    def alone(self) -> bool:
-        """Whether each frame is by itself."""
-        return self.knots == self.calm == 0
 
 
 REACH = Basis(weight=100.0, damping=1e-3, passes=16)
@@ -172,7 +132,8 @@ def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body |
 
 def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, list[float]]:
     """Improve the change (F, n) pass by pass; also give the worst gap after each pass, metres."""
-    curve, worst = Curve(way, base, body.price), []
+    curve = Curve(way, base, body.price)
+    worst: list[float] = []
     c = np.zeros((curve.basis.shape[1], len(body.price)))
     damping = np.full((len(base) if way.alone else 1, 1), way.damping)
     now = linear(base, body, curve.basis @ c, pins)
@@ -189,130 +150,6 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
         if not more.any() or now.worst < MET:
             break
     return curve.basis @ c, worst
-
-
-class Linear(NamedTuple):
-    """What is left to do in each frame, `gap` (F, m), metres, and how it closes with x, `slopes` (F, m, n).
-
-    Rows of axes for which nothing is to do are 0: free ones, and boxes that the joint is in.
-    """
-
-    gap: Array
-    slopes: Array
-
-    @property
-    def worst(self) -> float:
-        """The largest distance of a joint from its pin, metres."""
-        return float(np.linalg.norm(self.gap.reshape(len(self.gap), -1, 3), axis=-1).max())
-
-    def replaced(self, helps: Array, other: "Linear") -> "Linear":
-        """Take the frames (F, 1), or all (1, 1), where it helps from another one."""
-        slopes = np.where(helps[..., None], other.slopes, self.slopes)
-        return Linear(np.where(helps, other.gap, self.gap), slopes)
-
-
-def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
-    """Measure the P pinned joints' gaps at m₀ ⊕ x, and how they close with x (F, n), in all frames at once.
-
-    A joint at p_j, turned in the world by R_j and by d_j already, turns about its own axis a: a joint e below
-    moves by ∂p_e = (R_j J(d_j) a) × (p_e - p_j), with J the right Jacobian. The root's place moves all by 1.
-    """
-    change = body.displacement(x, len(base.skeleton))
-    poses = forward_kinematics(displaced(base, change))
-    spins = poses.matrices @ right_jacobian(change.turns)
-    axes = np.einsum("ftij,tj->fti", spins[:, body.joints], body.axes)  # in the world, (F, T, 3)
-    slopes = np.zeros((len(base), len(pins.joints), 3, x.shape[1]))
-    slopes[..., :3] = np.eye(3)
-    for number, end in enumerate(pins.joints):
-        above = np.flatnonzero(np.isin(body.joints, base.skeleton.path_to_root(end)[1:]))
-        arms = poses.positions[:, [end]] - poses.positions[:, body.joints[above]]
-        slopes[:, number][..., 3 + above] = np.swapaxes(np.cross(axes[:, above], arms), 1, 2)
-    places = poses.positions[:, list(pins.joints)]
-    slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
-    return Linear(pins.gap(poses.positions).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1]))
-
-
-def plain_step(curve: "Curve", c: Array, now: Linear, damping: float) -> Array:
-    """Take one step of Levenberg and Marquardt: the next control points c (K, n).
-
-    With the slopes J by c, and the price P of c, the sum ‖c'‖²_P + w² ‖gap - J (c' - c)‖² + λ ‖c' - c‖²_P is
-    least where
-
-        (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (gap + J c) + λ P c.
-
-    `Curve.step` finds the same, without the zeros of these large matrices.
-
-    Parameters
-    ----------
-    curve : says how x = B c may run, and what it costs.
-    c : shape (K, n).
-    now : gaps and slopes at x = B c.
-    damping : λ.
-
-    Notebook: 14-levels
-    """
-    n = c.shape[1]
-    B, bends = (np.kron(matrix.toarray(), np.eye(n)) for matrix in (curve.basis, curve.bends))
-    M = np.diag(np.tile(curve.price, len(now.gap)))
-    bent = np.diag(np.tile(curve.price, curve.bends.shape[0]))
-    P = B.T @ M @ B + bends.T @ bent @ bends
-    J = curve.weight * block_diag(*now.slopes) @ B
-    gap = curve.weight * now.gap.ravel()
-    found = np.linalg.solve(
-        J.T @ J + (1 + damping) * P, J.T @ (gap + J @ c.ravel()) + damping * P @ c.ravel()
-    )
-    return np.asarray(found.reshape(-1, n))
-
-
-class Curve:
-    """How a change x = B c may run over F frames, and the least squares of its control points c (K, n).
-
-    `basis` is B (F, K), `bends` are τ² times its second differences (F - 2, K). Splines that are far apart
-    share no frame and no bend. So the equations are banded, and the time is linear in F.
-    """
-
-    def __init__(self, way: Basis, base: Motion, price: Array) -> None:
-        frames, identity = len(base), sparse.eye_array(len(base), format="csr")
-        self.weight, self.price, self.alone = way.weight, price, way.alone
-        self.basis = spline_basis(frames, way.knots * base.fps) if way.knots else identity
-        knots, ends = self.basis.shape[1], max(frames - 2, 0)
-        second = self.basis[:ends] - 2 * self.basis[1 : ends + 1] + self.basis[2 : ends + 2]
-        self.bends = (way.calm * base.fps) ** 2 * second
-        near = (self.basis.T @ self.basis + abs(self.bends.T) @ abs(self.bends)).tocoo()
-        apart = range(1 + int((near.col - near.row).max()))
-        both = (self.basis.tocsc(), self.bends.tocsc())
-        # b_k b_{k+d} in each frame, (K - d, F), and the same of the bends, added up.
-        self.pairs, bent = ([(b[:, : knots - d] * b[:, d:]).T.tocsr() for d in apart] for b in both)
-        self.bent = [pair.sum(axis=1) for pair in bent]
-
-    def step(self, c: Array, now: Linear, damping: Array) -> Array:
-        """Find the next control points c (K, n), as `plain_step` does; λ is (1, 1), or (F, 1) by frame."""
-        (knots, n), diagonal = c.shape, np.arange(c.shape[1])
-        x, upward = self.basis @ c, self.weight**2 * np.swapaxes(now.slopes, 1, 2)
-        matrix = upward @ now.slopes
-        matrix[:, diagonal, diagonal] += (1 + damping) * self.price
-        wanted = now.gap + np.einsum("fmn,fn->fm", now.slopes, x)
-        pull = np.einsum("fnm,fm->fn", upward, wanted) + damping * self.price * x
-        right = self.basis.T @ pull + damping * self.price * (self.bends.T @ (self.bends @ c))
-        band = np.zeros((len(self.pairs) * n, knots * n))  # lower form: entry (i, j) stands at (i - j, j)
-        for d, (pair, bent) in enumerate(zip(self.pairs, self.bent, strict=True)):
-            blocks = (pair @ matrix.reshape(len(matrix), -1)).reshape(-1, n, n)  # of splines k and k + d
-            if not self.alone:
-                blocks[:, diagonal, diagonal] += (1 + damping) * bent[:, None] * self.price
-            for j in range(n):
-                top = max(d * n - j, 0)
-                band[top : (d + 1) * n - j, j : (knots - d) * n : n] = blocks[:, j, top + j - d * n :].T
-        band[0] += RIDGE * self.price.min()
-        return np.asarray(
-            solveh_banded(band, right.ravel(), lower=True, check_finite=False).reshape(knots, n)
-        )
-
-    def cost(self, c: Array, gap: Array) -> Array:
-        """Add up what is to be least, for each frame by itself (F, 1), or for all together (1, 1)."""
-        each = ((self.basis @ c) ** 2) @ self.price + self.weight**2 * (gap**2).sum(axis=1)
-        if self.alone:
-            return np.asarray(each[:, None])
-        return np.array([[each.sum() + (((self.bends @ c) ** 2) @ self.price).sum()]])
 
 
 def _pared(base: Motion, pins: Pins, body: Body, rows: Rows) -> tuple[Motion, Pins, Body]:

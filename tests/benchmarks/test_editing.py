@@ -18,8 +18,9 @@ from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, plant_pins
 from mocap.editing.proportions import proportioned
 from mocap.editing.retargeted import retarget
-from mocap.editing.solver import Basis, solve
+from mocap.editing.solver import solve
 from mocap.editing.stances import stance_of_walk
+from mocap.editing.steps import Basis
 from mocap.feet.footskate import clean_up
 from tests.editing.wishes import hand_at, stone, walk
 

@@ -19,7 +19,8 @@ from mocap.editing.bodies import (
 )
 from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.pins import join_pins, pin, plant_pins
-from mocap.editing.solver import REACH, Basis, solve
+from mocap.editing.solver import REACH, solve
+from mocap.editing.steps import Basis
 from mocap.errors import MocapError
 from mocap.files.load_save import load
 from tests.editing.wishes import captured, stone, walk

@@ -18,8 +18,9 @@ from mocap.editing.floors import dips_of, floor_pins
 from mocap.editing.pins import pin, pin_errors
 from mocap.editing.proportions import proportioned
 from mocap.editing.retargeted import retarget, standing_like
-from mocap.editing.solver import REACH, Basis, solve
+from mocap.editing.solver import REACH, solve
 from mocap.editing.stances import stance_of, stance_of_walk
+from mocap.editing.steps import Basis
 from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
 from mocap.feet.footplants import mark_plants, runs

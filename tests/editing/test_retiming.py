@@ -89,7 +89,7 @@ def test_only_a_part_may_be_shown():
 def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
     source = resample(WALK, fps)
     quarter = np.arange(0, len(source) - 1, 0.25)
-    smooth, straight = (replace(at_frames(source, quarter, smooth=s), fps=4 * fps) for s in (True, False))
+    smooth, straight = (replace(m, fps=4 * fps) for m in (at_frames(source, quarter), source.at(quarter)))
     assert acc99(smooth) < 1.1 * acc99(WALK)
     assert acc99(straight) > 1.5 * acc99(WALK)
 
@@ -99,7 +99,7 @@ def test_slow_motion_of_a_captured_walk(real_data):
 
     captured = load_save.load(real_data / "cmu" / "16" / "16_15.amc")[12:]
     quarter = np.arange(0, len(captured) - 1, 0.25)
-    smooth, straight = (replace(at_frames(captured, quarter, smooth=s), fps=480) for s in (True, False))
+    smooth, straight = (replace(m, fps=480) for m in (at_frames(captured, quarter), captured.at(quarter)))
     assert acc99(smooth) < 1.6 * acc99(captured)  # 16 times the frames' differences: 1.4, by slerp 2.6
     assert acc99(straight) > 2.3 * acc99(captured)
 

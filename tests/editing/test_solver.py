@@ -11,7 +11,8 @@ from mocap.body.kinematics import joint_positions
 from mocap.editing.bodies import Body, body_of
 from mocap.editing.displacements import spline_basis
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
-from mocap.editing.solver import CLOSE, REACH, Basis, Curve, Linear, linear, plain_step, solve, solve_quietly
+from mocap.editing.solver import CLOSE, REACH, solve, solve_quietly
+from mocap.editing.steps import Basis, Curve, Linear, linear, plain_step
 from mocap.errors import MocapError, MocapWarning
 from tests.editing.wishes import bar, bones, captured, hand_at, smoothness, stone, walk
 from tests.strategies import seeds
