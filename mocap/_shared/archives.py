@@ -86,14 +86,11 @@ def read_arrays(path: str | Path, kind: Kind) -> Arrays:
     mocap.errors.MocapError: Cannot read no.npz: No such file or directory.
     """
     ours = f"{kind.name} saved by mocap, version {kind.version}"
+    arrays = open_arrays(path, ours, ("format", "version", *kind.arrays))
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            name, version = str(archive["format"]), int(archive["version"])
-            arrays: Arrays = {key: archive[key] for key in kind.arrays if key in archive}
-    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
-        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    except Exception as error:  # NumPy raises many kinds of errors for other files
-        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
+        name, version = str(arrays.pop("format")), int(arrays.pop("version"))
+    except (KeyError, TypeError, ValueError):
+        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from None
     if FIRST.get(name, name) != f"mocap: {kind.name}":
         raise FormatError(path, None, ours, "an .npz of another kind")
     if version > kind.version:
@@ -105,6 +102,23 @@ def read_arrays(path: str | Path, kind: Kind) -> Arrays:
         if not np.all(holds):
             raise FormatError(path, None, f"that {what}", "a damaged file")
     return arrays
+
+
+def open_arrays(path: str | Path, ours: str, keys: Iterable[str]) -> Arrays:
+    """Read those of some arrays that an `.npz` file has; `ours` says, for the error, what it should be.
+
+    Raises
+    ------
+    MocapError : where the file cannot be read.
+    FormatError : where it is no such file.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            return {key: archive[key] for key in keys if key in archive}
+    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
+        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
+    except Exception as error:  # NumPy raises many kinds of errors for other files
+        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
 
 
 def _check(path: str | Path, kind: Kind, arrays: Arrays) -> None:

@@ -7,7 +7,7 @@ each child. Reading makes a joint of each fixed bone; these joints add no new pl
 
 from collections import defaultdict
 from dataclasses import replace
-from typing import NamedTuple
+from operator import itemgetter
 
 import numpy as np
 
@@ -24,14 +24,6 @@ UNIT = INCH / 0.45  # metres: the unit of most Acclaim files
 LOST = 1e-7  # degrees that count as none
 STILL = 1e-9  # metres: rounding
 FIXED = Bone(np.zeros(3), rotations.IDENTITY, ())
-
-
-class Loss(NamedTuple):
-    """What a bone cannot hold of a motion: most of it, in `degrees`, in `frame`."""
-
-    bone: str
-    degrees: float
-    frame: int
 
 
 def widened(motion: Motion) -> Skeleton:
@@ -213,8 +205,10 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
         if not set(TURNS) <= set(bone.dofs):
             kept = turned(name, bone, numbers[name], degrees=True)
             lost = np.degrees(rotations.angle_between(kept, motion.rotations[:, joint]))
-            losses.append(Loss(name, float(lost.max()), int(lost.argmax())))
-    _refuse_losses(motion, asf, [loss for loss in losses if loss.degrees > tolerance])
+            if lost.max() > tolerance:
+                losses.append((float(lost.max()), name, int(lost.argmax())))
+    if losses:
+        raise _too_stiff(motion, asf, losses)
     _add_moves(motion, asf, numbers["root"])
     values = rounded(np.hstack([numbers[name] for name in asf.needed()]), precision, motion.name)
     rows = [" ".join([name, *[f"%.{precision}f"] * len(asf.bones[name].dofs)]) for name in asf.needed()]
@@ -260,13 +254,13 @@ def _add_moves(motion: Motion, asf: AcclaimSkeleton, numbers: Array) -> None:
             )
 
 
-def _refuse_losses(motion: Motion, asf: AcclaimSkeleton, losses: list[Loss]) -> None:
-    if losses:
-        name, degrees, frame = max(losses, key=lambda loss: loss.degrees)
-        axes = " ".join(dof for dof in asf.bones.get(name, FIXED).dofs if dof in TURNS) or "no axis"
-        more = f", and {len(losses) - 1} more bones less" if len(losses) > 1 else ""
-        clip, name = shortened(motion.name, 32), shortened(name, 32)
-        raise MocapError(
-            f"'{clip}' does not fit its bones: '{name}', which turns about {axes}, would lose {degrees:.2g}° "
-            f"in frame {frame}{more}. Use widen=True without skeleton=, or a .bvh file."
-        )
+def _too_stiff(motion: Motion, asf: AcclaimSkeleton, losses: list[tuple[float, str, int]]) -> MocapError:
+    """Name the bone that loses most, of (degrees, bone, frame)."""
+    degrees, name, frame = max(losses, key=itemgetter(0))
+    axes = " ".join(dof for dof in asf.bones.get(name, FIXED).dofs if dof in TURNS) or "no axis"
+    more = f", and {len(losses) - 1} more bones less" if len(losses) > 1 else ""
+    return MocapError(
+        f"'{shortened(motion.name, 32)}' does not fit its bones: '{shortened(name, 32)}', which turns about "
+        f"{axes}, would lose {degrees:.2g}° in frame {frame}{more}. Use widen=True without skeleton=, or a "
+        ".bvh file."
+    )

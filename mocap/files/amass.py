@@ -8,14 +8,16 @@ are read onto one body of 22 joints, the mean one. Fingers, face and soft tissue
 
 from __future__ import annotations
 
+import tomllib
 import warnings
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocap._shared.archives import Arrays, open_arrays
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap.body import rotations
@@ -23,44 +25,12 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, MocapWarning, shortened
 
-# Each joint's parent and place in it (left, up, ahead), in metres, for a body in T-pose: the means over left
-# and right of those in phc/data/assets/mjcf/smpl_humanoid.xml of github.com/ZhengyiLuo/PHC (BSD 3-Clause),
-# the neutral SMPL body without betas, in millimetres. SMPL orders joints by how deep in the tree they are.
-_JOINTS = {
-    "pelvis": ("", (0, 0, 0)),
-    "left_hip": ("pelvis", (0.069, -0.091, -0.006)),
-    "right_hip": ("pelvis", (-0.069, -0.091, -0.006)),
-    "spine1": ("pelvis", (0, 0.109, -0.027)),
-    "left_knee": ("left_hip", (0.036, -0.379, -0.007)),
-    "right_knee": ("right_hip", (-0.036, -0.379, -0.007)),
-    "spine2": ("spine1", (0, 0.135, 0.001)),
-    "left_ankle": ("left_knee", (-0.015, -0.398, -0.043)),
-    "right_ankle": ("right_knee", (0.015, -0.398, -0.043)),
-    "spine3": ("spine2", (0, 0.053, 0.025)),
-    "left_foot": ("left_ankle", (0.026, -0.052, 0.121)),
-    "right_foot": ("right_ankle", (-0.026, -0.052, 0.121)),
-    "neck": ("spine3", (0, 0.214, -0.043)),
-    "left_collar": ("spine3", (0.080, 0.120, -0.036)),
-    "right_collar": ("spine3", (-0.080, 0.120, -0.036)),
-    "head": ("neck", (0, 0.065, 0.051)),
-    "left_shoulder": ("left_collar", (0.094, 0.032, -0.009)),
-    "right_shoulder": ("right_collar", (-0.094, 0.032, -0.009)),
-    "left_elbow": ("left_shoulder", (0.257, -0.013, -0.024)),
-    "right_elbow": ("right_shoulder", (-0.257, -0.013, -0.024)),
-    "left_wrist": ("left_elbow", (0.252, 0.008, -0.003)),
-    "right_wrist": ("right_elbow", (-0.252, 0.008, -0.003)),
-}
+_JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
+SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
 PELVIS = np.array([0.0, -0.223, 0.028])  # where `trans` 0 puts the pelvis, in the archive's own axes
 UPRIGHT = rotations.from_rotvec([-np.pi / 2, 0, 0])  # from z up to y up
 
-_NAMES = tuple(_JOINTS)
-SKELETON = Skeleton(
-    _NAMES,
-    np.array([_NAMES.index(parent) if parent else -1 for parent, _ in _JOINTS.values()]),
-    np.array([place for _, place in _JOINTS.values()], float),
-    dofs=["xyz"] * len(_NAMES),
-)
-WIDTH = 3 * len(_NAMES)  # numbers of a pose that are read
+WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
 RATES = ("mocap_framerate", "mocap_frame_rate")
 MOST = 2**31  # bytes of one array: a day at 120 Hz has fewer
 
@@ -121,25 +91,18 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
     return Motion(SKELETON, roots, local, fps or _rate(path, arrays), Path(path).stem)
 
 
-def _arrays(path: str | Path) -> dict[str, NDArray[Any]]:
-    """Open the archive and read the arrays that are needed; the others may be of any kind."""
-    ours = "an AMASS archive with poses and trans"
-    try:
+def _arrays(path: str | Path) -> Arrays:
+    """Read the arrays that are needed; the others may be of any kind."""
+    if zipfile.is_zipfile(path):
         with zipfile.ZipFile(path) as archive:
             large = [entry.filename for entry in archive.infolist() if entry.file_size > MOST]
         if large:
             raise FormatError(path, None, f"arrays below {MOST / 1e9:.1f} GB", f"a larger '{large[0]}'")
-        with np.load(path, allow_pickle=False) as archive:
-            return {key: archive[key] for key in ("poses", "trans", "betas", *RATES) if key in archive}
-    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
-        raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    except MocapError:
-        raise
-    except Exception as error:  # NumPy raises many kinds of errors for other files
-        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
+    keys = ("poses", "trans", "betas", *RATES)
+    return open_arrays(path, "an AMASS archive with poses and trans", keys)
 
 
-def _checked(path: str | Path, arrays: dict[str, NDArray[Any]], key: str, width: int) -> Array:
+def _checked(path: str | Path, arrays: Arrays, key: str, width: int) -> Array:
     """Give an array of rows of at least `width` numbers, all finite."""
     if key not in arrays:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
@@ -155,7 +118,7 @@ def _checked(path: str | Path, arrays: dict[str, NDArray[Any]], key: str, width:
     return values.astype(float)
 
 
-def _rate(path: str | Path, arrays: dict[str, NDArray[Any]]) -> float:
+def _rate(path: str | Path, arrays: Arrays) -> float:
     for key in RATES:
         if key in arrays:
             rate = arrays[key]

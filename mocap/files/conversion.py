@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mocap._shared.atomic import make_folder
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError
-from mocap.files.folders import is_clip
+from mocap.files.folders import find_files
 from mocap.files.load_save import load, save
 
 QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # only the main process reports an interruption
@@ -56,11 +56,8 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     source, target = Path(source), Path(target)
     if not source.is_dir():
         return _checked([(source, target)])
-    found = sorted(path for path in source.rglob("*") if path.is_file() and is_clip(path))
-    if not found:
-        raise MocapError(f"The folder {source} holds no .amc, .bvh or AMASS .npz file.")
-    pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
-    return _checked(pairs)
+    found = find_files([source], deep=True)
+    return _checked([(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found])
 
 
 def _checked(pairs: list[tuple[Path, Path]]) -> list[tuple[Path, Path]]:
