@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
@@ -235,7 +235,6 @@ def mutate(text, mutations):
 
 
 @given(st.lists(MUTATION, min_size=1, max_size=3), st.lists(MUTATION, max_size=3), st.booleans())
-@settings(max_examples=300, deadline=None)
 def test_whatever_is_in_the_files_the_answer_is_a_motion_or_a_sentence(tmp_path_factory, first, second, swap):
     folder = tmp_path_factory.getbasetemp()
     asf, text = mutate(ASF, second if swap else first), mutate(AMC, first if swap else second)

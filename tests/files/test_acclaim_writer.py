@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body import euler, rotations
@@ -53,7 +53,6 @@ def same_places(back, motion):
 
 
 @given(motions(), st.sampled_from([None, 0.01, 1.0]))
-@settings(max_examples=50)
 def test_what_is_written_reads_back(tmp_path_factory, motion, scale):
     folder = tmp_path_factory.mktemp("clip")
     load_save.save(motion, folder / "a.amc", precision=11, scale=scale)
@@ -70,7 +69,6 @@ def test_what_is_written_reads_back(tmp_path_factory, motion, scale):
 
 
 @given(motions(), seeds)
-@settings(max_examples=50)
 def test_any_motion_is_written_with_wide_bones(tmp_path_factory, motion, seed):
     folder = tmp_path_factory.mktemp("clip")
     turns = random_quaternions(np.random.default_rng(seed), len(motion), len(motion.skeleton))

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
@@ -48,7 +48,6 @@ def test_all_joints_are_where_ours_are():
 
 
 @given(seeds)
-@settings(max_examples=10)
 def test_any_motion_of_any_skeleton(seed):
     motion = random_motion(seed, joints=int(seed % 9) + 1)
     assert gap(motion) < 1e-4
