@@ -49,7 +49,7 @@ def drive(shown):
         for heading, speed in ((2.0, shown.scene["speeds"][0]), (-1.0, shown.scene["speeds"][1])):
             shown.command = [heading, speed, ""]
             walked = shown.company.walk(Order(*shown.command), 2.0)
-            assert not [member.fault for member in walked if member.fault]
+            assert not any(member.told["fault"] for member in walked)
     elif hasattr(shown, "picture"):  # an inspector, which runs in the page
         assert shown.picture
     else:  # a player that reports back

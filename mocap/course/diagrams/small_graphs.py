@@ -219,7 +219,7 @@ def _legend(ax: Axes, components: int) -> None:
     discs = [disc(face, label=name, **look) for name, face in faces.items()]
     discs.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
     where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3}
-    words = {"title": "beside a node: index / low link", "title_fontsize": 9, "fontsize": 8}
+    words: dict[str, Any] = {"title": "beside a node: index / low link", "title_fontsize": 9, "fontsize": 8}
     ax.legend(handles=discs, frameon=False, **where, **words)
 
 
