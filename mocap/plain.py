@@ -292,11 +292,11 @@ def branch_and_bound(
 
 # 6. A walk along a line ------------------------------------------------------------------------------------
 
-WIDTH = 50  # walks that go on from each layer of the line
+WIDTH = 150  # walks that go on from each layer of the line
 LAYER = 0.15  # metres of the line in a layer
 LOOK = 22  # frames that each walk looks ahead
 RESCUE = 1.5  # m²: what lies ahead costs no more than this, since a transition can leave it
-SEAM = 0.3  # m²: the price of a transition
+SEAM = 0.15  # m²: the price of a transition
 
 
 class Walk(NamedTuple):
