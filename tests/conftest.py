@@ -1,22 +1,28 @@
 """What the tests share."""
 
+import os
 import sys
 from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
+
 # A busy machine is no failure.
 settings.register_profile(
-    "house", max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    "house",
+    max_examples=100 if SWEEP else 20,
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("house")
 
-ASKED_FOR = ("benchmark", "exhaustive")
+ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out what takes long, unless `-m` asks for it by name."""
+    """Leave out what takes long, unless `-m` or a sweep asks for it."""
     names = [name for name in ASKED_FOR if name not in config.option.markexpr]
     out = [item for item in items if any(item.get_closest_marker(name) for name in names)]
     items[:] = [item for item in items if item not in out]

@@ -13,7 +13,7 @@ import pytest
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
-from mocap.files import load_save
+from mocap.files import load_path, load_save
 
 pytestmark = pytest.mark.benchmark
 
@@ -86,6 +86,13 @@ def test_forward_kinematics(benchmark, motion):
             whole[joint] = whole[parents[joint]] @ turns[joint]
 
     hold(benchmark, lambda: forward_kinematics(long), chain)
+
+
+@pytest.mark.parametrize("step", ["L 12.3 45.6 L 22.1 17.9 ", "12.3 45.6 22.1 17.9 ", "c 1 2 3 4 5 6 l 7 8 "])
+def test_a_drawing_of_twice_the_length_takes_twice_as_long(benchmark, tmp_path, step):
+    for name, count in (("half", 30_000 // len(step)), ("whole", 60_000 // len(step))):
+        (tmp_path / f"{name}.svg").write_text(f'<svg><path d="M 0 0 {step * count}"/></svg>')
+    hold(benchmark, lambda: load_path(tmp_path / "whole.svg"), lambda: load_path(tmp_path / "half.svg"))
 
 
 def test_importing_is_light():

@@ -81,7 +81,7 @@ def test_every_command_is_among_them():
     }
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     command=st.sampled_from([c for c in COMMANDS if c[0] != ["demo"]]),
     values=st.lists(st.tuples(st.integers(0, 99), st.sampled_from(HOSTILE)), min_size=1, max_size=2),

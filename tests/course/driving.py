@@ -1,11 +1,12 @@
-"""Moves each control of a notebook's experiments over its whole range, in the notebook's own kernel.
+"""Moves all controls of a notebook's experiments to their low and to their high ends, in its own kernel.
 
 `conftest.py` adds a first cell and a last one to every notebook that nbval runs. The first keeps what the
 experiments show; the last drives them after all cells, as a reader would: names may have been used again.
-So no notebook has to run a second time.
+So no notebook has to run a second time. With MOCAP_SWEEP, each control moves over its whole range.
 """
 
 import itertools
+import os
 import warnings
 
 from IPython import get_ipython
@@ -61,7 +62,7 @@ def drive(shown):
 
 
 def settings(experiment):
-    """Give every end and middle of each control while the others rest, then all ends at once."""
+    """Give all low ends and all high ends; in a sweep, each control's ends and middle, and corners."""
     ends = {}
     for name, control in experiment.controls.items():
         if hasattr(control, "options"):
@@ -76,6 +77,10 @@ def settings(experiment):
             ends[name] = [(0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)]
         else:
             ends[name] = [False, True]
+    if not os.environ.get("MOCAP_SWEEP"):
+        yield {name: values[0] for name, values in ends.items()}
+        yield {name: values[-1] for name, values in ends.items()}
+        return
     rest = experiment.values()
     for name, values in ends.items():
         for value in values:

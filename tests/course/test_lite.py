@@ -9,6 +9,7 @@ from mocap.course.opening import stored
 from mocap.errors import MocapError
 
 
+@pytest.mark.sweep
 def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
     pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install 'mocap[lite]'")
     assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0

@@ -76,7 +76,7 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
     assert "L. Kovar, M. Gleicher" in reference
 
 
-@pytest.mark.exhaustive
+@pytest.mark.sweep
 def test_no_link_of_the_whole_course_is_dead(tmp_path):
     assert list(dead(pages(build_site(stored(), tmp_path / "out").parent))) == []
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -23,7 +23,6 @@ def random_change(seed, frames=5, joints=6, most=3.0):
 
 
 @given(seeds, seeds)
-@settings(max_examples=20)
 def test_adding_and_taking_the_difference_undo_each_other(motion, change):
     base, change = random_motion(motion), random_change(change)
     again = difference(displaced(base, change), base)
@@ -70,7 +69,6 @@ def test_a_basis_has_the_values_of_uniform_cubic_splines():
 
 
 @given(st.integers(1, 300), st.floats(0.1, 1000))
-@settings(max_examples=30)
 def test_the_splines_of_a_frame_add_up_to_1(frames, spacing):
     basis = spline_basis(frames, spacing)
     assert basis.shape == (frames, max(1, round((frames - 1) / spacing)) + 3)

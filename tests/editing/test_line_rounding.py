@@ -124,7 +124,6 @@ def test_it_goes_where_the_line_goes(place, degrees):
     assert apart < 0.1  # a reach grows in steps
 
 
-@settings(max_examples=60)
 @given(st.integers(0, 10**6))
 def test_any_line_can_be_walked_after_rounding(seed):
     random = np.random.default_rng(seed)

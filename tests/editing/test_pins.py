@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
@@ -38,7 +38,6 @@ def test_the_gap_is_the_way_into_the_box(low, high, gap):
 
 
 @given(seeds, st.integers(1, 3))
-@settings(max_examples=20)
 def test_once_the_gap_is_closed_nothing_is_left(seed, joints):
     random = np.random.default_rng(seed)
     low = np.where(random.random((4, joints, 3)) < 0.3, -INF, random.normal(size=(4, joints, 3)))

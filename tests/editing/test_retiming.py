@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
@@ -51,7 +51,6 @@ rising = st.lists(st.floats(0.01, 10), min_size=1, max_size=6).map(lambda gaps: 
 
 
 @given(st.tuples(rising, rising))
-@settings(max_examples=50)
 def test_time_always_rises_and_meets_its_keys(both):
     count = min(map(len, both))
     new, old = (seconds[:count] for seconds in both)

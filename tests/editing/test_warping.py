@@ -41,7 +41,6 @@ def test_the_curve_through_unevenly_spaced_keys():
 
 
 @given(st.lists(st.integers(1, 30), min_size=0, max_size=5), seeds)
-@settings(max_examples=25)
 def test_a_curve_meets_its_keys_is_level_outside_and_smooth(gaps, seed):
     at = np.cumsum([3, *gaps])
     values = np.random.default_rng(seed).normal(size=(len(at), 2, 3))

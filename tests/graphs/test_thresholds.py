@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import PlanarTransform
@@ -36,7 +36,6 @@ def kept_frames(graph):
 
 
 @pytest.mark.filterwarnings("ignore:0 frames of clip stay")
-@settings(max_examples=50)
 @given(seeds, st.integers(0, 20))
 def test_the_curve_is_what_building_and_pruning_gives(seed, count):
     found = made_up(seed, count)

@@ -3,7 +3,7 @@
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapError
@@ -13,7 +13,6 @@ from tests.strategies import seeds
 from tests.synthesis.test_bounded_search import every_walk, problem_on, random_graph
 
 
-@settings(max_examples=30)
 @given(seeds, st.integers(1, 5))
 def test_the_tree_holds_every_walk_and_where_the_search_went(seed, length):
     problem = problem_on(random_graph(seed), length)

@@ -5,7 +5,7 @@ import math
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapError, NoWalk
@@ -44,7 +44,6 @@ def every_walk(problem, node, walk=(), cost=0.0):
         yield from every_walk(problem, edge[1], longer, cost + more)
 
 
-@settings(max_examples=40)
 @given(seeds, st.integers(1, 6))
 def test_it_finds_the_best_of_all_walks(seed, length):
     problem = problem_on(random_graph(seed), length)
@@ -56,7 +55,6 @@ def test_it_finds_the_best_of_all_walks(seed, length):
     assert math.isclose(sum(problem.step(found.walk[:i], e)[0] for i, e in enumerate(found.walk)), found.cost)
 
 
-@settings(max_examples=20)
 @given(seeds, st.integers(3, 8))
 def test_it_finds_the_best_walk_within_the_horizon(seed, horizon):
     graph = random_graph(seed)
@@ -100,7 +98,6 @@ def test_an_interruption_gives_the_best_so_far():
     assert len(found.walk) == 9
 
 
-@settings(max_examples=20)
 @given(seeds)
 def test_stretch_by_stretch_it_comes_to_the_end(seed):
     problem = problem_on(random_graph(seed), 12)

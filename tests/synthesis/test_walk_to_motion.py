@@ -7,7 +7,7 @@ from itertools import pairwise
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.blending.interpolation import blend
@@ -46,7 +46,6 @@ def test_a_walk_along_natural_successors_is_the_clip_bit_for_bit():
     assert np.array_equal(motion.contacts["hand"], CLIPS[0].contacts["hand"])
 
 
-@settings(max_examples=20)
 @given(seeds)
 def test_a_random_walk_is_a_walk_as_long_as_asked_and_the_same_again(seed):
     walk = random_walk(GRAPH, seconds=4, seed=seed)
@@ -74,7 +73,6 @@ def test_cheap_transitions_are_taken_more_often():
     assert np.mean([seam.cost for seam in seams(GRAPH, walk)]) < np.mean(costs)
 
 
-@settings(max_examples=20)
 @given(st.integers(0, 60), st.integers(0, 60), st.floats(-3, 3), st.floats(-5, 5))
 def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave, enter, angle, x):
     """Against the same written down by hand for one transition [KGP02, 3.3]."""
@@ -156,7 +154,6 @@ def one_by_one(graph, walk, place=IDENTITY):
     return concatenate(pieces)
 
 
-@settings(max_examples=20)
 @given(seeds, planar)
 def test_all_at_once_is_what_edge_by_edge_is(seed, place):
     walk = random_walk(GRAPH, seconds=8, seed=seed, settle=0.0)
@@ -194,7 +191,6 @@ def test_labels_come_from_the_clip_with_the_larger_weight():
     assert np.array_equal(motion.labels["b"], ~expected)
 
 
-@settings(max_examples=20)
 @given(seeds)
 def test_sources_name_the_clip_that_each_frame_bears_the_label_of(seed):
     named = [replace(clip, labels={clip.name: True}) for clip in CLIPS]

@@ -85,7 +85,8 @@ def test_other_controls_stand_beside_the_handles():
     assert recording.record(bent()) is None
 
 
-def test_a_test_drives_the_handles_to_places_that_a_reader_may_reach():
+def test_a_test_drives_the_handles_to_places_that_a_reader_may_reach(monkeypatch):
+    monkeypatch.setenv("MOCAP_SWEEP", "1")
     experiment = bent()
     ways = [values["way"] for values in driving.settings(experiment)]
     assert ((0.0, 3.0), (0.0, 3.0), (0.0, 5.0)) in ways

@@ -1,7 +1,7 @@
 """Markdown cut into blocks and sentences."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.course import read
@@ -57,7 +57,6 @@ def test_captions_are_plain_words(text, words):
     assert spoken(text) == words
 
 
-@settings(max_examples=50, deadline=None)
 @given(st.text(alphabet="ab. AB?!*$`()[]\n", max_size=60))
 def test_no_text_loses_a_word(text):
     assert " ".join(sentences(text)).split() == text.split()

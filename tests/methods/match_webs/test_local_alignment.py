@@ -2,7 +2,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapError
@@ -44,7 +44,6 @@ def lowest_sum(costs, slope):
     return min(best(i, j) for i, j in np.ndindex(costs.shape))
 
 
-@settings(max_examples=30)
 @given(st.integers(0, 10_000), st.integers(1, 3))
 def test_the_first_path_has_the_lowest_sum_of_all(seed, slope):
     costs = np.random.default_rng(seed).normal(0.4, 1, (9, 11))

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import kstest
 
@@ -10,7 +10,6 @@ from mocap.methods.match_webs import random_weights
 VALUES = np.random.default_rng(3).normal(size=(9, 2)) * [20, 0.3]
 
 
-@settings(max_examples=25)
 @given(st.integers(1, 4), st.integers(0, 6), st.floats(0, 0.5), st.integers(0, 99))
 def test_weights_add_up_to_one_and_stay_within_the_spread(numbers, more, spread, seed):
     values = np.random.default_rng(seed).normal(size=(numbers + 1 + more, numbers))

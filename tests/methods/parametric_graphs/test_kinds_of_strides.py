@@ -1,7 +1,5 @@
 """A graph of kinds from clips in one call, turns on the spot among them, and refusals that help."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -40,10 +38,8 @@ def spins():
 @pytest.mark.exhaustive
 def test_nine_nodes_and_fifteen_edges_from_the_bundled_clips_in_seconds():
     kinds = {"walk": clips(), "sneak": named("sneak"), "jog": named("jog")}
-    begun = time.process_time()
     with pytest.warns(MocapWarning, match="strides are near a turn of"):
         graph = build_kinds(kinds)
-    print(f"built in {time.process_time() - begun:.1f} s")
     assert len(graph.graph) == 9 and graph.graph.number_of_edges() == 15
     character = ParametricController(graph, start="walk")
     for label in ("jog", "sneak", "walk"):
