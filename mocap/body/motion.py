@@ -122,15 +122,9 @@ class Motion:
         return (len(self) - 1) / self.fps
 
     def at(self, frames: ArrayLike) -> Motion:
-        """Sample the motion at any frames, also between two: roots on straight lines, rotations by slerp.
+        """Sample the motion at frames (N,), such as 2.5: roots on straight lines, rotations by slerp.
 
-        Parameters
-        ----------
-        frames : shape (N,), such as 2.5 for half-way from frame 2 to 3; past either end, that end.
-
-        Returns
-        -------
-        N frames; marks from the nearest frame of the motion.
+        Past either end it is that end; marks are those of the nearest frame.
 
         Examples
         --------
@@ -143,8 +137,8 @@ class Motion:
         before = frames.astype(int)
         after = np.minimum(before + 1, len(self) - 1)
         share = (frames - before)[:, None]
+        nearest = np.where(share[:, 0] < 0.5, before, after)
         start, end = self.root_positions[before], self.root_positions[after]
-        nearest = np.where(frames - before < 0.5, before, after)
         return replace(
             self,
             root_positions=start + share * (end - start),
@@ -177,7 +171,7 @@ def resample(motion: Motion, fps: float) -> Motion:
 
     Returns
     -------
-    floor(duration · fps) + 1 frames, the first one unchanged; marks from the nearest frame.
+    floor(duration · fps) + 1 frames, the first one unchanged.
 
     Examples
     --------
@@ -201,12 +195,8 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
 
     Parameters
     ----------
-    motions : one or more, with one skeleton and one frame rate.
+    motions : one or more, with one skeleton and one frame rate; a mark that one lacks is off there.
     name : the new name; the first motion's by default.
-
-    Returns
-    -------
-    All their frames; a mark that one of them lacks is off there.
 
     Raises
     ------

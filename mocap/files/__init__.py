@@ -34,22 +34,11 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=[
-        "acclaim",
-        "acclaim_writer",
-        "amass",
-        "amc",
-        "asf",
-        "bvh",
-        "bvh_hierarchy",
-        "rigid_bones",
-        "text",
-    ],
     submod_attrs={
         "load_save": ["bone_stretch", "load", "load_skeleton", "read_angles", "save"],
         "folders": ["find_files", "load_all"],
         "number_tables": ["load_rows"],
         "path_files": ["load_path"],
-        "conversion": ["Options", "Outcome", "convert", "plan"],
+        "conversion": ["Options", "convert", "plan"],
     },
 )

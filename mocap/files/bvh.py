@@ -265,7 +265,7 @@ def write_pieces(
     pieces : motions of one skeleton and rate, with `frames` frames together.
     path : the file; it appears once it is whole.
     frames : the count in the file's header.
-    turns : shape (J,), which joints ever turn, as by `body.turning`.
+    turns : shape (J,), which joints ever turn, as by `body.motion.turning`.
     printing : the scale, and the digits after the point, as for `write`.
     """
     scale, precision = printing
