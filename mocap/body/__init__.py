@@ -36,6 +36,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "SHAPES",
             "arcs",
             "circle",
+            "figure_eight",
             "letter_s",
             "s_curve",
             "spline",
