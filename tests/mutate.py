@@ -2,6 +2,7 @@
 
     python tests/mutate.py --count 100 --seed 1
     python tests/mutate.py --only mocap/feet/footskate.py --count 20
+    python tests/mutate.py --rooms editing methods --near
 
 A change concerns one token: a comparison, an operator, a number, and/or, min/max, True/False. Docstrings,
 annotations, imports, decorators, error messages and `strict=` stay as they are. For each change, the tests
@@ -55,6 +56,14 @@ from hypothesis import Phase  # the same examples each time, and no search for s
 settings.register_profile("quick", settings(derandomize=True, phases=[Phase.explicit, Phase.generate]))
 settings.load_profile("quick")
 """
+
+
+def modules(rooms: list[str] | None = None) -> list[str]:
+    """List the modules of some rooms; without rooms, those of the core."""
+    if not rooms:
+        return [f"mocap/{room}/{name}.py" for room, names in MODULES.items() for name in names.split()]
+    files = [file for room in rooms for file in sorted((ROOT / "mocap" / room).rglob("[!_]*.py"))]
+    return [file.relative_to(ROOT).as_posix() for file in files]
 
 
 class Change(NamedTuple):
@@ -129,12 +138,12 @@ def operators(between: bytes, first: int) -> Iterator[tuple[int, int, str]]:
 
 def tests_of(root: Path, path: str) -> list[list[str]]:
     """List the tests for a module: those that name it, the rest of its room, those of rooms above."""
-    room, module = Path(path).parts[1], Path(path).stem
+    room, module = Path(path).relative_to("mocap").parent, Path(path).stem
     files = sorted(str(file.relative_to(root)) for file in (root / "tests" / room).glob("test_*.py"))
     first = [file for file in files if re.search(rf"\b{module}\b", (root / file).read_text("utf-8"))]
     first.sort(key=lambda file: file != f"tests/{room}/test_{module}.py")
     rest = [file for file in files if file not in first]
-    above = [f"tests/{name}" for name in ABOVE.get(room, "").split()]
+    above = [f"tests/{name}" for name in ABOVE.get(str(room), "").split()]
     return [group for group in ([path, *first], rest, above) if group]
 
 
@@ -189,13 +198,13 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100, help="how many changes (100)")
     parser.add_argument("--seed", type=int, default=1, help="which changes (1)")
     parser.add_argument("--only", metavar="PATH", help="one module, as mocap/feet/footskate.py")
+    parser.add_argument("--rooms", nargs="+", metavar="ROOM", help="all modules of these rooms, as editing")
     parser.add_argument("--near", action="store_true", help="run only the tests that name the module")
     parser.add_argument("--jobs", type=int, default=1, help="how many changes at the same time (1)")
     wanted = parser.parse_args()
     for name in LOADED_ONCE.split():
         importlib.import_module(name)
-    every = [f"mocap/{room}/{module}.py" for room, names in MODULES.items() for module in names.split()]
-    paths = [wanted.only] if wanted.only else every
+    paths = [wanted.only] if wanted.only else modules(wanted.rooms)
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(wanted.jobs) as pool:
         copy = make_copy(Path(folder) / "0")
         changes = [change for path in paths for change in changes_of(copy, path)]

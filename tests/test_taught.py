@@ -4,12 +4,11 @@ import ast
 import contextlib
 import inspect
 import re
+from functools import cache
 from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
 from types import SimpleNamespace
-
-import pytest
 
 from mocap.course import notebooks
 
@@ -17,6 +16,7 @@ NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 PACKAGE = Path(__file__).parents[1] / "mocap"
 
 
+@cache
 def code(name):
     cells = notebooks.read(NOTEBOOKS[0].parent / f"{name}.ipynb").cells
     return "\n".join(cell.source for cell in cells if cell.cell_type == "code")
@@ -73,9 +73,9 @@ def test_every_function_that_the_course_uses_names_a_notebook_that_teaches_it():
     assert len(seen) > 100
 
 
-@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: path.stem)
-def test_a_docstring_names_only_notebooks_whose_code_uses_the_function(path):
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-        if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            for name in re.findall(r"^ *Notebook: (\S+)", ast.get_docstring(node) or "", re.MULTILINE):
-                assert re.search(rf"\b{node.name}\b", code(name)), f"{path.stem}.{node.name}"
+def test_a_docstring_names_only_notebooks_whose_code_uses_the_function():
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                for name in re.findall(r"^ *Notebook: (\S+)", ast.get_docstring(node) or "", re.MULTILINE):
+                    assert re.search(rf"\b{node.name}\b", code(name)), f"{path.stem}.{node.name}"
