@@ -3,8 +3,6 @@
 Run them alone, and see the numbers: pytest -m benchmark -n 0 -s tests/benchmarks/test_bending.py
 """
 
-import time
-
 import numpy as np
 import pytest
 from asked_lines import heart, sine, spiral
@@ -16,6 +14,7 @@ from mocap.datasets.samples import sample
 from mocap.editing.bending import LIMIT, bend
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.steering.path_following import follow_path
+from tests.benchmarks.timing import least
 from tests.bundled import walking
 from tests.steering.test_bent_following import quietly, straight_walker
 
@@ -23,15 +22,6 @@ pytestmark = pytest.mark.benchmark
 
 CLIPS = {"10 s at 120 Hz": sample("walk_straight"), "40 s at 30 Hz": resample(sample("walk_circle"), 30)}
 CORNER = GroundPath(np.array([[0.0, 0.0], [0.0, 4.0], [4.0, 4.0]]))
-
-
-def least(work, times=7):
-    seconds = []
-    for _ in range(times):
-        start = time.process_time()
-        work()
-        seconds.append(time.process_time() - start)
-    return min(seconds)
 
 
 @pytest.mark.parametrize("name", CLIPS)

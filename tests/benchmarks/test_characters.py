@@ -16,7 +16,7 @@ from mocap.methods import groups
 from mocap.methods.motion_matching import FrameSearch, MotionMatcher, tabulate
 from mocap.methods.parametric_graphs import ParametricController, build_kinds
 from mocap.steering import Controller, FootTurner, command_headings, measure_delay, steer
-from tests.benchmarks.test_matching import fastest
+from tests.benchmarks.timing import fastest
 from tests.bundled import bundled
 from tests.methods.groups.built import course, graph
 from tests.methods.parametric_graphs.built import WALKS, clips, stepping, walking

@@ -3,40 +3,26 @@
 Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_editing.py
 """
 
-import time
-
 import numpy as np
 import pytest
 
 from mocap.body.ground_path import s_curve
 from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import sample
-from mocap.editing.bending import bend
 from mocap.editing.edits import edit
 from mocap.editing.levels import hierarchy
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, plant_pins
-from mocap.editing.proportions import proportioned
-from mocap.editing.retargeted import retarget
 from mocap.editing.solver import solve
-from mocap.editing.stances import stance_of_walk
 from mocap.editing.steps import Basis
 from mocap.feet.footskate import clean_up
+from tests.benchmarks.timing import least
 from tests.editing.wishes import hand_at, stone, walk
 
 pytestmark = pytest.mark.benchmark
 
 # 60 ms for 4 s of motion, whose forward kinematics takes 2.7 ms.
 ANSWER = 22
-
-
-def least(work, times=5):
-    seconds = []
-    for _ in range(times):
-        start = time.process_time()
-        work()
-        seconds.append(time.process_time() - start)
-    return min(seconds)
 
 
 def ratio(work, motion, times=5):
@@ -58,18 +44,6 @@ def test_an_edit():
     clip = walk()
     pins = stone(clip, 0.15)
     hold("edit", lambda: edit(clip, pins), clip, 80)
-
-
-def test_a_bend():
-    clip = walk()
-    hold("bend", lambda: bend(clip, bent_path(clip)), clip, 12)
-
-
-def test_a_retarget():
-    clip = walk()
-    adult = stance_of_walk(clip)
-    child = proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
-    hold("retarget", lambda: retarget(clip, child, adult), clip, 90)
 
 
 def test_a_dragged_handle_of_a_path():

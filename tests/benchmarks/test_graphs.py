@@ -3,7 +3,6 @@
 Run them alone, and see the numbers: pytest -m benchmark -n 0 -s tests/benchmarks/test_graphs.py
 """
 
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -15,22 +14,12 @@ from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune, prune_graph
 from mocap.graphs.thresholds import threshold_curve
 from mocap.matching.transitions import Transitions
+from tests.benchmarks.timing import fastest, least
 from tests.strategies import wave
 
 pytestmark = pytest.mark.benchmark
 
 WALKS = [f"16_{number}" for number in (*range(11, 35), 47, 58)]
-
-
-def seconds(work, clock=time.process_time):
-    start = clock()
-    work()
-    return clock() - start
-
-
-def turns(small, large, rounds=5):
-    """Measure by turns: the least processor time of each, when nothing else disturbed it."""
-    return np.min([(seconds(small), seconds(large)) for _ in range(rounds)], axis=0)
 
 
 @pytest.fixture(scope="module")
@@ -55,14 +44,14 @@ def made(clips):
 def test_the_walks_of_cmu_16_take_less_than_a_second(walks):
     clips = at_speeds(walks, 1)
     assert sum(map(len, clips)) == 2521
-    taken = min(seconds(lambda: made(clips), time.perf_counter) for _ in range(5))
+    taken = least(lambda: made(clips))
     print(f"\nbuild and prune {len(clips)} clips: {taken:.2f} s")
     assert taken < 1
 
 
 def test_time_grows_no_faster_than_the_pairs_of_frames(walks):
     few, many = at_speeds(walks, 1), at_speeds(walks, 4)
-    once, more = turns(lambda: made(few), lambda: made(many), 2)
+    once, more = fastest(lambda: made(few), lambda: made(many), turns=2)
     print(f"\n4 times the frames: {more / once:.1f} times the time, at most 16")
     assert more / once <= 16
 
@@ -80,7 +69,7 @@ SMALL, LARGE = 10_000, 40_000
 
 def hold(what, work, small, large):
     """Let an edge take at most twice as long in the larger input: caches, but no worse power."""
-    times = turns(lambda: work(small), lambda: work(large))
+    times = fastest(lambda: work(small), lambda: work(large))
     ratio = times[1] / times[0] / (LARGE / SMALL)
     print(f"\n{what}, an edge of {LARGE} against one of {SMALL}: {ratio:.2f} times the time, at most 2")
     assert ratio <= 2

@@ -9,7 +9,7 @@ import pytest
 from mocap import datasets, resample
 from mocap.matching import distance_grid, point_cloud
 from mocap.methods.match_webs import blend_of, build_web, search, weights_for
-from tests.benchmarks.test_matching import fastest
+from tests.benchmarks.timing import fastest
 from tests.methods.match_webs.spaces_of_walks import gait, space
 
 pytestmark = pytest.mark.benchmark

@@ -7,7 +7,6 @@ Both sides of a ratio take turns, and of each the fastest turn counts.
 import os
 import subprocess
 import sys
-import time
 
 import draw_growth
 import numpy as np
@@ -17,6 +16,7 @@ from mocap import load, resample
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import find_transitions
+from tests.benchmarks.timing import fastest
 from tests.oracles import distance_rows
 
 pytestmark = pytest.mark.benchmark
@@ -34,17 +34,6 @@ def points(clips):
     joined = np.concatenate([point_cloud(clip) for clip in clips])
     assert joined.shape == (3798, 31, 3)
     return joined
-
-
-def fastest(*works, turns=5):
-    """Seconds of each work, the fastest of its turns."""
-    seconds = []
-    for _ in range(turns):
-        for work in works:
-            start = time.perf_counter()
-            work()
-            seconds.append(time.perf_counter() - start)
-    return np.array(seconds).reshape(turns, -1).min(0)
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])

@@ -11,7 +11,7 @@ from mocap.datasets import sample
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.time_paths import time_path
-from tests.benchmarks.test_matching import fastest
+from tests.benchmarks.timing import fastest
 from tests.blending.registered import walks
 
 pytestmark = pytest.mark.benchmark

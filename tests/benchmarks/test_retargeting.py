@@ -3,14 +3,13 @@
 Run them alone, and see the ratios: pytest -m benchmark -n 0 -s tests/benchmarks/test_retargeting.py
 """
 
-import time
-
 import pytest
 
 from mocap.body.kinematics import forward_kinematics
 from mocap.editing.copied_motion import copied
 from mocap.editing.retargeted import retarget
 from mocap.editing.stances import stance_of
+from tests.benchmarks.timing import least
 from tests.editing.bodies import adult, child, walk, without
 
 pytestmark = pytest.mark.benchmark
@@ -21,16 +20,6 @@ BODIES = {
         without(walk(), "lowerback", "upperback", "lclavicle", "rclavicle", "lowerneck")
     ),
 }
-
-
-def least(work, times: int) -> float:
-    """Measure processor seconds, the least of several times: others may use the machine."""
-    seconds = []
-    for _ in range(times):
-        start = time.process_time()
-        work()
-        seconds.append(time.process_time() - start)
-    return min(seconds)
 
 
 @pytest.mark.parametrize("name", BODIES)

@@ -4,7 +4,6 @@ Run them alone, and see the numbers: pytest -m benchmark -n 0 -s tests/benchmark
 """
 
 import statistics
-import time
 from functools import partial
 
 import matplotlib
@@ -25,17 +24,12 @@ from mocap.matching.transitions import Transition
 from mocap.plotting import graph_drawing, grids, stick_figures
 from mocap.widgets.experiments import explore
 from mocap.widgets.player import play
+from tests.benchmarks.timing import least
 from tests.browser.conftest import artefacts, browser, lab, page, run_notebook, wait_until  # noqa: F401
 from tests.browser.test_page import twelve
 from tests.strategies import wave
 
 pytestmark = pytest.mark.benchmark
-
-
-@pytest.fixture(autouse=True)
-def no_figure_stays_open():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")
@@ -44,16 +38,11 @@ def minute():
     return [generate_walk([[x, 0], [x, 55]], speed=0.85)[: 60 * 120] for x in (-1, 0, 1)]
 
 
-def seconds(work):
-    """Give the processor's seconds, which others on the machine disturb less than the clock's."""
-    start = time.process_time()
-    work()
-    return time.process_time() - start
-
-
 def median_change(experiment):
     slider = experiment.controls["frame"]
-    return statistics.median(seconds(partial(setattr, slider, "value", frame)) for frame in range(0, 800, 40))
+    return statistics.median(
+        least(partial(setattr, slider, "value", frame), 1) for frame in range(0, 800, 40)
+    )
 
 
 def drawn(artists):
@@ -78,7 +67,7 @@ def test_an_experiment_changes_within_60_ms():
 
 def test_a_grid_is_drawn_within_150_ms():
     grid = np.random.default_rng(0).random((1000, 1000))
-    took = min(seconds(lambda: drawn(grids.distance_image(grid, fps=30))) for _ in range(3))
+    took = least(lambda: drawn(grids.distance_image(grid, fps=30)), 3)
     print(f"\na grid of 1000 by 1000: {1000 * took:.0f} ms")
     assert took <= 0.150
 
@@ -90,13 +79,13 @@ def test_a_timeline_of_5000_transitions_is_drawn_within_500_ms(most):
     ends = random.integers(0, [8, 880, 8, 880], size=(5000, 4)).tolist()
     found = [Transition(a, i, b, j, random.random(), PlanarTransform(0, 0, 0)) for a, i, b, j in ends]
     graph = from_transitions(clips, found, window=10)
-    took = min(seconds(lambda: drawn(graph_drawing.timeline(graph, most=most))) for _ in range(3))
+    took = least(lambda: drawn(graph_drawing.timeline(graph, most=most)), 3)
     print(f"\na timeline, {most} of 5000 transitions shown: {1000 * took:.0f} ms")
     assert took <= 0.500
 
 
 def test_a_minute_of_three_characters_is_sent_in_12_mb(minute):
-    made = seconds(lambda: play(*minute).page())
+    made = least(lambda: play(*minute).page(), 1)
     size = len(play(*minute).page())
     print(f"\nthree characters for a minute: {size / 1e6:.1f} MB, packed in {made:.1f} s")
     assert size <= 12e6

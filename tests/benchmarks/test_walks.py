@@ -3,8 +3,6 @@
 All times are CPU seconds, the least of some runs, so that a busy machine is no failure.
 """
 
-import time
-
 import pytest
 
 from mocap.body import ground_path
@@ -13,30 +11,21 @@ from mocap.steering import Controller, FootTurner, measure_delay
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
+from tests.benchmarks.timing import least
 from tests.bundled import walking
 
 pytestmark = pytest.mark.benchmark
 
 
-def seconds(work, runs=3):
-    """Return the least CPU time of some runs."""
-    times = []
-    for _ in range(runs):
-        start = time.process_time()
-        work()
-        times.append(time.process_time() - start)
-    return min(times)
-
-
 def test_walks_are_played_in_a_hundredth_of_their_duration():
     walk = random_walk(walking().source, seconds=600, seed=1)
     motion = to_motion(walking().source, walk)
-    assert seconds(lambda: to_motion(walking().source, walk)) < motion.duration / 100
+    assert least(lambda: to_motion(walking().source, walk)) < motion.duration / 100
 
 
 def test_playing_is_linear():
     walks = [random_walk(walking().source, seconds=s, seed=1) for s in (100, 800)]
-    short, long = (seconds(lambda walk=walk: to_motion(walking().source, walk)) for walk in walks)
+    short, long = (least(lambda walk=walk: to_motion(walking().source, walk)) for walk in walks)
     assert long < 14 * short
 
 
@@ -45,12 +34,12 @@ def test_playing_is_linear():
 def test_paths_are_followed_in_a_fiftieth_of_the_motion(shape):
     path = ground_path.SHAPES[shape]()
     followed = follow_path(walking(), path)
-    assert seconds(lambda: follow_path(walking(), path)) < followed.seconds / 50
+    assert least(lambda: follow_path(walking(), path)) < followed.seconds / 50
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_following_is_linear():
-    short, long = (seconds(lambda n=n: follow_path(walking(), s_curve(n)), 2) for n in (10, 80))
+    short, long = (least(lambda n=n: follow_path(walking(), s_curve(n)), 2) for n in (10, 80))
     assert long < 12 * short
 
 
