@@ -77,8 +77,6 @@ def draw_body(
     >>> body = Skeleton(["hips", "lknee"], [-1, 0], [[0, 1, 0], [0.1, -0.4, 0]])
     >>> draw_body(Figure().add_subplot(), body, np.array([[0, 1], [0.1, 0.6]])).get_segments()[0].tolist()
     [[0.0, 1.0], [0.1, 0.6]]
-
-    Notebook: 14-levels
     """
     starts, ends, sides = bones(skeleton)
     lines = list(np.stack([points[starts], points[ends]], axis=1))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.blending.clocks import frame_times
+from mocap.blending.clocks import clock_speed, frame_times
 from mocap.blending.registering import register
 from mocap.errors import MocapError
 from tests.blending.registered import walks
@@ -12,6 +12,11 @@ from tests.blending.registered import walks
 @pytest.fixture(scope="module")
 def pair():
     return register([walks()[0.8, 0], walks()[1.4, 0]])
+
+
+def test_the_two_means_of_the_paces_1_and_2():
+    assert clock_speed([1, 2], [0.5, 0.5]) == pytest.approx(2 / 3)
+    assert clock_speed([1, 2], [0.5, 0.5], "rates") == pytest.approx(3 / 4)
 
 
 @pytest.mark.parametrize("weight", [0.0, 0.25, 1.0, 1.1, -0.1])
