@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from itertools import pairwise
 from math import dist, inf
 from typing import NamedTuple
@@ -18,7 +18,6 @@ from mocap.plotting.graph_drawing import node_link
 from mocap.plotting.style import CURVES, PATH, QUIET
 
 Walk = tuple[int, ...]
-Places = Mapping[Hashable, tuple[float, float]]
 Lengths = Mapping[int, Mapping[int, float]]
 """`lengths[a][b]` is the length of the edge from a to b."""
 
@@ -101,8 +100,7 @@ def search_steps(
     events = search_events(edge_lengths(graph), start, goal, longest)
     shown = events[: len(events) if step is None else step]
     best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
-    figure = plt.figure(figsize=(9, 4.6), layout="constrained")
-    left, right = figure.subplots(1, 2, width_ratios=(1, 1))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
     _draw_graph(left, graph, best.walk if best else ())
     left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet", fontsize=10)
     fates = {walk: "waiting" for event in shown for _, walk in event.added} | {e.walk: e.fate for e in shown}
@@ -113,8 +111,8 @@ def search_steps(
     return figure
 
 
-def edge_lengths(graph: nx.MultiDiGraph, places: Places = EIGHT_PLACES) -> dict[int, dict[int, float]]:
-    """Measure the edges of a graph as it is drawn; a loop at a node counts 0.5.
+def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:
+    """Measure the edges of the eight-node graph as it is drawn; a loop at a node counts 0.5.
 
     Examples
     --------
@@ -125,7 +123,8 @@ def edge_lengths(graph: nx.MultiDiGraph, places: Places = EIGHT_PLACES) -> dict[
 
     Notebook: 07-walks-and-search
     """
-    return {a: {b: dist(places[a], places[b]) or 0.5 for b in sorted(graph.successors(a))} for a in graph}
+    at = EIGHT_PLACES
+    return {a: {b: dist(at[a], at[b]) or 0.5 for b in sorted(graph.successors(a))} for a in graph}
 
 
 def _draw_graph(ax: Axes, graph: nx.MultiDiGraph, walk: Walk) -> None:

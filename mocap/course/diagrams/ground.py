@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,19 +17,13 @@ INK = COLOURS["middle"]
 START = 0.25  # radians from the first axis to the point before the turn
 
 
-class Sheet(NamedTuple):
-    """A plane with two axes: its title, the names of the axes, and where on the page they point."""
-
-    title: str
-    names: tuple[str, str]
-    axes: tuple[complex, complex]
-
-
-SHEETS = (
-    Sheet("1. as in school", ("x", "y"), (1 + 0j, 1j)),
-    Sheet("2. the sheet turned by a quarter", ("x", "y"), (1j, -1 + 0j)),
-    Sheet("3. the ground from above", ("z", "x"), (1j, -1 + 0j)),
+Sheet = tuple[str, tuple[str, str], tuple[complex, complex]]
+SHEETS: tuple[Sheet, ...] = (
+    ("1. as in school", ("x", "y"), (1 + 0j, 1j)),
+    ("2. the sheet turned by a quarter", ("x", "y"), (1j, -1 + 0j)),
+    ("3. the ground from above", ("z", "x"), (1j, -1 + 0j)),
 )
+"""Planes with two axes: a title, the names of the axes, and where on the page they point."""
 
 
 def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
@@ -61,20 +54,21 @@ def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
 
 def _draw_sheet(ax: Axes, sheet: Sheet, angle: float) -> None:
     """Draw a sheet's axes, a point, and where a turn leads it, with the formula below."""
-    first, second = sheet.names
-    for name, axis in zip(sheet.names, sheet.axes, strict=True):
+    title, names, axes = sheet
+    for name, axis in zip(names, axes, strict=True):
         arrow(ax, 0j, 1.25 * axis, INK)
         say(ax, 1.38 * axis, name, fontsize=12)
-    arc = 0.55 * np.exp(1j * np.linspace(START, START + angle, 30)) * sheet.axes[0]
+    arc = 0.55 * np.exp(1j * np.linspace(START, START + angle, 30)) * axes[0]
     trace(ax, arc, color=INK, linewidth=1)
-    say(ax, 0.7 * np.exp(1j * (START + angle / 2)) * sheet.axes[0], "θ", color=INK, fontsize=12)
+    say(ax, 0.7 * np.exp(1j * (START + angle / 2)) * axes[0], "θ", color=INK, fontsize=12)
     for colour, turn in ((QUIET, START), (CURVES[0], START + angle)):
-        point = np.exp(1j * turn) * sheet.axes[0]
+        point = np.exp(1j * turn) * axes[0]
         trace(ax, np.array([0, point]), color=colour, linewidth=1.5)
         trace(ax, point, marker="o", color=colour, markersize=8)
-    ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=sheet.title)
+    ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=title)
     ax.title.set_fontsize(11)
     ax.set_axis_off()
+    first, second = names
     lines = f"{first}′ = {first} cos θ − {second} sin θ\n{second}′ = {first} sin θ + {second} cos θ"
     ax.text(0.5, -0.02, lines, transform=ax.transAxes, ha="center", va="top", fontsize=11)
 

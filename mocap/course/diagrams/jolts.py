@@ -9,21 +9,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.plotting.style import COLOURS, MARK, QUIET, SOURCES
 from mocap.quality.blend_measures import blend_jolts
 from mocap.quality.seam_measures import jumps
 
 
-def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint and a step)
+def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, and a step)
     result: Motion,
     first: Motion,
     second: Motion,
     start: int,
     weights: ArrayLike,
     *,
-    joint: str = "root",
     step: int = 4,
 ) -> Figure:
     """Draw how a blend changes velocities, and which of the jolts are the blend's own.
@@ -31,9 +29,8 @@ def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint a
     Parameters
     ----------
     result, first, second, start, weights : as for `quality.blend_jolts`.
-    joint : whose velocity is drawn, in the direction in which the first clip travels.
-    step : how much is drawn: 1 the velocities of both clips, 2 that of the blend too, 3 the jolts of all
-        three, 4 the jolt that the blend adds.
+    step : how much is drawn: 1 the root's velocities in both clips, 2 that in the blend too, 3 the jolts of
+        all three, 4 the jolt that the blend adds.
 
     Returns
     -------
@@ -56,7 +53,7 @@ def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint a
     for ax in (above, below):
         ax.axvspan(start / result.fps, (start + window) / result.fps, color=MARK, alpha=0.15, linewidth=0)
         ax.set_xlim(0, (len(result) - 1) / result.fps)
-    _velocities(above, (first, second, result), joint)
+    _velocities(above, (first, second, result))
     if step < 2:
         above.lines[-1].remove()
     below.set(xlabel="time (s)", ylabel="jolt, RMS over joints (m/s)")
@@ -73,17 +70,15 @@ def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, a joint a
     return figure
 
 
-def _velocities(ax: Axes, motions: tuple[Motion, ...], joint: str) -> None:
-    """Draw a joint's velocity in the direction in which the first motion travels."""
+def _velocities(ax: Axes, motions: tuple[Motion, ...]) -> None:
+    """Draw the root's velocity in the direction in which the first motion travels."""
     travelled = motions[0].root_positions[-1] - motions[0].root_positions[0]
     ahead, tracks = travelled / max(float(np.linalg.norm(travelled)), 1e-9), []
     for motion, look in zip(motions, _looks("first clip", "second clip, aligned", "the blend"), strict=True):
-        places = joint_positions(motion)[:, motion.skeleton.index(joint)]
-        tracks.append(np.diff(places, axis=0) @ ahead * motion.fps)
+        tracks.append(np.diff(motion.root_positions, axis=0) @ ahead * motion.fps)
         ax.plot((np.arange(len(tracks[-1])) + 0.5) / motion.fps, tracks[-1], **look)
-    name = "root" if joint == motions[0].skeleton.names[0] else joint
     low, high = min(map(np.min, tracks)), max(map(np.max, tracks))
-    ax.set(ylabel=f"forward velocity of '{name}' (m/s)", ylim=(low - 0.1, high + 0.35 * (high - low) + 0.1))
+    ax.set(ylabel="forward velocity of 'root' (m/s)", ylim=(low - 0.1, high + 0.35 * (high - low) + 0.1))
 
 
 def _jolts(ax: Axes, motions: tuple[Motion, ...]) -> None:

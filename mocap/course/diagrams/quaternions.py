@@ -46,8 +46,7 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
 
     Notebook: 01-skeletons-and-clips
     """
-    figure = plt.figure(figsize=(7, 3.9), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
     half = np.radians(angle) / 2
     across = ACROSS * np.exp(1j * half * np.arange(step + 1))
     along = ALONG * np.exp(1j * (np.pi / 2 + half * np.array([0, 1, 0])))[: step + 1]
@@ -102,8 +101,7 @@ def double_cover(angle: float = 300, step: int = 2) -> Figure:
 
     Notebook: 01-skeletons-and-clips
     """
-    figure = plt.figure(figsize=(7, 3.9), layout="constrained")
-    dial, circle = figure.subplots(1, 2)
+    figure, (dial, circle) = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
     turn = angle % 360
     _draw_circle(dial, {"no turn": 90, "turned": 90 + angle})
     half = angle / 2

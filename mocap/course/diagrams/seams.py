@@ -42,9 +42,11 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
     alpha = np.concatenate([np.ones(AROUND), cubic_weights(window), np.zeros(AROUND)])
     for letter, height, colour in (("i", FIRST, SOURCES[0]), ("j", SECOND, SOURCES[1])):
         for place in places:
-            _frame(rows, (int(place), height), colour, _named(letter, int(place)))
+            _draw_frame(rows, int(place), height, {colour: 1.0}, _named(letter, int(place)))
         _mark_window(rows, height, window)
-    _result(rows, places.astype(float), alpha, (step, window))
+    if step >= 3:
+        _draw_result(rows, places, alpha, whole=step >= 4)
+        _mark_window(rows, RESULT, window)
     names = ["clip A", "clip B,\naligned", "result"]
     rows.set(xlim=(-AROUND - 0.7, window + AROUND - 0.3), ylim=(-0.4, FIRST + 1.4))
     rows.set_yticks(np.array([FIRST, SECOND, RESULT]) + BOX / 2, names)
@@ -69,33 +71,25 @@ def _mark_window(ax: Axes, height: float, window: int) -> None:
     ax.add_patch(Rectangle(corner, wide, BOX + 0.24, fill=False, edgecolor=MARK, lw=2.5))
 
 
-def _frame(ax: Axes, corner: tuple[float, float], colour: str, name: str) -> None:
-    """Draw a frame as a box with a name in it."""
-    place, height = corner
-    ax.add_patch(Rectangle((place - BOX / 2, height), BOX, BOX, facecolor=colour, alpha=0.6))
+def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float], name: str) -> None:
+    """Draw a frame as a box with a name in it, filled from below with colours, each by its share."""
+    low = height
+    for colour, share in shares.items():
+        ax.add_patch(Rectangle((place - BOX / 2, low), BOX, BOX * share, facecolor=colour, alpha=0.6))
+        low += BOX * share
     ax.text(place, height + BOX / 2, name, ha="center", va="center", fontsize=9)
 
 
-def _result(ax: Axes, places: Array, alpha: Array, drawn: tuple[int, int]) -> None:
-    """Draw the frames of the result: in the window filled with A's colour up to its share, then with B's.
-
-    `drawn` holds the step and the window, as for `blended_seam`.
-    """
-    step, window = drawn
+def _draw_result(ax: Axes, places: Array, alpha: Array, *, whole: bool) -> None:
+    """Draw the frames of the result, in the window or all: A's colour up to its share, then B's."""
     for place, share in zip(places.tolist(), alpha.tolist(), strict=True):
-        inside = 0 <= place < window
-        if step < (3 if inside else 4):
-            continue
-        for low, high, colour in ((0.0, share, SOURCES[0]), (share, 1.0, SOURCES[1])):
-            corner = place - BOX / 2, RESULT + BOX * low
-            ax.add_patch(Rectangle(corner, BOX, BOX * (high - low), facecolor=colour, alpha=0.6))
-        name = "mix" if inside else _named("i" if place < 0 else "j", int(place))
-        ax.text(place, RESULT + BOX / 2, name, ha="center", va="center", fontsize=9)
+        inside = 0 <= place < len(places) - 2 * AROUND
+        if inside or whole:
+            name = "mix" if inside else _named("i" if place < 0 else "j", place)
+            _draw_frame(ax, place, RESULT, {SOURCES[0]: share, SOURCES[1]: 1 - share}, name)
         if inside:
             for start in (FIRST, SECOND):
                 ax.plot([place, place], [start - 0.12, RESULT + BOX], color=QUIET, lw=0.6, zorder=0)
-    if step >= 3:
-        _mark_window(ax, RESULT, window)
 
 
 def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
@@ -155,8 +149,7 @@ def knee_triangle(step: int = 3, distance: float = 0.74) -> Figure:
     Notebook: 04b-feet
     """
     thigh, shank = 0.45, 0.41
-    figure = plt.figure(figsize=(5.4, 4.4), layout="constrained")
-    ax = figure.add_subplot()
+    figure, ax = plt.subplots(figsize=(5.4, 4.4), layout="constrained")
     along = (thigh**2 + distance**2 - shank**2) / (2 * distance)  # from the hip to below the knee
     across = np.sqrt(thigh**2 - along**2)
     hip, ankle, knee = np.array([[0, 0.0], [0, -distance], [across, -along]])

@@ -45,8 +45,7 @@ def segments_in_rows(graph: nx.DiGraph, names: list[str], *, step: int | None = 
     nodes = dict(graph.nodes(data=True))
     firsts = {part["clip"]: node for node, part in reversed(nodes.items())}
     at = {node: (node - firsts[part["clip"]], -2 * part["clip"]) for node, part in nodes.items()}
-    figure = plt.figure(figsize=(9, 0.9 * len(names) + 1.3), layout="constrained")
-    ax = figure.add_subplot()
+    figure, ax = plt.subplots(figsize=(9, 0.9 * len(names) + 1.3), layout="constrained")
     for node, (x, y) in at.items():
         dead = not graph.out_degree(node)
         box = Rectangle((x, y - GAP), BOX, 2 * GAP, facecolor=SOURCES[nodes[node]["clip"]], zorder=1)
@@ -162,7 +161,7 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
 
 
 def tarjan_step(
-    graph: nx.MultiDiGraph, *, places: Mapping[Node, tuple[float, float]] | None = None, step: int = 0
+    graph: nx.MultiDiGraph, *, places: Mapping[Node, tuple[float, float]] = EIGHT_PLACES, step: int = 0
 ) -> Figure:
     """Draw Tarjan's algorithm on a small graph after some of its steps.
 
@@ -184,12 +183,10 @@ def tarjan_step(
 
     Notebook: 06-pruning
     """
-    places = EIGHT_PLACES if places is None else places
     states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
     step = min(step, len(states) - 1)
     state = states[step]
-    figure = plt.figure(figsize=(7.5, 4.4), layout="constrained")
-    left, right = figure.subplots(1, 2, width_ratios=(5, 1))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7.5, 4.4), layout="constrained", width_ratios=(5, 1))
     discs, _ = node_link(graph, places=places, ax=left)
     done = {node: SOURCES[n] for n, part in enumerate(state.components) for node in part}
     discs.set_facecolor([done.get(n, ON_STACK if n in state.stack else UNSEEN) for n in graph])

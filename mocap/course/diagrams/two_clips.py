@@ -49,11 +49,10 @@ def nodes_and_edges(step: int = 5) -> Figure:
 
     Notebook: 00-quickstart
     """
-    figure = plt.figure(figsize=(7, 3), layout="constrained")
-    ax = figure.add_subplot()
+    figure, ax = plt.subplots(figsize=(7, 3), layout="constrained")
     leaps = LEAPS[: (0, 0, 1, 3, 3, 3)[step]]
-    for clip, pieces in enumerate(_pieces(leaps)):
-        for start, end in pieces:
+    for clip, times in enumerate(_cuts(leaps)):
+        for start, end in pairwise(times):
             kept = step < 4 or _kept(clip, start, end)
             colour = SOURCES[clip] if kept else "#DDDDDD"
             ax.plot([start, end], [-clip] * 2, color=colour, linewidth=9, solid_capstyle="butt", zorder=1)
@@ -79,10 +78,6 @@ def _cuts(leaps: Sequence[Leap]) -> list[list[float]]:
         times[source].add(leaves)
         times[target].add(enters)
     return [sorted(found) for found in times]
-
-
-def _pieces(leaps: Sequence[Leap]) -> list[list[tuple[float, float]]]:
-    return [list(pairwise(times)) for times in _cuts(leaps)]
 
 
 def _kept(clip: int, start: float, end: float) -> bool:

@@ -18,9 +18,8 @@ Reading order (notebooks 00 to 19)
 14. `showing`: the widget, its picture and its sentence
 15. `sensitivity`: d′ of a person, and of a class, with confidence intervals
 16. `pairs`: films with a seam, and controls without one from the same clips at the same phase
-17. `films`: pairs as data for the browser
-18. `blind_tests`: the test in a notebook or on a page
-19. `class_answers`: the files that a class saves, as one curve
+17. `blind_tests`: the test in a notebook or on a page
+18. `class_answers`: the files that a class saves, as one curve
 
 References
 ----------

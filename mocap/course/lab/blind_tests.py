@@ -6,16 +6,17 @@ import base64
 import html
 import io
 import json
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from PIL import Image
 
 from mocap.body.motion import Motion
-from mocap.course.lab.films import packed
 from mocap.course.lab.pairs import Pair, Plan, make_pairs
 from mocap.course.lab.sensitivity import sentence
 from mocap.matching.transitions import Transitions
@@ -23,8 +24,9 @@ from mocap.plotting.picture import Picture, few_colours, small_png
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PICTURE, SCENE, joined
-from mocap.widgets.packing import SIDES
+from mocap.widgets.packing import SIDES, packed_character
 
+STEP = 0.002  # metres; coordinates of films are whole numbers of it. A pixel shows about four of them.
 STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
 
 
@@ -127,3 +129,21 @@ class BlindTest:
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
         bundle, metadata = Picture(self.picture, self.alt)._repr_mimebundle_()
         return bundle | {"text/html": self.html, "text/plain": f"{self!r} {STILL}"}, metadata
+
+
+def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]], str]:
+    """Pack films of one body: what all have as characters of the player, what each has, and the coordinates.
+
+    The numbers are second differences over time, as in the player, but in steps of two millimetres: these are
+    small, and compress well.
+    """
+    about: dict[str, Any] = {}
+    each: list[dict[str, Any]] = []
+    data = b""
+    for film in films:
+        about, block = packed_character(film, COLOURS["middle"], STEP)
+        low = np.round(about["low"], 4).tolist()
+        each.append({"frames": about["frames"], "offset": len(data), "low": low})
+        data += block
+    body = {name: value for name, value in about.items() if name not in ("name", "frames", "low")}
+    return body, each, base64.b64encode(zlib.compress(data, 9)).decode()

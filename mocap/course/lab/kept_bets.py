@@ -115,7 +115,8 @@ def _came_out(key: str, bet: Bet, names: Mapping[str, object]) -> dict[str, Any]
         if bet.real and isinstance(error.__cause__, NameError):
             return row | {"ask": to_html(bet.ask), "value": None, "written": ""}
         raise MocapError(f"Bet {key}: {error}") from error
-    return row | {"value": value, "written": f"{value:.{_decimals(bet.step)}f} {bet.unit}".rstrip()}
+    decimals = len(f"{bet.step:g}".partition(".")[2])
+    return row | {"value": value, "written": f"{value:.{decimals}f} {bet.unit}".rstrip()}
 
 
 def _led(ask: str) -> str:
@@ -125,7 +126,3 @@ def _led(ask: str) -> str:
 
 def _plain(html: str) -> str:
     return unescape(re.sub(r"<[^>]*>", "", html))
-
-
-def _decimals(step: float) -> int:
-    return len(f"{step:g}".partition(".")[2])

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.course.lab.choices import CELLS, Choices, Pick, around
+from mocap.course.lab.choices import CELLS, Choices, around
 from mocap.course.lab.packing import packed_clip, packed_skeleton
 from mocap.plotting.style import ASKED, COLOURS, CURVES, MARK, PATH, QUIET, SOURCES
 
@@ -41,7 +41,7 @@ def scene(choices: Choices, show: Sequence[str], track: Array, asked: Array, alt
         "tab": show[-1] if show[-1] != "seam" else show[0],
         "skeleton": packed_skeleton(clips[0].skeleton),
         "clips": packed,
-        "pick": _numbers(choices.pick),
+        "pick": {name: int(value) for name, value in choices.pick._asdict().items()},
         "grid": grid,
         "graph": _graph(choices),
         "walk": _walk(choices, track, asked),
@@ -59,11 +59,6 @@ def _clips(choices: Choices) -> tuple[list[dict[str, Any]], bytes]:
         packed.append(about)
         data += block
     return packed, data
-
-
-def _numbers(pick: Pick) -> dict[str, int]:
-    """Write a pick for the scripts."""
-    return {name: int(value) for name, value in pick._asdict().items()}
 
 
 def _colours() -> dict[str, Any]:

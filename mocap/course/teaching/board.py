@@ -21,7 +21,7 @@ from mocap._shared.atomic import make_folder, replacing
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
 from mocap.course import diagrams
-from mocap.course.teaching.films import font_of
+from mocap.course.teaching.films import fitted, font_of
 
 WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
@@ -173,6 +173,4 @@ def _unnumbered(figure: Any) -> None:  # noqa: ANN401
 def _panel(figure: Any, heading: str, room: tuple[int, int]) -> Image.Image:  # noqa: ANN401
     """Turn a figure into a picture of the size of a step, and close it."""
     picture = Image.open(io.BytesIO(plotting.show(figure, alt=heading).picture)).convert("RGB")
-    scale = min(room[0] / picture.width, room[1] / picture.height)
-    size = (round(scale * picture.width), round(scale * picture.height))
-    return picture.resize(size, Image.Resampling.LANCZOS)
+    return fitted(picture, room)

@@ -114,14 +114,19 @@ def _framed(data: bytes, label: str) -> Image.Image:
     """Bring a picture to the size of the middle, above its label."""
     room = (SIZE[0] - 2 * EDGE, BOTTOM - TOP - 34 * bool(label))
     picture = Image.open(io.BytesIO(data)).convert("RGBA")
-    scale = min(room[0] / picture.width, room[1] / picture.height)
-    size = (max(1, round(scale * picture.width)), max(1, round(scale * picture.height)))
-    picture = picture.resize(size, Image.Resampling.LANCZOS)
+    picture = fitted(picture, room)
     page = Image.new("RGB", (SIZE[0] - 2 * EDGE, BOTTOM - TOP), PAPER)
-    page.paste(picture, ((page.width - size[0]) // 2, (room[1] - size[1]) // 2), picture)
+    page.paste(picture, ((page.width - picture.width) // 2, (room[1] - picture.height) // 2), picture)
     if label:
         ImageDraw.Draw(page).text((page.width / 2, page.height - 30), label, SOFT, font_of(22), anchor="ma")
     return page
+
+
+def fitted(picture: Image.Image, room: tuple[int, int]) -> Image.Image:
+    """Make a picture as large as fits into a width and a height, pixels."""
+    scale = min(room[0] / picture.width, room[1] / picture.height)
+    size = (max(1, round(scale * picture.width)), max(1, round(scale * picture.height)))
+    return picture.resize(size, Image.Resampling.LANCZOS)
 
 
 def _card(words: str) -> Image.Image:

@@ -24,6 +24,8 @@ from mocap.plotting import Picture, bodies_along, stack
 from mocap.steering import follow_path
 from mocap.synthesis import seams
 
+WINDOW, THRESHOLD = 10, 0.05  # of the transitions: frames, and metres
+
 
 class Walked(NamedTuple):
     """A walk along a path: its motion, the frames of its seams, and the seconds that it took to make."""
@@ -134,16 +136,13 @@ class Beside:
         return f"<table>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
 
 
-def walk_beside(
-    clips: Sequence[Motion], path: ArrayLike, *, window: int = 10, threshold: float = 0.05
-) -> Beside:
-    """Walk along a path by the functions of the exercises, and by the package.
+def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
+    """Walk along a path by the functions of the exercises, and by the package: windows of 10 frames, 5 cm.
 
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate, some hundred frames in all: one's own code is slow.
     path : corners on the ground (x, z), shape (N, 2), metres, as from a canvas.
-    window, threshold : of the transitions: frames, and metres.
 
     Returns
     -------
@@ -158,18 +157,18 @@ def walk_beside(
     line, ours = GroundPath(np.asarray(path, float)), tools()
     for slot in vars(ours).values():
         slot.calls, slot.seconds = 0, 0.0
-    own = _own_walk(clips, line, window, threshold, ours)
+    own = _own_walk(clips, line, ours)
     stand_ins, theirs = own, ours
     if any(slot.yours for slot in vars(ours).values()):
         theirs = packages()
-        stand_ins = _own_walk(clips, line, window, threshold, theirs)
+        stand_ins = _own_walk(clips, line, theirs)
     lines = tuple(
         Line(name, slot.yours, slot.calls, slot.seconds, vars(theirs)[name].seconds)
         for name, slot in vars(ours).items()
         if name != "next_edge"  # it steers
     )
     begun = time.perf_counter()
-    graph = prune(build(clips, window=window, threshold=threshold))
+    graph = prune(build(clips, window=WINDOW, threshold=THRESHOLD))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # the report says how far it is off
         followed = follow_path(graph, line)
@@ -178,9 +177,9 @@ def walk_beside(
     return Beside(line, own, stand_ins, package, lines)
 
 
-def _own_walk(clips: Sequence[Motion], path: GroundPath, window: int, threshold: float, by: Tools) -> Walked:
+def _own_walk(clips: Sequence[Motion], path: GroundPath, by: Tools) -> Walked:
     begun = time.perf_counter()
-    graph = build_own(clips, window, threshold, by)
+    graph = build_own(clips, WINDOW, THRESHOLD, by)
     walk = follow_own(graph, path.points, by)
     ends = np.cumsum([0, *(len(edge.track) - 1 for edge in walk.edges)])
     at = tuple(int(frame) for frame, edge in zip(ends, walk.edges, strict=False) if edge.match)
