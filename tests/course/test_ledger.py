@@ -10,6 +10,7 @@ import pytest
 from mocap.cli.main import main
 from mocap.course import ledger
 from mocap.errors import MocapError
+from tests.loops import for_each
 
 ROOT = Path(__file__).parents[2]
 PLACES = [(key, row["place"]) for key, paper in ledger.papers().items() for row in paper["rows"]]
@@ -20,7 +21,7 @@ def rows():
     return ledger.ledger(ROOT)
 
 
-@pytest.mark.parametrize("place", PLACES, ids=" ".join)
+@for_each(PLACES)
 def test_every_row_has_a_function_a_test_and_a_cell_that_exist(place):
     (row,) = (row for row in rows() if (row.key, row.place) == place)
     assert row.functions and row.tests and row.says and row.departs

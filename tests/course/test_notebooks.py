@@ -18,13 +18,14 @@ from mocap.cli.main import main
 from mocap.course import checks, notebooks
 from mocap.course.lab.adopting import slots
 from mocap.errors import MocapError
+from tests.loops import for_each
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 NAMES = [path.stem for path in NOTEBOOKS]
 PAGES = sorted(FOLDER.glob("*.md"))
-every_notebook = pytest.mark.parametrize("name", NAMES)
+every_notebook = for_each(NAMES)
 
 
 @cache
@@ -129,7 +130,7 @@ def slug(heading):
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
-@pytest.mark.parametrize("page", [*NAMES, *(path.name for path in PAGES)])
+@for_each([*NAMES, *(path.name for path in PAGES)])
 def test_links_within_the_course_resolve(page):
     text = markdown(page) if page in NAMES else (FOLDER / page).read_text("utf-8")
     for link in re.findall(r"\]\(([^)\s]+)\)", text):

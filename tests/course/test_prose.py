@@ -4,15 +4,14 @@ import re
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 from mocap.course import notebooks
 from mocap.course.marked_values import marked
+from tests.loops import for_each
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
 PAGES = sorted(path.name for path in FOLDER.glob("*.md"))
-every_notebook = pytest.mark.parametrize("name", NAMES)
+every_notebook = for_each(NAMES)
 
 # Words that a reader of English as a second language stumbles over, or that have a plainer word.
 UNUSUAL = (
@@ -91,7 +90,7 @@ def test_every_mark_stands_behind_a_number(name):
             list(marked(cell.source))
 
 
-@pytest.mark.parametrize("page", [*NAMES, *PAGES])
+@for_each([*NAMES, *PAGES])
 def test_words_are_plain(page):
     cells = read(page).cells if page in NAMES else ()
     text = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")

@@ -3,9 +3,8 @@
 import ast
 from pathlib import Path
 
-import pytest
-
 from mocap.course import notebooks
+from tests.loops import for_each
 
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 
@@ -33,7 +32,7 @@ def used(name, functions):
     return found
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+@for_each(NOTEBOOKS)
 def test_no_later_cell_binds_a_name_that_an_experiment_draws_with(path):
     cells = [cell for cell in notebooks.read(path).cells if cell.cell_type == "code"]
     trees = [ast.parse(cell.source) for cell in cells]

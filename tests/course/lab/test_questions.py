@@ -19,6 +19,7 @@ from mocap.course.lab.quizzes import asked
 from mocap.course.lab.reading import TEXTS, Choice, Number, Order, file_of, read_questions
 from mocap.errors import MocapError
 from tests.course.test_prose import PER, UNUSUAL
+from tests.loops import for_each
 
 FOLDER = Path(__file__).parents[3] / "notebooks"
 FILES = sorted(TEXTS.glob("*.toml"))
@@ -276,7 +277,7 @@ def calls(source):
             yield from ((node.func.attr, argument.value) for argument in node.args)
 
 
-@pytest.mark.parametrize("name", NOTEBOOKS)
+@for_each(NOTEBOOKS)
 def test_a_notebook_asks_five_to_eight_quizzes_and_a_bet_for_each_of_its_file(name):
     cells = notebooks.read(FOLDER / f"{name}.ipynb").cells
     code = [cell for cell in cells if cell.cell_type == "code"]

@@ -2,12 +2,12 @@
 
 import base64
 
-import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.course import read
 from mocap.course.opening import stored
 from mocap.course.teaching.film_script import ENDS, LEARNT, SPEED, script_of
+from tests.loops import for_each
 
 NAMES = sorted(path.stem for path in stored().glob("*.ipynb"))
 PNG = base64.b64encode(b"picture").decode()
@@ -25,7 +25,7 @@ def script(*cells, recorded=None):
     return script_of(new_notebook(cells=cells), recorded or {})
 
 
-@pytest.mark.parametrize("name", NAMES)
+@for_each(NAMES)
 def test_a_film_lasts_three_minutes_and_its_words_can_be_read(name):
     scenes = script_of(read(stored() / f"{name}.ipynb"), {})
     assert 150 <= sum(scene.seconds for scene in scenes) <= 210
