@@ -217,20 +217,12 @@ def _reasons(graph: nx.MultiDiGraph, ways: Indices, kept: Nodes) -> dict[Hashabl
     on_cycle[ways[ways[:, 0] == ways[:, 1], 0]] = True
     after = reached(graph, kept)
     before = reached(graph.reverse(copy=False), kept)
-    return {
-        node: _reason(cycle, node in before, node in after)
-        for node, cycle in zip(graph, on_cycle.tolist(), strict=True)
-        if node not in kept
-    }
-
-
-def _reason(on_cycle: bool, before: bool, after: bool) -> Reason:
-    """Give the reason for a node that is on a cycle or not, and before or after the kept nodes or not."""
-    if not on_cycle:
-        return Reason.DEAD_END
-    if not before:
-        return Reason.SINK
-    return Reason.ASIDE if after else Reason.UNREACHED
+    reasons = {}
+    for node, cycle in zip(graph, on_cycle.tolist(), strict=True):
+        if node not in kept:
+            aside = Reason.ASIDE if node in after else Reason.UNREACHED
+            reasons[node] = Reason.DEAD_END if not cycle else Reason.SINK if node not in before else aside
+    return reasons
 
 
 def _too_short(frames: Mapping[Labels, int], least: int) -> Iterator[str]:

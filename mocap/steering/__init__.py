@@ -30,10 +30,9 @@ Reading order (notebooks 08, 12, 17, 18)
 17. `look_ahead`: the walks ahead of a controlled character, and their cost
 18. `graph_control`: a character on a motion graph
 19. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-20. `steered_motion`: steer a character by a list of headings
-21. `obedience`: how soon a character obeys
-22. `pursuit`: lead a character to places, and along a path
-23. `judged_control`: one protocol for all characters
+20. `steered_motion`: steer a character by a list of headings, and measure how soon it obeys
+21. `pursuit`: lead a character to places, and along a path
+22. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -61,8 +60,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "characters": ["Character", "Pose"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
-        "steered_motion": ["Steered", "as_motion", "steer"],
-        "obedience": ["measure_delay"],
+        "steered_motion": ["Steered", "as_motion", "measure_delay", "steer"],
         "pursuit": ["pursue", "walk_to"],
         "judged_control": ["command_headings", "judge_control"],
     },

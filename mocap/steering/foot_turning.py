@@ -9,13 +9,13 @@ this is ours; the papers change the motion afterwards [Gle01], when the whole pa
 import cmath
 import math
 from collections import deque
-from typing import Protocol
 
 import numpy as np
 
 from mocap._shared.arrays import Points
 from mocap.errors import MocapError
-from mocap.steering.characters import Character, Pose
+from mocap.steering.characters import Pose
+from mocap.steering.graph_control import Controller
 
 # Radians. At 40° per second no stance is turned by more than 25°: a foot stands for a frame before its joints
 # are slow. Without a bound stances turn by up to 29°, and the character obeys 0.05 s sooner.
@@ -40,18 +40,6 @@ APART = 0.25  # metres: a pivot that moves further has gone over to the other fo
 WALKING = 0.15
 
 
-class Turnable(Character, Protocol):
-    """A character whose figure can be turned while it walks."""
-
-    def feet(self) -> Points:
-        """Give where ankles and balls are on the ground in the last pose, z + ix, one number each."""
-        ...
-
-    def turn_about(self, point: complex, angle: float) -> None:
-        """Turn what comes from now on about a point on the ground, by an angle in radians."""
-        ...
-
-
 class FootTurner:
     """A character, turned in each frame by a little more about the foot that stands, towards the command.
 
@@ -62,7 +50,7 @@ class FootTurner:
 
     Parameters
     ----------
-    character : a `Controller`, or another one whose figure can be turned.
+    character : what gives the poses; its figure is turned while it walks.
     rate : radians per second to turn at most; 0 leaves the character as it is.
 
     Raises
@@ -82,7 +70,7 @@ class FootTurner:
     Notebook: 12-path-editing
     """
 
-    def __init__(self, character: Turnable, rate: float = np.radians(40)) -> None:
+    def __init__(self, character: Controller, rate: float = np.radians(40)) -> None:
         if not 0 <= rate < np.inf:
             raise MocapError(f"A figure turns by a finite rate from 0 on, got {rate} radians per second.")
         self.character, self.rate = character, rate

@@ -16,8 +16,7 @@ from mocap.feet.footskate import clean_up
 from mocap.quality.seam_measures import USUAL, Spread, jumps
 from mocap.quality.standing_feet import mean_slide, plant_slides
 from mocap.steering.characters import Character
-from mocap.steering.obedience import Delay, measure_delay
-from mocap.steering.steered_motion import steer
+from mocap.steering.steered_motion import Delay, measure_delay, steer
 
 TURNS = np.radians([30, 120])  # of a command
 EVERY = 2.0  # seconds

@@ -134,10 +134,7 @@ def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:
     """Start at the first point of the route, at every node or the one asked for, in the route's direction."""
     nodes = np.arange(len(graph.nodes)) if wishes.start is None else np.array([graph.index(wishes.start)])
     first = route.points[: int(0.3 / route.spacing) + 2]
-    heading = float(np.angle(first[-1] - first[0])) if wishes.heading is None else wishes.heading
-    if not np.isfinite(heading):
-        raise MocapError(f"The heading to start in must be a finite number of radians, got {heading}.")
-    turn = np.exp(1j * (heading - graph.going[nodes]))
+    turn = np.exp(1j * (np.angle(first[-1] - first[0]) - graph.going[nodes]))
     return start_states(nodes, turn, first[0] - turn * graph.at[nodes])
 
 

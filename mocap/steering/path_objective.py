@@ -29,7 +29,6 @@ class Wishes:
     labels : (metres, label): the kind of motion from this place on the path, as in
         [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
     times : (metres, seconds): when to pass a place on the path; between two places the pace is steady.
-    heading : the direction to start in, radians; by default that of the path.
     start : the node to start at; by default the best one.
     least : the least progress in metres per second; standing counts as this, so that no walk stands for ever.
     slide : the share of the distance to the point of the path abreast of the body by which s moves after each
@@ -49,7 +48,6 @@ class Wishes:
 
     labels: Sequence[tuple[float, str]] = ()
     times: Sequence[tuple[float, float]] = ()
-    heading: float | None = None
     start: Node | None = None
     least: float = 0.3
     slide: float = 0.5

@@ -144,13 +144,13 @@ def test_a_second_search_that_is_stopped_is_the_last(monkeypatch, left):
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-def test_it_starts_where_and_as_asked():
+def test_it_starts_where_asked_in_the_direction_of_the_path():
     node = GRAPH.nodes[300]
-    followed = follow_path(GRAPH, STRAIGHT, Wishes(start=node, heading=0.3))
+    followed = follow_path(GRAPH, STRAIGHT, Wishes(start=node))
     assert followed.walk[0][0] == node
     assert followed.track[0] == pytest.approx([2, 1], abs=0.06)
     way = followed.track[10] - followed.track[0]
-    assert np.arctan2(*way) == pytest.approx(0.3, abs=0.25)
+    assert np.arctan2(*way) == pytest.approx(0.0, abs=0.25)
 
 
 def test_labels_are_had_where_they_are_asked_for():
@@ -195,7 +195,6 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
         (STRAIGHT, Wishes(start=(0, 99999)), NoWalk, r"no node \(0, 99999\); the nearest"),
         (STRAIGHT, Wishes(least=0.0), MocapError, "above 0 m/s"),
         (STRAIGHT, Wishes(slide=1.5), MocapError, "a share from 0 to 1, got 1.5"),
-        (STRAIGHT, Wishes(heading=np.nan), MocapError, "finite number of radians"),
         (STRAIGHT, Wishes(times=[(4, 3), (8, 2)]), MocapError, "must grow along the path"),
         (STRAIGHT, Wishes(times=[(4, 3), (4, 5)]), MocapError, "in one place"),
         (GroundPath([[0, 0], [0, 8000]]), Wishes(), MocapError, "in an hour .*: is it in metres?"),

@@ -1,11 +1,13 @@
-"""A steered motion records what its character does in each frame."""
+"""A steered motion records each frame; delays are measured from the command to the frame that obeys it."""
 
 import numpy as np
 import pytest
 
+from mocap.datasets.generated import SKELETON
 from mocap.errors import MocapError
+from mocap.steering.characters import Pose
 from mocap.steering.graph_control import Controller
-from mocap.steering.steered_motion import steer
+from mocap.steering.steered_motion import measure_delay, steer
 from tests.bundled import walking
 
 GRAPH = walking()
@@ -28,6 +30,54 @@ def test_the_parts_of_a_delay_are_those_of_the_frames():
     assert (np.diff(steered.frames_left) <= 0).sum() > 200  # they count down between two choices
 
 
-def test_no_headings_are_refused():
+def test_delays_are_measured():
+    delay = measure_delay(Controller(GRAPH), turns=6)
+    assert 0.3 < delay.mean <= delay.slowest <= 8
+    assert 0 < delay.step < delay.worst
+    assert 0 < delay.waiting < delay.mean
+    assert 0 < delay.blending < delay.mean - delay.waiting
+
+
+class Turner:
+    """It turns by one degree per frame, and walks where it looks."""
+
+    skeleton, fps, frames_left = SKELETON, 30.0, 0
+
+    def __init__(self):
+        self.heading, self.place = 0.0, 0j
+
+    def step(self, heading, speed, label=""):
+        self.heading += np.clip(heading - self.heading, -np.radians(1), np.radians(1))
+        self.place += speed / self.fps * np.exp(1j * self.heading)
+        root = np.array([self.place.imag, 1.0, self.place.real])
+        return Pose(root, np.tile([1.0, 0, 0, 0], (38, 1)), blending=False)
+
+
+def test_a_character_of_any_kind_is_measured_and_its_delay_is_known_exactly():
+    """From 30 to 120° within 20° at 30° per second, looked at over the last third of a second."""
+    random = np.random.default_rng(7)
+    delay = measure_delay(Turner(), turns=200, seed=7)
+    turned = []
+    for _ in range(200):
+        random.choice([-1, 1])
+        turned.append(np.degrees(random.uniform(np.pi / 6, 2 * np.pi / 3)))
+    assert delay.mean == pytest.approx((np.mean(turned) - 20) / 30 + 1 / 6, abs=0.25)
+    assert delay.waiting == delay.blending == 0
+
+
+class Deaf(Turner):
+    def step(self, heading, speed, label=""):
+        return super().step(0.0, speed)
+
+
+def test_a_turn_that_never_comes_counts_as_eight_seconds():
+    delay = measure_delay(Deaf(), turns=1)
+    assert delay.mean == 8 and delay.never == 1
+    assert measure_delay(Turner(), turns=3).never == 0
+
+
+def test_no_headings_and_no_turns_are_refused():
     with pytest.raises(MocapError, match="one heading per frame, got none"):
         steer(Controller(GRAPH), [])
+    with pytest.raises(MocapError, match="one turn or more, got turns=0"):
+        measure_delay(Turner(), turns=0)
