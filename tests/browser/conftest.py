@@ -45,7 +45,7 @@ CHROMIUM = [
 ]
 
 
-def wait_until(what, seconds=30.0):
+def wait_until(what, seconds=120.0):
     """Call `what` until it returns something true, and return that."""
     end = time.monotonic() + seconds
     while not (answer := what()):
