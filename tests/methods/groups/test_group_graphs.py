@@ -49,13 +49,6 @@ def test_a_walk_starts_where_it_is_placed():
     np.testing.assert_allclose(there.velocities, 1j * here.velocities, atol=1e-9)
 
 
-def test_playing_is_far_cheaper_than_simulating():
-    """Counted in work, not in time: one product per clip instead of N² gaps in each frame."""
-    group = graph()
-    clip = group.clips[0]
-    assert clip.places.size == 41 * 12  # all that a clip's playing touches
-
-
 def test_a_node_that_no_clip_leaves_ends_a_random_walk():
     group = graph(6, 6)
     only = GroupGraph(group.nodes, tuple(c for c in group.clips if c.end == 1 and c.start == 0), group.drawn)
@@ -64,12 +57,18 @@ def test_a_node_that_no_clip_leaves_ends_a_random_walk():
 
 
 @pytest.mark.parametrize(
-    ("walk", "sentence"),
-    [([], "one clip or more"), ([10**6], "There is no clip 1000000"), ([-1], "There is no clip -1")],
+    ("walk", "start", "sentence"),
+    [
+        ([], None, "one clip or more"),
+        ([10**6], None, "There is no clip 1000000"),
+        ([-1], None, "There is no clip -1"),
+        ([0], Placed(1), "A walk from node 1 starts with a clip that leaves 0"),
+        ([0], Placed(0, 1 + 0j, complex(np.inf)), "starts at a finite place"),
+    ],
 )
-def test_walks_that_are_none_are_refused(walk, sentence):
+def test_walks_that_are_none_are_refused(walk, start, sentence):
     with pytest.raises(MocapError, match=sentence):
-        play_group(graph(6, 6), walk)
+        play_group(graph(6, 6), walk, start)
 
 
 def test_clips_that_do_not_follow_one_another_are_refused():
@@ -78,14 +77,6 @@ def test_clips_that_do_not_follow_one_another_are_refused():
     from_two = next(n for n, clip in enumerate(group.clips) if clip.start == 2)
     with pytest.raises(MocapError, match="A clip to node 1 is followed by one that leaves 2"):
         play_group(group, [to_one, from_two])
-
-
-def test_a_walk_from_another_node_than_its_first_clip_s_is_refused():
-    group = graph(6, 6)
-    with pytest.raises(MocapError, match="A walk from node 1 starts with a clip that leaves 0"):
-        play_group(group, [0], Placed(1))
-    with pytest.raises(MocapError, match="starts at a finite place"):
-        play_group(group, [0], Placed(0, 1 + 0j, complex(np.inf)))
 
 
 @pytest.mark.parametrize(
@@ -114,8 +105,3 @@ def test_a_seed_gives_the_same_graph():
     one, again = (build_group(4, nodes=2, simulated=40.0, reach=0.8, seed=5) for _ in range(2))
     np.testing.assert_array_equal(one.clips[0].places, again.clips[0].places)
     assert one.members == 4 and len(flock(4).places) == 1200
-
-
-def test_a_node_that_stands_is_refused():
-    with pytest.raises(MocapError, match=r"moves by 0\.00 m/s on average has no direction"):
-        make_clips([Configuration(np.array([0j, 5j]), np.zeros(2, complex))])

@@ -8,14 +8,14 @@ import pytest
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, NoWalk
-from mocap.methods.motion_matching.frame_features import GROUPS
 from mocap.methods.motion_matching.matching_control import MotionMatcher
 from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate
-from mocap.steering import measure_delay, steer
+from mocap.steering import command_headings, measure_delay, steer
 from tests.methods.motion_matching.matched import clips, walks
 
 SPEED = 0.8
+HEADINGS = command_headings(20, 30, seed=1)
 
 
 @cache
@@ -23,21 +23,12 @@ def delay(future=1.0):
     return measure_delay(MotionMatcher(walks(), Wants(future=future)), speed=SPEED)
 
 
-def headings(seconds=40, seed=1):
-    """A new direction every two seconds, 30 to 120 degrees to either side."""
-    random = np.random.default_rng(seed)
-    turns = random.choice([-1, 1], seconds // 2) * random.uniform(np.pi / 6, 2 * np.pi / 3, seconds // 2)
-    return np.repeat(np.cumsum(turns), 60)
-
-
 def test_the_weight_of_the_future_buys_quickness():
     assert delay(0.1).mean > delay(1.0).mean
 
 
 def test_the_tree_plays_what_the_product_plays():
-    one, two = (
-        steer(MotionMatcher(walks(), tree=tree), headings(20), SPEED).motion for tree in (False, True)
-    )
+    one, two = (steer(MotionMatcher(walks(), tree=tree), HEADINGS, SPEED).motion for tree in (False, True))
     np.testing.assert_allclose(one.root_positions, two.root_positions, atol=1e-9)
 
 
@@ -53,7 +44,7 @@ def test_offsets_die_away_so_that_it_plays_the_clips_own_poses():
 def test_a_cut_keeps_place_and_velocity():
     """In a stream with 20 cuts no joint moves further per frame than in the clips, by a fifth at most."""
     matcher = MotionMatcher(walks())
-    walked = steer(matcher, headings(20), SPEED).motion
+    walked = steer(matcher, HEADINGS, SPEED).motion
     assert len(matcher.cuts) > 20
     fastest = max(np.linalg.norm(np.diff(joint_positions(c), axis=0), axis=-1).max() for c in walks().clips)
     assert np.linalg.norm(np.diff(joint_positions(walked), axis=0), axis=-1).max() < 1.2 * fastest
@@ -104,7 +95,3 @@ def test_a_speed_that_no_clip_has_is_warned_of_once():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         matcher.step(0.5, 3.0)
-
-
-def test_the_groups_cover_all_features():
-    assert sum(len(range(27)[columns]) for columns in GROUPS.values()) == walks().values.shape[1] == 27

@@ -25,7 +25,7 @@ from mocap.quality import plant_slides
 from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import bundled
 from tests.methods.parametric_graphs import built
-from tests.methods.parametric_graphs.built import SHARE, space
+from tests.methods.parametric_graphs.built import SHARE, fresh, space, walk_anywhere
 
 SPEED = 0.8
 STRIDES, STEPS = ("lrl",), ("lr", "rl")
@@ -97,17 +97,10 @@ def test_what_is_asked_is_got(walking):
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside(walking):
     """A box of no width holds none of the fresh targets and seems perfect: so draw inside each one, too."""
     for source, target, edge in walking.edges:
-        random = np.random.default_rng(0)
-        at, to = draw_parameters(source, 100, random), draw_parameters(target, 300, random)
-        ways = [edge.look_up(asked) for asked in at]
-        cost = optimal_transitions(source, target, at, to).cost
-        inside = np.array([((to >= way.low) & (to <= way.high)).all(axis=1) for way in ways])
-        bad = (cost > BAD * walking.good) & inside
-        assert bad.any(axis=1).mean() <= 0.1 and bad.sum() <= 0.01 * inside.sum()
-        within = [
-            optimal_transitions(source, target, a[None], _inside(w)).cost
-            for a, w in zip(at, ways, strict=True)
-        ]
+        boxes, share = fresh(source, target, edge, BAD * walking.good, seed=0)
+        assert boxes <= 0.1 and share <= 0.01
+        at = draw_parameters(source, 100, np.random.default_rng(0))
+        within = [optimal_transitions(source, target, a[None], _inside(edge.look_up(a))).cost for a in at]
         assert (np.array(within) > BAD * walking.good).mean() <= 0.02
 
 
@@ -117,17 +110,8 @@ def _inside(way, count=20):
 
 def test_seams_of_300_random_targets_cost_what_the_edges_promise(walking):
     """And at the looked-up phases nearly as little as at the best ones."""
-    random, character = np.random.default_rng(4), ParametricController(walking.graph)
-    pairs = []
-
-    def anywhere(space, heading, speed):
-        way = next(iter(character.way.values()))
-        pairs.append((character.node, character.parameters))
-        return random.uniform(np.minimum(way.low, way.high), np.maximum(way.low, way.high))
-
-    character._wish = anywhere
-    while len(character.chosen) < 300:
-        character.step(0.0, SPEED)
+    character = ParametricController(walking.graph)
+    pairs = walk_anywhere(character, 300)
     cost = np.array([chosen.cost for chosen in character.chosen])
     bad = BAD * walking.good
     assert cost.max() <= bad + 0.01 and (cost > bad).mean() <= 0.02

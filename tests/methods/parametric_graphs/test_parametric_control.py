@@ -13,18 +13,20 @@ from mocap.methods.parametric_graphs.parametric_edges import BAD
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
 from mocap.methods.parametric_graphs.stride_spaces import make_space
 from mocap.quality.seam_measures import jumps, spread
-from mocap.steering import Controller, measure_delay, steer
+from mocap.steering import Controller, command_headings, measure_delay, steer
 from tests.bundled import bundled
-from tests.methods.parametric_graphs.built import SMALL, WALKS, clips, stepping, strides, walking
+from tests.methods.parametric_graphs.built import (
+    SMALL,
+    WALKS,
+    clips,
+    stepping,
+    strides,
+    walk_anywhere,
+    walking,
+)
 from tests.methods.parametric_graphs.kinds import many_kinds
 
 SPEED = 0.8
-
-
-def headings(seconds=40, seed=1):
-    random = np.random.default_rng(seed)
-    turns = random.choice([-1, 1], seconds // 2) * random.uniform(np.pi / 6, 2 * np.pi / 3, seconds // 2)
-    return np.repeat(np.cumsum(turns), 60)
 
 
 def test_it_obeys_nearly_as_soon_as_the_motion_graph_of_the_same_clips():
@@ -42,18 +44,10 @@ def test_a_stricter_threshold_costs_quickness():
     assert strict > loose
 
 
-@pytest.mark.parametrize("built", [walking, stepping])
-def test_seams_cost_what_the_edge_promises(built):
-    """Targets drawn anywhere in the boxes, 120 of them."""
-    random, character = np.random.default_rng(4), ParametricController(built())
-
-    def anywhere(space, heading, speed):
-        way = next(iter(character.way.values()))
-        return random.uniform(np.minimum(way.low, way.high), np.maximum(way.low, way.high))
-
-    character._wish = anywhere
-    while len(character.chosen) < 120:
-        character.step(0.0, SPEED)
+def test_seams_of_steps_cost_what_the_edges_promise():
+    """Those of strides: `test_bars`."""
+    character = ParametricController(stepping())
+    walk_anywhere(character, 120)
     cost = np.array([chosen.cost for chosen in character.chosen])
     assert cost.max() <= 1.35 * 0.03 + 0.01 and (cost > 1.35 * 0.03).mean() <= 0.02
 
@@ -70,7 +64,7 @@ def test_seams_between_kinds_cost_what_their_edges_promise():
 
 
 def test_no_frame_jolts_more_than_the_clips():
-    walked = steer(ParametricController(walking()), headings(), SPEED).motion
+    walked = steer(ParametricController(walking()), command_headings(40, 30, seed=1), SPEED).motion
     limit = np.percentile(spread(clips()).within(1)[0], 99.9)
     assert (jumps(walked)[0] > limit).mean() < 0.02
 
@@ -105,7 +99,7 @@ def test_frames_left_count_down_to_a_decision():
 def test_most_steps_only_read():
     """One stride of work per stride: the rest are look-ups, counted by how many strides are made."""
     character = ParametricController(walking())
-    steer(character, headings(20), SPEED)
+    steer(character, command_headings(20, 30, seed=1), SPEED)
     assert len(character.chosen) <= 600 / 20
 
 

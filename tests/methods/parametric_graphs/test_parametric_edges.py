@@ -12,20 +12,9 @@ from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import Sampling, build_edge, shrink_box, smallest_good
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space, measure_mixes
-from tests.methods.parametric_graphs.built import SMALL, space, stepping, strides, walking
+from tests.methods.parametric_graphs.built import SMALL, fresh, space, stepping, strides, walking
 
 PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
-
-
-def fresh(source, target, edge, bad, seed=99):
-    """Test boxes on fresh samples: the shares of boxes with a bad target, and of bad ones inside."""
-    random = np.random.default_rng(seed)
-    at, to = draw_parameters(source, 100, random), draw_parameters(target, 300, random)
-    ways = [edge.look_up(asked) for asked in at]
-    cost = optimal_transitions(source, target, at, to).cost
-    inside = np.array([((to >= way.low) & (to <= way.high)).all(axis=1) for way in ways])
-    worst = (cost > bad) & inside
-    return worst.any(axis=1).mean(), worst.sum() / inside.sum()
 
 
 def test_boxes_hold_next_to_no_bad_target():
