@@ -7,7 +7,7 @@ from hypothesis import given
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions, velocities
 from mocap.errors import MocapError
-from tests.strategies import planar, random_motion, seeds
+from tests.strategies import random_motion, seeds
 
 
 def global_pose(motion, frame, joint):
@@ -37,14 +37,6 @@ def test_bones_keep_their_length(seed):
     lengths = np.linalg.norm(points[:, 1:] - points[:, motion.skeleton.parents[1:]], axis=-1)
     expected = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1)
     assert lengths == pytest.approx(np.broadcast_to(expected, lengths.shape))
-
-
-@given(seeds, planar)
-def test_moving_the_motion_moves_every_joint(seed, transform):
-    motion = random_motion(seed)
-    assert joint_positions(transform.apply_motion(motion)) == (
-        pytest.approx(transform.apply_points(joint_positions(motion)), abs=1e-9)
-    )
 
 
 def test_velocities_of_a_parabola_are_exact_inside():

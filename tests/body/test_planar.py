@@ -37,16 +37,6 @@ def test_heights_and_distances_stay(transform):
     )
 
 
-@given(planar, seeds)
-def test_orientations_turn_as_vectors_do(transform, seed):
-    motion = random_motion(seed)
-    turn = transform._replace(x=0.0, z=0.0)
-    forward = rotations.rotate(motion.rotations[:, 0], [0, 0, 1])
-    assert rotations.rotate(transform.apply_motion(motion).rotations[:, 0], [0, 0, 1]) == (
-        pytest.approx(turn.apply_points(forward), abs=1e-9)
-    )
-
-
 @given(st.floats(-3.1, 3.1), st.floats(-1.2, 1.2))
 def test_homework_heading_of_a_turned_body_leaning_forward(angle, lean):
     body = rotations.multiply(rotations.about_y(angle), euler.from_euler("x", [lean]))

@@ -33,8 +33,9 @@ def off(motion, line):
     return cKDTree(line.resampled(0.01).points).query(motion.root_positions[:, [0, 2]])[0]
 
 
-@pytest.mark.parametrize("line", ["line.csv", "line.svg"])
-@pytest.mark.parametrize("suffix", [".bvh", ".glb"])
+@pytest.mark.parametrize(
+    ("line", "suffix"), [("line.csv", ".bvh"), ("line.svg", ".bvh"), ("line.svg", ".glb")]
+)
 def test_a_walk_is_laid_on_a_line(folder, capsys, monkeypatch, line, suffix):
     monkeypatch.chdir(folder)
     assert main(["bend", "walk.bvh", "--along", line, "-o", f"new{suffix}"]) == 0

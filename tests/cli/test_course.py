@@ -1,6 +1,7 @@
 """`mocap course run` and `mocap lab`, as a person types them; the other commands are in tests/course."""
 
 import nbformat
+import pytest
 
 from mocap.cli.main import main
 from mocap.course import opening
@@ -29,30 +30,20 @@ class Started:
         return 7
 
 
-def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatch, tmp_path):
+@pytest.mark.parametrize(("user", "allowed"), [(0, ["--allow-root"]), (1000, [])])
+def test_lab_opens_the_first_notebook_and_leaves_ctrl_c_to_jupyterlab(monkeypatch, tmp_path, user, allowed):
     started = []
     monkeypatch.setattr(
         opening.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
     )
-    monkeypatch.setattr(opening.os, "geteuid", lambda: 0, raising=False)
-    assert (
-        main(["lab", str(tmp_path), "--", "--no-browser", "--port", "8890"]) == 7
-    )  # JupyterLab's own status
+    monkeypatch.setattr(opening.os, "geteuid", lambda: user, raising=False)
+    own = ["--no-browser", "--port", "8890"]
+    assert main(["lab", str(tmp_path), "--", *own]) == 7  # JupyterLab's own status
     command = started[0].command
     assert command[1:3] == ["-m", "jupyterlab"]
     assert command[3].endswith("00-quickstart.ipynb")
-    assert command[4:] == ["--allow-root", "--no-browser", "--port", "8890"]
+    assert command[4:] == [*allowed, *own]
     assert started[0].asked == 2
-
-
-def test_without_root_jupyterlab_is_not_told_to_allow_it(monkeypatch):
-    started = []
-    monkeypatch.setattr(
-        opening.subprocess, "Popen", lambda command: started.append(Started(command)) or started[0]
-    )
-    monkeypatch.setattr(opening.os, "geteuid", lambda: 1000, raising=False)
-    assert main(["lab"]) == 7
-    assert len(started[0].command) == 4
 
 
 def test_lab_says_what_to_install(monkeypatch, capsys):

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from mocap.body.motion import resample
 from mocap.cli.crowd import _film, _plan, _write
 from mocap.cli.main import main
+from mocap.datasets import samples
 from mocap.errors import NoWalk
 from mocap.files import load_save
 from mocap.methods.groups.group_graphs import Placed
@@ -33,9 +35,9 @@ def test_a_motion_for_each_member_a_plan_and_a_film(course, capsys, monkeypatch)
     assert crowd() == 0
     said = capsys.readouterr().out
     assert "for 3 members" in said and "3 characters" in said and "m apart at least" in said
-    names = sorted(path.name for path in (course / "crowd").iterdir())
-    assert names == ["crowd.gif", "member-01.bvh", "member-02.bvh", "member-03.bvh", "plan.png"]
-    lengths = {len(load_save.load(course / "crowd" / name)) for name in names if name.startswith("member")}
+    made = names(course / "crowd")
+    assert made == ["crowd.gif", "member-01.bvh", "member-02.bvh", "member-03.bvh", "plan.png"]
+    lengths = {len(load_save.load(course / "crowd" / name)) for name in made if name.startswith("member")}
     with Image.open(course / "crowd" / "crowd.gif") as film:
         assert film.n_frames == pytest.approx(max(lengths) * 12.5 / 30, abs=2)
     assert len(lengths) == 1
@@ -150,18 +152,11 @@ def test_bad_scenes_are_refused_and_nothing_is_written(course, capsys, points, d
 
 
 def test_a_goal_that_is_walled_in_is_said(course, capsys):
-    ring = ["x, z, radius"]
-    ring += [f"{3.5 * x:.3f}, {3.5 * z:.3f}, 0.8" for x, z in _circle(16)]
-    (course / "discs.csv").write_text("\n".join(ring))
+    ring = 3.5 * np.exp(2j * np.pi * np.arange(16) / 16)
+    (course / "discs.csv").write_text("\n".join(f"{at.real:.3f}, {at.imag:.3f}, 0.8" for at in ring))
     assert crowd("--no-film") == 2
     assert "No way past point 1 of 1 was found" in capsys.readouterr().err
     assert not (course / "crowd").exists()
-
-
-def _circle(count):
-    from math import cos, pi, sin
-
-    return [(cos(2 * pi * k / count), sin(2 * pi * k / count)) for k in range(count)]
 
 
 @pytest.mark.parametrize(
@@ -180,9 +175,6 @@ def test_bad_options_are_one_sentence(course, capsys, words, sentence):
 
 def test_a_graph_of_one_s_own_walks_as_glb(course):
     (course / "clips").mkdir()
-    from mocap.body.motion import resample
-    from mocap.datasets import samples
-
     for name in ("walk_curve_1", "walk_curve_2"):
         load_save.save(resample(samples.sample(name), 30), course / "clips" / f"{name}.bvh")
     assert main(["graph", "clips", "-o", "graph.npz"]) == 0

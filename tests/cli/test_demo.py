@@ -9,9 +9,9 @@ from mocap.cli import demo
 from mocap.cli.main import main
 from mocap.cli.options import Building
 from mocap.datasets import samples
-from mocap.errors import MocapError, NoWalk, SkeletonMismatch
+from mocap.errors import NoWalk
 from mocap.files import folders, load_save
-from tests.strategies import random_motion, wave
+from tests.strategies import wave
 
 CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
 
@@ -51,24 +51,6 @@ def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does():
 def test_clips_of_other_rates_are_resampled():
     result = demo.run(CLIPS, Building(fps=20, threshold=6), 2, 0)
     assert result.walk.fps == 20
-
-
-def test_clips_that_do_not_go_together_are_refused():
-    with pytest.raises(SkeletonMismatch):
-        demo.run([CLIPS[0], random_motion(0, 60)], Building(), 12, 0)
-    with pytest.raises(MocapError, match="'short' has 5 frames, too few for a window of 10"):
-        demo.run([CLIPS[0], replace(wave(5), name="short")], Building(), 12, 0)
-
-
-def test_folders_stand_for_the_clips_in_them(tmp_path):
-    for clip in CLIPS:
-        load_save.save(clip, tmp_path / f"{clip.name}.bvh")
-    (tmp_path / "notes.txt").write_text("not a clip")
-    clips = folders.load_all([tmp_path, tmp_path / "a.bvh"], skeleton=None, scale=None, progress=iter)
-    assert [clip.name for clip in clips] == ["a", "b", "a"]
-    (tmp_path / "empty").mkdir()
-    with pytest.raises(MocapError, match=r"empty holds no \.amc, \.bvh or AMASS \.npz file"):
-        folders.load_all([tmp_path / "empty"], skeleton=None, scale=None, progress=iter)
 
 
 def test_the_bundled_clips_make_a_long_walk(bundled):

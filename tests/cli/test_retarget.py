@@ -32,15 +32,12 @@ def written(folder):
 
 
 def test_a_folder_of_clips_on_the_body_of_a_clip(clips, tmp_path, capsys):
-    assert (
-        main(["retarget", str(clips), "--to", str(tmp_path / "child.amc"), "-o", str(tmp_path / "out")]) == 0
-    )
+    assert main(onto_the_child(clips, tmp_path)) == 0
     assert capsys.readouterr().out == f"retargeted   2 of 2, in {tmp_path / 'out'}\n"
     assert written(tmp_path / "out") == ["a.bvh", "b.bvh"]
     worn = load(tmp_path / "out" / "a.bvh")
     assert len(worn) == 200
-    child_leg = child().leg
-    assert stance_of(load(tmp_path / "out" / "b.bvh")).leg == pytest.approx(child_leg, abs=1e-5)
+    assert stance_of(load(tmp_path / "out" / "b.bvh")).leg == pytest.approx(child().leg, abs=1e-5)
     ball = worn.skeleton.index("ltoes")
     standing = joint_positions(worn)[walk()[:200].contacts["ltoes"], ball, 1]
     assert np.ptp(standing) < 1e-4
@@ -60,9 +57,7 @@ def test_a_skeleton_other_formats_and_longer_steps(clips, tmp_path):
 
 def test_what_fails_is_named_and_the_others_are_written(clips, tmp_path, capsys):
     (clips / "broken.bvh").write_text("HIERARCHY\n")
-    assert (
-        main(["retarget", str(clips), "--to", str(tmp_path / "child.amc"), "-o", str(tmp_path / "out")]) == 2
-    )
+    assert main(onto_the_child(clips, tmp_path)) == 2
     told = capsys.readouterr().out
     assert told.startswith("retargeted   2 of 3, in ")
     assert f"failed       {clips / 'broken.bvh'}: expected" in told
@@ -74,21 +69,12 @@ def test_what_fails_is_named_and_the_others_are_written(clips, tmp_path, capsys)
     ("words", "message"),
     [
         (["{clips}", "--to", "{up}/gone.bvh", "-o", "{up}/out"], "Cannot read"),
-        (
-            ["{clips}", "--to", "{up}/child.asf", "-o", "{up}/out", "--to-scale", "2"],
-            "--to-scale is",
-        ),
+        (["{clips}", "--to", "{up}/child.asf", "-o", "{up}/out", "--to-scale", "2"], "--to-scale is"),
         (["{clips}", "--to", "{up}/flat.bvh", "-o", "{up}/out"], "flat.bvh: "),
         (["{clips}", "--to", "{clips}/a.bvh", "-o", "{clips}"], "is one of the files to read"),
-        (
-            ["{clips}/a.bvh", "{up}/a.bvh", "--to", "{up}/child.asf", "-o", "{up}/out"],
-            "both become",
-        ),
+        (["{clips}/a.bvh", "{up}/a.bvh", "--to", "{up}/child.asf", "-o", "{up}/out"], "both become"),
         (["{clips}", "--to", "{up}/child.asf", "-o", "{clips}/a.bvh/x"], "Cannot make the folder"),
-        (
-            ["{clips}", "--to", "{up}/child.asf", "-o", "{up}/out", "--steps", "0"],
-            "from 0.1 to 10",
-        ),
+        (["{clips}", "--to", "{up}/child.asf", "-o", "{up}/out", "--steps", "0"], "from 0.1 to 10"),
         (["{clips}", "--to", "{up}/child.asf"], "required: -o"),
     ],
 )
@@ -123,7 +109,6 @@ def test_an_interruption_leaves_whole_files_only(clips, tmp_path, monkeypatch, c
         raise KeyboardInterrupt
 
     monkeypatch.setattr("mocap.files.save", interrupt)
-    words = ["retarget", str(clips), "--to", str(tmp_path / "child.asf"), "-o", str(tmp_path / "out")]
-    assert main(words) == 130
+    assert main(onto_the_child(clips, tmp_path)) == 130
     assert "no half-written file" in capsys.readouterr().err
     assert written(tmp_path / "out") == []

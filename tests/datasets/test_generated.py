@@ -10,7 +10,7 @@ from scipy.signal import find_peaks
 
 import mocap
 from mocap.body import rotations
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.datasets import generated
@@ -19,6 +19,7 @@ from mocap.datasets.samples import SAMPLES, sample
 from mocap.datasets.walking_body import FOOT, SKELETON
 from mocap.errors import MocapError
 from mocap.graphs import motion_graph, pruning
+from tests.datasets.walking_limits import check_floor, check_limits
 
 every_clip = pytest.mark.parametrize("name", SAMPLES)
 
@@ -209,38 +210,12 @@ def test_plants_and_the_gaps_between_them_last(name):
 
 @every_clip
 def test_nothing_goes_through_the_floor(name):
-    motion = sample(name)
-    positions = places(name)
-    assert positions[..., 1].min() > 0
-    turned = SKELETON.index("lfoot"), SKELETON.index("rfoot")
-    matrices = forward_kinematics(motion).matrices
-    for ankle in turned:
-        heel = positions[:, ankle] + matrices[:, ankle] @ [0, -FOOT.ankle, -FOOT.heel]
-        assert heel[:, 1].min() > -1e-3
+    check_floor(sample(name), heel=1e-3)
 
 
 @every_clip
 def test_joints_keep_their_limits(name):
-    motion = sample(name)
-    for side in "lr":
-        turn = {
-            bone: np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index(side + bone)]))
-            for bone in ("femur", "tibia", "foot", "toes", "radius", "humerus")
-        }
-        knee = turn["tibia"]
-        assert np.abs(knee[:, 1:]).max() < 1e-6
-        assert knee[:, 0].min() > 4
-        assert knee[:, 0].max() < 125
-        assert turn["femur"][:, 0].min() > -70
-        assert turn["femur"][:, 0].max() < 35
-        assert np.abs(turn["foot"][:, 0]).max() < 45
-        assert turn["toes"][:, 0].min() > -65
-        assert turn["toes"][:, 0].max() < 1e-6
-        elbow = np.linalg.norm(turn["radius"], axis=-1)
-        assert elbow.min() > 10
-        assert elbow.max() < 140
-        axis = turn["radius"] / elbow[:, None]
-        assert np.ptp(axis, axis=0).max() < 0.05  # a hinge
+    check_limits(sample(name), hip=(-70, 35), ankle=(-45, 45))
 
 
 @every_clip

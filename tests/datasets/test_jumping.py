@@ -7,12 +7,12 @@ import pytest
 from jumping import generate_jump, plan_jump
 
 import mocap
-from mocap.body import rotations
-from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.kinematics import joint_positions
 from mocap.datasets import SAMPLES, sample
 from mocap.datasets.walking_body import FOOT, SKELETON
 from mocap.quality.clip_flaws import inspect
 from mocap.quality.falling import centre_of_mass, gravity
+from tests.datasets.walking_limits import check_floor, check_limits
 from tests.quality.test_falling import FLIGHTS
 
 JUMP = sample("jump")
@@ -123,29 +123,11 @@ def test_feet_stand_on_one_place_before_and_after(joint):
 
 
 def test_nothing_goes_through_the_floor():
-    assert PLACES[..., 1].min() > 0
-    matrices = forward_kinematics(JUMP).matrices
-    for ankle in (SKELETON.index("lfoot"), SKELETON.index("rfoot")):
-        heel = PLACES[:, ankle] + matrices[:, ankle] @ [0, -FOOT.ankle, -FOOT.heel]
-        assert heel[:, 1].min() > -1e-9
+    check_floor(JUMP, heel=1e-9)
 
 
 def test_joints_keep_their_limits():
-    motion = JUMP
-    for side in "lr":
-        turn = {
-            bone: np.degrees(rotations.to_rotvec(motion.rotations[:, SKELETON.index(side + bone)]))
-            for bone in ("femur", "tibia", "foot", "toes", "radius", "humerus")
-        }
-        knee = turn["tibia"]
-        assert np.abs(knee[:, 1:]).max() < 1e-6
-        assert 4 < knee[:, 0].min() < knee[:, 0].max() < 125
-        assert -100 < turn["femur"][:, 0].min() < turn["femur"][:, 0].max() < 35
-        assert -45 < turn["foot"][:, 0].min() < turn["foot"][:, 0].max() < 60
-        assert -65 < turn["toes"][:, 0].min() < turn["toes"][:, 0].max() < 1e-6
-        elbow = np.linalg.norm(turn["radius"], axis=-1)
-        assert 10 < elbow.min() < elbow.max() < 140
-        assert np.ptp(turn["radius"] / elbow[:, None], axis=0).max() < 0.05  # a hinge
+    check_limits(JUMP, hip=(-100, 35), ankle=(-45, 60))
 
 
 def test_labels_and_flaws():

@@ -20,8 +20,8 @@ def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
     (tmp_path / "notes.txt").write_text("")
     assert [path.name for path in folders.find_files([tmp_path])] == ["b.bvh", "c.npz"]
     assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == ["b.bvh", "c.npz"]
-    clips = folders.load_all([tmp_path], skeleton=None, scale=None, progress=iter)
-    assert [clip.name for clip in clips] == ["b", "c"]
+    clips = folders.load_all([tmp_path, tmp_path / "b.bvh"], skeleton=None, scale=None, progress=iter)
+    assert [clip.name for clip in clips] == ["b", "c", "b"]
 
 
 def test_an_empty_folder_is_refused(tmp_path):

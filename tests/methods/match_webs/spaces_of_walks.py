@@ -11,6 +11,8 @@ from mocap.body import arcs
 from mocap.methods.match_webs import build_web, cut_out, mean_speed, sample_space, search, turn
 from tests.methods.match_webs.conftest import cycles
 
+# Seconds · 30: about where the hand of 02_05 is at the target.
+PUNCHES = (42, 85, 130, 173, 216, 259, 301, 346, 392)
 SPEEDS, TURNS = (0.8, 1.1, 1.4), (-120, 0, 120)
 
 

@@ -8,18 +8,7 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
 from mocap.methods.match_webs import build_web, cut_out, search
 from tests.methods.match_webs.conftest import common, cycles, judge
-
-PUNCHES = (
-    42,
-    85,
-    130,
-    173,
-    216,
-    259,
-    301,
-    346,
-    392,
-)  # seconds · 30: where the hand of 02_05 is at the target
+from tests.methods.match_webs.spaces_of_walks import PUNCHES
 
 
 def test_a_walking_cycle_finds_the_others_in_steps_and_no_sneaking_or_jogging(bundled):
