@@ -139,7 +139,7 @@ def lined_up(places, velocities=None):
 @pytest.mark.parametrize(
     ("other", "how", "sentence"),
     [
-        (lined_up([0j, 1j, 2j]), {}, "Groups of 2 and 3 members cannot be matched"),
+        (lined_up([0j, 1j, 2j]), {}, "Groups of 3 and 2 members cannot be matched"),
         (lined_up([0j, np.nan]), {}, "not finite"),
         (lined_up([0j, 1j]), {"starts": ()}, "a round or more from finite turns"),
         (lined_up([0j, 1j]), {"rounds": 0}, r"a round or more from finite turns, got 0 and \(0.0"),
