@@ -30,11 +30,11 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 23_700,  # the goal: 17 000
-    "lines of code in the course's rooms": 13_400,  # 9 500
-    "functions": 2_170,  # 1 400
-    "classes": 290,  # 170
-    "public names": 490,  # 250
+    "lines of code": 23_600,  # the goal: 17 000
+    "lines of code in the course's rooms": 13_300,  # 9 500
+    "functions": 2_200,  # 1 400
+    "classes": 300,  # 170
+    "public names": 480,  # 250
     "lines of tests": 28_300,  # 20 000
 }
 
