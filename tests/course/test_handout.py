@@ -41,11 +41,6 @@ def test_a_folder_that_cannot_be_made_is_told(command, tmp_path, capsys):
     assert f"Cannot make the folder {tmp_path / 'file'}: File exists." in capsys.readouterr().err
 
 
-def test_an_empty_folder_is_told(tmp_path):
-    with pytest.raises(MocapError, match="holds no notebooks"):
-        hand_out(tmp_path, tmp_path / "out")
-
-
 @pytest.mark.parametrize(
     "command", [["handout", "-o", "out"], ["mark", "."], ["run", "n.ipynb"], ["site", "-o", "site"]]
 )

@@ -6,7 +6,6 @@ import json
 import re
 from functools import cache
 from operator import attrgetter
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -18,23 +17,8 @@ from mocap.cli.main import main
 from mocap.course import checks, notebooks
 from mocap.course.lab.adopting import slots
 from mocap.errors import MocapError
+from tests.course.stored_notebooks import FOLDER, NAMES, PAGES, ROOT, every_notebook, markdown, read
 from tests.loops import for_each
-
-ROOT = Path(__file__).parents[2]
-FOLDER = ROOT / "notebooks"
-NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
-NAMES = [path.stem for path in NOTEBOOKS]
-PAGES = sorted(FOLDER.glob("*.md"))
-every_notebook = for_each(NAMES)
-
-
-@cache
-def read(name):
-    return notebooks.read(FOLDER / f"{name}.ipynb")
-
-
-def markdown(name):
-    return "\n\n".join(cell.source for cell in read(name).cells if cell.cell_type == "markdown")
 
 
 def code(name):
@@ -68,14 +52,8 @@ def test_a_notebook_opens_with_a_picture_objectives_and_the_time(name):
     assert 3 <= aims.group(1).count("- ") <= 5
     for wanted in aims.group(1).splitlines():
         assert re.search(r"\*\w+\*", wanted), f"no verb in {wanted}"
-    marks = [
-        "You will be able to**",
-        "**Before you start**",
-        "**About ",
-        "\n## ",
-        "## What you learnt",
-        "## Read on",
-    ]
+    marks = ["You will be able to**", "**Before you start**", "**About ", "\n## "]
+    marks += ["## What you learnt", "## Read on"]
     assert sorted(map(text.index, marks)) == [text.index(mark) for mark in marks]
     assert re.search(r"\*\*About \d+ minutes", text)
 
@@ -130,7 +108,7 @@ def slug(heading):
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
-@for_each([*NAMES, *(path.name for path in PAGES)])
+@for_each([*NAMES, *PAGES])
 def test_links_within_the_course_resolve(page):
     text = markdown(page) if page in NAMES else (FOLDER / page).read_text("utf-8")
     for link in re.findall(r"\]\(([^)\s]+)\)", text):
@@ -312,11 +290,6 @@ def test_a_notebook_whose_cells_have_no_ids_is_read_in_silence(tmp_path, recwarn
     (tmp_path / "n.ipynb").write_text(json.dumps(notebook))
     assert notebooks.read(tmp_path / "n.ipynb").cells[0].source == "1"
     assert not recwarn.list
-
-
-def test_a_notebook_that_is_not_there_is_told(tmp_path):
-    with pytest.raises(MocapError, match=r"n\.ipynb: No such file"):
-        notebooks.read(tmp_path / "n.ipynb")
 
 
 # Glossary and formulas

@@ -1,17 +1,10 @@
 """The prose of the notebooks: no computed number is typed by hand, words are plain, minutes are honest."""
 
 import re
-from functools import cache
-from pathlib import Path
 
-from mocap.course import notebooks
 from mocap.course.marked_values import marked
+from tests.course.stored_notebooks import FOLDER, NAMES, PAGES, every_notebook, markdown, read
 from tests.loops import for_each
-
-FOLDER = Path(__file__).parents[2] / "notebooks"
-NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
-PAGES = sorted(path.name for path in FOLDER.glob("*.md"))
-every_notebook = for_each(NAMES)
 
 # Words that a reader of English as a second language stumbles over, or that have a plainer word.
 UNUSUAL = (
@@ -20,11 +13,6 @@ UNUSUAL = (
 )
 COUNTED = r"frames?|metres?|centimetres?|degrees?|steps?|seams?|cm|turns?|transitions?|times|poses?"
 PER = rf"(?:{COUNTED}) an? (?:second|frame|step|metre|minute)\b"
-
-
-@cache
-def read(name):
-    return notebooks.read(FOLDER / f"{name}.ipynb")
 
 
 def prose(text):
@@ -92,9 +80,7 @@ def test_every_mark_stands_behind_a_number(name):
 
 @for_each([*NAMES, *PAGES])
 def test_words_are_plain(page):
-    cells = read(page).cells if page in NAMES else ()
-    text = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
-    text = prose(text or (FOLDER / page).read_text("utf-8"))
+    text = prose(markdown(page) if page in NAMES else (FOLDER / page).read_text("utf-8"))
     assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", text) == []
 
 

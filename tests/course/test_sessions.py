@@ -6,16 +6,14 @@ from functools import cache
 import pytest
 from nbformat.v4 import new_markdown_cell, new_notebook
 
-from mocap.course import read
-from mocap.course.opening import stored
 from tests.course import test_prose
+from tests.course.stored_notebooks import FOLDER, NAMES, read
 
-PLAN = (stored() / "README.md").read_text("utf-8")
-PROJECT = (stored() / "PROJECT.md").read_text("utf-8")
+PLAN = (FOLDER / "README.md").read_text("utf-8")
+PROJECT = (FOLDER / "PROJECT.md").read_text("utf-8")
 ROWS = re.findall(
     r"^\| (\d) \| (.*) \| (.*) \|$", PLAN.partition("## Two weeks")[2].partition("## Three hours")[0], re.M
 )
-NAMES = sorted(path.stem for path in stored().glob("*.ipynb"))
 NEAR = 5  # minutes
 
 
@@ -23,7 +21,7 @@ NEAR = 5  # minutes
 def sections(name):
     """Give the minutes of each section of a notebook, by the rule for the whole."""
     parts, at = {}, ""
-    for cell in read(stored() / f"{name}.ipynb").cells:
+    for cell in read(name).cells:
         pieces = [cell]
         if cell.cell_type == "markdown":
             pieces = [new_markdown_cell(text) for text in re.split(r"^(?=##? )", cell.source, flags=re.M)]

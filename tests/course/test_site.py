@@ -181,11 +181,6 @@ def test_a_notebook_that_does_not_run_is_not_recorded(tmp_path):
         build_site(folder, tmp_path / "out", moving=True)
 
 
-def test_a_folder_without_notebooks_is_told(tmp_path):
-    with pytest.raises(MocapError, match="holds no notebooks"):
-        build_site(tmp_path, tmp_path / "out")
-
-
 def test_without_sphinx_a_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr("mocap.course.site.find_spec", lambda name: None)
     with pytest.raises(MocapError, match=r"pip install 'mocap\[site\]'"):

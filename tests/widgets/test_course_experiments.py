@@ -1,12 +1,8 @@
 """No later cell changes what an experiment draws with: its slider must work after the last cell too."""
 
 import ast
-from pathlib import Path
 
-from mocap.course import notebooks
-from tests.loops import for_each
-
-NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
+from tests.course.stored_notebooks import every_notebook, read
 
 
 def bound(tree):
@@ -32,9 +28,9 @@ def used(name, functions):
     return found
 
 
-@for_each(NOTEBOOKS)
-def test_no_later_cell_binds_a_name_that_an_experiment_draws_with(path):
-    cells = [cell for cell in notebooks.read(path).cells if cell.cell_type == "code"]
+@every_notebook
+def test_no_later_cell_binds_a_name_that_an_experiment_draws_with(name):
+    cells = [cell for cell in read(name).cells if cell.cell_type == "code"]
     trees = [ast.parse(cell.source) for cell in cells]
     every = {n.name: n for tree in trees for n in tree.body if isinstance(n, ast.FunctionDef)}
     for at, tree in enumerate(trees):

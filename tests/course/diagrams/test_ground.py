@@ -20,14 +20,8 @@ def dots(ax):
 @pytest.mark.parametrize("step", [0, 1, 2, 3])
 def test_each_step_draws_one_sheet_more(step):
     titles = [ax.get_title() for ax in turn_on_ground(step=step).axes]
-    assert (
-        titles
-        == [
-            "1. as in school",
-            "2. the sheet turned by a quarter",
-            "3. the ground from above",
-        ][:step]
-    )
+    wanted = ["1. as in school", "2. the sheet turned by a quarter", "3. the ground from above"]
+    assert titles == wanted[:step]
 
 
 @pytest.mark.parametrize("angle", [40.0, -30.0])

@@ -4,11 +4,10 @@ import ast
 import linecache
 from functools import cache
 from itertools import count
-from pathlib import Path
 
 from mocap.course import notebooks
+from tests.course.stored_notebooks import NAMES, read
 
-FOLDER = Path(__file__).parents[3] / "notebooks"
 LABELS = count()
 
 
@@ -16,8 +15,7 @@ LABELS = count()
 def solutions():
     """Give the source of each solution by its name, and the imports of its notebook."""
     found = {}
-    for file in sorted(FOLDER.glob("0*.ipynb")):
-        notebook = notebooks.read(file)
+    for notebook in (read(name) for name in NAMES if name.startswith("0")):
         first = ast.parse(next(cell.source for cell in notebook.cells if cell.cell_type == "code"))
         imports = [ast.unparse(n) for n in first.body if isinstance(n, ast.Import | ast.ImportFrom)]
         for name, cell in notebooks.tagged(notebook, "solution"):

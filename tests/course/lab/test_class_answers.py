@@ -11,9 +11,9 @@ from mocap.plotting import seen_beside_measured
 HEAD = ",".join(COLUMNS)
 
 
-def file(folder, name, rows, head=HEAD):
+def file(folder, name, rows):
     path = folder / f"{name}.csv"
-    path.write_text("\n".join([head, *rows]) + "\n", "utf-8")
+    path.write_text("\n".join([HEAD, *rows]) + "\n", "utf-8")
     return path
 
 
@@ -62,7 +62,7 @@ def test_the_other_setting_must_be_one(tmp_path):
         (["ada,4.0,10,0,1,1,left"], r"line 2: expected"),
         (["ada,4.0,10,0,1,1,left,2.5", "ada,much,10,0,1,1,left,2.5"], r"line 3: expected"),
         (
-            ["ada,4.0,10,0,1,1,left,2.5", "ada,4.0,10,0,1,0,left,2.5"],
+            [f"ada,4.0,10,0,1,{right},left,2.5" for right in (1, 0)],
             "'ada' answered pair 1 twice, differently",
         ),
         ([""], "line 2: expected"),
@@ -74,18 +74,16 @@ def test_what_is_no_answer_is_said(lines, said, tmp_path):
 
 
 def test_what_is_no_file_of_answers_is_said(tmp_path):
-    with pytest.raises(MocapError, match="line 1: expected observer,below_cm"):
-        read_answers([file(tmp_path, "a", [], head="x,y")])
-    (tmp_path / "e.csv").write_text("")
-    with pytest.raises(MocapError, match="line 1: expected"):
-        read_answers([tmp_path / "e.csv"])
-    (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(MocapError, match=r"b\.csv: is not a text"):
-        read_answers([tmp_path / "b.csv"])
-    with pytest.raises(MocapError, match=r"no\.csv: No such file"):
-        read_answers([tmp_path / "no.csv"])
-    with pytest.raises(MocapError, match="There are no files"):
-        read_answers([])
+    for name, text in (("a", b"x,y\n"), ("e", b""), ("b", b"\xff\xfe\x00")):
+        (tmp_path / f"{name}.csv").write_bytes(text)
+    for name, said in (
+        ("a", "line 1: expected observer,below_cm"),
+        ("e", "line 1: expected"),
+        ("b", r"b\.csv: is not a text"),
+        ("no", r"no\.csv: No such file"),
+    ):
+        with pytest.raises(MocapError, match=said):
+            read_answers([tmp_path / f"{name}.csv"])
 
 
 def test_the_picture_shows_the_curve_above_the_measure():

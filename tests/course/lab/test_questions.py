@@ -4,27 +4,23 @@ import ast
 import base64
 import json
 import re
-from pathlib import Path
 from types import SimpleNamespace
 from typing import get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
 
-from mocap.course import lab, notebooks
+from mocap.course import lab
 from mocap.course.lab.computed import computed, filled
 from mocap.course.lab.kept_bets import asked_before, summed_up
 from mocap.course.lab.page import to_html, to_text
 from mocap.course.lab.quizzes import asked
 from mocap.course.lab.reading import TEXTS, Choice, Number, Order, file_of, read_questions
 from mocap.errors import MocapError
+from tests.course.stored_notebooks import FOLDER, every_notebook, read
 from tests.course.test_prose import PER, UNUSUAL
-from tests.loops import for_each
 
-FOLDER = Path(__file__).parents[3] / "notebooks"
 FILES = sorted(TEXTS.glob("*.toml"))
-
-NOTEBOOKS = [path.stem for path in sorted(FOLDER.glob("*.ipynb"))]
 
 GOOD = """
 [quiz.more]
@@ -277,9 +273,9 @@ def calls(source):
             yield from ((node.func.attr, argument.value) for argument in node.args)
 
 
-@for_each(NOTEBOOKS)
+@every_notebook
 def test_a_notebook_asks_five_to_eight_quizzes_and_a_bet_for_each_of_its_file(name):
-    cells = notebooks.read(FOLDER / f"{name}.ipynb").cells
+    cells = read(name).cells
     code = [cell for cell in cells if cell.cell_type == "code"]
     found = [pair for cell in code for pair in calls(cell.source)]
     number, all_of_it = name.partition("-")[0], read_questions(TEXTS / f"{name}.toml")

@@ -9,10 +9,10 @@ from types import SimpleNamespace
 import pytest
 
 from mocap.course import lab
-from mocap.course.check import Check
 from mocap.course.checks import all_checks
 from mocap.course.marking.marks import call
 from mocap.course.marking.student import Student
+from tests.course.test_checks import DOUBLE, in_place, unfinished
 
 
 def over_the_channel(function):
@@ -31,25 +31,6 @@ def test_a_check_says_the_same_as_in_the_notebook(name):
     check = replace(all_checks()[name], trials=8)
     for answer in (check.truth, *(mistake.answer for mistake in check.mistakes)):
         assert check.verdict(over_the_channel(answer)) == check.verdict(answer)
-
-
-DOUBLE = Check(
-    name="double",
-    asks="twice the numbers",
-    start="What is 2 times x?",
-    draw=lambda rng: (rng.normal(size=3),),
-    truth=lambda x: 2 * x,
-    mistakes=[],
-)
-
-
-def in_place(x):
-    x *= 2
-    return x
-
-
-def unfinished(x):
-    raise NotImplementedError
 
 
 @pytest.mark.parametrize(
@@ -78,14 +59,10 @@ def test_a_function_that_ends_python_only_raises(ending):
 
 
 def test_a_reply_that_is_none_is_no_answer():
-    for reply in ({}, {"given": 1}, {"given": ["eval", "1"], "changed": []}, [], 3):
+    shape = {"given": 1, "changed": [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]]}  # another than given
+    for reply in ({}, {"given": 1}, {"given": ["eval", "1"], "changed": []}, [], 3, shape):
         answer = partial(call, SimpleNamespace(ask=lambda *_, reply=reply: reply), "f")
         assert not DOUBLE.verdict(answer).right
-
-
-def test_a_changed_array_of_another_shape_is_no_answer():
-    reply = {"given": 1, "changed": [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]]}
-    assert not DOUBLE.verdict(partial(call, SimpleNamespace(ask=lambda *_: reply), "f")).right
 
 
 def test_what_stands_in_for_a_wrong_function_gets_no_mark(tmp_path, monkeypatch):

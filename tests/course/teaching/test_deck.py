@@ -3,9 +3,8 @@
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap.course import read
-from mocap.course.opening import stored
 from mocap.course.teaching.deck import LINES, deck_of
+from tests.course.stored_notebooks import read
 
 PICTURE = new_output("display_data", {"image/png": "aGk=", "text/html": "<img>"})
 QUESTION = new_output("display_data", {"text/html": '<div class="mocap-question">'})
@@ -132,7 +131,7 @@ def test_the_minutes_of_a_reader_are_no_slide():
 
 @pytest.mark.parametrize("name", ["00-quickstart", "07-walks-and-search", "19-group-graphs"])
 def test_the_slides_of_a_notebook_are_not_too_full(name):
-    slides = deck_of(read(stored() / f"{name}.ipynb"))
+    slides = deck_of(read(name))
     assert 20 < len(slides) < 75
     for slide in slides:
         assert (

@@ -4,12 +4,9 @@ import base64
 
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from mocap.course import read
-from mocap.course.opening import stored
 from mocap.course.teaching.film_script import ENDS, LEARNT, SPEED, script_of
-from tests.loops import for_each
+from tests.course.stored_notebooks import every_notebook, read
 
-NAMES = sorted(path.stem for path in stored().glob("*.ipynb"))
 PNG = base64.b64encode(b"picture").decode()
 
 
@@ -25,9 +22,9 @@ def script(*cells, recorded=None):
     return script_of(new_notebook(cells=cells), recorded or {})
 
 
-@for_each(NAMES)
+@every_notebook
 def test_a_film_lasts_three_minutes_and_its_words_can_be_read(name):
-    scenes = script_of(read(stored() / f"{name}.ipynb"), {})
+    scenes = script_of(read(name), {})
     assert 150 <= sum(scene.seconds for scene in scenes) <= 210
     assert len(scenes) >= 6
     for scene in scenes:

@@ -4,9 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.course import read
-from mocap.course.opening import stored
 from mocap.course.teaching.prose import blocks, sentences, shortened, spoken
+from tests.course.stored_notebooks import read
 
 
 @pytest.mark.parametrize(
@@ -65,6 +64,6 @@ def test_no_text_loses_a_word(text):
 
 
 def test_the_blocks_of_a_notebook_hold_all_its_words():
-    for cell in read(stored() / "04-blending.ipynb").cells:
+    for cell in read("04-blending").cells:
         if cell.cell_type == "markdown" and "<!--" not in cell.source:
             assert "".join(" ".join(blocks(cell.source)).split()) == "".join(cell.source.split())

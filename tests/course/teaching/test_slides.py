@@ -1,10 +1,13 @@
 """The decks as pages."""
 
+import io
 import re
 import shutil
+from contextlib import redirect_stdout
 
 import pytest
 
+from mocap import course
 from mocap.cli.main import main
 from mocap.course.opening import stored
 from mocap.course.site import MOVING
@@ -19,7 +22,10 @@ def decks(tmp_path_factory):
     folder, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("slides")
     for name in NAMES:
         shutil.copy(stored() / f"{name}.ipynb", folder)
-    slides.build_slides(folder, out)
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as said:
+        patch.setattr(course, "stored", lambda: folder)
+        assert main(["course", "slides", "-o", str(out)]) == 0
+    assert said.getvalue() == f"wrote {out / 'index.html'}\n"
     return out
 
 
@@ -76,14 +82,3 @@ def test_a_package_without_the_files_is_not_taken(monkeypatch, tmp_path):
     monkeypatch.setattr(slides, "find_spec", lambda name: Found)
     with pytest.raises(MocapError, match="sphinx-revealjs"):
         slides.reveal()
-
-
-def test_the_command_writes_the_course(tmp_path, monkeypatch, capsys):
-    from mocap import course
-
-    folder = tmp_path / "notebooks"
-    folder.mkdir()
-    shutil.copy(stored() / "06-pruning.ipynb", folder)
-    monkeypatch.setattr(course, "stored", lambda: folder)
-    assert main(["course", "slides", "-o", str(tmp_path / "out")]) == 0
-    assert capsys.readouterr().out == f"wrote {tmp_path / 'out' / 'index.html'}\n"
