@@ -194,12 +194,11 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
         if origin is None and name not in beside:
             raise MocapError(f"The clip '{name}' is no longer where {path} found it: give clips=.")
         placed.append(origin or Origin(beside[name]))
-    return [_read_clip(origin, skeleton) for origin in progress(placed)]
-
-
-def _read_clip(origin: Origin, skeleton: Path | None) -> Motion:
-    clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
-    return mirror(clip) if origin.mirrored else clip
+    clips = []
+    for origin in progress(placed):
+        clip = load_motion(origin.path, skeleton=skeleton or origin.skeleton, scale=origin.scale)
+        clips.append(mirror(clip) if origin.mirrored else clip)
+    return clips
 
 
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:

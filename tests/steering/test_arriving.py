@@ -19,8 +19,7 @@ from mocap.datasets import samples
 from mocap.editing.retiming import at_frames
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
-from mocap.graphs.motion_graph import build, from_transitions
-from mocap.graphs.pruning import prune
+from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
 from mocap.steering.end_bending import Limits, bend_to, level_rise, played
 from mocap.steering.held_ends import meet_poses
@@ -30,7 +29,7 @@ from mocap.steering.two_sided_search import TwoSided
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion, with_plants
 from mocap.synthesis.walks import require_walk
-from tests.bundled import bundled, walking
+from tests.bundled import bundled, captured, walking
 from tests.conftest import SWEEP
 from tests.editing.test_path_editing import slide
 
@@ -92,9 +91,7 @@ def test_what_the_clips_can_give_is_met():
 
 @pytest.mark.exhaustive
 def test_what_cmu_16_can_give_is_met(real_data):
-    folder = real_data / "cmu" / "16"
-    clips = [resample(mocap.load(folder / f"16_{n}.amc"), 30) for n in (*range(11, 35), 47, 58)]
-    require_pairs(prune(build(clips, window=10, threshold=0.04)), range(20))
+    require_pairs(captured(real_data).source, range(20))
 
 
 def asked_anywhere(graph, seed):

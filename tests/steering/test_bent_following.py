@@ -20,7 +20,7 @@ from mocap.steering.bent_following import BentWalk
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import to_motion
-from tests.bundled import bundled, sneaking, walking
+from tests.bundled import bundled, captured, sneaking, walking
 from tests.editing.test_path_editing import acc99, slide
 
 SOME = {
@@ -163,9 +163,10 @@ def walks_of(real_data, name):
     folder = real_data / "cmu"
     if name == "bundled clips":
         return bundled(*OWN)
+    if name == "CMU 16":
+        return captured(real_data)
     trials = {
         "7 straight walks": [f"16_{n}" for n in STRAIGHT],
-        "CMU 16": [f"16_{n:02}" for n in (*range(11, 35), 47, 58)],
         "CMU 02": ["02_01", "02_02", "02_03"],
     }[name]
     return graph_of(

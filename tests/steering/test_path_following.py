@@ -9,21 +9,17 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-import mocap
 from mocap.body import ground_path
 from mocap.body.ground_path import GroundPath, s_curve
 from mocap.body.planar import on_ground
 from mocap.errors import MocapError, MocapWarning, NoWalk
-from mocap.graphs.compiled_graph import compile_graph
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
 from mocap.steering import followed as following
 from mocap.steering import path_following
 from mocap.steering.followed import account
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 from mocap.steering.path_search import find_walk
-from tests.bundled import sneaking, walking
+from tests.bundled import captured, sneaking, walking
 
 GRAPH = walking()
 STRAIGHT = GroundPath([[2, 1], [2, 9]])
@@ -215,17 +211,9 @@ def test_a_label_out_of_reach_is_told_with_those_in_reach():
         follow_path(cut, STRAIGHT, Wishes(labels=[(0, "sneak")], start=start))
 
 
-@pytest.fixture(scope="module")
-def cmu(real_data):
-    """Return the graph of CMU 16's walks."""
-    files = [real_data / "cmu" / "16" / f"16_{n:02}.amc" for n in (*range(11, 35), 47, 58)]
-    clips = [mocap.resample(mocap.load(file), 30) for file in files]
-    return compile_graph(prune(build(clips, window=10, threshold=0.04)))
-
-
 @pytest.mark.parametrize("shape", ground_path.SHAPES)
-def test_real_walks_stay_on_their_paths(cmu, shape):
-    followed = follow_path(cmu, ground_path.SHAPES[shape]())
+def test_real_walks_stay_on_their_paths(real_data, shape):
+    followed = follow_path(captured(real_data), ground_path.SHAPES[shape]())
     assert followed.off.mean() <= 0.04
     assert followed.off.max() <= 0.15
     assert followed.seams_per_second <= 1.0
