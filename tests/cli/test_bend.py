@@ -11,6 +11,7 @@ from mocap.files import load_save
 from mocap.files.path_files import load_path
 from mocap.graphs import storage
 from tests.bundled import bundled
+from tests.cli.refused import contents
 from tests.strategies import wave
 
 WALK = resample(sample("walk_straight"), 30)
@@ -94,9 +95,9 @@ def test_a_walk_from_a_graph_is_laid_on_a_line(folder, capsys, monkeypatch):
 )
 def test_bad_input_is_one_sentence_and_leaves_nothing(folder, monkeypatch, capsys, words, message):
     monkeypatch.chdir(folder)
-    before = {path: path.read_bytes() for path in folder.iterdir()}
+    before = contents(folder)
     assert main(words) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert message in said
     assert len(said) <= 220
-    assert {path: path.read_bytes() for path in folder.iterdir()} == before
+    assert contents(folder) == before

@@ -4,6 +4,7 @@ import pytest
 
 from mocap import datasets, files
 from mocap.cli.main import main
+from tests.cli.refused import check_refused
 
 
 @pytest.fixture(scope="module")
@@ -61,13 +62,8 @@ def test_a_query_from_elsewhere_is_not_among_its_matches(folder, capsys):
     ],
 )
 def test_what_cannot_be_found_is_one_sentence(folder, capsys, query, options, message):
-    before = sorted(folder.iterdir())
     words = [text.format(folder=folder) for text in (query, str(folder), *options)]
-    assert main(["find", *words]) == 2
-    told = capsys.readouterr().err
-    assert message in told
-    assert told.startswith("mocap: ") and told.count("\n") == 1
-    assert sorted(folder.iterdir()) == before
+    check_refused(folder, capsys, ["find", *words], message)
 
 
 def test_a_query_that_finds_nothing_says_so(folder, capsys):

@@ -329,11 +329,6 @@ def test_stop_and_go_stands_four_times_with_both_feet_side_by_side():
     assert apart.max() < 0.16
 
 
-def test_the_clips_come_in_the_course_s_order():
-    order = "walk_circle walk_curve_1 walk_curve_2 walk_straight sneak jog stop_and_go"
-    assert list(SAMPLES) == order.split()
-
-
 @pytest.mark.parametrize("style", generated.GAITS)
 def test_a_walk_follows_its_path(style):
     motion = generate_walk([[0, 0], [0, 5], [0, 10]], style=style, seed=3)

@@ -202,10 +202,8 @@ def test_joints_that_move_in_their_parent_are_refused(write):
     [
         ("Frames: 2", "Frames: 3", r"line 30: expected 'Frames: 2', as many as follow, got 'Frames: 3'"),
         ("Frames: 2", "Frames: 1", r"line 30: expected 'Frames: 2', as many as follow, got 'Frames: 1'"),
-        ("Frames: 2", "Frames: 999999999", r"line 30: expected 'Frames: 2'"),
         ("Frames: 2", "Frames: 1e300", r"line 30: expected a number of frames, all below"),
         ("Frames: 2", "Frames: 0", r"line 30: expected one frame or more, got 0"),
-        ("Frames: 2", "Frames: -2", r"line 30: expected one frame or more"),
         ("Frames: 2", "Frames: two", r"line 30: expected a number of frames, got 'two'"),
         (
             "Frames: 2\n",
@@ -213,7 +211,6 @@ def test_joints_that_move_in_their_parent_are_refused(write):
             r"line 30: expected 'Frames: <count>' and 'Frame Time: <seconds>', got 'Frame Time",
         ),
         ("0.0333333", "0", r"line 31: expected a frame time from 1e-05 to 10 s, got 0"),
-        ("0.0333333", "-0.03", r"line 31: expected a frame time"),
         ("0.0333333", "30", r"line 31: expected a frame time"),
         ("0.0333333", "nan", r"line 31: expected seconds, all below"),
         (

@@ -3,8 +3,7 @@
 import numpy as np
 
 from mocap.body.kinematics import joint_positions
-from mocap.methods.parametric_graphs.made_strides import facing_windows, make_stride
-from mocap.methods.parametric_graphs.nearest_windows import WINDOW
+from mocap.methods.parametric_graphs.made_strides import make_stride
 from mocap.methods.parametric_graphs.stride_spaces import measure_mixes
 from tests.methods.parametric_graphs.built import space
 
@@ -29,12 +28,6 @@ def test_feet_hardly_slide_while_they_are_planted():
         assert mark.any()
         steps = np.linalg.norm(np.diff(planted, axis=0), axis=-1)
         assert np.median(steps) * 30 < 0.15  # m/s
-
-
-def test_it_can_be_windowed():
-    made = make_stride(space(), np.array([0.0]))
-    window, other = facing_windows(made, made.frame(0.5), made, made.frame(0.6))
-    assert window.shape == other.shape == (WINDOW * len(made.joints), 3)
 
 
 def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, concatenate, resample
+from mocap.body.motion import Motion, resample
 from mocap.body.planar import place
 from mocap.body.rotations import multiply
-from mocap.datasets.generated import generate_walk
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
 from mocap.methods.parametric_graphs.strides import MARGIN, cut_strides, mixed_way
@@ -169,8 +168,6 @@ def test_some_of_the_examples_can_be_taken():
     some = cut.take(np.arange(len(cut)) < 5)
     assert len(some) == 5
     np.testing.assert_array_equal(some.poses, cut.poses[:5])
-    joined = concatenate([resample(generate_walk([[0, 0], [0, 5]]), 30)])
-    assert len(cut_strides([joined])) > 1
 
 
 def test_only_strides_with_a_label_are_cut():
