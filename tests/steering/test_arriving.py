@@ -16,7 +16,6 @@ from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import samples
-from mocap.editing.retiming import at_frames
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
@@ -134,7 +133,7 @@ def test_a_straight_fade_from_pose_to_pose_slides():
     start, end, seconds = asked_anywhere(graph, 1)
     found = quietly(graph, start, end, seconds)
     both = mocap.body.concatenate([start.placed(), end.placed()])
-    faded = at_frames(both, np.linspace(0, 1, len(found.motion)), smooth=False)
+    faded = both.at(np.linspace(0, 1, len(found.motion)))
     assert slide(replace(faded, contacts=found.motion.contacts)) > 0.1
     assert slide(found.motion) < 1e-4
 
