@@ -30,8 +30,6 @@ def test_clips_stay_as_they_are(clips, monkeypatch, capsys, words):
     assert main(words) == 2
     assert KEPT in capsys.readouterr().err
     assert (clips / "walk.bvh").read_bytes() == before
-    assert main(["walk", "graph.npz", "--random", "2s", "-o", "new.bvh"]) == 0
-    assert main(["walk", "graph.npz", "--random", "2s", "-o", "new.bvh"]) == 0  # an old result
 
 
 def test_a_walk_may_bear_the_name_of_a_clip_elsewhere(clips, monkeypatch):
@@ -39,8 +37,8 @@ def test_a_walk_may_bear_the_name_of_a_clip_elsewhere(clips, monkeypatch):
     (clips / "work").mkdir()
     monkeypatch.chdir(clips / "work")
     assert main(["graph", *words, "-o", "graph.npz"]) == 0
-    assert main(["walk", "graph.npz", "--random", "2s"]) == 0
-    assert main(["walk", "graph.npz", "--random", "2s"]) == 0
+    for _ in range(2):  # and it replaces an old result
+        assert main(["walk", "graph.npz", "--random", "2s"]) == 0
 
 
 def test_an_archive_of_poses_is_not_replaced_by_its_graph(tmp_path, capsys):
