@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.plotting import CURVES, MARK, QUIET, SOURCES, to_picture
@@ -80,7 +80,7 @@ def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float]
     ax.text(place, height + BOX / 2, name, ha="center", va="center", fontsize=9)
 
 
-def _draw_result(ax: Axes, places: Array, alpha: Array, *, whole: bool) -> None:
+def _draw_result(ax: Axes, places: Indices, alpha: Array, *, whole: bool) -> None:
     """Draw the frames of the result, in the window or all: A's colour up to its share, then B's."""
     for place, share in zip(places.tolist(), alpha.tolist(), strict=True):
         inside = 0 <= place < len(places) - 2 * AROUND
