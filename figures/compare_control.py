@@ -1,6 +1,6 @@
 """Compare six ways of control by one protocol: `python figures/compare_control.py [FOLDER OF CLIPS]`.
 
-Writes the table `steering.md` beside this script. The folder holds `hw3` and `cmu/16`; without it the bundled
+Writes the table `control.md` beside this script. The folder holds `hw3` and `cmu/16`; without it the bundled
 clips alone are compared. Times are CPU time of one run.
 """
 
@@ -117,7 +117,7 @@ def main() -> None:
     lines = ["# Three answers to one question: how does a character obey?", "", HEAD, ""]
     for name, (clips, speed) in clip_sets().items():
         lines += [f"## {name}, asked for {speed} m/s", "", *_table(name, clips, speed), ""]
-    (FOLDER / "steering.md").write_text("\n".join(lines), "utf-8")
+    (FOLDER / "control.md").write_text("\n".join(lines), "utf-8")
 
 
 HEAD = """Written by `python figures/compare_control.py`. Sixty turns by 30 to 120 degrees, as

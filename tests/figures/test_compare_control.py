@@ -1,4 +1,4 @@
-"""The numbers in `figures/steering.md` are those of today's characters; times are left out."""
+"""The numbers in `figures/control.md` are those of today's characters; times are left out."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from mocap import quality, steering
 from mocap.body import SHAPES
 from mocap.methods.motion_matching import MotionMatcher, tabulate
 
-TABLE = Path(compare_control.__file__).with_name("steering.md")
+TABLE = Path(compare_control.__file__).with_name("control.md")
 NAME = "bundled clips"
 
 
