@@ -33,9 +33,9 @@ MOST = {
     "lines of code": 23_600,  # the goal: 17 000
     "lines of code in the course's rooms": 13_300,  # 9 500
     "functions": 2_200,  # 1 400
-    "classes": 300,  # 170
+    "classes": 290,  # 170
     "public names": 480,  # 250
-    "lines of tests": 28_300,  # 20 000
+    "lines of tests": 28_000,  # 20 000
 }
 
 

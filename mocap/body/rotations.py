@@ -198,8 +198,8 @@ def continuous(quaternions: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> continuous([[1, 0, 0, 0], [-1, 0, 0, 0], [0, -1, 0, 0]])[:, 0].tolist()
-    [1.0, 1.0, 0.0]
+    >>> continuous([[1, 0, 0, 0], [-1, 0, 0, 0], [-0.6, 0.8, 0, 0]])[:, 0].tolist()
+    [1.0, 1.0, 0.6]
     """
     q = np.asarray(quaternions, float)
     signs = np.cumprod(np.where((q[1:] * q[:-1]).sum(-1, keepdims=True) < 0, -1.0, 1.0), axis=0)
