@@ -311,10 +311,6 @@ class Walk(NamedTuple):
     edge: Edge | None = None
     before: Walk | None = None  # the walk without its last edge
 
-    def edges(self) -> list[Edge]:
-        """List the edges from the first one on."""
-        return [*self.before.edges(), self.edge] if self.before and self.edge else []
-
 
 class Search:
     """All walks advance along a line together, layer by layer; the best of each layer go on [KGP02, 5.1]."""
@@ -348,7 +344,7 @@ class Search:
 
     def starts(self) -> list[Walk]:
         """Start at each node from which the root goes somewhere: at the line's start, and along it."""
-        walks, way = [], self.line[30] - self.line[0]
+        walks, way = [], self.line[:31][-1] - self.line[0]
         for node, track in self.ahead.items():
             if len(track) == LOOK and abs(track[-1] - track[0]) > 0.3:
                 turn = np.exp(1j * np.angle(way / (track[-1] - track[0])))
@@ -388,10 +384,11 @@ def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tup
     *_, (_, best) = search.layers()
     if best is None:
         raise ValueError("No walk comes to the end of the line.")
-    first = best
-    while first.before:
-        first = first.before
-    return to_motion(clips, graph, best.edges(), first.turn, first.move)
+    walk, edges = best, []
+    while walk.before and walk.edge:
+        edges.append(walk.edge)
+        walk = walk.before
+    return to_motion(clips, graph, edges[::-1], walk.turn, walk.move)
 
 
 def points_along(corners: Array) -> Ground:
@@ -403,7 +400,8 @@ def points_along(corners: Array) -> Ground:
 
 def main(given: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
-    from mocap import MocapError, Motion, files, resample, save  # files are the package's
+    from mocap import MocapError, Motion, files, resample, save  # files and their checks are the package's
+    from mocap.body.motion import require_alike
 
     parser = argparse.ArgumentParser(prog="python -m mocap.plain", description=main.__doc__)
     parser.add_argument("clips", nargs="+", type=Path, help="motion files, or folders of them")
@@ -413,7 +411,10 @@ def main(given: Sequence[str] | None = None) -> int:
     try:
         line = points_along(files.load_path(asked.path).points)
         loaded = files.load_all(asked.clips, skeleton=None, scale=None, progress=iter)
-        clips = [resample(clip, FPS) for clip in loaded]
+        clips = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
+        if not clips:
+            raise MocapError(f"A window takes {K} frames, and no clip is longer.")
+        require_alike(clips)
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
         roots, turns = follow(clips, graph, line)

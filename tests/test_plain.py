@@ -180,6 +180,9 @@ def test_it_runs_by_itself(tmp_path, capsys):
     assert np.linalg.norm(walk.root_positions[-1, [0, 2]] - [0, 3]) < 1
     assert plain.main([str(clips), str(tmp_path / "none.csv"), "-o", str(out)]) == 2
     assert "none.csv" in capsys.readouterr().err
+    mocap.save(walk[:8], clips / "short.bvh")
+    assert plain.main([str(clips / "short.bvh"), str(line), "-o", str(out)]) == 2
+    assert "A window takes 10 frames" in capsys.readouterr().err
 
 
 def test_a_line_that_no_walk_follows_is_refused():
