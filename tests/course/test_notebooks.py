@@ -47,7 +47,8 @@ def test_a_notebook_opens_with_a_picture_objectives_and_the_time(name):
     assert re.match(r"# \S.*\n\n!\[[^\]]{20,}\]\(attachment:(\S+)\)\n\n\S", first.source)
     for picture, data in first.attachments.items():
         stored = notebooks.base64.b64decode(data["image/png"])
-        assert stored == (ROOT / "figures" / picture).read_bytes(), f"{picture} is stale"
+        stale = stored != (ROOT / "figures" / picture).read_bytes()  # no difference of megabytes
+        assert not stale, f"{picture} is stale"
     aims = re.search(r"\*\*You will be able to\*\*\n\n((?:- .*\n?)+)", text)
     assert 3 <= aims.group(1).count("- ") <= 5
     for wanted in aims.group(1).splitlines():
