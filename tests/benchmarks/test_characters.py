@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from mocap import graphs
-from mocap.body import arcs, resample
-from mocap.datasets import generate_walk, sample
+from mocap.body import resample
+from mocap.datasets import sample
 from mocap.methods import groups
-from mocap.methods.motion_matching import FrameSearch, MotionMatcher, tabulate
+from mocap.methods.motion_matching import MotionMatcher, tabulate
 from mocap.methods.parametric_graphs import ParametricController, build_kinds
-from mocap.steering import Controller, FootTurner, command_headings, measure_delay, steer
+from mocap.steering import Controller, FootTurner, measure_delay
 from tests.benchmarks.timing import fastest
 from tests.bundled import bundled
 from tests.methods.groups.built import course, graph
@@ -80,37 +80,6 @@ def test_worst_steps_beside_those_of_a_character_on_a_motion_graph():
     print("\nworst steps:", ", ".join(f"{name} {took:.2f} ms" for name, took in worst.items()))
     assert worst["matching"] <= 1.2 * worst["motion graph"]
     assert max(worst["strides"], worst["steps"]) <= 3 * worst["motion graph"]
-
-
-def test_one_product_is_quicker_for_a_course_and_a_tree_for_a_game():
-    """With 4000 frames the product is quicker, with 70 000 the tree."""
-    paths = [
-        (speed, turn) for speed in np.linspace(0.7, 1.7, 8) for turn in np.radians(np.linspace(-300, 300, 8))
-    ]
-    many = [
-        generate_walk(arcs((0, 0), 0, [(10, turn)]).points, speed=speed, seed=seed)
-        for seed, (speed, turn) in enumerate(paths)
-    ]
-    tables = tabulate(clips()), tabulate(many)
-    times = fastest(*(_searches(table, tree) for table in tables for tree in (False, True)), turns=5)
-    print(f"\n{len(tables[0])} frames: tree {times[1] / times[0]:.1f} × the product's time; ", end="")
-    print(f"{len(tables[1])}: {times[3] / times[2]:.2f} ×")
-    assert times[0] <= times[1] and times[3] <= times[2]
-
-
-def _searches(table, tree):
-    """Search for what a character looks for in half a minute of commands."""
-    character, asked = MotionMatcher(table), []
-
-    class Noted(FrameSearch):
-        def nearest(self, query, now, near):
-            asked.append((query, now, near))
-            return super().nearest(query, now, near)
-
-    character._searches[""] = Noted(table)
-    steer(character, command_headings(30, table.fps).tolist(), 1.0)
-    search = FrameSearch(table, tree=tree)
-    return lambda: [search.nearest(*query) for query in asked]
 
 
 def test_to_prepare_matching_is_cheap_beside_a_graph():

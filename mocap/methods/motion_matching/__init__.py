@@ -27,7 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "frame_features": ["GROUPS", "features"],
         "springs": ["spring", "spring_way"],
         "pose_database": ["PoseDatabase", "WEIGHTS", "standardise", "tabulate"],
-        "nearest_frames": ["FrameSearch", "Wants", "foresee"],
+        "nearest_frames": ["Wants", "foresee"],
         "matching_control": ["MotionMatcher"],
     },
 )

@@ -4,8 +4,6 @@ The body's frame is the root's ground track and heading, smoothed so that the sw
 turning. All numbers are seen from there: x to the body's left, y up, z ahead.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
@@ -27,33 +25,21 @@ GROUPS = {
 FUTURE = slice(15, 27)  # places and directions ahead
 
 
-class BodyTrack(NamedTuple):
-    """The frame that features are seen from: `ground` (F,), complex z + ix, and `heading` (F,), unwrapped.
-
-    Examples
-    --------
-    >>> BodyTrack(np.array([0j, 1 + 0j]), np.zeros(2)).ground
-    array([0.+0.j, 1.+0.j])
-    """
-
-    ground: Points
-    heading: Array
-
-
-def body_track(motion: Motion) -> BodyTrack:
-    """Follow the body over the ground, without the sway of its steps.
+def body_track(motion: Motion) -> tuple[Points, Array]:
+    """Follow the body over the ground, without the sway of its steps: places z + ix and headings, (F,).
 
     Examples
     --------
     >>> from mocap.datasets.generated import generate
-    >>> body_track(generate("walk_straight")).ground.shape
+    >>> ground, facing = body_track(generate("walk_straight"))
+    >>> ground.shape
     (1201,)
     """
     ground = on_ground(motion.root_positions)
     facing = np.unwrap(heading(motion.rotations[:, 0]))
     rows = np.stack([ground.real, ground.imag, facing])
     ahead, left, facing = gaussian_filter1d(rows, SMOOTH * motion.fps, mode="nearest")
-    return BodyTrack(ahead + 1j * left, facing)
+    return ahead + 1j * left, facing
 
 
 def features(motion: Motion) -> Array:
@@ -83,15 +69,15 @@ def features(motion: Motion) -> Array:
 
     Notebook: 18-motion-matching
     """
-    track, positions = body_track(motion), joint_positions(motion)
-    speeds = velocities(positions, motion.fps)
+    (ground, facing), positions = body_track(motion), joint_positions(motion)
+    speeds, back = velocities(positions, motion.fps), np.exp(-1j * facing)
     ankles = [leg.ankle for leg in find_legs(motion.skeleton)]
-    columns = [_seen(positions[:, ankle], track, track.ground) for ankle in ankles]
-    columns += [_seen(speeds[:, joint], track) for joint in (*ankles, 0)]
+    columns = [_seen(positions[:, ankle], back, ground) for ankle in ankles]
+    columns += [_seen(speeds[:, joint], back) for joint in (*ankles, 0)]
     frames = np.arange(len(motion))[:, None]
     then = np.minimum(frames + np.round(AHEAD * motion.fps).astype(int), len(motion) - 1)
-    way = (track.ground[then] - track.ground[:, None]) * np.exp(-1j * track.heading)[:, None]
-    turned = np.exp(1j * (track.heading[then] - track.heading[:, None]))
+    way = (ground[then] - ground[:, None]) * back[:, None]
+    turned = np.exp(1j * (facing[then] - facing[:, None]))
     return np.hstack([*columns, ahead_columns(way), ahead_columns(turned)])
 
 
@@ -103,7 +89,7 @@ def ahead_columns(ahead: Points) -> Array:
     return np.stack([ahead.imag, ahead.real], axis=-1).reshape(*ahead.shape[:-1], -1)
 
 
-def _seen(vectors: Array, track: BodyTrack, origin: Points | float = 0.0) -> Array:
-    """See vectors (F, 3) from the body: to its left, up, ahead."""
-    seen = (on_ground(vectors) - origin) * np.exp(-1j * track.heading)
+def _seen(vectors: Array, back: Points, origin: Points | float = 0.0) -> Array:
+    """See vectors (F, 3) from the body, which is turned back: to its left, up, ahead."""
+    seen = (on_ground(vectors) - origin) * back
     return np.stack([seen.imag, vectors[:, 1], seen.real], axis=-1)

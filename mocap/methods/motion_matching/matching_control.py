@@ -1,6 +1,6 @@
 """A character by motion matching: search, cut, and let what differs die away [Cla16, Hol20]."""
 
-from typing import NamedTuple
+import warnings
 
 import numpy as np
 
@@ -8,27 +8,12 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import MocapError, MocapWarning
 from mocap.methods.motion_matching.frame_features import FUTURE
-from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee, next_frame
-from mocap.methods.motion_matching.pose_database import PoseDatabase, warn_of_speed
+from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
+from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.methods.motion_matching.springs import fade
 from mocap.steering.characters import Pose, place_frames, require_command
-
-
-class Offset(NamedTuple):
-    """What differs after a cut: `root` (3,) metres, `turns` (J, 3) rotation vectors, and their velocities.
-
-    Examples
-    --------
-    >>> Offset(*(np.zeros(3), np.zeros((2, 3))) * 2).turns.shape
-    (2, 3)
-    """
-
-    root: Array
-    turns: Array
-    root_speed: Array
-    turn_speed: Array
 
 
 class MotionMatcher:
@@ -43,7 +28,6 @@ class MotionMatcher:
     database : the frames of all clips.
     wants : how it searches, and how a cut fades.
     start : the frame it starts with; by default the first usable one.
-    tree : as for `FrameSearch`.
 
     Raises
     ------
@@ -62,24 +46,19 @@ class MotionMatcher:
     """
 
     def __init__(
-        self,
-        database: PoseDatabase,
-        wants: Wants | None = None,
-        *,
-        start: int | None = None,
-        tree: bool | None = None,
+        self, database: PoseDatabase, wants: Wants | None = None, *, start: int | None = None
     ) -> None:
         self.database, self.wants = database, wants or Wants()
         self.wants.check()
         self.frame = int(np.argmax(database.usable)) if start is None else start
         if not 0 <= self.frame < len(database):
             raise MocapError(f"The start is a frame from 0 to {len(database) - 1}, got {start}.")
-        self._tree, self._searches = tree, {"": FrameSearch(database, future=self.wants.future, tree=tree)}
-        self._near = round(self.wants.near * self.fps)
+        self._searches: dict[str, FrameSearch] = {}  # by label
         turn = complex(np.exp(-1j * database.heading[self.frame]))
         self.place = PlanarTransform.from_complex(turn, -turn * complex(database.ground[self.frame]))
-        joints = database.turns.shape[1]
-        self.offset = Offset(np.zeros(3), np.zeros((joints, 3)), np.zeros(3), np.zeros((joints, 3)))
+        # What differs after a cut, (J + 1, 3): the root, metres, and a rotation vector for each joint.
+        self.offset = np.zeros(database.speeds.shape[1:])
+        self.offset_speed = np.zeros_like(self.offset)
         self.cuts: list[int] = []  # at which steps it cut
         self._steps = self._wait = 0
         self._command: tuple[float, float, str] | None = None
@@ -117,51 +96,48 @@ class MotionMatcher:
         -----
         MocapWarning : for a new speed outside what 98 % of the clips' frames have.
         """
-        command = (heading, speed, label)
+        table, command = self.database, (heading, speed, label)
         if command != self._command:
             self._take(command)
-        if self._wait <= 0 or self.frame >= self.database.last[self.frame]:
+        if self._wait <= 0 or self.frame >= table.last[self.frame]:
             self._wait = max(1, round(self.wants.every * self.fps))
             self._look(heading, speed, label)
-        table = self.database
-        root, turns = place_frames(self.place, table.roots[self.frame], table.turns[self.frame])
-        offset = self.offset
-        pose = Pose(
-            root + offset.root,
-            rotations.multiply(turns, rotations.from_rotvec(offset.turns)),
-            blending=bool(self.cuts) and self._steps - self.cuts[-1] < 2 * self.wants.fade * self.fps,
-            contacts={name: bool(mark[self.frame]) for name, mark in table.contacts.items()},
-        )
-        self._advance()
-        return pose
+        root, turns = self._placed(self.place, self.frame)
+        blending = bool(self.cuts) and self._steps - self.cuts[-1] < 2 * self.wants.fade * self.fps
+        contacts = {name: bool(mark[self.frame]) for name, mark in table.contacts.items()}
+        self.frame = min(self.frame + 1, int(table.last[self.frame]))
+        self._steps, self._wait = self._steps + 1, self._wait - 1
+        self.offset, self.offset_speed = fade(self.offset, self.offset_speed, self.wants.fade, 1 / self.fps)
+        return Pose(root, turns, blending, contacts)
 
     def _take(self, command: tuple[float, float, str]) -> None:
-        """Take a new command, which is searched for at once."""
+        """Take a new command, which is searched for at once; warn of a speed that next to no frame has."""
         heading, speed, label = command
         require_command(heading, speed)
-        if self._command is None or speed != self._command[1]:
-            warn_of_speed(self.database, speed)
-        if label not in self._searches:
-            if label not in self.database.labels:
-                known = ", ".join(self.database.labels) or "none"
-                raise NoWalk(f"No clip has the label '{label}'; there are: {known}.")
-            among = self.database.usable & self.database.labels[label]
-            self._searches[label] = FrameSearch(
-                self.database, future=self.wants.future, tree=self._tree, among=among
+        slow, fast = np.percentile(np.abs(self.database.drift), [1, 99])
+        if (self._command is None or speed != self._command[1]) and not slow <= speed <= fast:
+            warnings.warn(
+                f"{speed:g} m/s is outside the clips' {slow:.1f} to {fast:.1f} m/s: the nearest is walked.",
+                MocapWarning,
+                stacklevel=3,
             )
+        if label not in self._searches:
+            self._searches[label] = FrameSearch(self.database, future=self.wants.future, label=label)
         self._command, self._wait = command, 0
 
     def _look(self, heading: float, speed: float, label: str) -> None:
-        """Search, and cut where another frame is better."""
-        table, now = self.database, self.frame
+        """Search, and cut where another frame is better than to play on.
+
+        The pose asked for is that of now, so that to play on costs only what the future asks.
+        """
+        table, now, search = self.database, self.frame, self._searches[label]
         goal = speed * complex(np.exp(1j * (heading - self.place.angle - table.heading[now])))
         query = table.values[now].copy()
         query[FUTURE] = foresee(table, now, goal, self.wants.halflife)
         stay = now < table.last[now] and (not label or bool(table.labels[label][now]))
-        search = self._searches[label]
         staying = search.cost(query, now) - self.wants.bonus if stay else np.inf
-        found = next_frame(search, query, now, near=self._near, staying=staying)
-        if found != now:
+        found, cost = search.nearest(query, now, round(self.wants.near * self.fps))
+        if cost < staying:
             self._cut(found)
 
     def _cut(self, new: int) -> None:
@@ -171,30 +147,21 @@ class MotionMatcher:
         turn /= abs(turn)
         move = complex(self.place.turn * table.ground[old] + self.place.move - turn * table.ground[new])
         place = PlanarTransform.from_complex(turn, move)
-        root, turns = place_frames(self.place, table.roots[old], table.turns[old])
+        root, shown = self._placed(self.place, old)
         new_root, new_turns = place_frames(place, table.roots[new], table.turns[new])
-        shown = rotations.multiply(turns, rotations.from_rotvec(self.offset.turns))
-        speed = _turned(table.root_speeds[old], self.place) - _turned(table.root_speeds[new], place)
-        self.offset = Offset(
-            self.offset.root + root - new_root,
-            rotations.to_rotvec(rotations.multiply(rotations.inverse(new_turns), shown)),
-            self.offset.root_speed + speed,
-            self.offset.turn_speed + table.turn_speeds[old] - table.turn_speeds[new],
-        )
+        differ = rotations.to_rotvec(rotations.multiply(rotations.inverse(new_turns), shown))
+        self.offset = np.concatenate([[root - new_root], differ])
+        self.offset_speed = self.offset_speed + self._speeds(self.place, old) - self._speeds(place, new)
         self.frame, self.place = new, place
         self.cuts.append(self._steps)
 
-    def _advance(self) -> None:
-        """Go on by one frame, and let the offset die away."""
-        self.frame = min(self.frame + 1, int(self.database.last[self.frame]))
-        self._steps, self._wait = self._steps + 1, self._wait - 1
-        halflife, seconds = self.wants.fade, 1 / self.fps
-        root, root_speed = fade(self.offset.root, self.offset.root_speed, halflife, seconds)
-        turns, turn_speed = fade(self.offset.turns, self.offset.turn_speed, halflife, seconds)
-        self.offset = Offset(root, turns, root_speed, turn_speed)
+    def _placed(self, place: PlanarTransform, frame: int) -> tuple[Array, Array]:
+        """Place a frame, with the offset: root (3,) and turns (J, 4)."""
+        root, turns = place_frames(place, self.database.roots[frame], self.database.turns[frame])
+        return root + self.offset[0], rotations.multiply(turns, rotations.from_rotvec(self.offset[1:]))
 
-
-def _turned(speed: Array, place: PlanarTransform) -> Array:
-    """Turn a velocity (3,) about the vertical, as a place does."""
-    ground = complex(speed[2], speed[0]) * complex(place.turn)
-    return np.array([ground.imag, speed[1], ground.real])
+    def _speeds(self, place: PlanarTransform, frame: int) -> Array:
+        """Give a frame's speeds (J + 1, 3), the root's turned as its place is."""
+        speeds = self.database.speeds[frame].copy()
+        speeds[0] = place._replace(x=0.0, z=0.0).apply_points(speeds[0])
+        return speeds

@@ -3,15 +3,12 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial import KDTree
 
-from mocap._shared.arrays import Array, Indices, Mask
-from mocap.errors import MocapError
+from mocap._shared.arrays import Array
+from mocap.errors import MocapError, NoWalk
 from mocap.methods.motion_matching.frame_features import AHEAD, FUTURE, ahead_columns
 from mocap.methods.motion_matching.pose_database import PoseDatabase
 from mocap.methods.motion_matching.springs import spring, spring_way
-
-TREE_FROM = 20_000  # frames from which a k-d tree is quicker than one product, whose numbers have 32 bits
 
 
 class Wants(NamedTuple):
@@ -40,16 +37,14 @@ class Wants(NamedTuple):
 
     def check(self) -> None:
         """Raise MocapError for what makes no sense."""
-        for name in ("every", "halflife", "fade"):
-            if not (np.isfinite(value := getattr(self, name)) and value > 0):
-                raise MocapError(f"'{name}' is a number of seconds above 0, got {value}.")
-        for name in ("future", "bonus", "near"):
-            if not (np.isfinite(value := getattr(self, name)) and value >= 0):
-                raise MocapError(f"'{name}' is a number from 0 on, got {value}.")
+        for name, value in self._asdict().items():
+            if not np.isfinite(value) or value < 0 or (value == 0 and name in ("every", "halflife", "fade")):
+                least = "above 0" if name in ("every", "halflife", "fade") else "from 0 on"
+                raise MocapError(f"'{name}' is a number {least}, got {value}.")
 
 
 class FrameSearch:
-    """A search among the usable frames of a database, by one product or by a k-d tree.
+    """A search among the usable frames of a database, by one product.
 
     |x - q|² = |x|² - 2 x·q + |q|², so that one product of a matrix with the query compares all frames.
 
@@ -57,11 +52,11 @@ class FrameSearch:
     ----------
     database : T frames.
     future : multiplies the features of the future.
-    tree : search by a k-d tree; by default from 20 000 frames on, where it is quicker.
-    among : shape (T,), which frames may be found; by default those that are usable.
+    label : which frames may be found; "" for all that are usable.
 
     Raises
     ------
+    NoWalk : for a label that no clip has.
     MocapError : where no frame may be found.
 
     Examples
@@ -73,24 +68,17 @@ class FrameSearch:
     100
     """
 
-    def __init__(
-        self,
-        database: PoseDatabase,
-        *,
-        future: float = 1.0,
-        tree: bool | None = None,
-        among: Mask | None = None,
-    ) -> None:
-        self.frames: Indices = np.flatnonzero(database.usable if among is None else among)
+    def __init__(self, database: PoseDatabase, *, future: float = 1.0, label: str = "") -> None:
+        if label and label not in database.labels:
+            known = ", ".join(database.labels) or "none"
+            raise NoWalk(f"No clip has the label '{label}'; there are: {known}.")
+        self.frames = np.flatnonzero(database.usable & database.labels[label] if label else database.usable)
         if not len(self.frames):
-            raise MocapError("No frame of these clips can be found: all are too near the end of their clip.")
+            raise MocapError(f"No frame '{label}' can be found: all are too near the end of their clip.")
         self.scale = np.ones(database.values.shape[1])
         self.scale[FUTURE] = future
         self.values = database.values * self.scale
-        tree = len(self.frames) >= TREE_FROM if tree is None else tree
-        candidates = self.values[self.frames]
-        self.tree = KDTree(candidates) if tree else None
-        self.bank = candidates.astype(np.float32)
+        self.bank = self.values[self.frames].astype(np.float32)
         self.sizes = (self.bank**2).sum(axis=1)
 
     def cost(self, query: Array, frame: int) -> float:
@@ -100,21 +88,11 @@ class FrameSearch:
 
     def nearest(self, query: Array, now: int, near: int) -> tuple[int, float]:
         """Find the frame nearest to a query, not within `near` frames of now, and its squared distance."""
-        query = query * self.scale
-        if self.tree is None:
-            costs = self.sizes - 2 * (self.bank @ query.astype(np.float32))
-            found = self.frames
-        else:
-            count = min(2 * near + 1, len(self.frames))
-            gaps, rows = self.tree.query(query, k=count)
-            costs, found = np.atleast_1d(gaps) ** 2, self.frames[np.atleast_1d(rows)]
-        costs = np.where(np.abs(found - now) < near, np.inf, costs)
+        costs = self.sizes - 2 * (self.bank @ (query * self.scale).astype(np.float32))
+        costs[np.abs(self.frames - now) < near] = np.inf
         best = int(costs.argmin())
-        if not np.isfinite(costs[best]):
-            return -1, np.inf
-        frame = int(found[best])
-        gap = query - self.values[frame]
-        return frame, float(gap @ gap)
+        frame = int(self.frames[best])
+        return (frame, self.cost(query, frame)) if np.isfinite(costs[best]) else (now, np.inf)
 
 
 def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) -> Array:
@@ -146,33 +124,3 @@ def foresee(database: PoseDatabase, now: int, goal: complex, halflife: float) ->
     facing = spring(0.0, float(database.spin[now]), float(np.angle(goal)) if goal else 0.0, halflife, AHEAD)
     ahead = np.concatenate([ahead_columns(way), ahead_columns(np.exp(1j * facing))])
     return np.asarray((ahead - database.mean[FUTURE]) / database.scale[FUTURE])
-
-
-def next_frame(search: FrameSearch, query: Array, now: int, *, near: int, staying: float) -> int:
-    """Choose the frame to play: another one where it is better than to play on.
-
-    The pose of a query is that of `now`, so that to play on costs only what the future asks.
-
-    Parameters
-    ----------
-    search : the frames.
-    query : shape (27,), the pose now and the future asked for.
-    now : the frame that is playing.
-    near : frames around now that are not found.
-    staying : what to play on costs, a squared distance; infinity where the clip ends.
-
-    Returns
-    -------
-    A frame's number in the database; `now` to play on.
-
-    Examples
-    --------
-    >>> from mocap import body, datasets
-    >>> from mocap.methods.motion_matching.pose_database import tabulate
-    >>> table = tabulate([body.resample(datasets.sample("walk_curve_1"), 30)])
-    >>> search = FrameSearch(table)
-    >>> next_frame(search, table.values[100], 100, near=6, staying=0.0)
-    100
-    """
-    frame, cost = search.nearest(query, now, near)
-    return frame if frame >= 0 and cost < staying else now

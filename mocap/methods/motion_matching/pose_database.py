@@ -1,6 +1,5 @@
 """All frames of some clips side by side: their features, standardised, and their poses with velocities."""
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -10,7 +9,7 @@ from mocap._shared.arrays import Array, Indices, Mask, Points, frozen
 from mocap.body import rotations
 from mocap.body.kinematics import velocities
 from mocap.body.motion import Motion, require_alike
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError
 from mocap.methods.motion_matching.frame_features import GROUPS, body_track, features
 
 WEIGHTS = {  # [Hol20]
@@ -35,7 +34,7 @@ class PoseDatabase:
     usable : shape (T,), frames that a search may find.
     last : shape (T,), the number of the last frame of each frame's clip.
     roots, turns : shape (T, 3) and (T, J, 4), the poses.
-    root_speeds, turn_speeds : shape (T, 3) and (T, J, 3), m/s and, in each joint's own frame, rad/s.
+    speeds : shape (T, J + 1, 3): the root's in m/s, then each joint's in its own frame, rad/s.
     labels, contacts : as those of the clips, (T,) each.
     """
 
@@ -51,8 +50,7 @@ class PoseDatabase:
     last: Indices
     roots: Array
     turns: Array
-    root_speeds: Array
-    turn_speeds: Array
+    speeds: Array
     labels: Mapping[str, Mask]
     contacts: Mapping[str, Mask]
 
@@ -126,13 +124,20 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
 
     Notebook: 18-motion-matching
     """
-    _check(clips)
-    frames, rate = [len(clip) for clip in clips], clips[0].fps
+    if not clips:
+        raise MocapError("Motion matching needs at least one clip, got none.")
+    require_alike(clips)
+    rate, longest = clips[0].fps, max(clips, key=len)
+    if len(longest) <= END * rate + 1:
+        raise MocapError(
+            f"No clip is longer than the {END:g} s that a search leaves out at its end; "
+            f"the longest, '{longest.name}', lasts {longest.duration:.2f} s."
+        )
+    frames = [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
-    tracks = zip(*(_tracks(clip) for clip in clips), strict=True)
-    ground, facing, drift, spin = (np.concatenate(part) for part in tracks)
-    left = np.concatenate([np.arange(count)[::-1] for count in frames])
-    stops = np.cumsum(frames)
+    ground, facing, drift, spin, roots, turns, speeds = (
+        np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True)
+    )
     return PoseDatabase(
         tuple(clips),
         frozen(values, np.float64),
@@ -142,37 +147,22 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
         facing,
         drift,
         spin,
-        left >= END * rate,
-        np.repeat(stops - 1, frames),
-        np.concatenate([clip.root_positions for clip in clips]),
-        np.concatenate([clip.rotations for clip in clips]),
-        np.concatenate([velocities(clip.root_positions, rate) for clip in clips]),
-        np.concatenate([turn_speeds(clip) for clip in clips]),
+        np.concatenate([np.arange(count)[::-1] >= END * rate for count in frames]),
+        np.repeat(np.cumsum(frames) - 1, frames),
+        roots,
+        turns,
+        speeds,
         _marks([clip.labels for clip in clips], frames),
         _marks([clip.contacts for clip in clips], frames),
     )
 
 
-def _check(clips: Sequence[Motion]) -> None:
-    """Raise MocapError for clips that cannot be searched."""
-    if not clips:
-        raise MocapError("Motion matching needs at least one clip, got none.")
-    require_alike(clips)
-    longest = max(clips, key=len)
-    if len(longest) <= END * longest.fps + 1:
-        raise MocapError(
-            f"No clip is longer than the {END:g} s that a search leaves out at its end; "
-            f"the longest, '{longest.name}', lasts {longest.duration:.2f} s."
-        )
-    if short := [clip.name for clip in clips if len(clip) < 2]:
-        raise MocapError(f"'{short[0]}' has one frame: a velocity needs two.")
-
-
-def _tracks(clip: Motion) -> tuple[Points, Array, Points, Array]:
-    """Follow the body, with its velocity and its turning."""
-    track = body_track(clip)
-    moving: Points = np.gradient(track.ground) * clip.fps
-    return *track, moving, velocities(track.heading, clip.fps)
+def _tracks(clip: Motion) -> tuple[Array | Points, ...]:
+    """Follow the body with its velocity and its turning, and the pose with its speeds."""
+    ground, facing = body_track(clip)
+    speeds = np.concatenate([velocities(clip.root_positions, clip.fps)[:, None], turn_speeds(clip)], axis=1)
+    moving = velocities(ground, clip.fps), velocities(facing, clip.fps)
+    return ground, facing, *moving, clip.root_positions, clip.rotations, speeds
 
 
 def turn_speeds(motion: Motion) -> Array:
@@ -194,14 +184,3 @@ def _marks(marks: Sequence[Mapping[str, Mask]], frames: Sequence[int]) -> dict[s
     names = dict.fromkeys(name for own in marks for name in own)
     rows = list(zip(marks, frames, strict=True))
     return {n: np.concatenate([own.get(n, np.zeros(count, bool)) for own, count in rows]) for n in names}
-
-
-def warn_of_speed(database: PoseDatabase, speed: float) -> None:
-    """Warn of a speed that next to no frame of the clips has: the nearest will be walked."""
-    slow, fast = np.percentile(np.abs(database.drift), [1, 99])
-    if not slow <= speed <= fast:
-        warnings.warn(
-            f"{speed:g} m/s is outside the clips' {slow:.1f} to {fast:.1f} m/s: the nearest will be walked.",
-            MocapWarning,
-            stacklevel=4,
-        )

@@ -58,6 +58,7 @@ def test_it_obeys_in_three_quarters_of_the_graph_s_time_and_always(judged):
     assert judged.matching().delay.never == 0
 
 
+@pytest.mark.sweep
 def test_at_the_slide_of_a_graph_it_still_obeys_sooner(judged):
     """A quarter of the future's weight, beside the denser graph that slides as much."""
     gentle, alike = judged.matching(future=0.25), judged.graph(judged.alike)

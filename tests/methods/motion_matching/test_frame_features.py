@@ -19,18 +19,18 @@ def test_they_are_the_same_wherever_a_clip_is_placed():
 def test_they_say_where_the_body_will_be():
     """Placed by the track, the places ahead are the track itself some frames later."""
     (clip,) = clips("walk_circle")
-    track, values = body_track(clip), features(clip)
+    (ground, facing), values = body_track(clip), features(clip)
     ahead = values[:, GROUPS["places ahead"]].reshape(-1, 3, 2) @ [1j, 1]
     frames = np.arange(len(clip) - 30)
     for number, later in enumerate(np.round(AHEAD * 30).astype(int)):
-        there = track.ground[frames] + np.exp(1j * track.heading[frames]) * ahead[frames, number]
-        np.testing.assert_allclose(there, track.ground[frames + later], atol=1e-9)
+        there = ground[frames] + np.exp(1j * facing[frames]) * ahead[frames, number]
+        np.testing.assert_allclose(there, ground[frames + later], atol=1e-9)
 
 
 def test_the_smoothed_track_does_not_sway():
     """Walking straight, the pelvis turns to and fro by 8 degrees; the track by half of it."""
     (clip,) = clips("walk_straight")
-    swings = [np.ptp(track[30:200]) for track in (heading(clip.rotations[:, 0]), body_track(clip).heading)]
+    swings = [np.ptp(track[30:200]) for track in (heading(clip.rotations[:, 0]), body_track(clip)[1])]
     assert swings[1] < 0.6 * swings[0]
 
 

@@ -65,13 +65,10 @@ def test_to_search_in_every_frame_gains_nothing_and_a_new_command_searches_at_on
     assert delay(walks(), every=20 / 30).mean == pytest.approx(usual, abs=0.15)
 
 
-def test_a_short_fade_jolts_and_a_cut_without_the_offset_s_velocity_jolts_further(monkeypatch):
+def test_a_short_fade_jolts_and_a_cut_without_the_offset_s_velocity_jolts_further():
     assert walked(fade=0.02).jolting(walks().clips) > 5 * walked().jolting(walks().clips)
     worst = jumps(walked().motion)[0].max()
-    monkeypatch.setattr(
-        "mocap.methods.motion_matching.matching_control._turned", lambda speed, place: 0 * speed
-    )
-    table = replace(walks(), turn_speeds=0 * walks().turn_speeds)
+    table = replace(walks(), speeds=0 * walks().speeds)
     bare = Walked(MotionMatcher(table), SPEED)
     assert jumps(bare.motion)[0].max() > 1.3 * worst
     assert bare.jolting(walks().clips) > 1.2 * walked().jolting(walks().clips)
