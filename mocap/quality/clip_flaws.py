@@ -6,7 +6,6 @@ subjects 02, 03, 16, 49 and 127.
 
 import warnings
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -71,8 +70,7 @@ class Flaw(NamedTuple):
         return f"{self.kind} in frame {shown}{more}{self.detail and f' ({self.detail})'}"
 
 
-@dataclass(frozen=True)
-class Report:
+class Report(NamedTuple):
     """A clip's measures in metres and radians, and its flaws: what `inspect` returns."""
 
     motion: Motion
@@ -150,23 +148,29 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
 
     Notebook: 01b-motion-files
     """
-    positions = joint_positions(motion)
+    positions, names = joint_positions(motion), motion.skeleton.names
     headings = np.unwrap(heading(motion.rotations[:, 0]))
     steps = np.diff(motion.root_positions[:, [0, 2]], axis=0)
     turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
-    found = {
-        "frozen": (_frozen(motion), ""),
-        "nothing but zeros": (_zeros(motion), ""),
-        "teleport": _teleports(motion),
-        "snap": _snaps(motion, turns),
-        "Euler flip": _flips(motion, turns, angles or {}),
-        "under the floor": _under(motion, positions),
-    }
-    flaws = [
-        Flaw(kind, np.flatnonzero(marks).tolist(), detail)
-        for kind, (marks, detail) in found.items()
-        if marks.any()
+    most, lowest = turns.max(axis=0, initial=0), positions[..., 1].min(axis=0)
+    unturned = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2)) < STILL
+    found = [
+        ("frozen", _frozen(motion), ""),
+        ("nothing but zeros", unturned & (np.abs(motion.root_positions).max(axis=1) < STILL), ""),
+        ("teleport", *_teleports(motion)),
+        (
+            "snap",
+            np.append(False, _too_fast(motion, turns).any(axis=1)),
+            f"'{names[most.argmax()]}' by {np.degrees(most.max()):.0f}° at most",
+        ),
+        ("Euler flip", *_flips(motion, turns, angles or {})),
+        (
+            "under the floor",
+            positions[..., 1].min(axis=1) < -UNDER,
+            f"'{names[lowest.argmin()]}' by {-100 * lowest.min():.0f} cm at most",
+        ),
     ]
+    flaws = [Flaw(kind, np.flatnonzero(marks).tolist(), said) for kind, marks, said in found if marks.any()]
     turn, path = float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum())
     return Report(motion, height_of(positions), turn, path, flaws)
 
@@ -185,12 +189,6 @@ def _frozen(motion: Motion) -> Mask:
     return same
 
 
-def _zeros(motion: Motion) -> Mask:
-    """Mark frames in which the root is at the origin and no joint is turned."""
-    unturned = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2)) < STILL
-    return np.asarray(unturned & (np.abs(motion.root_positions).max(axis=1) < STILL))
-
-
 def _teleports(motion: Motion) -> tuple[Mask, str]:
     """Mark steps of the root that are much longer than those around them."""
     speeds = np.linalg.norm(np.diff(motion.root_positions, axis=0), axis=1) * motion.fps
@@ -199,21 +197,13 @@ def _teleports(motion: Motion) -> tuple[Mask, str]:
     return np.append(False, sudden), f"{speeds.max(initial=0) / motion.fps:.2f} m at most"
 
 
-def _snaps(motion: Motion, turns: Array) -> tuple[Mask, str]:
-    """Mark joints that turn too fast. Rotations show them without the flips of Euler angles."""
-    most = turns.max(axis=0, initial=0)
-    joint = motion.skeleton.names[int(most.argmax())]
-    marks = np.append(False, _too_fast(motion, turns).any(axis=1))
-    return marks, f"'{joint}' by {np.degrees(most.max()):.0f}° at most"
-
-
 def _too_fast(motion: Motion, turns: Array) -> Mask:
     """Mark turns, radians per frame, that are large for a frame and fast for a joint."""
     return (turns > SNAP) & (turns * motion.fps > FAST)
 
 
 def _flips(motion: Motion, turns: Array, angles: Mapping[str, Array]) -> tuple[Mask, str]:
-    """Mark angles that jump although their joint does not."""
+    """Mark angles that jump although their joint does not: rotations have no flips."""
     flips = np.zeros(turns.shape, bool)
     for name in set(angles) & set(motion.skeleton.names):
         joint = motion.skeleton.index(name)
@@ -222,11 +212,3 @@ def _flips(motion: Motion, turns: Array, angles: Mapping[str, Array]) -> tuple[M
         flips[:, joint] = _too_fast(motion, np.radians(jumps)) & further
     names = [motion.skeleton.names[joint] for joint in np.flatnonzero(flips.any(axis=0))[:3]]
     return np.append(False, flips.any(axis=1)), f"angles of {', '.join(names)}; as rotations they are smooth"
-
-
-def _under(motion: Motion, positions: Array) -> tuple[Mask, str]:
-    """Mark frames in which a joint is under the floor."""
-    lowest = positions[..., 1].min(axis=0)
-    joint = motion.skeleton.names[int(lowest.argmin())]
-    marks = positions[..., 1].min(axis=1) < -UNDER
-    return marks, f"'{joint}' by {-100 * lowest.min():.0f} cm at most"

@@ -71,75 +71,58 @@ def joint_bends(motion: Motion, legs: Sequence[Leg] = ()) -> list[Bend]:
     ['back', 'bent', 'nodding', 'out']
     """
     poses, skeleton = forward_kinematics(motion), motion.skeleton
-    left = _left(poses, legs)
-    bends = [_hinge(poses, skeleton, leg[:3], left) for leg in legs]
-    for shoulder, elbow, wrist, fingers in _arms(skeleton):
-        bends.append(_hinge(poses, skeleton, (shoulder, elbow, wrist), np.zeros(3)))
-        if fingers:
-            hand = poses.positions[:, fingers].mean(axis=1) - poses.positions[:, wrist]
-            turned = _between(_bone(poses, elbow, wrist), hand)
-            bends.append(Bend(skeleton.names[wrist], "bent", turned, -np.inf, WRIST))
-    if len(legs) == 2 and (neck := _named(skeleton, NECK)) is not None:
-        bends += _against_trunk(poses, skeleton, legs, neck)
-    return bends
+    places, names, left = poses.positions, skeleton.names, np.zeros(3)
+    if len(legs) == 2:  # unit vectors (F, 3) from the right hip to the left
+        left = places[:, legs[0].hip] - places[:, legs[1].hip]
+        left = left / np.maximum(np.linalg.norm(left, axis=-1, keepdims=True), 1e-12)
+    bends = [_hinge(poses, names[leg.knee], leg[:3], left) for leg in legs]
+    for elbow in range(1, len(skeleton)):
+        below = skeleton.children(elbow)
+        if not below or not re.search(ELBOW, names[elbow].lower()):
+            continue
+        wrist, forearm = below[0], (int(skeleton.parents[elbow]), elbow, below[0])
+        bends.append(_hinge(poses, names[elbow], forearm, np.zeros(3)))
+        if fingers := [c for c in skeleton.children(wrist) if np.linalg.norm(skeleton.offsets[c]) > 1e-3]:
+            hand = places[:, fingers].mean(axis=1) - places[:, wrist]
+            turned = _between(places[:, wrist] - places[:, elbow], hand)
+            bends.append(Bend(names[wrist], "bent", turned, -np.inf, WRIST))
+    return [*bends, *_against_trunk(places, skeleton, legs, left)]
 
 
-def _left(poses: GlobalPoses, legs: Sequence[Leg]) -> Array:
-    """Find the direction from the right hip to the left, unit vectors (F, 3), or 0 where it is not known."""
-    if len(legs) != 2:
-        return np.zeros(3)
-    apart = _bone(poses, legs[1].hip, legs[0].hip)
-    return np.asarray(apart / np.maximum(np.linalg.norm(apart, axis=-1, keepdims=True), 1e-12))
-
-
-def _against_trunk(poses: GlobalPoses, skeleton: Skeleton, legs: Sequence[Leg], neck: int) -> Iterator[Bend]:
+def _against_trunk(places: Array, skeleton: Skeleton, legs: Sequence[Leg], left: Array) -> Iterator[Bend]:
     """Measure hips and neck against the line from the middle of the hips to the neck."""
-    places = poses.positions
+    neck, head = (
+        next((j for j, name in enumerate(skeleton.names) if part in name.lower() and j), None)
+        for part in (NECK, HEAD)
+    )
+    if len(legs) != 2 or neck is None:
+        return
     trunk = places[:, neck] - (places[:, legs[0].hip] + places[:, legs[1].hip]) / 2
-    ahead = np.cross(_left(poses, legs), trunk)
-    left = np.cross(trunk, ahead)
+    ahead = np.cross(left, trunk)
     for leg, side in zip(legs, (1, -1), strict=True):
-        thigh, name = _bone(poses, leg.hip, leg.knee), skeleton.names[leg.hip]
+        thigh, name = places[:, leg.knee] - places[:, leg.hip], skeleton.names[leg.hip]
         yield Bend(name, "back", _between(thigh, ahead) - 90, -np.inf, BEHIND)
-        yield Bend(name, "out", 90 - _between(thigh, side * left), -ACROSS, OUT)
-    if (head := _named(skeleton, HEAD)) is not None:
+        yield Bend(name, "out", 90 - _between(thigh, side * np.cross(trunk, ahead)), -ACROSS, OUT)
+    if head is not None:
         top = (skeleton.children(head) or [head])[0]
         nodding = _between(trunk, places[:, top] - places[:, neck])
         yield Bend(skeleton.names[neck], "nodding", nodding, -np.inf, NOD)
 
 
-def _hinge(poses: GlobalPoses, skeleton: Skeleton, joints: Sequence[int], left: Array) -> Bend:
+def _hinge(poses: GlobalPoses, name: str, joints: Sequence[int], left: Array) -> Bend:
     """Measure how far a hinge bends, degrees; below 0 backwards: against the way in which it mostly bends.
 
     If it mostly bends to the right about `left`, unit vectors (F, 3), as no knee does, that is backwards.
     """
-    above, joint, below = joints
-    upper, lower = _bone(poses, above, joint), _bone(poses, joint, below)
+    upper, lower = np.diff(poses.positions[:, list(joints)], axis=1).swapaxes(0, 1)
     across = np.cross(upper, lower)
-    bends = np.einsum("fji,fj->fi", poses.matrices[:, above], across)  # seen from above
+    bends = np.einsum("fji,fj->fi", poses.matrices[:, joints[0]], across)  # seen from above
     axis = bends.sum(axis=0) / max(float(np.linalg.norm(bends.sum(axis=0))), 1e-12)
     if (across * left).sum() < -SURE * np.linalg.norm(across, axis=-1).sum():
         axis = -axis
     sine = np.linalg.norm(bends, axis=-1) * np.sign(bends @ axis)
     angles = np.degrees(np.arctan2(sine, (upper * lower).sum(-1)))
-    return Bend(skeleton.names[joint], "bent", np.asarray(angles), -BACKWARDS, FOLDED)
-
-
-def _arms(skeleton: Skeleton) -> Iterator[tuple[int, int, int, list[int]]]:
-    """Find shoulder, elbow, wrist and what hangs on the wrist, by the elbow's name."""
-    for joint in range(1, len(skeleton)):
-        if re.search(ELBOW, skeleton.names[joint].lower()) and (below := skeleton.children(joint)):
-            fingers = [c for c in skeleton.children(below[0]) if np.linalg.norm(skeleton.offsets[c]) > 1e-3]
-            yield int(skeleton.parents[joint]), joint, below[0], fingers
-
-
-def _named(skeleton: Skeleton, part: str) -> int | None:
-    """Find the first joint whose name holds a word."""
-    return next((j for j, name in enumerate(skeleton.names) if part in name.lower() and j), None)
-
-
-def _bone(poses: GlobalPoses, above: int, below: int) -> Array:
-    return np.asarray(poses.positions[:, below] - poses.positions[:, above])
+    return Bend(name, "bent", np.asarray(angles), -BACKWARDS, FOLDED)
 
 
 def _between(first: Array, second: Array) -> Array:

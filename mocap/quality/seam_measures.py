@@ -1,14 +1,21 @@
-"""How good is a seam? Measure it: jolts, sliding feet, feet in the floor, a root off its path."""
+"""How good is a seam? Measure it: jolts, sliding feet, and what the blend itself adds to its two clips.
+
+A jolt is the change of velocity from one frame to the next, |x_{f+1} - 2 x_f + x_{f-1}| · fps in metres per
+second, the RMS over the joints. Clips have jolts of their own: a foot that touches the ground stops. So
+`seam_quality` compares those of a seam with what is usual in its clips, and `blend_jolts` each frame of a
+blend with the same frames of both clips.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import Leg, legs_of
+from mocap.body import rotations
+from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import point_cloud
@@ -21,69 +28,6 @@ USUAL = 99.9
 # At 30 Hz, in the walks, runs and jumps of CMU's subject 16, leaps jump 20 times as far, all other frames
 # but one at most 3.3 times.
 LEAP, MOSTLY = 5.0, 90
-
-
-class Spread(NamedTuple):
-    """What is usual in some clips: a seam between them is compared with it.
-
-    `velocity` (m/s) and `acceleration` (m/s²): how far they jump in each frame, clip by clip, NaN where the
-    data leap. `leap`: a larger jump of velocity is a leap, m/s. `floor`: the lowest height of each leg's
-    ankle and ball, metres.
-    """
-
-    velocity: tuple[Array, ...]
-    acceleration: tuple[Array, ...]
-    leap: float
-    floor: Array
-
-    def within(self, frames: int) -> tuple[Array, Array]:
-        """List the largest jumps of velocity and of acceleration in each window of `frames` frames, sorted.
-
-        A seam is a window, too: its largest jump is compared with the largest in other windows of its length,
-        not with single frames. Windows in which the data leap are left out; a shorter clip is one window.
-
-        Examples
-        --------
-        >>> usual = Spread((np.array([1.0, 3, 2, np.nan, 4]),), (np.zeros(5),), 9.0, np.zeros(4))
-        >>> usual.within(2)[0]
-        array([3., 3.])
-        """
-        return largest_jumps(self.velocity, frames), largest_jumps(self.acceleration, frames)
-
-
-def largest_jumps(kind: Sequence[Array], frames: int) -> Array:
-    """List the largest jump in each window of `frames` frames of some clips, sorted; NaN counts as a leap.
-
-    Examples
-    --------
-    >>> largest_jumps([np.array([1.0, 3, 2]), np.array([0.5])], 2)
-    array([0.5, 3. , 3. ])
-    """
-    windows = [sliding_window_view(jumps, min(frames, len(jumps))).max(axis=-1) for jumps in kind]
-    largest = np.concatenate(windows)
-    return np.sort(largest[np.isfinite(largest)])
-
-
-class SeamQuality(NamedTuple):
-    """A seam in five numbers; small is good.
-
-    `velocity_jump` and `acceleration_jump` are the largest jumps at the seam, divided by the jump that 99.9 %
-    of the clips' own windows of its length stay below: up to 1 they are nothing special. The others are in
-    centimetres. `slide` is how far a planted joint is from its mean place over the ground, at most in each
-    plant, on average over the plants that the seam touches; `depth` how far a foot sinks below its lowest
-    height in the clips; `deviation` how far the root's path over the ground is from what it was before.
-
-    Examples
-    --------
-    >>> SeamQuality(0.8, 0.9, 2.5, 0.1, 0.0).slide
-    2.5
-    """
-
-    velocity_jump: float
-    acceleration_jump: float
-    slide: float
-    depth: float
-    deviation: float
 
 
 def jumps(motion: Motion) -> tuple[Array, Array]:
@@ -115,13 +59,41 @@ def jumps(motion: Motion) -> tuple[Array, Array]:
         raise MocapError(f"To see accelerations jump takes four frames; '{motion.name}' has {len(motion)}.")
     points = point_cloud(motion)
     velocity, acceleration = (
-        np.sqrt((np.diff(points, order, axis=0) ** 2).sum(-1).mean(-1)) * motion.fps ** (order - 1)
-        for order in (2, 3)
+        _rms(np.diff(points, order, axis=0)) * motion.fps ** (order - 1) for order in (2, 3)
     )
     return np.pad(velocity, 1), np.pad(acceleration, (2, 1))
 
 
-def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread:
+def _rms(vectors: Array) -> Array:
+    """Take the RMS length of vectors (F, P, 3) in each frame, shape (F,)."""
+    return np.asarray(np.sqrt((vectors**2).sum(axis=-1).mean(axis=-1)))
+
+
+class Spread(NamedTuple):
+    """What is usual in some clips: a seam between them is compared with it.
+
+    `velocity`: how far velocity jumps in each frame, clip by clip, m/s; NaN where the data leap.
+    """
+
+    velocity: tuple[Array, ...]
+
+    def within(self, frames: int) -> Array:
+        """List the largest jump of velocity in each window of `frames` frames, sorted.
+
+        A seam is a window, too: its largest jump is compared with the largest in other windows of its length,
+        not with single frames. Windows in which the data leap are left out; a shorter clip is one window.
+
+        Examples
+        --------
+        >>> Spread((np.array([1.0, 3, 2, np.nan, 4]),)).within(2)
+        array([3., 3.])
+        """
+        windows = [sliding_window_view(jump, min(frames, len(jump))).max(axis=-1) for jump in self.velocity]
+        largest = np.concatenate(windows)
+        return np.sort(largest[np.isfinite(largest)])
+
+
+def spread(clips: Sequence[Motion]) -> Spread:
     """Measure what is usual in some clips.
 
     Captured clips leap where a marker was lost or mistaken for another. A jump of velocity that is five times
@@ -130,45 +102,42 @@ def spread(clips: Sequence[Motion], legs: Sequence[Leg] | None = None) -> Spread
     Parameters
     ----------
     clips : motions of one skeleton and one frame rate.
-    legs : found by name by default.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for clips that do not go together, no clips, and legs that cannot be found.
+    SkeletonMismatch, MocapError : for clips that do not go together, and no clips.
 
     Examples
     --------
     >>> from mocap.datasets.samples import sample
     >>> usual = spread([sample("walk_straight")])
-    >>> usual.floor.round(2)  # two ankles and two balls, metres
-    array([0.07, 0.03, 0.07, 0.03])
+    >>> usual.within(40).max().round(2)  # m/s
+    np.float64(0.17)
 
     Notebook: 04-blending
     """
     if not clips:
         raise MocapError("A seam is measured against its clips; none were given.")
     require_alike(clips)
-    feet = feet_of(legs_of(clips[0].skeleton, legs))
-    velocity, acceleration = (tuple(kind) for kind in zip(*map(jumps, clips), strict=True))
-    leap = LEAP * float(np.percentile(np.concatenate(velocity), MOSTLY))
-    leaping = [jump > leap for jump in velocity]
-    # The third difference at a frame uses one more frame than the second, so it leaps there as well.
-    velocity = tuple(np.where(bad, np.nan, jump) for bad, jump in zip(leaping, velocity, strict=True))
-    acceleration = tuple(
-        np.where(bad | np.roll(bad, 1), np.nan, jump) for bad, jump in zip(leaping, acceleration, strict=True)
-    )
-    floor = np.min([joint_positions(clip)[:, feet, 1].min(axis=0) for clip in clips], axis=0)
-    return Spread(velocity, acceleration, leap, np.asarray(floor))
+    found = [jumps(clip)[0] for clip in clips]
+    leap = LEAP * float(np.percentile(np.concatenate(found), MOSTLY))
+    return Spread(tuple(np.where(jump > leap, np.nan, jump) for jump in found))
 
 
-def seam_quality(
-    motion: Motion,
-    seam: tuple[int, int],
-    usual: Spread,
-    *,
-    before: Motion | None = None,
-    legs: Sequence[Leg] | None = None,
-) -> SeamQuality:
+class SeamQuality(NamedTuple):
+    """A seam in two numbers; small is good.
+
+    `velocity_jump` is the largest jump of velocity at the seam, divided by the jump that 99.9 % of the clips'
+    own windows of its length stay below: up to 1 it is nothing special. `slide` is how far a planted joint is
+    from its mean place over the ground, cm: at most in each plant, on average over the plants that the seam
+    touches.
+    """
+
+    velocity_jump: float
+    slide: float
+
+
+def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQuality:
     """Measure a seam against the clips that it joins.
 
     Parameters
@@ -176,13 +145,11 @@ def seam_quality(
     motion : with the seam, and with contacts for the feet.
     seam : its first frame, and the first frame after it: (i, i + window) after `blending.join`.
     usual : what is usual in the clips, `spread(clips)`.
-    before : the same frames before they were changed, by a clean-up for instance; by default the motion.
-    legs : found by name by default, as for `spread`.
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for a seam that runs off the motion, a `before` that is another motion,
-        clips that do not move, feet without contacts, and legs that cannot be found.
+    MocapError : for a seam that runs off the motion, clips that do not move, feet without contacts, and legs
+        that cannot be found.
 
     Examples
     --------
@@ -194,41 +161,113 @@ def seam_quality(
 
     Notebook: 04-blending
     """
-    before = motion if before is None else before
-    feet = feet_of(legs_of(motion.skeleton, legs))
-    _check_seam(motion, seam, before)
-    around = slice(max(seam[0] - 1, 0), seam[1] + 1)
-    usually = usual.within(len(range(len(motion))[around]))
-    velocity, acceleration = (
-        float(kind[around].max() / _usual(largest))
-        for kind, largest in zip(jumps(motion), usually, strict=True)
-    )
-    path, old = (m.root_positions[around][:, [0, 2]] for m in (motion, before))
-    positions = joint_positions(motion)
-    slides = plant_slides(motion, feet, positions=positions)
-    depth = np.maximum(usual.floor - positions[around][:, feet, 1], 0.0).max()
-    return SeamQuality(
-        velocity,
-        acceleration,
-        mean_slide(one for one in slides if one.touches(seam)),
-        100 * float(depth),
-        100 * float(np.linalg.norm(path - old, axis=-1).max()),
-    )
-
-
-def _usual(largest: Array) -> float:
-    """Give the jump that all but one window in a thousand stay below."""
-    if len(largest) == 0 or not largest[-1] > 0:
-        raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
-    return float(np.percentile(largest, USUAL))
-
-
-def _check_seam(motion: Motion, seam: tuple[int, int], before: Motion) -> None:
-    """Raise an error unless the seam is in the motion, and `before` is the same motion."""
     if not 0 <= seam[0] < seam[1] <= len(motion):
         raise MocapError(
             f"'{motion.name}' has {len(motion)} frames, and no seam from {seam[0]} to {seam[1]}."
         )
-    require_alike([motion, before])
-    if len(before) != len(motion):
-        raise MocapError(f"Before there were {len(before)} frames, now {len(motion)}: not the same motion.")
+    found = jumps(motion)[0][max(seam[0] - 1, 0) : seam[1] + 1]
+    largest = usual.within(len(found))
+    if len(largest) == 0 or not largest[-1] > 0:
+        raise MocapError("The clips do not move, so nothing at a seam can be measured against them.")
+    slides = plant_slides(motion, feet_of(find_legs(motion.skeleton)))
+    touched = [slide for slide in slides if slide.start < seam[1] and seam[0] < slide.stop]
+    return SeamQuality(float(found.max() / np.percentile(largest, USUAL)), mean_slide(touched))
+
+
+class BlendJolts(NamedTuple):
+    """Jolts at a seam, frame by frame from the one before the window to the one after it, m/s.
+
+    result : of the blend.
+    first, second : of the two clips at these frames.
+    added : |ẍ_result - (α ẍ_first + (1 - α) ẍ_second)| / fps, with the weights α: what the blend itself adds.
+
+    Examples
+    --------
+    >>> quiet = BlendJolts(*np.array([[0.1, 0.4], [0.3, 0.5], [0.2, 0.2], [0.0, 0.1]]))
+    >>> quiet.own, quiet.stands_out
+    (0.5, False)
+    """
+
+    result: Array
+    first: Array
+    second: Array
+    added: Array
+
+    @property
+    def own(self) -> float:
+        """The largest jolt that either clip has at these frames by itself."""
+        return float(max(self.first.max(), self.second.max()))
+
+    @property
+    def stands_out(self) -> bool:
+        """Whether the result has a larger jolt than both clips have at these frames."""
+        return bool(self.result.max() > self.own)
+
+
+def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weights: ArrayLike) -> BlendJolts:
+    """Compare the jolts of a blend with those of its two clips, all on one clock.
+
+    Parameters
+    ----------
+    result, first, second : F frames each; frame f of the result was made of frame f of both clips. The second
+        is aligned with the first, as `blending.lay_window_on` does.
+    start : the first frame of the window.
+    weights : those of the first clip in the window, shape (window,); before it they are 1, after it 0. For
+        `blending.inertialize`, which plays only the second clip from the first frame on, give zeros.
+
+    Returns
+    -------
+    Jolts at window + 2 frames; fewer where the window starts or ends with the motion.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for motions that do not go together, and a window that runs off them.
+
+    Examples
+    --------
+    >>> from mocap.blending import cubic_weights, join, lay_window_on
+    >>> from mocap.datasets.generated import generate
+    >>> walk = generate("walk_straight")
+    >>> for window in (10, 40):
+    ...     first, second = walk[490:560], lay_window_on(walk, 500, walk, 233, window)[223:293]
+    ...     result = join(walk, 500, walk, 233, window)[490:560]
+    ...     print(round(blend_jolts(result, first, second, 10, cubic_weights(window)).added.max(), 2))
+    0.28
+    0.03
+
+    Notebook: 04-blending
+    """
+    inside = np.asarray(weights, float)
+    require_alike([result, first, second])
+    if not len(result) == len(first) == len(second):
+        lengths = f"{len(first)}, {len(second)} and {len(result)}"
+        raise MocapError(f"Two clips and their blend must have as many frames; these have {lengths}.")
+    if len(result) < 3 or len(inside) < 1 or start < 0 or start + len(inside) > len(result):
+        raise MocapError(
+            f"'{result.name}' has {len(result)} frames, and no window of {len(inside)} from frame {start}."
+        )
+    alpha = np.concatenate([np.ones(start), inside, np.zeros(len(result) - start - len(inside))])
+    frames = slice(max(start - 2, 0), start + len(inside) + 2)
+    changes = [np.diff(point_cloud(motion[frames]), 2, axis=0) for motion in (result, first, second)]
+    share = alpha[frames][1:-1, None, None]
+    added = changes[0] - share * changes[1] - (1 - share) * changes[2]
+    return BlendJolts(*(_rms(change) * result.fps for change in (*changes, added)))
+
+
+def knee_turns(motion: Motion) -> Array:
+    """Measure how far each knee turns from one frame to the next, degrees, shape (F - 1, legs).
+
+    A leg's bones are rigid, so its length says nothing about a knee that snaps; how fast the knee turns does.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")
+    >>> knee_turns(walk).shape, bool(knee_turns(walk).max() < 5)  # at 120 Hz
+    ((1200, 2), True)
+
+    Notebook: 09b-blend-window
+    """
+    knees = [leg.knee for leg in find_legs(motion.skeleton)]
+    turned = motion.rotations[:, knees]
+    return np.asarray(np.degrees(rotations.angle_between(turned[1:], turned[:-1])))

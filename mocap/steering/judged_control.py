@@ -105,7 +105,7 @@ def judge_control(
         warnings.simplefilter("ignore", MocapWarning)  # how much was let go is `kept`
         cleaned = clean_up(motion)
     planted = [sum(int(mark.sum()) for mark in some.contacts.values()) for some in (motion, cleaned)]
-    limit = np.percentile(usual.within(1)[0], USUAL)
+    limit = np.percentile(usual.within(1), USUAL)
     return ControlReport(
         measure_delay(make(), speed=speed, seed=seed),
         _mean_slide(motion),

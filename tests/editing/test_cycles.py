@@ -16,8 +16,8 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
 from mocap.matching.distance_grids import distance_grid
-from mocap.quality.blend_measures import ground_slides
 from mocap.quality.seam_measures import jumps
+from mocap.quality.standing_feet import ground_slides
 from tests.strategies import wave
 
 WALK = resample(samples.sample("walk_straight"), 60)

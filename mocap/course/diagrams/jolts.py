@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 
 from mocap.body.motion import Motion
 from mocap.plotting.style import COLOURS, MARK, QUIET, SOURCES
-from mocap.quality.blend_measures import blend_jolts
-from mocap.quality.seam_measures import jumps
+from mocap.quality.seam_measures import blend_jolts, jumps
 
 
 def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, and a step)

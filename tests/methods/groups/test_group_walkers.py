@@ -17,7 +17,7 @@ from mocap.methods.groups.flocking import RATE, Trajectories, nearest_two
 from mocap.methods.groups.group_graphs import play_group, random_group_walk
 from mocap.methods.groups.group_walkers import walk_group
 from mocap.methods.groups.planning import Scene, plan_group
-from mocap.quality.blend_measures import ground_slides
+from mocap.quality.standing_feet import ground_slides
 from mocap.steering.path_following import follow_path
 from tests.bundled import bundled
 from tests.methods.groups.built import graph

@@ -35,7 +35,7 @@ class Walked:
         self.speed = steps.mean() * self.motion.fps
 
     def jolting(self, some):
-        limit = np.percentile(spread(some).within(1)[0], 99.9)
+        limit = np.percentile(spread(some).within(1), 99.9)
         return 100 * float((jumps(self.motion)[0] > limit).mean())
 
 
