@@ -4,16 +4,13 @@ import sys
 from argparse import SUPPRESS
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from mocap import course
 from mocap._shared.atomic import require_writable, write_text
 from mocap.cli.options import bar
 from mocap.cli.typed_commands import Group
-from mocap.course import marking
-
-if TYPE_CHECKING:
-    from mocap.course.marking.marks import Mark
+from mocap.course import marking, teaching
 
 NETWORK = {
     True: "marking without a network: notebooks cannot open a connection",
@@ -53,8 +50,6 @@ def slides(*, out: Path = Path("mocap-slides"), moving: Moving = False) -> None:
     -----
     For example: mocap course slides -o slides, then open slides/index.html.
     """
-    from mocap.course import teaching
-
     print(f"wrote {teaching.build_slides(course.stored(), out, bar('converting'), moving=moving)}")
 
 
@@ -81,8 +76,6 @@ def film(notebook: Path, *, out: Path | None = None, still: bool = False) -> Non
     -----
     For example: mocap course film notebooks/06-pruning.ipynb -o pruning.mp4
     """
-    from mocap.course import teaching
-
     out = out or Path(notebook.with_suffix(".mp4").name)
     require_writable(out)
     teaching.render_film(notebook, out, moving=not still, progress=bar("drawing"))
@@ -100,8 +93,6 @@ def board(*, out: Path = Path("mocap-board")) -> None:
     -----
     For example: mocap course board -o board, then open board/board.png.
     """
-    from mocap.course import teaching
-
     files = teaching.write_board(out, bar("drawing"))
     print(f"wrote {len(files)} pictures to {out}; {files[-1]} shows all")
 
@@ -129,21 +120,15 @@ def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
     table = out.with_stem(f"{out.stem}-table")
     require_writable(out)
     print(NETWORK[marking.offline()], file=sys.stderr)
-    marks: list[Mark] = []
+    marks: list[marking.Mark] = []
     try:
         for one in marking.mark(folder, bar("marking")):
-            if marks and one.handed_in != marks[-1].handed_in:
-                _write_marks(marks, out, table)
             marks.append(one)
     finally:  # so that Ctrl-C keeps the marks made so far
-        _write_marks(marks, out, table)
+        if marks:
+            write_text(out, marking.to_csv(marks))
+            write_text(table, marking.to_table(marks))
     print(f"wrote {out} and {table}: {sum(one.right for one in marks)} of {len(marks)} are right")
-
-
-def _write_marks(marks: "list[Mark]", out: Path, table: Path) -> None:
-    if marks:
-        write_text(out, marking.to_csv(marks))
-        write_text(table, marking.to_table(marks))
 
 
 def papers() -> None:

@@ -1,14 +1,22 @@
-"""The commands that change one clip: `mocap warp`, by a small text file, and `mocap bend`, along a line."""
+"""The commands that make clips of clips: `mocap warp`, `bend`, `loop`, `blend` and `retarget`."""
 
 import math
+import warnings
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
-from mocap import body, editing, feet, files
-from mocap.cli.options import TURN, Reading, Unit, Widen, check_out, number, tell, write_out
-from mocap.errors import MocapError
+from mocap import blending, body, editing, feet, files, quality
+from mocap._shared.atomic import make_folder, require_folder
+from mocap.cli import options
+from mocap.cli.options import TURN, Clean, Reading, Unit, Widen, bar, check_out, number, tell, write_out
+from mocap.errors import MocapError, MocapWarning
 
 FORMATS = (".bvh", ".glb", ".amc")
+LASTS = number(0.2, 600)  # seconds; no shorter than the seam
+POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
+LITTLE = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
+SLACK = 1.2  # seconds, at most half of the shortest clip
 
 
 def warp(
@@ -95,3 +103,182 @@ def bend(
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     tell(bent=bent.report())
     write_out(bent.motion, out, widen=widen)
+
+
+def loop(
+    clip: Path,
+    *,
+    out: Path = Path("loop.bvh"),
+    reading: Reading,
+    shortest: Annotated[float, LASTS] = 0.4,
+    longest: Annotated[float, LASTS] = 3.0,
+    straight: bool = False,
+    clean: Clean = False,
+    inertialize: bool = False,
+    times: Annotated[int, number(1, 1000, int)] = 1,
+) -> None:
+    """Cut the best cycle out of a clip and close it.
+
+    Find the stretch of a clip that makes the best cycle: its ends are alike, and it holds most of what the
+    clip does. Close it, and write it as .bvh, .glb, .amc or .npz. Its last frame is its first one, farther on
+    over the ground.
+
+    Parameters
+    ----------
+    clip : an .amc, .bvh or AMASS .npz file.
+    out : file to write.
+    shortest : seconds of a cycle at least.
+    longest : seconds of a cycle at most.
+    straight : take out the turn of a round: it goes on straight ahead.
+    inertialize : close it by an offset that fades, not by a blend.
+    times : rounds to write.
+
+    Notes
+    -----
+    Example: mocap loop walk.bvh --straight --clean -o loop.bvh
+    """
+    check_out("cycle", out, (".bvh", ".glb", ".amc", ".npz"), [clip])
+    motion = reading.load(clip)
+    found = editing.find_loop(motion, seconds=(shortest, longest))
+    seam, missed = (f"{100 * metres:.0f} cm" for metres in (found.seam, found.missed))
+    if found.seam > POOR:
+        said = f"{clip}: the ends of the best cycle are {seam} apart: it may leap there."
+        warnings.warn(said, MocapWarning, stacklevel=1)
+    if found.missed > LITTLE:
+        said = f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle."
+        warnings.warn(said, MocapWarning, stacklevel=1)
+    way = "inertialize" if inertialize else "blend"
+    cycle = editing.loop(motion, found, way=way, straight=straight, clean=clean)
+    turn = quality.inspect(cycle).turn
+    step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
+    side = "left" if turn > 0 else "right"
+    tell(cycle=f"frames {found.first} to {found.last}, {cycle.duration:.2f} s")
+    tell(seam=f"{100 * found.seam:.1f} cm RMS")
+    tell(misses=f"{100 * found.missed:.1f} cm of the clip's other poses, on average")
+    tell(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
+    write_out(editing.repeated(cycle, times), out, widen=True)
+
+
+def blend(
+    clips: Sequence[Path],
+    *,
+    weights: Annotated[Sequence[float], number(-1, 2)] = (),
+    fade: Annotated[float | None, number(0.01, 1000)] = None,
+    at: Annotated[float | None, number(0, 1e6)] = None,
+    slack: Annotated[float | None, number(0, 1e4)] = None,
+    clean: bool = False,
+    out: Path = Path("blend.bvh"),
+    reading: Reading,
+) -> None:
+    """Blend clips of one kind as wholes, by weights, or pass from one into another.
+
+    Blend two clips of one kind or more: which of their frames belong together is found first, so walks of
+    different speed or direction stay in step. With --fade, pass from the first clip into the second.
+
+    Parameters
+    ----------
+    clips (CLIP) : an .amc, .bvh or AMASS .npz file.
+    weights : one for each clip, with the sum 1 (default: all alike).
+    fade (SECONDS) : pass from the first into the second clip.
+    at (SECONDS) : middle of the fade, in the first clip's time.
+    slack : seconds that one clip may start or end before the others (default: 1.2, or half of the shortest).
+    clean : find footplants and clean up footskate.
+    out : file to write.
+
+    Notes
+    -----
+    Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
+    """
+    check_out("blend", out, (".bvh", ".amc", ".glb", ".npz"), clips)
+    if len(clips) < 2:
+        raise MocapError("A blend needs two clips or more.")
+    if weights and len(weights) != len(clips):
+        raise MocapError(f"{len(clips)} clips need {len(clips)} weights, got {len(weights)}.")
+    if fade and (weights or len(clips) != 2):
+        raise MocapError(f"--fade passes from one clip into another, got {len(clips)} clips.")
+    if at is not None and not fade:
+        raise MocapError("--at belongs to --fade.")
+    motions = [reading.load(path) for path in bar("reading")(clips)]
+    if clean:
+        motions = [feet.mark_plants(motion) for motion in motions]
+    if slack is None:
+        slack = min(SLACK, min(motion.duration for motion in motions) / 2)
+    registration = blending.register(motions, slack=slack)
+    first, last = registration.span
+    worst = 100 * max(registration.costs)
+    tell(registered=f"{len(motions)} clips, {last - first:.2f} s in common, {worst:.1f} cm")
+    weights = weights or [1 / len(clips)] * len(clips)
+    mixed = (
+        blending.crossfade(registration, seconds=fade, at=at) if fade else blending.mix(registration, weights)
+    )
+    tell(blended=f"{mixed.duration:.2f} s")
+    write_out(feet.clean_up(mixed) if clean else mixed, out)
+
+
+def retarget(
+    clips: Sequence[Path],
+    *,
+    to: Path,
+    out: Path,
+    format: Literal["bvh", "amc", "glb"] = "bvh",
+    steps: Annotated[float, number(0.1, 10)] = 1.0,
+    to_scale: Annotated[float | None, options.LENGTH] = None,
+    widen: Widen = False,
+    reading: Reading,
+) -> int:
+    """Let one body wear the clips of others.
+
+    Copy clips onto another body, with its feet planted on the floor where the old feet were planted. Clips of
+    different people then fit into one motion graph. Joints are found by the names that files use.
+
+    Parameters
+    ----------
+    clips (IN) : files with clips, or folders of them.
+    to (FILE) : whose body: an .asf file whose rest pose stands upright; or better a clip of somebody who
+        walks, which also says how high the feet stand.
+    out (DIR) : folder for the new files.
+    format : format of the new files.
+    steps : length of steps, for these legs.
+    to_scale : metres per unit of length in FILE, as --scale is for IN.
+
+    Notes
+    -----
+    Example: mocap retarget clips/ --to hero.bvh -o worn/
+    """
+    require_folder(out)
+    found, failed = files.find_files(clips), []
+    targets: dict[Path, Path] = {}
+    for source in found:
+        target = out / f"{source.stem}.{format}"
+        options.require_other(target, [*found, to])
+        if (first := targets.setdefault(target, source)) != source:
+            raise MocapError(f"{first} and {source} would both become {target}: retarget them one by one.")
+    stance, skeleton = _body(to, to_scale)
+    for target, source in bar("retargeting")(list(targets.items())):
+        try:
+            motion = reading.load(source)
+            stands = editing.stance_of(motion)
+            onto = stance or editing.standing_like(skeleton, stands)
+            worn = editing.retarget(motion, onto, stands, scale=steps * onto.leg / stands.leg)
+            make_folder(out)
+            files.save(worn, target, widen=widen)
+        except MocapError as error:
+            named = any(str(path) in str(error) for path in (source, target))
+            failed.append(str(error) if named else f"{source}: {error}")
+    return options.tell_of_failures("retargeted", len(targets), failed, f", in {out}")
+
+
+def _body(path: Path, scale: float | None) -> "tuple[editing.Stance | None, body.Skeleton]":
+    """Read whose body it is, and how it stands, which a skeleton alone does not say."""
+    if path.suffix.lower() == ".asf":
+        if scale:
+            raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
+        return None, files.load_skeleton(path)
+    clip = Reading(scale=scale).load(path)
+    try:
+        return editing.stance_of(clip), clip.skeleton
+    except MocapError as error:
+        try:  # nobody stands in it, but its rest pose alone may do
+            return None, editing.stance_of_zero(clip.skeleton, 0.0).skeleton
+        except MocapError:
+            raise MocapError(f"{path}: {error}") from None

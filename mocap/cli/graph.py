@@ -1,18 +1,75 @@
-"""The commands `mocap graph build` and `mocap graph info`: a motion graph that is saved, or described."""
+"""The commands that build motion graphs: `mocap demo`, `mocap graph build` and `mocap graph info`."""
 
+import math
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Annotated
 
-from mocap import datasets, editing, files, graphs
-from mocap._shared.atomic import require_npz, require_writable
-from mocap.cli.options import Building, bar, require_other, tell
+from mocap import body, datasets, editing, files, graphs, quality, synthesis, widgets
+from mocap._shared.atomic import make_folder, require_folder, require_npz, require_writable
+from mocap.cli.options import Building, Seed, bar, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, MocapWarning, NoWalk
 
-if TYPE_CHECKING:
-    from mocap.body.motion import Motion
+SHOWN = 7  # names of clips
+
+
+def demo(
+    clips: Sequence[Path] = (),
+    *,
+    out: Path = Path("mocap-demo"),
+    building: Building,
+    seconds: Annotated[float, number(0.1, 3600)] = 12.0,
+    seed: Seed = 0,
+) -> None:
+    """Make a new walk out of clips, as walk.bvh and walk.gif.
+
+    Build a motion graph of some clips, prune it, walk through it at random, and write the new motion as
+    walk.bvh (centimetres) and walk.gif.
+
+    Parameters
+    ----------
+    clips : .amc, .bvh or AMASS .npz files, or folders of them (default: the bundled clips).
+    out : folder to write to.
+    seconds : duration of the new walk.
+    """
+    require_folder(out)
+    require_other(out / "walk.bvh", files.find_files(clips) if clips else ())
+    motions = building.load(clips) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
+    whole = building.build(motions, bar("comparing"))
+    try:
+        pruned = graphs.prune(whole)
+    except NoWalk as error:
+        least = graphs.smallest_threshold(whole.clips, window=whole.window)
+        raise NoWalk(
+            f"No walk is left at a threshold of {building.threshold:g} cm; "
+            f"these clips need at least {math.ceil(1e4 * least) / 100:g} cm."
+        ) from error
+    edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
+    walk = synthesis.to_motion(pruned, edges)
+    _tell_of_clips(whole.clips)
+    tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
+    rows = [
+        (each.count("transition"), len(each.graph), each.graph.number_of_edges()) for each in (whole, pruned)
+    ]
+    print(f"{'':<12} {'whole':>8}{'pruned':>8}")
+    for name, *counts in zip(("transitions", "nodes", "edges"), *rows, strict=True):
+        tell(**{name: "".join(f"{count:8}" for count in counts)})
+    costs = [100 * seam.cost for seam in synthesis.seams(pruned, edges)]
+    tell(**{"new walk": f"{walk.duration:.1f} s, {quality.inspect(walk).path:.1f} m"})
+    tell(seams=f"{len(costs)}, the worst {max(costs, default=0.0):.1f} cm RMS")
+    make_folder(out)
+    write_out(walk, out / "walk.bvh")
+    widgets.save_animation(walk, out / "walk.gif", progress=bar("drawing"))
+    tell(wrote=out / "walk.gif")
+
+
+def _tell_of_clips(clips: "Sequence[body.Motion]") -> None:
+    names, frames, fps = [clip.name for clip in clips], sum(map(len, clips)), clips[0].fps
+    shown = ", ".join(names if len(names) <= SHOWN else [*names[:SHOWN], f"… {names[-1]}"])
+    tell(clips=f"{len(clips)}: {shown}", frames=f"{frames} at {fps:g} Hz, {frames / fps:.1f} s")
+    tell(body=f"{len(clips[0].skeleton)} joints, {quality.inspect(clips[0]).height:.2f} m tall")
 
 
 def build(
@@ -48,7 +105,6 @@ def build(
         require_writable(graphml)
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
-    building.frames()
     found = files.find_files(clips)
     require_other(out, found)
     motions = building.load(found)
@@ -67,7 +123,7 @@ def build(
         tell(wrote=graphml)
 
 
-def _mirrored(clips: "list[Motion]") -> "list[Motion]":
+def _mirrored(clips: "Sequence[body.Motion]") -> "list[body.Motion]":
     """Mirror all clips; where bodies are lopsided, one warning is enough."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", MocapWarning)

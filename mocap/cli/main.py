@@ -9,35 +9,21 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 import mocap
-from mocap.cli.blend import blend
+from mocap.cli.clips import DATA, convert, find, info, judge, view
 from mocap.cli.course import COURSE, lab
-from mocap.cli.crowd import crowd
-from mocap.cli.demo import demo
-from mocap.cli.edits import bend, warp
-from mocap.cli.files import DATA, convert, info, judge
-from mocap.cli.find import find
-from mocap.cli.graph import GRAPH
-from mocap.cli.loop import loop
+from mocap.cli.edits import bend, blend, loop, retarget, warp
+from mocap.cli.graph import GRAPH, demo
 from mocap.cli.options import as_options
-from mocap.cli.retarget import retarget
-from mocap.cli.typed_commands import Group, Run, add_commands
-from mocap.cli.view import view
-from mocap.cli.walk import walk
+from mocap.cli.typed_commands import Group, Run, add_commands, call
+from mocap.cli.walk import crowd, walk
 from mocap.errors import MocapError, MocapWarning, shortened
 
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed
 ACTIONS = (*GRAPH.commands, "-h", "--help")  # before any other word, `build` may be left out
-FIRST: tuple[Run, ...] = (blend, info, judge, convert, warp, bend, loop, find, crowd, retarget)
-COMMANDS: dict[str, Run | Group] = {
-    "demo": demo,
-    "graph": GRAPH,
-    "walk": walk,
-    **{run.__name__: run for run in FIRST},
-    "data": DATA,
-    "view": view,
-    "course": COURSE,
-    "lab": lab,
-}
+CLIPS: tuple[Run, ...] = (blend, info, judge, convert, warp, bend, loop, find, crowd, retarget)
+COMMANDS: dict[str, Run | Group] = {"demo": demo, "graph": GRAPH, "walk": walk}
+COMMANDS |= {run.__name__: run for run in CLIPS}
+COMMANDS |= {"data": DATA, "view": view, "course": COURSE, "lab": lab}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -55,7 +41,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _written_out(words: Sequence[str]) -> list[str]:
+def _written_out(words: list[str]) -> list[str]:
     """Write out what may be left out: `build` after `mocap graph`, and what `--` means after `mocap lab`.
 
     Examples
@@ -65,10 +51,9 @@ def _written_out(words: Sequence[str]) -> list[str]:
     >>> _written_out(["lab", "mine", "--", "--no-browser"])
     ['lab', 'mine', '--after', '--no-browser']
     """
-    command, *rest = words or [""]
-    if command == "graph" and rest and rest[0] not in ACTIONS:
-        return ["graph", "build", *rest]
-    return [*words] if command != "lab" else ["--after" if word == "--" else word for word in words]
+    if words[:1] == ["graph"] and words[1:] and words[1] not in ACTIONS:
+        return ["graph", "build", *words[1:]]
+    return ["--after" if word == "--" and words[0] == "lab" else word for word in words]
 
 
 def _say(message: Warning | str, *_place: object, **_more: object) -> None:
@@ -89,14 +74,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="replace")  # a terminal that knows no ° shows ?
     try:
-        words = _written_out(sys.argv[1:] if arguments is None else arguments)
+        words = _written_out(sys.argv[1:] if arguments is None else [*arguments])
         options, unknown = _parser().parse_known_args(words)
         if unknown:
             options.parser.error(f"unrecognized arguments: {' '.join(unknown)}")
         with warnings.catch_warnings():
             warnings.simplefilter("always", MocapWarning)
             warnings.showwarning = _say
-            status = int(options.run(options))
+            status = int(call(options.run, options) or 0)
             sys.stdout.flush()
             return status
     except MocapError as error:

@@ -30,6 +30,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
     Traceback (most recent call last):
     argparse.ArgumentTypeError: 'nan' is not a whole number from 0 to 10
     """
+    what = f"a whole number from {low} to {high}" if kind is int else f"a number from {low:g} to {high:g}"
 
     def read(text: str) -> float:
         try:
@@ -37,11 +38,6 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            what = (
-                f"a whole number from {low} to {high}"
-                if kind is int
-                else f"a number from {low:g} to {high:g}"
-            )
             raise argparse.ArgumentTypeError(f"{text[:40]!r} is not {what}")
         return value
 
@@ -103,23 +99,17 @@ class Building(Sources):
     window: Annotated[float, number(0, 60), "seconds of a transition"] = 1 / 3
     threshold: Annotated[float, CM, "largest distance of a match, cm"] = 4.0
 
+    @property
     def frames(self) -> int:
-        """Count the frames of a window, which needs at least two.
-
-        Examples
-        --------
-        >>> Building().frames()
-        10
-        """
-        frames = round(self.window * self.fps)
-        if frames < 2:
+        """Frames of a window, which needs at least two."""
+        if (frames := round(self.window * self.fps)) < 2:
             raise MocapError(f"A window needs two frames or more, got {self.window:g} s at {self.fps:g} Hz.")
         return frames
 
     def build(self, clips: "Sequence[Motion]", progress: Progress = iter) -> "MotionGraph":
         """Build the graph of some clips, not pruned yet."""
         clips = [body.resample(clip, self.fps) for clip in clips]
-        return graphs.build(clips, window=self.frames(), threshold=self.threshold / 100, progress=progress)
+        return graphs.build(clips, window=self.frames, threshold=self.threshold / 100, progress=progress)
 
 
 def load_graph(path: Path, skeleton: Path | None, clips: "Sequence[Motion] | None" = None) -> "MotionGraph":
@@ -162,8 +152,7 @@ def check_out(what: str, out: Path, formats: Sequence[str], read: Iterable[Path]
     mocap.errors.MocapError: A walk is written as .bvh or .glb, got 'walk.fbx'.
     """
     if out.suffix.lower() not in formats:
-        *some, last = formats
-        known = f"{', '.join(some)} or {last}" if some else last
+        known = " or ".join(filter(None, [", ".join(formats[:-1]), formats[-1]]))
         raise MocapError(f"A {what} is written as {known}, got '{out}'.")
     require_other(out, read)
     require_writable(out)

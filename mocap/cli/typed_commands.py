@@ -8,14 +8,10 @@ A dataclass among the annotations stands for an option for each of its fields.
 import argparse
 import inspect
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args, get_origin
-
-if TYPE_CHECKING:
-    Parsers = argparse._SubParsersAction[Any]
+from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
 
 Run = Callable[..., int | None]
 _PARAMETER = re.compile(r"^(\w+)(?: \((\S+)\))? : (.*(?:\n +.*)*)", re.MULTILINE)
@@ -33,67 +29,50 @@ class _Text(argparse.HelpFormatter):
     """Fill each paragraph by itself, but leave those with indented lines as they stand."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
-        paragraphs = text.split("\n\n")
         fill = super()._fill_text
+        paragraphs = text.split("\n\n")
         return "\n\n".join(part if "\n " in part else fill(part, width, indent) for part in paragraphs)
 
 
-def add_commands(parsers: "Parsers", commands: "Mapping[str, Run | Group]") -> None:
+def add_commands(parsers: Any, commands: Mapping[str, Run | Group]) -> None:  # noqa: ANN401 (of argparse)
     """Make a parser for each command, and name it in its options: an error shows its usage."""
     for name, run in commands.items():
-        text = run.text if isinstance(run, Group) else inspect.getdoc(run) or ""
-        text, _, notes = text.partition("\n\nNotes\n-----\n")
+        text, _, notes = (inspect.getdoc(run) if callable(run) else run.text).partition("\n\nNotes\n-----\n")
         about, _, parameters = text.partition("\n\nParameters\n----------\n")
         first, _, more = about.partition("\n\n")
-        parser = parsers.add_parser(
-            name,
-            help=first[0].lower() + first[1:].rstrip("."),
-            description=more or first,
-            epilog=notes,
-            formatter_class=_Text,
-            usage=run.usage if isinstance(run, Group) else None,
-        )
-        parser.set_defaults(parser=parser)
-        if isinstance(run, Group):
+        texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": more or first}
+        parser = parsers.add_parser(name, epilog=notes, formatter_class=_Text, **texts)
+        parser.set_defaults(parser=parser, run=run)
+        if callable(run):
+            helps = {name: more for name, *more in _PARAMETER.findall(parameters)}
+            for parameter in _parameters(run):
+                _add_argument(parser, parameter, *helps.get(parameter.name, ()))
+        else:
+            parser.usage = run.usage
             below = parser.add_subparsers(
-                title="commands", required=True, metavar="COMMAND", prog=parser.prog
+                title="commands", required=True, metavar="COMMAND", prog=f"mocap {name}"
             )
             add_commands(below, run.commands)
+
+
+def _parameters(made: Run) -> Iterator[inspect.Parameter]:
+    """Yield the parameters of a function; instead of one that takes a dataclass, its fields, as options."""
+    for parameter in inspect.signature(made).parameters.values():
+        if is_dataclass(kind := parameter.annotation):
+            yield from (field.replace(kind=field.KEYWORD_ONLY) for field in _parameters(kind))
         else:
-            _add_arguments(parser, run, {name: more for name, *more in _PARAMETER.findall(parameters)})
-            parser.set_defaults(run=partial(_call, run))
+            yield parameter
 
 
-def _add_arguments(parser: argparse.ArgumentParser, made: Run, helps: Mapping[str, list[str]]) -> None:
-    """Add an argument for each parameter of a function, or for each field of a dataclass."""
-    for name, parameter in inspect.signature(made).parameters.items():
-        if is_dataclass(parameter.annotation):
-            _add_arguments(parser, parameter.annotation, {})  # type: ignore[arg-type]
-            continue
-        settings = _settings(parameter)
-        if name in helps:
-            metavar, text = helps[name]
-            settings |= {"help": " ".join(text.split()).rstrip(".")} | (
-                {"metavar": metavar} if metavar else {}
-            )
-        shown = parameter.default
-        if isinstance(shown, str | Path | int | float) and not isinstance(shown, bool):
-            text = f"{shown:.3g}" if isinstance(shown, float) else f"{shown}"
-            settings["help"] += f" (default: {text})"
-        if parameter.kind is parameter.KEYWORD_ONLY or is_dataclass(made):
-            flags = [*(["-o"] if name == "out" else []), f"--{name.replace('_', '-')}"]
-            parser.add_argument(*flags, required=shown is parameter.empty, **settings)
-        else:
-            many = {} if shown is parameter.empty else {"nargs": "*" if "nargs" in settings else "?"}
-            parser.add_argument(name, **settings | many)
-
-
-def _settings(parameter: inspect.Parameter) -> dict[str, Any]:
+def _add_argument(
+    parser: argparse.ArgumentParser, parameter: inspect.Parameter, metavar: str = "", text: str = ""
+) -> None:
     """Say to argparse what an annotation says; `Annotated` adds a reader, a help text, further settings."""
-    kind, *extras = get_args(parameter.annotation) or [parameter.annotation]
-    if get_origin(parameter.annotation) is not Annotated:
-        kind, extras = parameter.annotation, []
-    settings = {} if parameter.default is parameter.empty else {"default": parameter.default}
+    name, default, kind, extras = parameter.name, parameter.default, parameter.annotation, ()
+    if get_origin(kind) is Annotated:
+        kind, *extras = get_args(kind)
+    needed = default is parameter.empty
+    settings: dict[str, Any] = {} if needed else {"default": default}
     if kind is bool:
         settings["action"] = "store_true"
     elif get_origin(kind) is Literal:
@@ -106,19 +85,25 @@ def _settings(parameter: inspect.Parameter) -> dict[str, Any]:
         settings |= (
             extra if isinstance(extra, dict) else {"help" if isinstance(extra, str) else "type": extra}
         )
-    return settings
+    settings |= {"metavar": metavar} if metavar else {}
+    settings |= {"help": " ".join(text.split()).rstrip(".")} if text else {}
+    if isinstance(default, str | Path | int | float) and kind is not bool:
+        shown = f"{default:.3g}" if isinstance(default, float) else f"{default}"
+        settings["help"] += f" (default: {shown})"
+    if parameter.kind is parameter.KEYWORD_ONLY:
+        flags = [*(["-o"] if name == "out" else []), f"--{name.replace('_', '-')}"]
+        parser.add_argument(*flags, required=needed, **settings)
+    else:
+        many = {} if needed else {"nargs": "*" if "nargs" in settings else "?"}
+        parser.add_argument(name, **settings | many)
 
 
-def _call(run: Run, options: argparse.Namespace) -> int:
-    """Run a command with the values that were given."""
-    return run(**_values(run, options)) or 0
-
-
-def _values(made: Run, options: argparse.Namespace) -> dict[str, Any]:
-    """Give a function's parameters, or a dataclass's fields, the values of the options."""
-    values: dict[str, Any] = {}
-    for name, parameter in inspect.signature(made).parameters.items():
-        kind: Run = parameter.annotation
-        nested = is_dataclass(parameter.annotation)
-        values[name] = kind(**_values(kind, options)) if nested else getattr(options, name)
-    return values
+def call(made: Callable[..., Any], options: argparse.Namespace) -> Any:  # noqa: ANN401
+    """Call a command, or make a dataclass, with the values that its options were given."""
+    kinds = {name: one.annotation for name, one in inspect.signature(made).parameters.items()}
+    return made(
+        **{
+            name: call(kind, options) if is_dataclass(kind) else getattr(options, name)
+            for name, kind in kinds.items()
+        }
+    )

@@ -1,36 +1,27 @@
-"""The command `mocap walk`: a walk through a saved graph, along a path or at random."""
+"""Characters that walk through a graph: `mocap walk`, along a path or at random, and `mocap crowd`."""
 
+import cmath
 import itertools
 import math
 import re
 import warnings
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Literal
 
-from mocap import editing, files, graphs, steering, synthesis
-from mocap.cli.options import (
-    LENGTH,
-    TURN,
-    Clean,
-    Skeleton,
-    Sources,
-    Unit,
-    bar,
-    check_out,
-    load_graph,
-    number,
-    require_other,
-    tell,
-    write_out,
-)
+from mocap import datasets, editing, files, graphs, plotting, steering, synthesis, widgets
+from mocap._shared.atomic import make_folder, replacing, require_folder
+from mocap.cli import options
+from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
 from mocap.datasets.clip_origins import find_again
-from mocap.errors import MocapError, MocapWarning
-
-if TYPE_CHECKING:
-    from mocap.graphs.motion_graph import MotionGraph
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.methods import groups
 
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
+TURNS = (0.0, 0.5, -0.5, 1.0, -1.0)  # radians from the way to the first point, tried in this order
+SOON = 400  # states; where the way ahead is closed, a side finds one soon or not at all
 LONGEST = 24 * 3600.0  # seconds of a random walk
 
 
@@ -42,7 +33,7 @@ def walk(
     out: Path = Path("walk.bvh"),
     clips: Sequence[Path] = (),
     skeleton: Skeleton = None,
-    scale: Annotated[float | None, LENGTH] = None,
+    scale: Annotated[float | None, options.LENGTH] = None,
     unit: Unit = None,
     label: Annotated[Sequence[str], {"action": "append", "nargs": None, "default": []}] = (),
     bend: Annotated[float | None, TURN, {"nargs": "?", "const": 60.0}] = None,
@@ -83,21 +74,20 @@ def walk(
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
     if scale and not clips:
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
-    check_out("walk", out, (".bvh", ".glb"))
-    if path is None:
-        seconds, found = _seconds(random or ""), _graph(graph, clips, Sources(skeleton, scale), out)
+    options.check_out("walk", out, (".bvh", ".glb"))
+    seconds, line = _seconds(random or "1s"), files.load_path(path, scale=unit) if path else None
+    wishes = steering.Wishes(labels=[_label(text) for text in label])
+    found = _graph(graph, clips, Sources(skeleton, scale), out)
+    if line is None:
         frames = synthesis.dump(
             found, out, seconds=seconds, seed=seed or 0, clean=clean, progress=bar("writing")
         )
         tell(walked=f"{frames / found.fps:.1f} s at random", wrote=out)
         return 0
-    line = files.load_path(path, scale=unit)
-    wishes = steering.Wishes(labels=[_label(text) for text in label])
     settings = steering.Settings(width=width or 100, progress=bar("searching"))
-    found = _graph(graph, clips, Sources(skeleton, scale), out)
     followed = steering.follow_path(found, line, wishes, settings=settings, bend=math.radians(bend or 0))
     tell(walked=followed.report())
-    write_out(followed.motion(clean=clean or bool(bend)), out)
+    options.write_out(followed.motion(clean=clean or bool(bend)), out)
     return 130 if followed.found.stopped else 0
 
 
@@ -125,24 +115,107 @@ def _label(text: str) -> tuple[float, str]:
         raise MocapError(f"From where on is '{text[:40]}'? Write METRES:LABEL, as in 6.5:sneak.") from None
 
 
-def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "MotionGraph":
+def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
     """Read the graph, and the clips that it was built of: those given, or those that it remembers."""
     found = graphs.read(path)
-    require_other(out, files.find_files(clips) if clips else _remembered(path, out.suffix))
+    options.require_other(out, files.find_files(clips) if clips else _remembered(path, out.suffix))
     with warnings.catch_warnings():
         lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
-            return load_graph(path, sources.skeleton)
+            return options.load_graph(path, sources.skeleton)
         given = sources.load(clips)
         given += [editing.mirror(c) for c in given if editing.mirrored_name(c.name) in found.names]
-    return load_graph(path, None, given)
+    return options.load_graph(path, None, given)
 
 
 def _remembered(path: Path, suffix: str) -> list[Path]:
     """List the files of a graph's clips, as it remembers them or of their names beside it."""
-    found, folder, sources = graphs.read(path), path.parent, list[Path]()
-    for name, text in itertools.zip_longest(found.names, found.origins):
-        origin = find_again(text, folder) if text else None
-        sources.append(origin.path if origin else folder / f"{name}{suffix}")
-    return [source for source in sources if source.is_file()]
+    found, folder = graphs.read(path), path.parent
+    places = itertools.zip_longest(found.names, found.origins)
+    origins = [(name, find_again(text, folder) if text else None) for name, text in places]
+    return [origin.path if origin else folder / f"{name}{suffix}" for name, origin in origins]
+
+
+def crowd(
+    *,
+    members: Annotated[int, number(2, 48, int)] = 6,
+    through: Path,
+    around: Path | None = None,
+    out: Path,
+    graph: Path | None = None,
+    skeleton: Skeleton = None,
+    to: Literal["bvh", "glb"] = "bvh",
+    no_film: bool = False,
+    seed: Seed = 0,
+) -> None:
+    """Plan the way of a group, and walk it with a character for each member.
+
+    Plan how a group walks past points and around obstacles, and let a character of a motion graph walk each
+    member's way, in place and in time. The group starts at x = 0, z = 0. Writes a motion for each member,
+    plan.png, and a film: crowd.mp4, or crowd.gif where imageio-ffmpeg is not installed. Files of
+    these names are replaced; all others in the folder are left alone.
+
+    Parameters
+    ----------
+    members : how many walk.
+    through : a .csv with the points to pass in turn, x, z in metres.
+    around : a .csv with obstacles, x, z, radius in metres.
+    out : folder for the new files.
+    graph : an .npz file from `mocap graph` (default: one of generated walks).
+    to : format of the motions.
+    no_film : write no film, which takes the longest.
+
+    Notes
+    -----
+    Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/
+    """
+    require_folder(out)
+    points = files.load_rows(through)
+    discs = files.load_rows(around, ("x", "z", "radius")) if around else []
+    scene = groups.Scene(
+        tuple(complex(z, x) for x, z in points),
+        tuple((complex(z, x), float(radius)) for x, z, radius in discs),
+    )
+    scene.check(0j)
+    walks = _walks(graph, skeleton)
+    group = groups.build_group(members, seed=seed)
+    start, found = _plan(group, scene)
+    frames = round(found.seconds * groups.RATE) + 1
+    plan = groups.Trajectories(*(part[:frames] for part in groups.play_group(group, found.clips, start)))
+    tell(planned=f"{found.seconds:.1f} s for {members} members, {found.expanded} states")
+    walkers = groups.walk_group(walks, plan, progress=bar("walking"))
+    tell(walked=walkers.report())
+    make_folder(out)
+    for count, motion in enumerate(walkers.motions, 1):
+        files.save(motion, out / f"member-{count:02}.{to}")
+    with replacing(out / "plan.png") as beside:
+        plotting.draw_group_plan(plan.places, scene.points, scene.discs, near=scene.near).savefig(beside)
+    if not no_film:  # a .gif of half the frames is three times as large as an .mp4 even so
+        name, fps = ("crowd.mp4", 25.0) if find_spec("imageio_ffmpeg") else ("crowd.gif", 12.5)
+        widgets.save_animation(walkers.motions, out / name, discs=discs, fps=fps, progress=bar("drawing"))
+    tell(wrote=out)
+
+
+def _walks(path: Path | None, skeleton: Path | None) -> "graphs.MotionGraph":
+    """Load the graph asked for, or build one of generated walks."""
+    if path is None and skeleton:
+        raise MocapError("--skeleton belongs to --graph: the generated walks have a skeleton of their own.")
+    if path is None:
+        return graphs.prune(Building().build([datasets.sample(name) for name in WALKS]))
+    graph = options.load_graph(path, skeleton)
+    if not graph.count("transition"):
+        raise NoWalk(f"{path} has no transition: no character can walk where it should.")
+    return graph
+
+
+def _plan(group: "groups.GroupGraph", scene: "groups.Scene") -> "tuple[groups.Placed, groups.GroupWalk]":
+    """Plan a way that sets out towards the first point or, where that is closed, to one side of it."""
+    refused: list[NoWalk] = []
+    for turn in TURNS:
+        start = groups.Placed(0, cmath.rect(1.0, cmath.phase(scene.points[0]) + turn))
+        try:
+            return start, groups.plan_group(group, scene, start=start, **({"most": SOON} if turn else {}))
+        except NoWalk as error:
+            refused.append(error)
+    raise refused[0]

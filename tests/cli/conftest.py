@@ -1,13 +1,29 @@
 """Clips in a folder, for commands to read."""
 
+import shlex
+
 import pytest
 
+from mocap.cli.main import main
 from mocap.files import load_save
 from tests.strategies import wave
 
 
 @pytest.fixture
-def clips(tmp_path):
+def clips(tmp_path, monkeypatch):
+    """Stand in a folder with two clips."""
     for clip in (wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)):
         load_save.save(clip, tmp_path / f"{clip.name}.bvh")
+    monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def run(capsys):
+    """Type a line after `mocap`, which gives a status; return what it says."""
+
+    def typed(line, status=0):
+        assert main(shlex.split(line)) == status, capsys.readouterr()
+        return capsys.readouterr()
+
+    return typed

@@ -1,66 +1,118 @@
-"""`mocap graph`, as a person types it."""
+"""`mocap demo` and `mocap graph`, as a person types them."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.body.skeleton import Skeleton
 from mocap.cli.main import main
+from mocap.cli.options import Building
+from mocap.datasets import samples
+from mocap.datasets.clip_origins import Origin, find_again, is_origin
+from mocap.errors import MocapError
 from mocap.files import load_save
 from mocap.graphs import storage
-from tests.cli.refused import check_refused
+from tests.strategies import wave
 
 
-def test_a_graph_is_built_saved_and_told_about(clips, capsys):
-    out, xml = clips / "g.npz", clips / "g.graphml"
-    assert main(["graph", str(clips), "-o", str(out), "--threshold", "5", "--graphml", str(xml)]) == 0
-    built = capsys.readouterr()
-    assert built.out.splitlines()[-2:] == [f"wrote        {out}", f"wrote        {xml}"]
+def rows(told):
+    return dict(line.split(maxsplit=1) for line in told.splitlines() if line[0] != " ")
+
+
+@pytest.fixture
+def unseen(monkeypatch):
+    """Draw no film."""
+    monkeypatch.setattr("mocap.widgets.save_animation", lambda walk, path, **_: path.write_text(""))
+
+
+def test_a_demo_writes_a_walk_and_tells(clips, run):
+    told = run("demo a.bvh b.bvh -o new/walk --threshold 5 --seconds 2 --fps 20")
+    assert sorted(path.name for path in (clips / "new" / "walk").iterdir()) == ["walk.bvh", "walk.gif"]
+    walk, table = load_save.load("new/walk/walk.bvh"), rows(told.out)
+    assert len(walk) >= 40 and walk.fps == 20
+    assert (table["clips"], table["frames"]) == ("2: a, b", "140 at 20 Hz, 7.0 s")
+    whole, pruned = map(int, table["nodes"].split())
+    assert whole > pruned > 0
+    assert table["new"].startswith(f"walk     {walk.duration:.1f} s, ")
+    assert told.out.splitlines()[-1] == "wrote        new/walk/walk.gif" and told.err == ""
+
+
+@pytest.mark.usefixtures("unseen")
+def test_many_clips_are_named_in_short(tmp_path, monkeypatch, run):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "many").mkdir()
+    for k in range(9):
+        load_save.save(replace(wave(60, phase=k, seed=k), name=f"clip{k}"), f"many/clip{k}.bvh")
+    told = run("demo many -o out --threshold 5").out
+    assert "9: clip0, clip1, clip2, clip3, clip4, clip5, clip6, … clip8" in told
+
+
+@pytest.mark.usefixtures("unseen")
+def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does(clips, run):
+    said = run("demo a.bvh b.bvh -o out --threshold 0.01", 2).err
+    assert "at a threshold of 0.01 cm; these clips need at least" in said
+    run(f"demo a.bvh b.bvh -o out --seconds 2 --threshold {float(said.split()[-2]) + 1e-6}")
+
+
+def check_walk(told, out, seconds):
+    """Hold that a demo's walk is long, its seams are small, and nobody is teleported."""
+    walk = load_save.load(out)
+    assert walk.duration > seconds - 0.1
+    assert 0 < float(rows(told)["seams"].split()[-3]) <= 4
+    assert np.linalg.norm(np.diff(walk.root_positions[:, [0, 2]], axis=0), axis=1).max() * 30 < 4.5  # m/s
+
+
+@pytest.mark.usefixtures("unseen")
+def test_without_clips_a_demo_takes_the_bundled_ones(tmp_path, run):
+    told = run(f"demo --seconds 20 -o {tmp_path}").out
+    assert "walk_circle" in told
+    assert int(rows(told)["transitions"].split()[1]) > 50
+    check_walk(told, tmp_path / "walk.bvh", 20)
+
+
+@pytest.mark.usefixtures("unseen")
+@pytest.mark.parametrize("names", ["hw3/walk_fwd_*1 hw3/walk_fwd_circle", "cmu/16/16_15 cmu/16/16_31"])
+def test_real_clips_make_a_walk(real_data, tmp_path, run, names):
+    found = [file for name in names.split() for file in real_data.glob(f"{name}.*")]
+    files = [str(file) for file in found if file.suffix.lower() == ".amc"]
+    assert len(files) == 2
+    told = run(f"demo {' '.join(files)} --seconds 10 -o {tmp_path}").out
+    check_walk(told, tmp_path / "walk.bvh", 10)
+
+
+def test_a_graph_is_built_saved_and_told_about(clips, run):
+    built = run("graph . -o g.npz --threshold 5 --graphml g.graphml")
+    assert built.out.splitlines()[-2:] == ["wrote        g.npz", "wrote        g.graphml"]
     assert built.err == ""
-    assert main(["graph", "info", str(out)]) == 0
-    told = capsys.readouterr().out.splitlines()
+    told = run("graph info g.npz").out.splitlines()
     assert told[:3] == [
         "clip         a: 120 frames at 30 Hz, 4.0 s",
         "clip         b: 90 frames at 30 Hz, 3.0 s",
         "window       10 frames, 0.33 s",
     ]
     assert told[3:] == built.out.splitlines()[:-2]
-    loaded = storage.load(out, [load_save.load(clips / f"{name}.bvh") for name in "ab"])
+    loaded = storage.load("g.npz", [load_save.load(f"{name}.bvh") for name in "ab"])
     assert loaded.graph.number_of_nodes() == int(told[4].split()[1].rstrip(","))
 
 
-def test_a_whole_graph_ends_somewhere(clips, capsys):
-    assert main(["graph", str(clips), "-o", str(clips / "g.npz"), "--whole"]) == 0
-    assert "none before the end of some clip" in capsys.readouterr().out
+@pytest.mark.parametrize("seconds", [0.0, 0.04, -1.0])
+def test_a_window_lasts_two_frames_at_least(seconds):
+    with pytest.raises(MocapError, match="two frames or more"):
+        _ = Building(window=seconds).frames
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["{clips}", "-o", "{clips}/g.json"], "written as .npz, got"),
-        (["{clips}", "--graphml", "g.xml"], "--graphml writes .graphml, got"),
-        (["{clips}", "--threshold", "0.001"], "no cycle"),
-        (["{clips}", "--threshold", "nan"], "--threshold: 'nan' is not a number"),
-        (["{clips}", "--window", "nan"], "--window: 'nan' is not a number"),
-        (["{clips}", "-o", "{clips}/nowhere/g.npz"], "No such file or directory"),
-        (["{clips}", "-o", "{clips}"], "written as .npz"),
-    ],
-)
-def test_a_graph_that_cannot_be_is_one_sentence(clips, capsys, options, message):
-    options = [option.format(clips=clips) for option in options]
-    check_refused(clips, capsys, ["graph", "-o", str(clips / "g.npz"), *options], message)
+def test_a_whole_graph_ends_somewhere(clips, run):
+    assert "none before the end of some clip" in run("graph . -o g.npz --whole").out
 
 
-@pytest.mark.parametrize(
-    ("file", "message"), [("a.bvh", "a.bvh: expected a motion graph"), ("none.npz", "No such file")]
-)
-def test_info_about_what_is_no_graph_is_one_sentence(clips, capsys, file, message):
-    check_refused(clips, capsys, ["graph", "info", str(clips / file)], message)
-
-
-def test_a_folder_of_clips_named_info_is_built(clips, tmp_path, monkeypatch):
+def test_a_folder_of_clips_named_info_is_built(clips, tmp_path, run):
     (tmp_path / "info").symlink_to(clips)
-    monkeypatch.chdir(tmp_path)
-    for words in (["graph", "build", "info"], ["graph", "./info"]):
-        assert main([*words, "-o", "g.npz"]) == 0
-    assert main(["graph", "info"]) == 2
+    for words in ("graph build info", "graph ./info"):
+        run(f"{words} -o g.npz")
 
 
 def test_the_usage_of_its_actions_is_in_one_piece(capsys):
@@ -68,3 +120,44 @@ def test_the_usage_of_its_actions_is_in_one_piece(capsys):
         with pytest.raises(SystemExit, match="0"):
             main(["graph", action, "--help"])
         assert capsys.readouterr().out.startswith(f"usage: mocap graph {action} [-h]")
+
+
+def test_a_graph_with_mirror_images_finds_its_clips_again(tmp_path, monkeypatch, run):
+    monkeypatch.chdir(tmp_path)
+    load_save.save(resample(samples.sample("walk_circle"), 30)[:400], "a.bvh")
+    run("graph a.bvh --mirror -o graph.npz")
+    assert storage.read("graph.npz").names == ("a", "a_mirrored")
+    clip, image = storage.find_clips("graph.npz")
+    assert np.allclose(joint_positions(image)[:, 0], joint_positions(clip)[:, 0] * [-1, 1, 1])
+    for more in ("", "--clips a.bvh"):
+        run(f"walk graph.npz --random 5s -o out.bvh {more}")
+    assert "a_mirrored: " in run("graph info graph.npz").out
+
+
+def lopsided(name):
+    names = ["root", "lfemur", "ltibia", "rfemur", "rtibia"]
+    places = [[0, 0.9, 0], [0.1, 0, 0], [0, -0.4, 0], [-0.1, 0, 0], [0, -0.45, 0]]
+    body = Skeleton(names, [-1, 0, 1, 0, 3], places)
+    angles = 0.5 * np.sin(np.arange(60) / 4)
+    turned = np.tile(rotations.IDENTITY, (60, 5, 1))
+    turned[:, 1], turned[:, 3] = rotations.about_y(angles), rotations.about_y(-angles)
+    roots = np.stack([0 * angles, 0 * angles + 0.9, np.arange(60) / 60], axis=1)
+    return Motion(body, roots, turned, 30.0, name)
+
+
+def test_one_warning_says_that_a_body_is_lopsided(tmp_path, monkeypatch, run):
+    monkeypatch.chdir(tmp_path)
+    for name in "ab":
+        load_save.save(lopsided(name), f"{name}.bvh")
+    (told,) = run("graph a.bvh b.bvh --mirror -o graph.npz").err.splitlines()
+    assert "left and right bones differ by up to 50 mm" in told
+    assert told.endswith("So it is with 1 more.") and len(told) <= 200
+    for more in ("", "--clips a.bvh b.bvh"):
+        assert run(f"walk graph.npz --random 1s -o new.bvh {more}").err == ""
+
+
+def test_a_mirrored_origin_is_checked(tmp_path):
+    (tmp_path / "a.bvh").write_text("")
+    text = Origin(tmp_path / "a.bvh", mirrored=True).text(tmp_path)
+    assert is_origin(text) and find_again(text, tmp_path).mirrored
+    assert not is_origin(text.replace("true", "1")) and not is_origin("[]")

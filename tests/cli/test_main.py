@@ -1,5 +1,7 @@
 """The command, as a person types it."""
 
+import io
+import os
 import subprocess
 import sys
 import warnings
@@ -8,15 +10,8 @@ import pytest
 
 import mocap
 from mocap.cli.main import main
+from mocap.cli.options import bar
 from mocap.errors import MocapWarning
-
-
-def test_it_runs_as_a_module_and_helps():
-    run = subprocess.run(
-        [sys.executable, "-m", "mocap", "demo", "--help"], capture_output=True, text=True, check=True
-    )
-    assert "walk.bvh" in run.stdout
-    assert "--threshold" in run.stdout
 
 
 def test_help_is_quick():
@@ -34,13 +29,6 @@ def test_it_says_its_version(capsys):
     assert capsys.readouterr().out == f"mocap {mocap.__version__}\n"
 
 
-def test_without_a_command_it_shows_the_usage(capsys):
-    assert main([]) == 2
-    assert capsys.readouterr().err == (
-        "mocap: the following arguments are required: COMMAND (see mocap --help)\n"
-    )
-
-
 def test_a_warning_is_a_line_too(capsys, monkeypatch):
     def warn(*_arguments, **_settings):
         warnings.warn("7 frames stay.", MocapWarning, stacklevel=1)
@@ -50,3 +38,35 @@ def test_a_warning_is_a_line_too(capsys, monkeypatch):
     with pytest.raises(AttributeError):
         main(["graph", "info", "x.npz"])
     assert capsys.readouterr().err == "mocap: 7 frames stay.\n"
+
+
+def test_as_a_module_a_closed_pipe_is_quiet():
+    command = f"'{sys.executable}' -m mocap data list | head -1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+    assert (done.stderr, done.stdout.count("\n")) == ("", 1)
+
+
+def test_a_terminal_that_knows_ascii_only_is_served():
+    command = [sys.executable, "-m", "mocap", "warp", "--help"]
+    own = os.environ | {"PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=own)
+    assert "--loose-feet" in done.stdout
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize(
+    ("screen", "settings", "drawn"),
+    [
+        (Terminal(), {"delay": 0.0, "mininterval": 0.0}, True),
+        (Terminal(), {}, False),  # of quick work
+        (io.StringIO(), {"delay": 0.0, "mininterval": 0.0}, False),
+    ],
+)
+def test_a_bar_is_drawn_on_a_terminal_only(monkeypatch, screen, settings, drawn):
+    monkeypatch.setattr(sys, "stderr", screen)
+    assert list(bar("spelling")("abcd", **settings)) == list("abcd")
+    assert ("spelling" in screen.getvalue()) == drawn

@@ -1,75 +1,106 @@
-"""`mocap walk`, as a person types it."""
+"""`mocap walk` and `mocap crowd`, as a person types them."""
 
+import numpy as np
 import pytest
+from PIL import Image
 
-from mocap.cli.main import main
+from mocap.body.motion import resample
+from mocap.cli.walk import _plan
+from mocap.datasets import samples
+from mocap.errors import NoWalk
 from mocap.files import load_save
 from mocap.graphs import storage
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
+from mocap.methods.groups.group_graphs import Placed
+from mocap.methods.groups.planning import plan_group
+from mocap.methods.groups.scenes import Scene
 from tests.bundled import bundled
-from tests.cli.refused import check_refused
 from tests.files.glb_reader import Glb
-from tests.strategies import wave
+from tests.methods.groups.built import graph
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, monkeypatch):
     storage.save(bundled("walk_circle", "walk_curve_1"), tmp_path / "graph.npz")
     (tmp_path / "path.csv").write_text("0,0\n0,3\n0.5,5\n")
-    (tmp_path / "path.svg").write_text('<svg><path d="M0 0 L 0 -400"/></svg>')
+    (tmp_path / "points.csv").write_text("x, z\n1, 7\n")
+    (tmp_path / "discs.csv").write_text("x, z, radius\n-3, 5, 0.5\n")
+    monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
-def test_it_walks_along_a_path(folder, capsys, monkeypatch):
-    monkeypatch.chdir(folder)
-    command = ["walk", "graph.npz", "--path", "path.csv", "-o", "out.bvh", "--label", "0:walk", "--clean"]
-    assert main(command) == 0
-    assert "walked" in capsys.readouterr().out
+def test_it_walks_along_a_path(folder, run):
+    assert "walked" in run("walk graph.npz --path path.csv -o out.bvh --label 0:walk --clean").out
     assert len(load_save.load("out.bvh")) > 90
 
 
-def test_it_wanders(folder, capsys):
-    out = folder / "out.bvh"
-    assert main(["walk", str(folder / "graph.npz"), "--random", "0.1min", "-o", str(out)]) == 0
-    assert len(load_save.load(out)) >= 180
-    assert "at random" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("way", [["--random", "5s"], ["--path", "path.svg"]])
-def test_it_writes_gltf_for_engines(folder, monkeypatch, way):
-    monkeypatch.chdir(folder)
-    assert main(["walk", "graph.npz", *way, "-o", "walk.glb", "--clean"]) == 0
-    read = Glb((folder / "walk.glb").read_bytes())
+def test_it_wanders_and_writes_gltf_for_engines(folder, run):
+    assert "at random" in run("walk graph.npz --random 0.1min -o out.glb --clean").out
+    read = Glb((folder / "out.glb").read_bytes())
     assert read.nodes[0]["name"] == "root"
-    assert max(times[-1] for times, _ in read.curves().values()) > 3
+    assert max(times[-1] for times, _ in read.curves().values()) > 5.9
 
 
-def test_clips_are_found_beside_the_graph(tmp_path):
-    for clip in (wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)):
-        load_save.save(clip, tmp_path / f"{clip.name}.bvh")
-    clips = [load_save.load(tmp_path / f"{name}.bvh") for name in "ab"]
-    storage.save(prune(build(clips, window=8, threshold=0.05)), tmp_path / "graph.npz")
-    command = ["walk", str(tmp_path / "graph.npz"), "--random", "5s", "-o", str(tmp_path / "out.bvh")]
-    assert main(command) == 0
-    assert main([*command, "--clips", str(tmp_path / "a.bvh"), str(tmp_path / "b.bvh")]) == 0
-    (tmp_path / "b.bvh").unlink()
-    assert main(command) == 2
+def test_clips_are_found_beside_the_graph(clips, run):
+    run("graph a.bvh b.bvh -o graph.npz --threshold 5")
+    storage.save(storage.load("graph.npz", storage.find_clips("graph.npz")), "graph.npz")  # without origins
+    run("walk graph.npz --random 5s -o out.bvh")
+    run("walk graph.npz --random 5s -o out.bvh --clips a.bvh b.bvh")
+    (clips / "b.bvh").unlink()
+    run("walk graph.npz --random 5s -o out.bvh", 2)
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--path", "{f}/nowhere.csv"], "nowhere.csv"),
-        (["--random", "soon"], "Write 60s, 10min or 1h"),
-        (["--random", "0s"], "Write 60s"),
-        (["--path", "{f}/path.csv", "--label", "walk"], "METRES:LABEL"),
-        (["--path", "{f}/path.csv", "--label", "0:fly"], "there are: walk"),
-        (["--path", "{f}/path.csv", "--unit", "5000"], "is it in metres?"),
-        (["--path", "{f}/path.csv", "-o", "{f}/walk.fbx"], "as .bvh or .glb"),
-    ],
-)
-def test_bad_input_is_one_sentence_and_status_2(folder, capsys, options, message):
-    options = [option.format(f=folder) for option in options]
-    out = [] if "-o" in options else ["-o", str(folder / "out.bvh")]
-    check_refused(folder, capsys, ["walk", str(folder / "graph.npz"), *options, *out], message)
+CROWD = "crowd --members 3 --through points.csv --around discs.csv -o crowd"
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_motion_for_each_member_a_plan_and_a_film(folder, run, monkeypatch):
+    monkeypatch.setattr("mocap.cli.walk.find_spec", lambda name: None)  # no imageio-ffmpeg
+    asked = {}
+
+    def film(motions, path, **settings):
+        asked.update(settings, frames=[len(motion) for motion in motions])
+        Image.new("RGB", (9, 9)).save(path)
+
+    monkeypatch.setattr("mocap.widgets.save_animation", film)
+    said = run(CROWD).out
+    assert "for 3 members" in said and "3 characters" in said and "m apart at least" in said
+    members = [f"member-0{number}.bvh" for number in (1, 2, 3)]
+    assert names(folder / "crowd") == ["crowd.gif", *members, "plan.png"]
+    assert [len(load_save.load(folder / "crowd" / name)) for name in members] == asked["frames"]
+    assert len({*asked["frames"]}) == 1
+    assert np.allclose(asked["discs"], [[-3, 5, 0.5]]) and asked["fps"] == 12.5
+
+
+def test_a_graph_of_one_s_own_walks_as_glb_and_other_files_stay(folder, run):
+    for name in ("walk_curve_1", "walk_curve_2"):
+        load_save.save(resample(samples.sample(name), 30), f"{name}.bvh")
+    run("graph walk_curve_1.bvh walk_curve_2.bvh -o own.npz")
+    (folder / "crowd").mkdir()
+    (folder / "crowd" / "notes.txt").write_text("one's own")
+    run(f"{CROWD} --graph own.npz --to glb --no-film")
+    members = [f"member-0{number}.glb" for number in (1, 2, 3)]
+    assert names(folder / "crowd") == [*members, "notes.txt", "plan.png"]
+
+
+def test_where_the_way_to_the_first_point_is_closed_it_sets_out_to_a_side():
+    group, scene = graph(3), Scene((20j,), ((3.4j, 1.3),))
+    with pytest.raises(NoWalk, match="closed every way"):
+        plan_group(group, scene, start=Placed(0, 1j))
+    start, found = _plan(group, scene)
+    assert abs(np.angle(start.turn / 1j)) == pytest.approx(0.5) and found.clips
+
+
+def test_sides_are_not_searched_for_long_where_the_way_ahead_is_only_long(monkeypatch):
+    asked = []
+
+    def refuse(group, scene, *, start, most=4000):
+        asked.append(most)
+        raise NoWalk(f"refused {len(asked)}")
+
+    monkeypatch.setattr("mocap.methods.groups.plan_group", refuse)
+    with pytest.raises(NoWalk, match="refused 1"):
+        _plan(graph(3), Scene((20j,)))
+    assert asked == [4000, 400, 400, 400, 400]

@@ -1,0 +1,260 @@
+"""The commands for clip files: `mocap info`, `view`, `judge`, `convert`, `find` and `data`."""
+
+import math
+import re
+import sys
+import tempfile
+import webbrowser
+from collections.abc import Sequence
+from dataclasses import asdict
+from json import dumps
+from pathlib import Path
+from typing import Annotated, Literal
+
+from mocap import datasets, files, quality, widgets
+from mocap._shared.atomic import make_folder, require_folder, require_writable
+from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, number, tell, tell_of_failures
+from mocap.cli.typed_commands import Group
+from mocap.errors import MocapError
+from mocap.methods import match_webs
+
+# A path of the web ends where frames are no longer as near as asked, although on average they still are.
+ROOM = 4 / 3  # with it CMU 02_05's punch finds two more below 6 cm; with 2 no others
+
+
+def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
+    """Report a clip's length, path and flaws.
+
+    Report how long a clip is, how far the body goes and turns, and what is wrong with it.
+
+    Parameters
+    ----------
+    file : an .amc, .bvh or .npz file.
+    joints : list the names of the joints, too.
+    """
+    motion = reading.read(file)
+    print(quality.inspect(motion, files.read_angles(file, skeleton=reading.skeleton)).table())
+    if joints:
+        depths: list[int] = []
+        for parent, name in zip(motion.skeleton.parents, motion.skeleton.names, strict=True):
+            depths.append(depths[parent] + 1 if parent >= 0 else 0)
+            print(f"{'  ' * depths[-1]}{name}")
+
+
+def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
+    """Play a clip in the browser.
+
+    Play a clip in the browser. The page is one file that works without a network.
+
+    Parameters
+    ----------
+    clip : an .amc, .bvh or AMASS .npz file.
+    out : an .html, .gif, .mp4 or .png to write; opens no browser.
+    """
+    if out:
+        require_writable(out)
+    motion = reading.load(clip)
+    page = out or Path(tempfile.mkdtemp(prefix="mocap-"), f"{clip.stem}.html")
+    widgets.save_animation(motion, page, progress=bar("drawing"))
+    tell(wrote=page)
+    if not out and not webbrowser.open(page.as_uri()):
+        print("mocap: no browser opened; open that page yourself.", file=sys.stderr)
+
+
+def judge(
+    made: Sequence[Path],
+    *,
+    reading: Reading,
+    against: Sequence[Path] = (),
+    path: Path | None = None,
+    unit: Unit = None,
+    json: bool = False,
+) -> int:
+    """Measure motions, whatever made them, and rank them.
+
+    Measure motions, whatever program made them, and list the best first: jolts, trembling, feet that sink,
+    float, slide or skate, joints that bend or turn too far, bones that change their length, a body of another
+    size than people's, and how far from a path. Each number is a share of its limit; above 1 it stands out
+    beyond what captured people do. Whether a motion is the one that was wanted, or looks alive, it cannot
+    see.
+
+    Parameters
+    ----------
+    made (FILE) : .amc, .bvh or AMASS .npz files, or folders of them, and the folders inside.
+    against (CLIP) : the clips that they are made of.
+    path : the path that they should follow, .csv or .svg.
+    json : print all numbers as JSON.
+
+    Notes
+    -----
+    Example: mocap judge made.bvh --against clips/ --path line.csv
+    """
+    clips = [files.load(clip, **asdict(reading)) for clip in files.find_files(against)]
+    line = files.load_path(path, scale=unit) if path else None
+    judged, problems = [], []
+    for file in bar("judging")(files.find_files(made, deep=True)):
+        try:
+            motion = files.load(file, stretch=math.inf, **asdict(reading))
+            stretch = files.bone_stretch(file, scale=reading.scale)
+            judged.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
+        except MocapError as error:
+            problems.append(str(error))
+    if json:
+        print(dumps([one.as_dict() for one in judged], indent=1))
+    elif judged:
+        print(quality.judgement_table(judged))
+    for problem in dict.fromkeys([*(text for one in judged for text in one.left_out), *problems]):
+        print(f"mocap: {as_options(problem)}", file=sys.stderr)
+    return 2 if problems else 0
+
+
+def convert(
+    source: Path,
+    target: Path,
+    *,
+    reading: Reading,
+    to: Literal["amc", "bvh", "glb"] = "bvh",
+    widen: bool = False,
+) -> int:
+    """Convert clips between .amc, .bvh and AMASS .npz, or to .glb; whole folders of them.
+
+    Convert a clip, or all clips in a folder and the folders inside it. For one clip, the suffix of OUT is the
+    format. An .amc gets an .asf of its name. Lengths in a .bvh are centimetres. A .glb is for engines and
+    viewers, and shows a body of capsules.
+
+    Parameters
+    ----------
+    source (IN) : an .amc, .bvh or .npz file, or a folder.
+    target (OUT) : the new file, or folder.
+    to : format for the clips of a folder.
+    widen : write an .asf in which all bones turn about three axes.
+
+    Notes
+    -----
+    Example: mocap convert clips/ out/ --to glb
+    """
+    pairs = files.plan(source, target, f".{to}")
+    options = files.Options(reading.skeleton, reading.fps, reading.scale, widen)
+    problems = [one.problem for one in files.convert(pairs, options, bar("converting")) if one.problem]
+    return tell_of_failures("converted", len(pairs), problems)
+
+
+def find(
+    query: str,
+    clips: Sequence[Path],
+    *,
+    out: Path | None = None,
+    to: Literal["amc", "bvh"] = "bvh",
+    below: Annotated[float, CM] = 6.0,
+    steps: Annotated[int | None, number(1, 10_000, int)] = None,
+    any_length: bool = False,
+    sources: Sources,
+) -> None:
+    """Find all motions like an example, and cut them out.
+
+    Find what is like some frames of a clip, then what is like that, in all clips. Print the matches as a
+    table, from the nearest on, and with --out write each as a file.
+
+    Parameters
+    ----------
+    query (QUERY[:FROM-TO]) : a clip and its frames, as in walk.amc:120-250 (the last one not included).
+    clips : .amc, .bvh or AMASS .npz files, or folders of them.
+    out : folder to write the matches into, as files (default: write none).
+    to : format of these files.
+    below : largest distance of a match, cm.
+    steps : how often to search (default: until nothing new turns up).
+    any_length : matches may last half as long as the query, or twice.
+
+    Notes
+    -----
+    Example: mocap find punch.bvh:40-90 clips/ -o punches/
+    """
+    if out:
+        require_folder(out)
+    example, frames = _query(query)
+    found = files.find_files(clips)
+    places = [*(path.resolve() for path in found), example.resolve()]
+    asked = places.index(example.resolve())  # the example comes last, where it is not among the clips
+    motions = sources.load(found if asked < len(found) else [*found, example])
+    web = match_webs.build_web(motions, below=ROOM * below / 100, progress=bar("comparing"))
+    lengths = (1 / 2, 2) if any_length else (3 / 4, 4 / 3)
+    matches = match_webs.search(web, asked, frames, below=below / 100, steps=steps, lengths=lengths)
+    shown = [match for match in matches[1:] if match.clip < len(found)]
+    print(f"{'clip':<20} {'frames':>13} {'seconds':>8} {'cm':>5} {'step':>5}")
+    for one in shown:
+        name, at = motions[one.clip].name, f"{one.start}-{one.stop}"
+        seconds = (one.stop - one.start) / motions[one.clip].fps
+        print(f"{name:<20} {at:>13} {seconds:>8.2f} {100 * one.cost:>5.1f} {one.generation:>5}")
+    tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
+    if out:
+        make_folder(out)
+        for one in bar("writing")(shown):
+            name = f"{motions[one.clip].name}_{one.start}-{one.stop}.{to}"
+            files.save(match_webs.cut_out(web, one), out / name)
+        tell(wrote=f"{len(shown)} files to {out}")
+
+
+def _query(text: str) -> tuple[Path, slice]:
+    """Read a clip and its frames.
+
+    Examples
+    --------
+    >>> _query("walk.amc:120-250")
+    (PosixPath('walk.amc'), slice(120, 250, None))
+    >>> _query("walk.amc")[1]
+    slice(None, None, None)
+    """
+    parts = re.fullmatch(r"(.+?)(?::(\d{1,9})-(\d{1,9}))?", text, re.DOTALL)
+    if not parts or (parts[2] is None and ":" in Path(text).name):
+        raise MocapError(f"Which frames are '{text[-60:]}'? Write CLIP:FROM-TO, as in walk.amc:120-250.")
+    first, last = (None if part is None else int(part) for part in parts.groups()[1:])
+    return Path(parts[1]), slice(first, last)
+
+
+def list_trials(
+    *, subject: Annotated[int | None, number(1, 999, int)] = None, kind: str | None = None
+) -> None:
+    """List the trials of the CMU database that datasets.cmu fetches.
+
+    List the trials of the CMU database that datasets.cmu fetches by name.
+
+    Parameters
+    ----------
+    subject : only this person's trials.
+    kind : only trials with this word in their description.
+    """
+    print(f"{'trial':<8} {'frames':>6}  description")
+    for trial in datasets.trials(subject, kind):
+        print(f"{trial.name:<8} {trial.frames:>6}  {trial.description}")
+    print(f"\n{datasets.TERMS}")
+
+
+def list_sets() -> None:
+    """List the named sets that datasets.from_set reads, with their licences and joints."""
+    for name, known in datasets.SETS.items():
+        print(f"{name:<12} {known.title}")
+        rows = {"licence": known.licence, "allows": known.allows, "address": known.address}
+        rows |= {"download": known.size(), "rate": f"{known.fps:g} Hz", "hips": known.hips}
+        rows |= {"left leg": ", ".join(known.legs), "at hand": f"{len(datasets.list_set(name))} clips"}
+        print("\n".join(f"{'':<12} {key:<8} {value}" for key, value in rows.items()))
+
+
+def fetch(set: Annotated[str, {"choices": list(datasets.SETS)}], *, accept: bool = False) -> None:
+    """Download all clips of a named set, once.
+
+    Parameters
+    ----------
+    set : its name.
+    accept : accept the licence that the set is under.
+    """
+    known = datasets.SETS[set]
+    if not accept:
+        print(known.terms())
+        raise MocapError(f"If you accept this licence, add --accept: {known.size()} to download.")
+    print(f"{len(datasets.fetch_set(set, bar('fetching')))} clips are at hand")
+
+
+DATA = Group(
+    "List clips to download, and download whole sets.",
+    {"list": list_trials, "sets": list_sets, "fetch": fetch},
+)

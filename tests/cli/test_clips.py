@@ -1,0 +1,281 @@
+"""The commands for clip files, as a person types them, and `files.conversion`."""
+
+import json
+import os
+from dataclasses import replace
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
+
+import numpy as np
+import pytest
+
+from mocap import datasets
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import concatenate, resample
+from mocap.datasets import samples
+from mocap.errors import MocapError
+from mocap.files import conversion, load_save
+from tests.strategies import wave
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Stand where a folder `clips` holds a clip, and a folder with another."""
+    (tmp_path / "clips" / "more").mkdir(parents=True)
+    load_save.save(wave(40, name="a"), tmp_path / "clips" / "a.bvh")
+    load_save.save(wave(30, name="b"), tmp_path / "clips" / "more" / "b.BVH")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def same(one, other):
+    names = ["root", "elbow", "hand", "side"]
+    a, b = (
+        joint_positions(m)[:, [m.skeleton.index(n) for n in names]] for m in map(load_save.load, (one, other))
+    )
+    return np.abs(a - b).max() < 1e-6
+
+
+def test_info_tells_length_flaws_and_joints(folder, run):
+    told = run("info clips/a.bvh --fps 60 --joints").out
+    assert "40 at 60 Hz, 0.65 s" in told and "flaws " in told and "scale" not in told
+    names = wave(40).skeleton.names
+    assert told.splitlines()[-len(names) :][:2] == [names[0], f"  {names[1]}"]
+    assert "m: is its scale right?" in run("info clips/a.bvh --scale 0.0001").out
+
+
+@pytest.mark.parametrize("opens", [True, False])
+def test_view_opens_a_page_of_the_clip_or_says_where_it_is(folder, run, monkeypatch, opens):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", lambda address: opened.append(address) or opens)
+    said = run("view clips/a.bvh")
+    page = Path(url2pathname(urlsplit(opened[0]).path))
+    assert "A stick figure plays a" in page.read_text("utf-8")
+    assert str(page) in said.out
+    assert ("open that page yourself" in said.err) == (not opens)
+
+
+def test_view_keeps_a_file_and_opens_nothing(folder, run, monkeypatch):
+    monkeypatch.setattr("webbrowser.open", lambda address: pytest.fail("opened"))
+    run("view clips/a.bvh -o a.png")
+    assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("first", ["amc", "bvh"])
+@pytest.mark.parametrize("second", ["AMC", "BVH"])
+def test_convert_every_pair(folder, run, first, second):
+    run(f"convert clips/a.bvh one.{first}")
+    assert run(f"convert one.{first} other.{second}").out == "converted    1 of 1\n"
+    assert same("clips/a.bvh", f"other.{second}")
+    assert load_save.load(f"other.{second}").fps == 30.0
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_convert_from_amass_and_to_gltf(folder, run):
+    (folder / "in").mkdir()
+    poses = np.random.default_rng(0).normal(size=(5, 66))
+    np.savez("in/walk.npz", poses=poses, trans=np.zeros((5, 3)), betas=np.ones(10), mocap_framerate=60.0)
+    run("convert in out --to glb")
+    assert (folder / "out" / "walk.glb").read_bytes()[:4] == b"glTF"
+    assert "betas, the shape of the body, are ignored" in run("convert in/walk.npz walk.bvh").err
+    ours, theirs = load_save.load("walk.bvh"), load_save.load("in/walk.npz")
+    order = [ours.skeleton.index(name) for name in theirs.skeleton.names]
+    assert np.abs(joint_positions(ours)[:, order] - joint_positions(theirs)).max() < 1e-6
+    run("info in/walk.npz")
+
+
+def test_convert_a_folder_and_name_what_failed(folder, run):
+    (folder / "clips" / "broken.bvh").write_text("HIERARCHY\n")
+    (folder / "clips" / "notes.txt").write_text("no clip")
+    told = run("convert clips out --to amc", 2).out
+    assert "converted    2 of 3\n" in told
+    assert "failed       clips/broken.bvh: expected a line 'MOTION'" in told
+    made = sorted(str(p.relative_to("out")) for p in Path("out").rglob("*.*"))
+    assert made == ["a.amc", "a.asf", "more/b.amc", "more/b.asf"]
+    assert same("out/more/b.amc", "clips/more/b.BVH")
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("clips/a.bvh a.fbx", "mocap writes .amc"),
+        ("clips/a.bvh clips/a.bvh/b.bvh", "Cannot make the folder"),
+        ("clips/gone.bvh b.bvh", "Cannot read"),
+    ],
+)
+def test_a_single_failure_is_a_failure(folder, run, line, message):
+    assert message in run(f"convert {line}", 2).out
+
+
+def test_what_fails_names_options_not_arguments(folder, run, monkeypatch):
+    problem = "'arm' does not fit: use widen=True without skeleton=, or a .bvh file"
+    monkeypatch.setattr("mocap.files.convert", lambda *_: [type("Outcome", (), {"problem": problem})()])
+    assert "use --widen without --skeleton, or a .bvh file" in run("convert clips/a.bvh arm.amc", 2).out
+
+
+def test_plans_that_make_no_sense_are_refused(folder, run):
+    (folder / "empty").mkdir()
+    assert "holds no .amc, .bvh or AMASS .npz file" in run("convert empty out", 2).err
+    load_save.save(wave(20), "clips/a.amc")
+    with pytest.raises(MocapError, match=r"a.amc and .*a.bvh would both become .*a.bvh"):
+        conversion.plan("clips", "out")
+
+
+def test_an_interruption_ends_the_conversion(folder):
+    def interrupt(items):
+        yield items[0]
+        raise KeyboardInterrupt
+
+    pairs = conversion.plan("clips", "out")
+    with pytest.raises(KeyboardInterrupt):
+        conversion.convert(pairs, conversion.Options(), interrupt)
+
+
+def die(*_):
+    os._exit(1)
+
+
+def test_a_worker_that_dies_is_told(folder, monkeypatch):
+    monkeypatch.setattr(conversion, "_convert", die)
+    with pytest.raises(MocapError, match="ended from outside: is there enough memory"):
+        conversion.convert(conversion.plan("clips", "out"), conversion.Options())
+
+
+def test_real_folders(real_data, tmp_path):
+    pairs = conversion.plan(real_data / "odd", tmp_path, ".bvh")
+    outcomes = conversion.convert(pairs, conversion.Options())
+    assert len(outcomes) == len(pairs) == 10
+    for outcome in outcomes:
+        assert (outcome.problem is None) == outcome.target.exists()
+    good = {outcome.source.name for outcome in outcomes if outcome.problem is None}
+    assert good == {"16_12.amc", "16_15.amc", "11_01_fb_comment.amc"}
+
+
+def test_the_list_of_data(run):
+    told = run("data list --subject 127 --kind walk").out
+    assert "127_04" in told and "127_03" not in told
+    assert "may not resell" in told.replace("\n", " ")
+
+
+def test_judge_ranks_files_and_names_what_it_could_not(folder, run):
+    walk = resample(samples.sample("walk_straight"), 30)[:200]
+    load_save.save(walk, "good.bvh")
+    load_save.save(replace(walk, root_positions=walk.root_positions * [0.7, 1, 0.7]), "glides.bvh")
+    load_save.save(concatenate([walk[:90], walk[120:]]), "cut.bvh")
+    Path("broken.bvh").write_text("HIERARCHY")
+    Path("path.csv").write_text("0,0\n0,9\n")
+    head, *rows = run("judge glides.bvh cut.bvh good.bvh --path path.csv").out.splitlines()
+    assert head.split()[:4] == ["name", "score", "height", "jolt"]
+    assert {"path", "bones", "size"} <= set(head.split())
+    assert rows[0].split()[:2] == ["good", "0.0"]
+    assert {row.split()[0] for row in rows[1:]} == {"glides", "cut"}
+    said = run("judge cut.bvh good.bvh clips/a.bvh broken.bvh --json", 2)
+    found = {row["name"]: row for row in json.loads(said.out)}
+    assert set(found) == {"good", "cut", "a"}
+    assert found["good"]["score"] == 0 < found["cut"]["score"]
+    assert "broken.bvh: expected a line 'MOTION'" in said.err
+    assert "feet and knees: No legs found" in said.err
+    assert "jolt" in run("judge cut.bvh --against good.bvh").out.splitlines()[1].split("0.0")[-1]
+    assert run("judge broken.bvh", 2).out == ""
+
+
+STRETCHING = """HIERARCHY
+ROOT Hips
+{
+OFFSET 0 0 0
+CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+JOINT Leg
+{
+OFFSET 0 -90 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 0 10
+}
+}
+JOINT Spine
+{
+OFFSET 0 50 0
+CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 30 0
+}
+}
+}
+MOTION
+Frames: 30
+Frame Time: 0.0333333
+"""
+
+
+def test_judge_shows_bones_that_stretch_and_looks_into_folders(tmp_path, run):
+    """A file whose bones stretch beyond what `load` fits is judged all the same, and says so."""
+    path = tmp_path / "deep" / "stretched.bvh"
+    path.parent.mkdir()
+    rows = [f"0 90 {frame} 0 0 0 0 0 0 0 {50 + frame / 5} 0 0 0 0\n" for frame in range(30)]
+    path.write_text(STRETCHING + "".join(rows))
+    with pytest.raises(MocapError, match=r"'Spine' in one place below its parent, but for 0.02 m"):
+        load_save.load(path)
+    said = run(f"judge {tmp_path} --json")
+    (judged,) = json.loads(said.out)
+    (bones,) = (row for row in judged["measures"] if row["name"] == "bones")
+    assert bones["value"] == pytest.approx(58) and bones["where"] == "'Spine'"
+    assert judged["score"] > 3 and judged["height"] == pytest.approx(1.729, abs=1e-3)
+    assert judged["bones"]["Leg"] == pytest.approx(0.9)
+    assert "bones change length by up to 58 mm" in said.err
+    assert load_save.bone_stretch(path)["Leg"] == 0
+    with pytest.raises(MocapError, match="stretch must be 0 or more metres, got nan"):
+        load_save.load(path, stretch=float("nan"))
+
+
+@pytest.fixture
+def walks(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "walks").mkdir()
+    for name in ("walk_straight", "stop_and_go"):
+        load_save.save(resample(datasets.sample(name), 60)[:600], f"walks/{name}.bvh")
+    return "find walks/walk_straight.bvh:120-185"
+
+
+def test_matches_are_listed_and_cut_out_as_files(walks, run):
+    told = run(f"{walks} walks --below 4 -o out")
+    head, *rows, found, wrote = told.out.splitlines()
+    assert head.split() == ["clip", "frames", "seconds", "cm", "step"]
+    assert found == f"found        {len(rows)} in 2 clips" and len(rows) >= 6
+    assert wrote == f"wrote        {len(rows)} files to out"
+    names = set()
+    for row in rows:
+        clip, frames, seconds, cost, step = row.split()
+        first, last = map(int, frames.split("-"))
+        assert float(seconds) == pytest.approx((last - first) / 60, abs=0.01)
+        assert 0 < float(cost) <= 4 and int(step) >= 1
+        names.add(f"{clip}_{frames}.bvh")
+        assert len(load_save.load(f"out/{clip}_{frames}.bvh")) == last - first
+    assert {path.name for path in Path("out").iterdir()} == names
+    assert told.err == ""
+
+
+def test_the_shortest_query_lasts_as_long_as_a_path(walks, run):
+    assert "walk_straight" in run("find walks/walk_straight.bvh:120-138 walks").out
+
+
+def test_a_query_from_elsewhere_is_not_among_its_matches(walks, run):
+    told = run(f"{walks} walks/stop_and_go.bvh --steps 1 --any-length").out
+    assert "walk_straight" not in told and "stop_and_go" in told and "wrote" not in told
+
+
+def test_a_query_that_finds_nothing_says_so(walks, run):
+    told = run(f"{walks} walks --below 0.01")
+    assert told.out.splitlines()[-1] == "found        0 in 0 clips"
+    assert "only itself" in told.err
+
+
+@pytest.mark.parametrize("below", ["6", "12"])
+def test_a_stricter_limit_still_finds_the_near_ones(real_data, tmp_path, run, below):
+    clip = tmp_path / "punches.bvh"
+    load_save.save(datasets.cmu("02_05"), clip)
+    _, *rows, _ = run(f"find {clip}:614-704 {clip} --below {below}").out.splitlines()
+    assert rows[0].split()[1] == "796-876" and float(rows[0].split()[3]) < 4
+    assert len(rows) >= 2 and rows[1].split()[1].startswith("97")

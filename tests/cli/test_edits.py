@@ -1,0 +1,174 @@
+"""`mocap bend`, `loop`, `blend` and `retarget`, as a person types them."""
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from mocap import load
+from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion, resample
+from mocap.body.skeleton import Skeleton
+from mocap.datasets.samples import sample
+from mocap.editing.copied_motion import copied
+from mocap.editing.stances import stance_of
+from mocap.feet import mark_plants
+from mocap.files import load_save
+from mocap.files.path_files import load_path
+from mocap.graphs import storage
+from tests.blending.registered import slides, walks
+from tests.bundled import bundled
+from tests.editing.bodies import adult, along_x, child, rested, walk
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    place = tmp_path_factory.mktemp("edits")
+    load_save.save(resample(sample("walk_straight"), 30), place / "walk.bvh")
+    load_save.save(resample(sample("walk_circle"), 30)[:400], place / "circle.bvh")
+    for name, speed in (("slow", 0.8), ("brisk", 1.4), ("middling", 1.1)):
+        load_save.save(resample(walks()[speed, 0], 60.0), place / f"{name}.bvh")
+    (place / "line.csv").write_text("0,0\n0,3\n3,3\n3,9\n")
+    (place / "line.svg").write_text('<svg><path d="M0 0 C 0 -200 200 -200 200 -400"/></svg>')
+    storage.save(bundled("walk_circle", "walk_curve_1"), place / "graph.npz")
+    return place
+
+
+@pytest.fixture
+def folder(made, monkeypatch):
+    monkeypatch.chdir(made)
+    return made
+
+
+def off(file, line):
+    roots = load(file).root_positions[:, [0, 2]]
+    return cKDTree(load_path(line).resampled(0.01).points).query(roots)[0]
+
+
+@pytest.mark.parametrize(("line", "out"), [("line.csv", "new.bvh"), ("line.svg", "new.glb")])
+def test_a_walk_is_laid_on_a_line(folder, run, line, out):
+    said = run(f"bend walk.bvh --along {line} -o {out}").out
+    assert said.startswith("bent         ") and said.endswith(f"wrote        {out}\n")
+    assert "cm off on average" in said
+    assert ("rounded at" in said) == (line == "line.csv")
+    assert out == "new.glb" or np.median(off(out, line)) < 0.03
+
+
+def test_the_limit_and_the_unit_count(folder, run):
+    assert "turned by up to 31° per second" in run("bend walk.bvh --along line.csv -o x.bvh --limit 30").out
+    assert "of 24.0 m" in run("bend walk.bvh --along line.csv -o x.bvh --unit 2").out
+
+
+def test_a_walk_from_a_graph_is_laid_on_a_line(folder, run):
+    line = "walk graph.npz --path line.svg -o graph.bvh --bend"
+    assert "turned by up to" in run(line).out
+    assert off("graph.bvh", "line.svg").max() < 0.08
+    assert "turned by up to" in run(f"{line} 20 --label 0:walk").out
+
+
+@pytest.mark.parametrize("more", ["", "--straight --clean --times 3", "--inertialize"])
+def test_a_loop_is_closed(folder, run, more):
+    told = run(f"loop circle.bvh -o loop.bvh {more}").out
+    assert "cycle        frames " in told and "wrote        loop.bvh" in told
+    assert (" by 0°" in told) == ("--straight" in more)
+    assert 1 < load("loop.bvh").duration / (3 if "--times" in more else 1) < 1.6
+
+
+@pytest.mark.parametrize(
+    ("held", "shortest", "said"),
+    [(0, "1.5", "cm apart: it may leap there."), (60, "0.4", "away: it may hold no whole cycle.")],
+)
+def test_a_loop_that_leaps_or_holds_a_pose_is_a_warning(folder, run, held, shortest, said):
+    """Of an arm that swings once, and rises where it was held for some frames before."""
+    body = Skeleton(["root", "arm", "hand"], [-1, 0, 1], [[0, 1, 0], [0.1, 0, 0], [0.6, 0, 0]])
+    count = 30 if held else 60
+    turned, roots = np.tile(rotations.IDENTITY, (held + count, 3, 1)), np.zeros((held + count, 3))
+    turned[held:, 1] = rotations.about_y(np.linspace(0, 3, count))
+    roots[held:, 1] = np.linspace(0, held / 60, count)
+    load_save.save(Motion(body, roots, turned, 30.0, "arm"), "swing.bvh")
+    assert said in run(f"loop swing.bvh --shortest {shortest} -o out.bvh").err
+
+
+def test_clips_are_blended_half_and_half_or_by_weights(folder, run):
+    said = run("blend slow.bvh brisk.bvh").out
+    assert "registered   2 clips, 3." in said and "wrote        blend.bvh" in said
+    assert 3 < load("blend.bvh").duration < 5
+    for name, weights in (("a", "1 0 0"), ("b", "0 1 0")):
+        run(f"blend slow.bvh brisk.bvh middling.bvh --weights {weights} -o {name}.amc")
+    slow, brisk = (load_save.load(f"{name}.amc", fps=60.0) for name in "ab")
+    assert slow.duration > brisk.duration + 0.1
+
+
+def test_one_clip_passes_into_another(folder, run):
+    assert "blended      4." in run("blend slow.bvh brisk.bvh --fade 1 --at 2 -o faster.glb").out
+    assert (folder / "faster.glb").read_bytes()[:4] == b"glTF"
+
+
+def test_planted_feet_of_a_blend_stand_still_when_asked(folder, run):
+    run("blend slow.bvh brisk.bvh --clean --slack 1")
+    assert slides(mark_plants(load("blend.bvh"))).mean() < 1.0
+
+
+def test_bodies_that_differ_are_one_short_sentence_that_says_what_to_do(tmp_path, run):
+    for name in ("one_who_walks", "one_who_runs"):
+        names = ["root", *(f"{name}_joint_{joint}" for joint in range(20))]
+        body = Skeleton(names, range(-1, 20), np.tile([0, 0.1, 0], (21, 1)))
+        turned = np.tile(rotations.IDENTITY, (60, 21, 1))
+        load_save.save(Motion(body, np.zeros((60, 3)), turned, 30.0, name), tmp_path / f"{name}.bvh")
+    told = run(f"blend {tmp_path}/one_who_walks.bvh {tmp_path}/one_who_runs.bvh -o {tmp_path}/x.bvh", 2).err
+    assert "Retarget one first." in told and len(told) <= 200
+
+
+@pytest.fixture
+def child_s(tmp_path, monkeypatch):
+    """Stand in a folder with two clips of an adult, in `clips`, and a child's walk, skeleton and pose."""
+    (tmp_path / "clips").mkdir()
+    load_save.save(walk()[:200], tmp_path / "clips" / "a.bvh")
+    load_save.save(walk()[100:260], tmp_path / "clips" / "b.bvh")
+    worn = copied(walk(), adult(), child())
+    load_save.save(worn, tmp_path / "child.amc", widen=True)
+    load_save.save(worn[:1], tmp_path / "pose.bvh")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def written(folder):
+    return sorted(path.name for path in folder.rglob("*") if path.is_file())
+
+
+@pytest.mark.parametrize("broken", [False, True])
+def test_a_folder_of_clips_on_the_body_of_a_clip(child_s, run, broken):
+    if broken:
+        (child_s / "clips" / "broken.bvh").write_text("HIERARCHY\n")
+    told = run("retarget clips --to child.amc -o out", 2 * broken).out
+    assert told.startswith(f"retargeted   2 of {2 + broken}, in out\n")
+    assert ("failed       clips/broken.bvh: expected" in told) == broken
+    assert all(len(line) < 320 for line in told.splitlines())
+    assert written(child_s / "out") == ["a.bvh", "b.bvh"]
+    worn = load("out/a.bvh")
+    assert len(worn) == 200
+    assert stance_of(worn).leg == pytest.approx(child().leg, abs=1e-5)
+    standing = joint_positions(worn)[walk()[:200].contacts["ltoes"], worn.skeleton.index("ltoes"), 1]
+    assert np.ptp(standing) < 1e-4
+    assert standing.mean() == pytest.approx(child().heights["left ball"], abs=0.003)
+
+
+def test_a_skeleton_other_formats_and_longer_steps(child_s, run):
+    way = []
+    for steps in ("1", "1.3"):
+        run(f"retarget clips/a.bvh --to child.asf -o {steps} --format amc --widen --steps {steps}")
+        assert written(child_s / steps) == ["a.amc", "a.asf"]
+        way.append(np.ptp(load(f"{steps}/a.amc", fps=120).root_positions[:, 2]))
+    assert way[1] == pytest.approx(1.3 * way[0], rel=0.02)
+
+
+def test_a_rest_pose_that_does_not_stand_asks_for_a_clip(child_s, run):
+    load_save.save(rested(walk(), along_x(walk().skeleton))[:120], "flat.amc", widen=True)
+    assert "does not stand" in run("retarget clips/b.bvh -o out --to flat.asf", 2).out
+    assert not (child_s / "out").exists()
+    run("retarget clips/b.bvh -o out --to flat.amc")
+
+
+def test_a_single_pose_says_whose_body_it_is(child_s, run):
+    run("retarget clips/a.bvh --to pose.bvh -o out")
+    assert stance_of(load("out/a.bvh")).leg == pytest.approx(child().leg, abs=1e-5)

@@ -1,0 +1,269 @@
+"""What a command cannot do is one sentence, status 2, and a folder as it was; hostile values too."""
+
+import argparse
+import shlex
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mocap.body.motion import resample
+from mocap.cli.main import _parser, main
+from mocap.datasets import samples
+from mocap.editing.copied_motion import copied
+from mocap.files import load_save
+from mocap.graphs import storage
+from mocap.graphs.motion_graph import build
+from mocap.graphs.pruning import prune
+from tests.bundled import bundled
+from tests.editing.bodies import adult, along_x, child, rested, walk
+from tests.strategies import wave
+
+HOSTILE = ["", " ", "-1", "0", "1", "3", "nan", "inf", "-inf", "1e999", "1e-300", "0x10", "é°", "a" * 5000]
+HOSTILE += ["/dev/null/x", "/proc/x", ".", "..", "nowhere/x.npz", "x.bvh"]
+HOSTILE += ["\n", "--", "-o", "%s", "{0}", "5:", ":"]
+NEVER = {"course", "lab", "data"}  # these start programs, or are tested with theirs
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("refused")
+    for text, names in {
+        "0,0\n0,3\n3,3\n3,9\n": ["l.csv", "discs.csv"],
+        "1, 7\n": ["goal.csv"],
+        "0,0\n0,oops\n": ["bad.csv"],
+        "-3, 5, 0.5\n": ["disc.csv"],
+        "0, 0.1, 0.5\n": ["on-us.csv"],
+        "0, 9, -1\n": ["small.csv"],
+        "at 30 hand 0 0.1 0": ["k.txt"],
+    }.items():
+        for name in names:
+            (place / name).write_text(text)
+    ring = 3.5 * np.exp(2j * np.pi * np.arange(16) / 16)
+    (place / "ring.csv").write_text("\n".join(f"{at.real:.3f}, {at.imag:.3f}, 0.8" for at in ring))
+    straight = resample(samples.sample("walk_straight"), 30)
+    flat = rested(walk(), along_x(walk().skeleton))[:4]
+    clips = {"walk": straight, "stands": straight[:9], "flat": flat, "in/a": walk()[:200], "in/b": wave(30)}
+    (place / "in").mkdir()
+    for name, clip in {"a": wave(60, name="a"), **clips}.items():
+        load_save.save(clip, place / f"{name}.bvh")
+    load_save.save(copied(walk(), adult(), child())[:1], place / "child.amc", widen=True)
+    clip = load_save.load(place / "a.bvh")
+    storage.save(prune(build([clip], window=10, threshold=0.05)), place / "g.npz")
+    storage.save(bundled("walk_circle", "walk_curve_1"), place / "walks.npz")
+    return place
+
+
+def contents(folder):
+    return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+
+
+CROWD = "crowd --members 3 --through goal.csv -o x --no-film"
+
+
+REFUSED = [
+    ("", "the following arguments are required: COMMAND (see mocap --help)"),
+    ("walk g.npz --random 1s --width 5", "belong to --path"),
+    ("walk g.npz --random 1s --label 0:walk", "belong to --path"),
+    ("walk g.npz --random 1s --bend -o x.bvh", "belong to --path"),
+    ("walk g.npz --random 99h", "up to 24h"),
+    ("walk g.npz --random soon", "Write 60s, 10min or 1h"),
+    ("walk g.npz --random 0s", "Write 60s"),
+    ("walk g.npz --random 1s --scale 0.01", "--scale belongs to --clips"),
+    ("walk g.npz --random 1s --seed -1", "--seed: '-1' is not a whole number from 0"),
+    ("walk g.npz --path l.csv --width -1", "--width: '-1' is not a whole number from 1"),
+    ("walk g.npz --path l.csv --seed 1", "--seed belongs to --random"),
+    ("walk g.npz --random 1s -o nowhere/x.bvh", "Cannot write nowhere"),
+    ("walk g.npz --random 1s -o a.bvh", "is one of the files to read: choose another name with -o."),
+    ("walk g.npz --random 1s -o a.bvh --clips a.bvh", "is one of the files to read"),
+    ("walk walks.npz --path nowhere.csv", "nowhere.csv"),
+    ("walk walks.npz --path l.csv --label walk", "METRES:LABEL"),
+    ("walk walks.npz --path l.csv --label 0:fly", "there are: walk"),
+    ("walk walks.npz --path l.csv --unit 5000", "is it in metres?"),
+    ("walk walks.npz --path l.csv -o walk.fbx", "as .bvh or .glb"),
+    ("walk walks.npz --path l.csv --bend nan", "'nan' is not a number"),
+    ("walk walks.npz --path l.csv --bend 0", "'0' is not a number"),
+    ("graph a.bvh --by-labels --whole", "give one of them"),
+    ("graph a.bvh -o g.json", "written as .npz, got"),
+    ("graph a.bvh -o .", "written as .npz"),
+    ("graph a.bvh -o nowhere/g.npz", "No such file or directory"),
+    ("graph a.bvh --graphml g.xml", "--graphml writes .graphml, got"),
+    ("graph a.bvh --threshold 0.001", "no cycle"),
+    ("graph a.bvh --threshold nan", "--threshold: 'nan' is not a number"),
+    ("graph info a.bvh", "a.bvh: expected a motion graph"),
+    ("graph info none.npz", "No such file"),
+    ("graph info", "arguments are required: file"),
+    ("demo nowhere.bvh -o x", "nowhere.bvh"),
+    ("demo a.bvh -o x --threshold 0.001", "need at least"),
+    ("demo a.bvh -o x --threshold -1", "--threshold: '-1' is not a number from"),
+    ("demo a.bvh -o x --window 60", "too few for a window of 1800"),
+    ("demo a.bvh -o x --window 0.001", "two frames or more, got 0.001 s at 30 Hz"),
+    ("demo a.bvh -o x --seconds 0", "--seconds: '0' is not"),
+    ("demo a.bvh -o x --fps 1e9", "--fps: '1e9' is not a number from 1 to 1000"),
+    ("demo a.bvh a.bvh -o x", "given twice: a"),
+    ("demo a.bvh -o a.bvh/below", "Cannot make the folder"),
+    ("demo . -o .", "is one of the files to read"),
+    ("blend a.bvh", "two clips or more"),
+    ("blend a.bvh a.bvh --weights 1", "2 clips need 2 weights, got 1"),
+    ("blend a.bvh a.bvh --weights 1 1", "weights that add up to 1, got [1.0, 1.0]"),
+    ("blend a.bvh a.bvh --at 1", "--at belongs to --fade"),
+    ("blend a.bvh a.bvh a.bvh --fade 1", "got 3 clips"),
+    ("blend a.bvh a.bvh --fade 99", "does not lie within"),
+    ("blend a.bvh a.bvh --slack 1.97", "less than each clip lasts"),
+    ("blend a.bvh a.bvh -o a.bvh", "is one of the files to read"),
+    ("blend a.bvh a.bvh -o x.fbx", "as .bvh, .amc, .glb or .npz"),
+    ("blend a.bvh gone.bvh", "Cannot read"),
+    ("blend walk.bvh a.bvh", "skeletons differ"),
+    ("bend walk.bvh --along bad.csv -o x.bvh", "bad.csv, line 2"),
+    ("bend walk.bvh --along walk.bvh -o x.bvh", "Cannot read a path from walk.bvh"),
+    ("bend gone.bvh --along l.csv -o x.bvh", "gone.bvh"),
+    ("bend stands.bvh --along l.csv -o x.bvh", "it stands; there is no path to edit"),
+    ("bend a.bvh --along l.csv -o x.bvh", "legs"),
+    ("bend walk.bvh --along l.csv -o x.mp4", "is written as .bvh, .glb or .amc"),
+    ("bend walk.bvh --along l.csv -o x.bvh --limit 0", "'0' is not a number"),
+    ("bend walk.bvh --along l.csv -o x.bvh --skeleton a.asf", ".amc clips"),
+    ("bend walk.bvh -o x.bvh", "--along"),
+    ("warp walk.bvh --keys k.txt -o new.txt", "is written as .bvh, .glb or .amc, got"),
+    ("warp walk.bvh --keys k.txt -o walk.bvh", "is one of the files to read"),
+    ("warp a.bvh --keys k.txt -o x.bvh", "give --loose-feet."),
+    ("loop walk.bvh --shortest 60 --longest 60", "a cycle takes 60.2 s or more"),
+    ("loop walk.bvh --shortest 2 --longest 1", "from"),
+    ("loop walk.bvh -o ./walk.bvh", "is one of the files to read"),
+    ("retarget in --to gone.bvh -o x", "Cannot read"),
+    ("retarget in --to child.asf -o x --to-scale 2", "--to-scale is"),
+    ("retarget in --to flat.bvh -o x", "flat.bvh: "),
+    ("retarget in --to in/a.bvh -o in", "is one of the files to read"),
+    ("retarget a.bvh in/a.bvh --to child.asf -o x", "both become"),
+    ("retarget in --to child.asf -o a.bvh/x", "Cannot make the folder"),
+    ("retarget in --to child.asf -o x --steps 0", "from 0.1 to 10"),
+    ("retarget in --to child.asf", "required: -o"),
+    ("find walk.bvh:9- in", "Write CLIP:FROM-TO, as in walk.amc:120-250"),
+    ("find walk.bvh:a-b in", "Write CLIP:FROM-TO"),
+    ("find walk.bvh:60-61 walk.bvh", "A query must last 0.3 s or more"),
+    ("find walk.bvh:60-99999 walk.bvh", "has frames 0 to"),
+    ("find nothing.bvh:60-90 in", "nothing.bvh"),
+    ("find walk.bvh:60-90 in --below 0", "--below: '0' is not a number"),
+    ("find walk.bvh:60-90 in --steps 0", "--steps: '0' is not a whole number"),
+    ("find walk.bvh:60-90 walk.bvh -o a.bvh", "Cannot make the folder"),
+    (f"{CROWD} --members 1", "2"),
+    (f"{CROWD} --skeleton walk.asf", "--skeleton belongs to --graph"),
+    (f"{CROWD} --graph no.npz", "no.npz"),
+    (f"{CROWD} --through disc.csv", "disc.csv, line 1: expected x and z in each line"),
+    (f"{CROWD} --around goal.csv", "goal.csv, line 1: expected x, z and radius in each line"),
+    (f"{CROWD} --around on-us.csv", "The group starts inside the obstacle at x=0, z=0.1"),
+    (f"{CROWD} --around small.csv", "An obstacle has a centre and a radius above 0"),
+    (f"{CROWD} --around ring.csv", "No way past point 1 of 1 was found"),
+    ("info a.bvh --skeleton nothing.asf", "--skeleton is for .amc clips"),
+    ("info a.bvh --nope", "unrecognized arguments: --nope (see mocap info --help)"),
+    ("info gone.bvh", "Cannot read"),
+    ("view gone.bvh", "Cannot read"),
+    ("convert a.bvh a.bvh", "is one of the files to convert"),
+    ("convert . .", "is one of the files to convert"),
+    ("data list --subject 5", "No trial of subject 5"),
+]
+
+
+@pytest.mark.parametrize(("line", "message"), REFUSED)
+def test_what_cannot_be_is_one_sentence_and_leaves_nothing(folder, monkeypatch, capsys, line, message):
+    monkeypatch.chdir(folder)
+    before = contents(folder)
+    assert main(shlex.split(line)) == 2
+    told = capsys.readouterr().err
+    assert message in told
+    assert told.startswith("mocap: ") and told.count("\n") == 1 and len(told) <= 300
+    assert contents(folder) == before
+
+
+def subcommands(parser, words=()):
+    """Yield the words and the options of each command that has none below it."""
+    inner = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
+    if not inner:
+        yield " ".join(words), [a.option_strings[-1] for a in parser._actions if a.option_strings]
+    for action in inner:
+        for name, below in action.choices.items():
+            if name not in NEVER:
+                yield from subcommands(below, (*words, name))
+
+
+COMMANDS = dict(subcommands(_parser()))
+FILES = {
+    "graph info": "g.npz",
+    "walk": "g.npz --random 1s",
+    "convert": "a.bvh c.amc",
+    "bend": "a.bvh --along l.csv -o w.bvh",
+    "blend": "a.bvh a.bvh",
+    "retarget": "a.bvh --to a.bvh -o r",
+    "warp": "a.bvh --keys k.txt -o w.bvh --loose-feet",
+}
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    command=st.sampled_from(sorted({*COMMANDS} - {"demo"})),
+    values=st.lists(st.tuples(st.integers(0, 99), st.sampled_from(HOSTILE)), min_size=1, max_size=2),
+)
+def test_an_option_gets_an_answer_or_one_sentence(folder, monkeypatch, capfd, command, values):
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr("webbrowser.open", lambda page: True)
+    before, options = {path: path.read_bytes() for path in folder.glob("[ag].*")}, COMMANDS[command]
+    given_options = [part for at, value in values for part in (options[at % len(options)], value)]
+    try:
+        status = main([*command.split(), *FILES.get(command, "a.bvh").split(), *given_options])
+    except SystemExit as stop:  # --help
+        status = stop.code
+    said = "".join(capfd.readouterr())  # what `convert` could not convert is part of its answer
+    assert status in (0, 2)
+    assert status == 0 or ("Traceback" not in said and len(said.splitlines()[-1]) <= 300)
+    assert all(path.read_bytes() == content for path, content in before.items())
+
+
+@pytest.mark.parametrize(
+    "command", sorted({*COMMANDS} - {"demo", "info", "view", "graph info", "graph build"})
+)
+def test_each_command_gives_an_example(capsys, command):
+    with pytest.raises(SystemExit, match="0"):
+        main([command, "--help"])
+    assert f"Example: mocap {command} " in " ".join(capsys.readouterr().out.split())
+
+
+LINES = ["graph a.bvh -o g2.npz", "loop a.bvh -o x.bvh", "blend a.bvh a.bvh", "find a.bvh:0-30 a.bvh"]
+LINES += ["bend walk.bvh --along short.csv -o x.bvh", "retarget walk.bvh --to walk.bvh -o worn"]
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_a_body_of_millimetres_is_doubted(line, folder, capsys, monkeypatch, tmp_path):
+    """A file in metres is read as centimetres, and then all that is measured in metres is small enough."""
+    for name in ("a.bvh", "walk.bvh"):
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "short.csv").write_text("0,0\n0,0.01\n")
+    main([*line.split(), "--to-scale" if "--to" in line else "--scale", "0.0001"])
+    assert "m tall: is its scale right?" in capsys.readouterr().err
+
+
+def test_an_interruption_leaves_nothing(clips, monkeypatch, run):
+    def interrupt(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mocap.graphs.build", interrupt)
+    monkeypatch.setattr("mocap.files.save", interrupt)
+    load_save.save(walk()[:200], "walk.bvh")
+    for line in ("demo a.bvh -o out", "retarget walk.bvh --to walk.bvh -o worn"):
+        assert "interrupted; no half-written file" in run(line, 130).err
+    assert sorted(path.name for path in clips.rglob("*") if path.is_file()) == ["a.bvh", "b.bvh", "walk.bvh"]
+
+
+def test_a_walk_may_bear_the_name_of_a_clip_elsewhere(clips, run):
+    (clips / "work").mkdir()
+    run("graph a.bvh b.bvh -o work/graph.npz")
+    for _ in range(2):  # and it replaces an old result
+        run("walk work/graph.npz --random 2s -o work/a.bvh")
+
+
+def test_an_archive_of_poses_is_not_replaced_by_its_graph(tmp_path, run):
+    poses, file = np.random.default_rng(0).normal(0, 0.01, (60, 66)), tmp_path / "walk.npz"
+    np.savez(file, poses=poses, trans=np.zeros((60, 3)), mocap_framerate=30.0)
+    before = file.read_bytes()
+    assert "is one of the files to read" in run(f"graph {file} -o {file}", 2).err
+    assert file.read_bytes() == before
