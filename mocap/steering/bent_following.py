@@ -4,9 +4,10 @@ A walk from the graph turns only where its clips turn; path editing can turn it 
 how much a walk must be turned beyond what it turns by itself, and not how far it strays.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import ClassVar, TypeVar
 
 import numpy as np
 
@@ -15,14 +16,16 @@ from mocap.body.motion import Motion
 from mocap.body.planar import IDENTITY
 from mocap.editing.bending import Bent, bend
 from mocap.editing.line_rounding import round_line
-from mocap.editing.path_editing import Ride
+from mocap.editing.path_editing import Ride, moving_frames
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering.followed import Followed
-from mocap.steering.own_turning import OwnTurning, bending_on, own_ride, turning_of
+from mocap.steering.own_turning import own_ride, turning_of
 from mocap.steering.path_objective import Route, Wishes, make_route
 from mocap.steering.path_search import Found
 from mocap.synthesis.walk_to_motion import to_motion
+
+T = TypeVar("T")
 
 # Metres, and a share of the line: how far the search goes on beyond its end; the rest is cut.
 FURTHER = (0.5, 0.02)
@@ -39,15 +42,11 @@ class BentWalk(Followed):
     """
 
     bent: Bent
+    most_seams: ClassVar[float] = SEAMS
 
     def motion(self, *, name: str = "walk", clean: bool = True) -> Motion:
         """Give the motion on the path, with clean feet or, if `clean` is false, as it was laid there."""
         return replace(self.bent.motion if clean else self.bent.laid, name=name)
-
-    @property
-    def most_seams(self) -> float:
-        """The seams per second of a path that is followed well, at most."""
-        return SEAMS
 
     @property
     def excess(self) -> float:
@@ -83,22 +82,26 @@ def plan_bending(
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
     make_route(graph, path, wishes)  # which refuses what is too long, and what is asked for off the path
     own = turning_of(graph)
-    line = round_line(path, _steady(own, graph.fps, path.length), graph.fps, limit)
+    walks = own.step[own.step * graph.fps > WALKING]
+    if not len(walks):
+        raise MocapError("The clips of this graph only stand: no walk of theirs can be laid on a path.")
+    straight = np.arange(0.0, path.length + 1.0, float(np.median(walks)))  # at the clips' usual pace
+    pace = Ride(GroundPath([[0.0, 0.0], [0.0, straight[-1]]]), straight, np.zeros((4, 2)))
+    line = round_line(path, pace, graph.fps, limit)
 
-    def rounded(where: float) -> float:
-        return float(np.interp(where, line.asked, line.along))
+    def rounded(asked: Sequence[tuple[float, T]]) -> list[tuple[float, T]]:
+        return [(float(np.interp(where, line.asked, line.along)), what) for where, what in asked]
 
-    labels = [(rounded(where), label) for where, label in wishes.labels]
-    times = [(rounded(where), seconds) for where, seconds in wishes.times]
-    wishes = replace(wishes, labels=labels, times=times)
+    wishes = replace(wishes, labels=rounded(wishes.labels), times=rounded(wishes.times), slide=0.0)
     points = line.path.points
     way = points[-1] - points[-2]
     # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.
     further = FURTHER[0] + (1 + FURTHER[1]) * max(path.length, line.path.length) - line.path.length
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
     route = make_route(graph, longer, wishes)
-    bending = bending_on(own, longer, len(route.points))
-    return replace(route, slide=0.0, bending=bending), partial(_lay, graph, path, wishes, limit)
+    along = np.linspace(0, longer.length, len(route.points))
+    curvature = np.gradient(np.asarray(moving_frames(longer, along).angle), along[1])
+    return replace(route, own=own, curvature=curvature), partial(_lay, graph, path, wishes, limit)
 
 
 def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, found: Found) -> BentWalk:
@@ -116,12 +119,3 @@ def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, f
         unlabelled[there] = bool(label) & ~bears[there]
     place = (graph.source, path, walk, IDENTITY)
     return BentWalk(*place, track, bent.along, bent.off, at_length, unlabelled, found, bent)
-
-
-def _steady(own: OwnTurning, fps: float, length: float) -> Ride:
-    """Walk straight on for some metres, at the clips' usual pace."""
-    walks = own.step[own.step * fps > WALKING]
-    if not len(walks):
-        raise MocapError("The clips of this graph only stand: no walk of theirs can be laid on a path.")
-    along = np.arange(0.0, length + 1.0, float(np.median(walks)))
-    return Ride(GroundPath(np.array([[0.0, 0.0], [0.0, along[-1]]])), along, np.zeros((4, 2)))

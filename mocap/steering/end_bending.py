@@ -69,16 +69,19 @@ class Limits:
 
 
 class Arrived(NamedTuple):
-    """A walk of F frames that was bent, and by how much.
+    """A walk of F frames that was bent and retimed, and by how much.
 
     `turned` (F - 1,): the turning that was added, radians per second; `steps` (F - 1,): by which steps were
-    lengthened; `lack`: the metres by which its end misses its place.
+    lengthened; `pace` (F - 1,): times which it is played faster; `lack`: the metres by which its end misses
+    its place; `price`: what the changes cost.
     """
 
     motion: Motion
     turned: Array
     steps: Array
+    pace: Array
     lack: float
+    price: float
 
 
 def level_rise(count: int) -> Array:
@@ -95,36 +98,13 @@ def level_rise(count: int) -> Array:
     return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
 
 
-def played(motion: Motion, frames: int) -> tuple[Motion, Array]:
-    """Play a motion in another number of frames, at its own pace at both ends.
+def bend_to(motion: Motion, frames: int, end: complex, apart: float, limits: Limits) -> Arrived:
+    """Play a walk in another number of frames, and bend it so that its root ends at a ground point, turned.
 
     Parameters
     ----------
-    motion : F frames.
+    motion : 2 frames or more; at both ends it keeps its own pace.
     frames : of the new motion, 2 or more.
-
-    Returns
-    -------
-    The motion, and how fast it is played from frame to frame, shape (`frames` - 1,), 1 for its own pace.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> slower, pace = played(sample("walk_straight")[:101], 111)
-    >>> len(slower), bool(0.87 < pace.min() < 0.91), pace[[0, -1]].round(2)
-    (111, True, array([1., 1.]))
-    """
-    moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
-    pace = np.diff(moments)
-    return (motion if len(motion) == frames else at_frames(motion, moments)), pace
-
-
-def bend_to(motion: Motion, end: complex, apart: float, limits: Limits) -> Arrived:
-    """Bend a walk so that its root ends at a ground point, turned by an angle.
-
-    Parameters
-    ----------
-    motion : F frames, 2 or more.
     end : where its last root shall be, z + ix.
     apart : radians by which its last frame is turned.
     limits : for its turning and its steps. Where they leave no way, the end is missed, or the turning is
@@ -134,47 +114,46 @@ def bend_to(motion: Motion, end: complex, apart: float, limits: Limits) -> Arriv
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:481:4]
-    >>> bent = bend_to(walk, on_ground(walk.root_positions[-1]) + 0.5j, 0.3, Limits())
-    >>> bool(bent.lack < 1e-4), bool(np.degrees(abs(bent.turned).max()) < 30)
-    (True, True)
+    >>> bent = bend_to(walk, 130, on_ground(walk.root_positions[-1]) + 0.5j, 0.3, Limits())
+    >>> bool(bent.lack < 1e-4), bool(np.degrees(abs(bent.turned).max()) < 30), len(bent.motion)
+    (True, True, 130)
     """
-    ground, fps = on_ground(motion.root_positions), motion.fps
-    problem = _Way(ground, apart, fps)
-    best = problem.solved(end, limits, held=False)
-    if np.abs(problem.turned(best)).max() > limits.turn:
-        best = problem.solved(end, limits, held=True)
-    phi, sigma, moved = problem.way(best)
-    roots = motion.root_positions.copy()
+    moments = np.arange(frames) + (len(motion) - frames) * level_rise(frames)
+    pace = np.diff(moments)
+    motion = motion if len(motion) == frames else at_frames(motion, moments)
+    way = _Way(on_ground(motion.root_positions), apart, motion.fps)
+    best = way.solve(end, limits, held=False)
+    if np.abs(way.turned(best)).max() > limits.turn:
+        best = way.solve(end, limits, held=True)
+    phi, sigma, moved = way.points(best)
+    roots, turns = motion.root_positions.copy(), motion.rotations.copy()
     roots[:, 2], roots[:, 0] = moved.real, moved.imag
-    turned = motion.rotations.copy()
-    turned[:, 0] = rotations.multiply(rotations.about_y(phi), turned[:, 0])
-    bent = replace(motion, root_positions=roots, rotations=turned)
-    return Arrived(bent, np.diff(phi) * fps, sigma, float(abs(moved[-1] - end)))
+    turns[:, 0] = rotations.multiply(rotations.about_y(phi), turns[:, 0])
+    bent, turned = replace(motion, root_positions=roots, rotations=turns), np.diff(phi) * motion.fps
+    logs = np.concatenate([np.log(sigma), np.log(pace)])
+    price = (TURN * (turned @ turned) + STRETCH * (logs @ logs)) / motion.fps
+    return Arrived(bent, turned, sigma, pace, float(abs(moved[-1] - end)), float(price))
 
 
 class _Way:
-    """The way of a walk as a function of x: the splines of φ, then those of ln σ."""
+    """The way of a walk of F frames as a function of x (2 K,): the splines of φ, then those of ln σ."""
 
     def __init__(self, ground: Points, apart: float, fps: float) -> None:
         self.ground, self.fps, frames = ground, fps, len(ground)
         spans = int(np.clip(round((frames - 1) / fps / KNOTS), FEWEST, MOST))
-        self.basis = spline_basis(frames, (frames - 1) / spans).toarray()[:, 3:-3]
+        self.basis = spline_basis(frames, (frames - 1) / spans).toarray()[:, 3:-3]  # (F, K)
         self.middle = (self.basis[1:] + self.basis[:-1]) / 2
-        self.rate = np.diff(self.basis, axis=0)
-        self.even = apart * level_rise(frames)
+        self.rate, self.even = np.diff(self.basis, axis=0), apart * level_rise(frames)
         self.count = self.basis.shape[1]
         self.some = slice(None, None, max(1, (frames - 1) // (4 * spans)))  # four between two knots
-        self.step = np.diff(ground)
 
-    def solved(self, end: complex, limits: Limits, *, held: bool) -> Array:
+    def solve(self, end: complex, limits: Limits, *, held: bool) -> Array:
         """Find x by sequential quadratic programming; `held` says whether the turning has its limit."""
-        most = np.log(limits.steps)
-        arrive = {"type": "eq", "fun": lambda x: self.miss(x, end), "jac": self.slopes}
-        turn = {
-            "type": "ineq",
-            "fun": lambda x: self.slack(x, WITHIN * limits.turn),
-            "jac": self.slack_slopes,
-        }
+        most, rate = np.log(limits.steps), self.rate[self.some] * self.fps
+        slope, own = np.block([[-rate, 0 * rate], [rate, 0 * rate]]), self.turned(np.zeros(2 * self.count))
+        room = WITHIN * limits.turn - np.concatenate([own[self.some], -own[self.some]])
+        arrive = {"type": "eq", "fun": lambda x: self.miss(x, end), "jac": self.miss_slopes}
+        turn = {"type": "ineq", "fun": lambda x: room + slope @ x, "jac": lambda _: slope}
         found = minimize(
             self.cost,
             np.zeros(2 * self.count),
@@ -190,38 +169,26 @@ class _Way:
         """Give the turning that is added, (F - 1,), radians per second."""
         return np.asarray((np.diff(self.even) + self.rate @ x[: self.count]) * self.fps)
 
-    def way(self, x: Array) -> tuple[Array, Array, Points]:
+    def points(self, x: Array) -> tuple[Array, Array, Points]:
         """Give φ (F,), σ (F - 1,), and the ground points (F,)."""
-        phi = self.even + self.basis @ x[: self.count]
-        sigma = np.exp(self.middle @ x[self.count :])
-        steps = sigma * np.exp(0.5j * (phi[1:] + phi[:-1])) * self.step
+        phi, sigma = self.even + self.basis @ x[: self.count], np.exp(self.middle @ x[self.count :])
+        steps = sigma * np.exp(0.5j * (phi[1:] + phi[:-1])) * np.diff(self.ground)
         return phi, sigma, self.ground[0] + np.concatenate([[0.0], np.cumsum(steps)])
 
     def cost(self, x: Array) -> tuple[float, Array]:
         """Give the cost and its gradient."""
-        rate = np.diff(self.even) + self.rate @ x[: self.count]
-        log = self.middle @ x[self.count :]
-        cost = TURN * self.fps * (rate @ rate) + STRETCH / self.fps * (log @ log)
-        slope = [TURN * self.fps * (self.rate.T @ rate), STRETCH / self.fps * (self.middle.T @ log)]
+        turned, log = self.turned(x), self.middle @ x[self.count :]
+        cost = (TURN * (turned @ turned) + STRETCH * (log @ log)) / self.fps
+        slope = [TURN * (self.rate.T @ turned), STRETCH / self.fps * (self.middle.T @ log)]
         return float(cost), 2 * np.concatenate(slope)
 
     def miss(self, x: Array, end: complex) -> Array:
         """Give the vector from the end's place to where the way ends."""
-        lack = self.way(x)[2][-1] - end
+        lack = self.points(x)[2][-1] - end
         return np.array([lack.real, lack.imag])
 
-    def slopes(self, x: Array) -> Array:
+    def miss_slopes(self, x: Array) -> Array:
         """Give the derivative of `miss`, shape (2, 2 K)."""
-        steps = np.diff(self.way(x)[2])
-        lean = np.concatenate([1j * (steps @ self.middle), steps @ self.middle])
+        along = np.diff(self.points(x)[2]) @ self.middle
+        lean = np.concatenate([1j * along, along])
         return np.stack([lean.real, lean.imag])
-
-    def slack(self, x: Array, limit: float) -> Array:
-        """Give by how much the turning stays within its limit, on both sides."""
-        turned = self.turned(x)[self.some]
-        return np.concatenate([limit - turned, limit + turned])
-
-    def slack_slopes(self, x: Array) -> Array:
-        """Give the derivative of `slack`."""
-        rate = self.rate[self.some] * self.fps
-        return np.block([[-rate, 0 * rate], [rate, 0 * rate]])

@@ -1,11 +1,11 @@
 """What was found along a path, and how well it follows the path."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask, Points, runs
+from mocap._shared.arrays import Array, Mask, runs
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground
@@ -19,20 +19,6 @@ from mocap.synthesis.walk_to_motion import to_motion
 ASTRAY = 0.15  # metres from the path at which a walk has left it
 NEAR = 0.04  # metres from the path on average, at most, for a path that is followed well
 SEAMS = 1.0  # transitions per second, at most, for a path that is followed well
-
-
-class Departure(NamedTuple):
-    """A stretch where a walk is off its path: its start and end along the path, and the worst distance.
-
-    Examples
-    --------
-    >>> Departure(start=2.0, end=2.5, worst=0.2).end
-    2.5
-    """
-
-    start: float
-    end: float
-    worst: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +48,7 @@ class Followed:
     off_at_length: Array
     unlabelled: Mask
     found: Found
+    most_seams: ClassVar[float] = SEAMS  # per second, of a path that is followed well
 
     def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
         """Turn the walk into a motion along the path; `clean` as for `synthesis.to_motion`."""
@@ -79,11 +66,6 @@ class Followed:
         return kinds.count("transition") / self.seconds
 
     @property
-    def most_seams(self) -> float:
-        """The seams per second of a path that is followed well, at most."""
-        return SEAMS
-
-    @property
     def excess(self) -> float:
         """The largest of mean distance / 4 cm, worst distance / 15 cm, and seams per second / 1."""
         off = self.off
@@ -95,12 +77,10 @@ class Followed:
         return float(min(1.0, self.along[-1] / self.path.length))
 
     @property
-    def departures(self) -> list[Departure]:
-        """The stretches more than 15 cm off the path."""
-        return [
-            Departure(float(self.along[a]), float(self.along[b - 1]), float(self.off[a:b].max()))
-            for a, b in runs(self.off > ASTRAY)
-        ]
+    def departures(self) -> list[tuple[float, float, float]]:
+        """The stretches more than 15 cm off the path: starts and ends along it, worst distances."""
+        stretches = runs(self.off > ASTRAY).tolist()
+        return [(self.along[a], self.along[b - 1], self.off[a:b].max()) for a, b in stretches]
 
     def report(self) -> str:
         """Say in one line how well the walk follows the path."""
@@ -123,25 +103,14 @@ def account(graph: CompiledGraph, path: GroundPath, route: Route, found: Found) 
     body, rows = walk_track(graph, found.edges, found.turn, found.move)
     label = route.label[route.point(found.along)]
     bears = graph.labels.bears[label, rows] if graph.labels.names else np.zeros(len(rows), bool)
-    return Followed(
-        graph.source,
-        path,
-        [graph.edges[edge] for edge in found.edges],
-        PlanarTransform.from_complex(found.turn, found.move),
-        from_ground(body),
-        found.along,
-        _distance(route, body, found.along),
-        np.abs(body - route.at(np.cumsum(least_progress(graph, route)[rows]))),
-        (label >= 0) & ~bears,
-        found,
-    )
-
-
-def _distance(route: Route, body: Points, along: Array) -> Array:
-    """Measure the distance of the body from the path within 0.5 m of where it should be."""
+    # The distance is that from the path within 0.5 m of where the body should be, shape (F, pieces).
     reach = int(0.5 / route.spacing) + 1
-    near = (along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
-    near = np.clip(near, 0, len(route.points) - 2)  # (F, pieces)
-    start, piece = route.points[near], np.diff(route.points)[near]
-    share = ((body[:, None] - start) * piece.conj()).real / np.abs(piece) ** 2
-    return np.asarray(np.abs(body[:, None] - start - np.clip(share, 0, 1) * piece).min(axis=1))
+    near = (found.along / route.spacing).astype(np.intp)[:, None] + np.arange(-reach, reach)
+    near = np.clip(near, 0, len(route.points) - 2)
+    away, piece = body[:, None] - route.points[near], np.diff(route.points)[near]
+    share = np.clip((away * piece.conj()).real / np.abs(piece) ** 2, 0, 1)
+    off = np.abs(away - share * piece).min(axis=1)
+    at_length = np.abs(body - route.at(np.cumsum(least_progress(graph, route)[rows])))
+    walk, place = [graph.edges[edge] for edge in found.edges], (found.turn, found.move)
+    laid = (walk, PlanarTransform.from_complex(*place), from_ground(body), found.along)
+    return Followed(graph.source, path, *laid, off, at_length, (label >= 0) & ~bears, found)

@@ -39,12 +39,12 @@ def stand(motion: Motion) -> Motion:
     The motion; plants that were let go are no longer marked.
     """
     legs = legs_of(motion.skeleton, None)
-    marks = settled_marks(motion, legs)
-    places, joints = joint_positions(motion), [(leg.ankle, leg.ball) for leg in legs]
-    span = least_frames(motion.fps)
-    held = [_held(places[:, pair], own, span, motion.fps) for pair, own in zip(joints, marks, strict=True)]
-    columns = [joint for pair in joints for joint in pair]
+    marks, places = settled_marks(motion, legs), joint_positions(motion)
+    held = [
+        _held(places[:, [leg.ankle, leg.ball]], own, motion.fps) for leg, own in zip(legs, marks, strict=True)
+    ]
     known = np.concatenate(held, axis=1)  # (F, P, 3), nan where nothing is held
+    columns = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
     names = [motion.skeleton.names[joint] for joint in columns]
     own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
     also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
@@ -57,50 +57,39 @@ def stand(motion: Motion) -> Motion:
     return replace(found, contacts=contacts)
 
 
-def _held(places: Array, marks: Mask, span: int, fps: float) -> Array:
+def _held(places: Array, marks: Mask, fps: float) -> Array:
     """Say where an ankle and its ball (F, 2, 3) are held near both ends; nan where they are not."""
-    length = float(np.linalg.norm(places[0, 0] - places[0, 1]))
     held = np.full(places.shape, np.nan)
-    near = max(span, round(NEAR * fps))
-    for back in (False, True):  # the end, then the start, which is the end of the motion run backwards
-        way = slice(None, None, -1 if back else None)
-        _hold_end(held[way], places[way], marks[:, way], length, (span, near))
+    for way in (slice(None), slice(None, None, -1)):  # the start is the end of the motion run backwards
+        _hold_end(held[way], places[way], marks[:, way], fps)
     return held
 
 
-def _hold_end(held: Array, places: Array, marks: Mask, length: float, spans: tuple[int, int]) -> None:
-    """Fill in where the joints are held at the end of a motion, and in the plant that is near to it."""
-    count, (span, near) = len(places), spans
-    stands = runs(marks[0] | marks[1])
-    begin = count - span - 1
-    if len(stands) and stands[-1][1] > count - near:
-        first, begin = int(stands[-1][0]), int(stands[-1][1])
-        _hold_plant(held, places, marks[:, :begin], length, first)
+def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
+    """Fill in where the joints are held at the end of a motion, and in the plant that is near to it.
+
+    What stands in the plant's last frame is held there, the rest a foot's length away.
+    """
+    away = places - places[:, ::-1]  # of each joint from the other one
+    span, length = least_frames(fps), np.linalg.norm(away[0, 0])
+    stands, begin = runs(marks.any(axis=0)), len(places) - span - 1
+    if len(stands) and stands[-1][1] > len(places) - max(span, round(NEAR * fps)):
+        first, begin = stands[-1].tolist()
+        for kind in sorted((0, 1), key=lambda kind: not marks[kind, begin - 1]):
+            for start, stop in runs(marks[kind, :begin]):
+                both = np.flatnonzero(np.isfinite(held[start:stop, 1 - kind, 0])) + start
+                if stop == begin:
+                    held[start:stop, kind] = places[begin - 1, kind]
+                elif start >= first and len(both):
+                    way = away[both, kind].mean(axis=0)
+                    held[start:stop, kind] = held[both[-1], 1 - kind] + length * way / np.linalg.norm(way)
     held[begin:] = places[begin:]
     # Where one joint stands up to the end, the other is where the foot's own turn has it; also in the gaps so
     # short that a clean-up closes them.
     for kind in (0, 1):
         alone = np.isnan(held[:, kind, 0]) & ~np.isnan(held[:, 1 - kind, 0])
-        alone[: min(begin, count - 1) - span] = False
-        held[alone, kind] = held[alone, 1 - kind] + (places[:, kind] - places[:, 1 - kind])[alone]
-
-
-def _hold_plant(held: Array, places: Array, marks: Mask, length: float, first: int) -> None:
-    """Hold the last plant: what stands in its last frame is held there, the rest a foot's length away."""
-    last = marks.shape[1] - 1
-    kinds = sorted((0, 1), key=lambda kind: not marks[kind, last])
-    for kind in kinds:
-        for start, stop in runs(marks[kind]):
-            if start < first:
-                continue
-            if stop > last:
-                held[start:stop, kind] = places[last, kind]
-                continue
-            both = np.flatnonzero(np.isfinite(held[start:stop, 1 - kind, 0])) + start
-            if len(both):
-                away = (places[:, kind] - places[:, 1 - kind])[both].mean(axis=0)
-                other = held[both[-1], 1 - kind]
-                held[start:stop, kind] = other + length * away / np.linalg.norm(away)
+        alone[: min(begin, len(places) - 1) - span] = False
+        held[alone, kind] = held[alone, 1 - kind] + away[alone, kind]
 
 
 def meet_poses(
@@ -121,32 +110,27 @@ def meet_poses(
     -------
     The motion, and what was added.
     """
-    window = max(1.0, min(FADE * motion.fps, (len(motion) - 1) / 2))
-    frames, last = np.arange(len(motion)), len(motion) - 1
-    begin = _fading(motion, start, (0, 1, speed), frames / window)
-    finish = _fading(motion, end, (last, -1, speed), (last - frames) / window)
+    begin, finish = _fading(motion, start, 1, speed=speed), _fading(motion, end, -1, speed=speed)
     added = Displacement(*(one + other for one, other in zip(begin, finish, strict=True)))
     return displaced(motion, added), added
 
 
-def _fading(motion: Motion, moment: Moment, at: tuple[int, int, bool], u: Array) -> Displacement:
-    """Let the difference at a frame fade: x(u) = (1 - u)⁴ (x + (4 x + v T) u), and 0 from u = 1 on.
+def _fading(motion: Motion, moment: Moment, way: int, *, speed: bool) -> Displacement:
+    """Let the difference at an end fade: x(u) = (1 - u)⁴ (x + (4 x + v T) u), and 0 from u = 1 on.
 
-    `at`: the frame, the way into the motion, 1 or -1, and whether v counts.
+    `way` into the motion: 1 from its first frame, -1 from its last one.
     """
-    frame, way, speed = at
+    last = len(motion) - 1
+    frame, window = (0 if way > 0 else last), max(1.0, min(FADE * motion.fps, last / 2))
+    late = np.minimum(np.abs(np.arange(last + 1) - frame) / window, 1)
     here = difference(moment.placed(), motion[frame : frame + 1])
-    drift = Displacement(0 * here.root, 0 * here.turns)
+    drift = [0 * part for part in here]
     if speed and moment.has(way):
         step = way * motion.fps / moment.motion.fps
         then = difference(moment.placed(way), at_frames(motion, [frame + step]))
-        window = 1 / (abs(step) * abs(u[1] - u[0]))  # so many of the moment's frames
-        drift = Displacement(*((b - a) * window for a, b in zip(here, then, strict=True)))
-    late = np.minimum(u, 1)
-    fade = (1 - late) ** 4
-
-    def curve(x: Array, v: Array) -> Array:
-        shape = (-1, *np.ones(x.ndim - 1, int))
-        return fade.reshape(shape) * (x + (4 * x + v) * late.reshape(shape))
-
-    return Displacement(*map(curve, here, drift))
+        drift = [(b - a) * window / abs(step) for a, b in zip(here, then, strict=True)]
+    faded = []
+    for x, v in zip(here, drift, strict=True):
+        u = late.reshape(-1, *np.ones(x.ndim - 1, int))
+        faded.append((1 - u) ** 4 * (x + (4 * x + v) * u))
+    return Displacement(*faded)

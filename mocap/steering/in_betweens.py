@@ -5,41 +5,31 @@ from __future__ import annotations
 import warnings
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, heading
+from mocap.body.motion import Motion, concatenate
+from mocap.body.planar import heading
 from mocap.editing.displacements import Displacement
 from mocap.editing.path_editing import plants_kept
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.end_bending import STRETCH, TURN, Arrived, Limits, bend_to, played
+from mocap.steering.end_bending import Arrived, Limits, bend_to
 from mocap.steering.held_ends import meet_poses, stand
-from mocap.steering.moments import Choices, Moment, choices
+from mocap.steering.moments import Moment, choices
 from mocap.steering.two_sided_search import Joined, TwoSided
 from mocap.synthesis.walk_to_motion import to_motion, with_plants
 
-CHOICES = 6  # frames of the clips that are tried for each pose
 TRIED = 24  # walks that are bent, of all that were found
 LONGEST = 120.0  # seconds
 
 # Times that feet are cleaned up and ends brought to the poses. The clean-up may let go what it should hold at
 # the ends, by up to 1° of a joint; feet then slide by up to 0.3 mm. After the second round they do not.
 ROUNDS = 2
-
-
-class Missed(NamedTuple):
-    """How far a motion is from a pose: metres of the root, degrees of the heading, degrees of any joint."""
-
-    place: float
-    heading: float
-    pose: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +42,7 @@ class InBetween:
     laid : the same before its feet were cleaned up.
     graph, walk : where it comes from.
     start, end : the moments asked for.
-    turned : shape (N,), the turning that was added, radians per second.
-    steps : shape (N,), times which the steps were made longer.
-    pace : shape (N,), times which the clips are played faster.
+    arrived : the walk before its ends faded, and by how much it was turned, lengthened and retimed.
     faded : the displacement that was added to meet the poses.
     seams : how many transitions there are.
     """
@@ -65,16 +53,19 @@ class InBetween:
     walk: list[Edge]
     start: Moment
     end: Moment
-    turned: Array
-    steps: Array
-    pace: Array
+    arrived: Arrived
     faded: Displacement
     seams: int
 
     @cached_property
-    def missed(self) -> tuple[Missed, Missed]:
-        """How far the motion is from both poses, measured on it."""
-        return _missed(self.motion, 0, self.start), _missed(self.motion, -1, self.end)
+    def missed(self) -> Array:
+        """How far both ends are from their poses, (2, 3): metres, degrees of heading and of any joint."""
+        asked = concatenate([self.start.placed(), self.end.placed()])
+        met = self.motion.rotations[[0, -1]]
+        place = np.linalg.norm(self.motion.root_positions[[0, -1]] - asked.root_positions, axis=1)
+        turns = np.degrees(rotations.angle_between(met, asked.rotations).max(axis=1))
+        faces = np.exp(1j * (heading(met[:, 0]) - heading(asked.rotations[:, 0])))
+        return np.stack([place, np.abs(np.degrees(np.angle(faces))), turns], axis=1)
 
     @property
     def kept(self) -> float:
@@ -83,13 +74,13 @@ class InBetween:
 
     def report(self) -> str:
         """Say what was asked for and met, and what was bent, lengthened, retimed and faded for it."""
-        steps, pace = (f"{values.min():.2f} to {values.max():.2f}" for values in (self.steps, self.pace))
-        worst = Missed(*(max(pair) for pair in zip(*self.missed, strict=True)))
+        took, (place, faces, turns) = self.arrived, self.missed.max(axis=0)
+        steps, pace = (f"{values.min():.2f} to {values.max():.2f}" for values in (took.steps, took.pace))
         moved, warped = (np.linalg.norm(part, axis=-1).max() for part in self.faded)
         return (
-            f"{self.motion.duration:.2f} s, {self.seams} seams; missed by {1000 * worst.place:.1f} mm, "
-            f"{worst.heading:.2f}° of heading and {worst.pose:.2f}° of a joint; turned by up to "
-            f"{np.degrees(np.abs(self.turned).max()):.0f}° per second, steps {steps} times as long, played "
+            f"{self.motion.duration:.2f} s, {self.seams} seams; missed by {1000 * place:.1f} mm, "
+            f"{faces:.2f}° of heading and {turns:.2f}° of a joint; turned by up to "
+            f"{np.degrees(np.abs(took.turned).max()):.0f}° per second, steps {steps} times as long, played "
             f"{pace} times as fast, ends moved by {100 * moved:.1f} cm and {np.degrees(warped):.0f}°, "
             f"{self.kept:.0%} of the plants kept"
         )
@@ -146,62 +137,36 @@ def in_between(
     if not (np.isfinite(seconds) and 2 / graph.fps <= seconds <= LONGEST):
         raise MocapError(f"A motion lasts from {2 / graph.fps:.2f} to {LONGEST:g} s, got {seconds} s.")
     frames = round(seconds * graph.fps)
-    near = _near(graph, start, 1, limits), _near(graph, end, -1, limits)
-    search = TwoSided(graph, near, frames, limits)
-    source = with_plants(graph.source)
-    found = [_changed(source, graph, joined, frames, limits) for joined in search.best(TRIED)]
-    return _met(graph, _least(found, limits, search), start, end)
-
-
-def _near(graph: CompiledGraph, moment: Moment, way: int, limits: Limits) -> Choices:
-    """Find the frames of the clips that look like a pose, or refuse it."""
-    near = choices(graph, moment, way=way, most=CHOICES)
-    close = near.off <= limits.pose
-    if not close.any():
-        raise NoWalk(
-            f"Frame {moment.frame} of '{moment.motion.name:.60}' is {near.off[0]:.2f} m off the nearest pose "
-            f"of the clips, and {limits.pose:g} m is the limit: take a pose more like theirs."
+    near = (choices(graph, moment, way=way, limit=limits.pose) for moment, way in ((start, 1), (end, -1)))
+    search = TwoSided(graph, (next(near), next(near)), frames, limits)
+    source, found = with_plants(graph.source), []
+    for joined in search.best(TRIED):
+        walk = [graph.edges[edge] for edge in joined.edges]
+        played = to_motion(source, walk, place=joined.place)[joined.first : joined.first + joined.frames + 1]
+        found.append((joined, bend_to(played, frames + 1, joined.end, joined.apart, limits)))
+    joined, arrived = _least(found, limits, search)
+    laid, faded = meet_poses(replace(arrived.motion, name="in between"), start, end)
+    motion = laid
+    for _ in range(ROUNDS):
+        motion, _ = meet_poses(stand(motion), start, end, speed=False)
+    walk, seams = [graph.edges[edge] for edge in joined.edges], int(graph.blended[joined.edges].sum())
+    between = InBetween(motion, laid, graph.source, walk, start, end, arrived, faded, seams)
+    if between.kept < 1:
+        warnings.warn(
+            f"'{motion.name}': {1 - between.kept:.0%} of the planted frames are let go: to hold them would "
+            "move the root by more than 2 cm, stretch a leg or jolt a knee.",
+            MocapWarning,
+            stacklevel=2,
         )
-    return near.take(close)
+    return between
 
 
-class _Changed(NamedTuple):
-    """A walk that was changed to arrive."""
-
-    joined: Joined
-    arrived: Arrived
-    pace: Array
-
-    @property
-    def price(self) -> float:
-        """What the changes cost."""
-        turned, log = self.arrived.turned, np.log(self.arrived.steps)
-        stretched = log @ log + np.log(self.pace) @ np.log(self.pace)
-        changes = TURN * (turned @ turned) + STRETCH * stretched
-        return float(self.joined.cost + changes / self.arrived.motion.fps)
-
-    @property
-    def turn(self) -> float:
-        """The fastest turning that was added, radians per second."""
-        return float(np.abs(self.arrived.turned).max())
-
-
-def _changed(
-    source: MotionGraph, graph: CompiledGraph, joined: Joined, frames: int, limits: Limits
-) -> _Changed:
-    """Play a walk in as many frames as asked for, and bend it to its end."""
-    place = PlanarTransform.from_complex(joined.turn, joined.move)
-    motion = to_motion(source, [graph.edges[edge] for edge in joined.edges], place=place)
-    motion, pace = played(motion[joined.first : joined.first + joined.frames + 1], frames + 1)
-    return _Changed(joined, bend_to(motion, joined.end, joined.apart, limits), pace)
-
-
-def _least(found: list[_Changed], limits: Limits, search: TwoSided) -> _Changed:
+def _least(found: list[tuple[Joined, Arrived]], limits: Limits, search: TwoSided) -> tuple[Joined, Arrived]:
     """Take the walk within the limits that is changed least, or say why there is none."""
-    arriving = [walk for walk in found if walk.arrived.lack <= limits.pose / 2]
-    good = [walk for walk in arriving if walk.turn <= limits.turn]
-    if good:
-        return min(good, key=lambda walk: walk.price)
+    turned = [float(np.abs(arrived.turned).max()) for _, arrived in found]
+    arriving = [n for n, (_, arrived) in enumerate(found) if arrived.lack <= limits.pose / 2]
+    if good := [found[n] for n in arriving if turned[n] <= limits.turn]:
+        return min(good, key=lambda pair: pair[0].cost + pair[1].price)
     seconds, apart = search.frames / search.graph.fps, abs(search.there - search.here)
     if not found:
         raise NoWalk(
@@ -209,46 +174,15 @@ def _least(found: list[_Changed], limits: Limits, search: TwoSided) -> _Changed:
             "give another time, other poses, or a graph with a higher threshold."
         )
     if arriving:
-        best = min(arriving, key=lambda walk: walk.turn)
-        turn, most = np.degrees([best.turn, limits.turn])
+        turn, most = np.degrees([min(turned[n] for n in arriving), limits.turn])
         raise NoWalk(
             f"To arrive in {seconds:.1f} s, walks must be turned by {turn:.0f}° per second; the limit is "
             f"{most:.0f}°: give about {seconds * turn / most:.1f} s, or let the end face another way."
         )
-    lack = min(walk.arrived.lack for walk in found)
+    lack = min(arrived.lack for _, arrived in found)
     reach = apart - lack
     too_far = reach > search.speed * seconds / 2  # else it is the way to turn that takes the time
     raise NoWalk(
         f"In {seconds:.1f} s walks end {lack:.1f} m from the place that is {apart:.1f} m away: give "
         + (f"about {seconds * apart / reach:.1f} s." if too_far else "another time, or another way to face.")
     )
-
-
-def _met(graph: CompiledGraph, changed: _Changed, start: Moment, end: Moment) -> InBetween:
-    """Let the ends fade into the poses, and clean up the feet."""
-    laid, faded = meet_poses(replace(changed.arrived.motion, name="in between"), start, end)
-    motion = laid
-    for _ in range(ROUNDS):
-        motion, _ = meet_poses(stand(motion), start, end, speed=False)
-    edges, arrived = changed.joined.edges, changed.arrived
-    took = (arrived.turned, arrived.steps, changed.pace, faded, int(graph.blended[edges].sum()))
-    walk = [graph.edges[edge] for edge in edges]
-    found = InBetween(motion, laid, graph.source, walk, start, end, *took)
-    if found.kept < 1:
-        warnings.warn(
-            f"'{motion.name}': {1 - found.kept:.0%} of the planted frames are let go: to hold them would "
-            "move the root by more than 2 cm, stretch a leg or jolt a knee.",
-            MocapWarning,
-            stacklevel=3,
-        )
-    return found
-
-
-def _missed(motion: Motion, frame: int, moment: Moment) -> Missed:
-    """Measure how far a frame is from a pose at its place."""
-    asked = moment.placed()
-    turns = rotations.angle_between(motion.rotations[frame], asked.rotations[0])
-    faces = heading(motion.rotations[frame, 0]) - heading(asked.rotations[0, 0])
-    place = np.linalg.norm(motion.root_positions[frame] - asked.root_positions[0])
-    wrapped = abs((float(faces) + np.pi) % (2 * np.pi) - np.pi)
-    return Missed(float(place), float(np.degrees(wrapped)), float(np.degrees(turns).max()))

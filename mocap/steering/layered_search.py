@@ -10,13 +10,13 @@ Ground points are complex numbers z + ix, and p ↦ turn · p + move lays the cl
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.arrays import Array, Indices, Mask, Points
 
 
 class States(NamedTuple):
@@ -42,6 +42,15 @@ class States(NamedTuple):
     def take(self, chosen: slice | NDArray[Any]) -> States:
         """Take some of the walks."""
         return States._make(values[chosen] for values in self)
+
+    def then(self, of: Indices, steps: States) -> States:
+        """Lengthen walks by steps, each a walk from where its node's clip lies; step n goes on from `of[n]`.
+
+        The longer walks' `trail` are the rows of those that they go on from, their `hop` is the step's.
+        """
+        turn, move = self.turn[of], self.move[of] + self.turn[of] * steps.move
+        sums = (mine[of] + more for mine, more in zip(self[3:6], steps[3:6], strict=True))
+        return States(steps.node, turn * steps.turn, move, *sums, of, steps.hop)
 
     @staticmethod
     def join(parts: Sequence[States]) -> States:
@@ -102,32 +111,20 @@ class LayeredSearch:
     every : whether to keep every walk that arrives; else no walk goes on that costs as much as the best one.
     """
 
+    expand: Callable[[States], States]  # longer walks; the `trail` of each is the row that it goes on from
+    score: Callable[
+        [States], Array
+    ]  # (N,), small is good: their cost, and what they are expected to cost still
+    cells: Callable[[States], Indices]  # columns of whole numbers (C, N), equal where walks stand alike
+    layers: Callable[[States], Indices]  # (N,)
+    done: Callable[[States], Mask]  # (N,), which have arrived
+
     def __init__(self, starts: States, width: int, *, every: bool = False) -> None:
         self.waiting: dict[int, list[States]] = {0: [starts]}
         self.width, self.every = width, every
         self.history: list[States] = []
         self.arrived: list[States] = []
         self.expanded = self.cut = 0
-
-    def expand(self, states: States) -> States:
-        """Lengthen walks; the `trail` of a longer one is the row of the walk that it goes on from."""
-        raise NotImplementedError
-
-    def score(self, states: States) -> Array:
-        """Rate walks (N,), small is good: their cost, and what they are expected to cost still."""
-        raise NotImplementedError
-
-    def cells(self, states: States) -> Indices:
-        """Give columns of whole numbers (C, N) that are equal where walks stand alike."""
-        raise NotImplementedError
-
-    def layers(self, states: States) -> Indices:
-        """Say which layer each walk has reached (N,)."""
-        raise NotImplementedError
-
-    def done(self, states: States) -> NDArray[np.bool_]:
-        """Say which walks have arrived (N,)."""
-        raise NotImplementedError
 
     def __iter__(self) -> Iterator[States]:
         while self.waiting:

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.ndimage import minimum_filter1d
 
-from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, heading, place
-from mocap.errors import MocapError
+from mocap.body.planar import PlanarTransform, heading, lay_on, place
+from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph
+from mocap.graphs.edge_tables import clip_rows
 from mocap.matching.point_clouds import align, point_cloud
 
 AHEAD = 0.1  # seconds from a pose to the one before or after it, and between two choices at least
+MOST = 6  # frames of the clips that are tried for each pose
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,13 +57,11 @@ class Moment:
     def placed(self, step: int = 0) -> Motion:
         """Give the pose at its place, one frame; or the frame `step` frames from it, moved with it."""
         now = self.motion[self.frame : self.frame + 1]
-        root, faces = now.root_positions[0], float(heading(now.rotations[0, 0]))
-        direction = faces if self.direction is None else self.direction
-        there = place(now, direction, root[[0, 2]] if self.position is None else self.position)
-        turn = PlanarTransform(direction - faces, 0.0, 0.0)
-        x, _, z = there.root_positions[0] - turn.apply_points(root)
-        chosen = self.frame + step
-        return turn._replace(x=x, z=z).apply_motion(self.motion[chosen : chosen + 1])
+        direction = float(heading(now.rotations[0, 0])) if self.direction is None else self.direction
+        there = place(
+            now, direction, now.root_positions[0, [0, 2]] if self.position is None else self.position
+        )
+        return lay_on(now, there).apply_motion(self.motion[self.frame + step : self.frame + step + 1])
 
     def has(self, step: int) -> bool:
         """Say whether the motion has a frame `step` frames from the moment."""
@@ -81,62 +81,49 @@ class Choices(NamedTuple):
     move: Points
     off: Array
 
-    def take(self, rows: Indices | Mask) -> Choices:
-        """Take some of the frames."""
-        return Choices._make(values[rows] for values in self)
 
-
-def choices(graph: CompiledGraph, moment: Moment, *, way: int, most: int) -> Choices:
+def choices(graph: CompiledGraph, moment: Moment, *, way: int, limit: float) -> Choices:
     """Find the frames of a graph's clips that look most like a moment and move as it does.
 
     The distance is the one of [KGP02, Eqs. 1-4] over two poses that are 0.1 s apart; over one where the
-    moment's motion ends there.
+    moment's motion ends there. The frames are at least 0.1 s apart, too.
 
     Parameters
     ----------
     graph, moment : the graph and the pose.
     way : whether the frame after the pose counts, 1, as for a start, or the one before it, -1, as for an end.
-    most : how many frames; they are at least 0.1 s apart.
+    limit : the largest distance, metres.
 
     Raises
     ------
+    NoWalk : where no frame is as near.
     SkeletonMismatch : for a pose of another skeleton.
     """
-    graph.source.clips[0].skeleton.require_same(moment.motion.skeleton)
+    clips = graph.source.clips
+    clips[0].skeleton.require_same(moment.motion.skeleton)
     own, step = (way * max(1, round(AHEAD * fps)) for fps in (moment.motion.fps, graph.fps))
     poses = [moment.placed(), *([moment.placed(own)] if moment.has(own) else [])]
-    asked = np.concatenate([point_cloud(pose)[0] for pose in poses])
-    edge = graph.plays.edge
-    rows = np.flatnonzero(~graph.blended[edge])
-    clip, frame = graph.plays.here[rows].T
-    parts: list[tuple[NDArray[Any], ...]] = []
-    for number in np.unique(clip):
-        mine = rows[clip == number]
-        frames = frame[clip == number]
-        off, laid = _distances(asked, graph.source.clips[number], frames, step)
-        good = _least(off, frames, abs(step))
-        row = mine[good]
-        since = row - graph.tracks.first[edge[row]]
-        parts.append((edge[row], since, laid.turn[good], laid.move[good], off[good]))
-    found = Choices(*(np.concatenate(numbers) for numbers in zip(*parts, strict=True)))
-    return found.take(np.argsort(found.off, kind="stable")[:most])
-
-
-def _distances(asked: Array, clip: Motion, frames: Indices, step: int) -> tuple[Array, PlanarTransform]:
-    """Lay frames of a clip, and those `step` after them, on one or two poses; give what is left, metres."""
-    cloud = point_cloud(clip)
-    poses = len(asked) // cloud.shape[1]
-    then = [np.clip(frames + n * step, 0, len(cloud) - 1) for n in range(poses)]
-    points = np.concatenate([cloud[rows] for rows in then], axis=1)
-    asked = np.broadcast_to(asked, points.shape)
+    rows = np.flatnonzero(~graph.blended[graph.plays.edge])
+    here, clouds = graph.plays.here[rows], np.concatenate([point_cloud(clip) for clip in clips])
+    then = [clip_rows(clips, here + np.array([0, n * step])) for n in range(len(poses))]
+    points = np.concatenate([clouds[frames] for frames in then], axis=1)
+    asked = np.broadcast_to(np.concatenate([point_cloud(pose)[0] for pose in poses]), points.shape)
     laid = align(asked, points)
     each = PlanarTransform(*(np.asarray(part)[:, None] for part in laid))
-    return np.sqrt(((each.apply_points(points) - asked) ** 2).sum(axis=-1).mean(axis=-1)), laid
-
-
-def _least(off: Array, frames: Indices, apart: int) -> Indices:
-    """List the frames of a clip for which no other frame within `apart` frames is nearer."""
-    lanes = np.full(int(frames.max()) + 1, np.inf)
-    lanes[frames] = off
-    least = minimum_filter1d(lanes, 2 * apart + 1, mode="constant", cval=np.inf)
-    return np.flatnonzero(off == least[frames])
+    off = np.sqrt(((each.apply_points(points) - asked) ** 2).sum(axis=-1).mean(axis=-1))
+    # Of frames nearer than the step only the least stays; lanes of clips lie further apart than that.
+    lane = clip_rows(clips, here) + abs(step) * here[:, 0]
+    lanes = np.full(int(lane.max()) + 1, np.inf)
+    lanes[lane] = off
+    good = np.flatnonzero(
+        off == minimum_filter1d(lanes, 2 * abs(step) + 1, mode="constant", cval=np.inf)[lane]
+    )
+    good = good[np.argsort(off[good], kind="stable")[:MOST]]
+    if off[good[0]] > limit:
+        raise NoWalk(
+            f"Frame {moment.frame} of '{moment.motion.name:.60}' is {off[good[0]]:.2f} m off the nearest "
+            f"pose of the clips, and {limit:g} m is the limit: take a pose more like theirs."
+        )
+    good = good[off[good] <= limit]
+    edge = graph.plays.edge[rows[good]]
+    return Choices(edge, rows[good] - graph.tracks.first[edge], laid.turn[good], laid.move[good], off[good])

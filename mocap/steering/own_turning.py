@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -32,35 +32,7 @@ class OwnTurning(NamedTuple):
     going: Array
 
 
-class Bending(NamedTuple):
-    """What a search needs to lay walks on a route: their own turning, and how the route bends.
-
-    `own`: of the graph; `curvature` (n,): of the route at each of its points, radians per metre.
-    """
-
-    own: OwnTurning
-    curvature: Array
-
-    def rates(self, row: Indices, point: Indices, fps: float) -> Array:
-        """Say how fast some frames must be turned beyond what they turn themselves, radians per second.
-
-        Parameters
-        ----------
-        row : shape (F,), the frames' numbers among those of all edges.
-        point : shape (F,), the route's points where they are.
-        fps : frames per second.
-
-        Examples
-        --------
-        A frame that turns by 0.1 and moves on by 1 m, on a route that turns by 0.3 per metre:
-
-        >>> own = OwnTurning(np.array([0.1]), np.array([1.0]), np.array([0j]), np.array([0.0]))
-        >>> Bending(own, np.array([0.0, 0.3])).rates(np.array([0]), np.array([1]), 1.0).round(6)
-        array([0.2])
-        """
-        return np.asarray((self.curvature[point] * self.own.step[row] - self.own.turn[row]) * fps)
-
-
+@lru_cache(maxsize=2)  # to find it again makes following a line of 17 m a fifth slower
 def turning_of(graph: CompiledGraph) -> OwnTurning:
     """Follow the path of every edge: how far it goes, and by how much it turns, frame by frame.
 
@@ -76,17 +48,6 @@ def turning_of(graph: CompiledGraph) -> OwnTurning:
     >>> len(own.turn) == len(own.step) == len(graph.tracks.step)
     True
     """
-    if graph not in _KNOWN:
-        _KNOWN[graph] = _follow_edges(graph)
-    return _KNOWN[graph]
-
-
-# Found once for each compiled graph: to find it again makes following a line of 17 m a fifth slower.
-_KNOWN: WeakKeyDictionary[CompiledGraph, OwnTurning] = WeakKeyDictionary()
-
-
-def _follow_edges(graph: CompiledGraph) -> OwnTurning:
-    """Do what `turning_of` says."""
     clips = graph.source.clips
     heads, along, *place = np.concatenate([_ride(clip) for clip in clips], axis=1)
     points = on_ground(np.stack(place, axis=1))
@@ -130,9 +91,3 @@ def _ride(clip: Motion) -> Array:
         return np.stack([np.unwrap(heading(clip.rotations[:, 0])), np.zeros(len(clip)), x, z])
     frames = moving_frames(ride.path, ride.along)
     return np.stack([np.asarray(frames.angle), ride.along, np.asarray(frames.x), np.asarray(frames.z)])
-
-
-def bending_on(own: OwnTurning, path: GroundPath, points: int) -> Bending:
-    """Measure how a route of some evenly spaced points along a path bends."""
-    along = np.linspace(0, path.length, points)
-    return Bending(own, np.gradient(np.asarray(moving_frames(path, along).angle), along[1]))

@@ -15,7 +15,7 @@ from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
-from mocap.steering.followed import Departure, Followed, account
+from mocap.steering.followed import Followed, account
 from mocap.steering.layered_search import States, start_states
 from mocap.steering.path_objective import Route, Settings, Wishes, make_route
 from mocap.steering.path_search import Found, find_walk
@@ -94,8 +94,16 @@ def follow_path(
         return measure(find_walk(compiled, route, starts, settings))
 
     followed = _best_of(search, replace(settings, width=settings.width_on(route)))
-    if not wishes.others:  # with others it leaves the path to give way
-        _warn(followed.departures, "it turns too fast there" if bend else "no clips turn as it does there")
+    if (departures := followed.departures) and not wishes.others:  # with others it goes aside to give way
+        start, end, worst = max(departures, key=lambda stretch: stretch[2])
+        often = "once" if len(departures) == 1 else f"{len(departures)} times"
+        why = "it turns too fast there" if bend else "no clips turn as it does there"
+        warnings.warn(
+            f"The walk leaves the path {often}, the furthest by {100 * worst:.0f} cm "
+            f"at {start:.1f} to {end:.1f} m: {why}.",
+            MocapWarning,
+            stacklevel=2,
+        )
     return followed
 
 
@@ -115,19 +123,6 @@ def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Foll
             return best
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
     return best
-
-
-def _warn(departures: Sequence[Departure], why: str) -> None:
-    """Warn where a walk leaves its path, and say why."""
-    if departures:
-        worst = max(departures, key=lambda d: d.worst)
-        often = "once" if len(departures) == 1 else f"{len(departures)} times"
-        warnings.warn(
-            f"The walk leaves the path {often}, the furthest by {100 * worst.worst:.0f} cm "
-            f"at {worst.start:.1f} to {worst.end:.1f} m: {why}.",
-            MocapWarning,
-            stacklevel=3,
-        )
 
 
 def start_of(graph: CompiledGraph, route: Route, wishes: Wishes) -> States:

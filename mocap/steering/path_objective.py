@@ -15,7 +15,7 @@ from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
-from mocap.steering.own_turning import Bending
+from mocap.steering.own_turning import OwnTurning
 
 SPACING = 0.02  # metres between the points of a route, at most
 
@@ -118,11 +118,10 @@ class Route:
     spacing : metres of path from point to point.
     label : shape (n,), the number of the label asked for, -1 for any.
     clock : shape (n,), the time to be there, seconds; nan for any time.
-    least : the least progress, metres per second; γ in [KGP02, 5.1].
-    slide : the share by which s moves to the point abreast of the body after each hop.
+    wishes : the wishes; `least` is γ in [KGP02, 5.1].
     others : shape (K, T), where K others are in each frame.
-    apart : metres to keep away from them.
-    bending : where walks are laid on the path, how they and the path turn.
+    own : where walks are laid on the path, how they turn by themselves.
+    curvature : shape (n,), there, how the path bends at each point, radians per metre.
 
     Examples
     --------
@@ -135,11 +134,10 @@ class Route:
     spacing: float
     label: Indices
     clock: Array
-    least: float = 0.1
-    slide: float = 0.5
+    wishes: Wishes = field(default_factory=Wishes)
     others: Points = field(default_factory=lambda: np.empty((0, 1), complex))
-    apart: float = 0.8
-    bending: Bending | None = None
+    own: OwnTurning | None = None
+    curvature: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def length(self) -> float:
@@ -153,12 +151,8 @@ class Route:
         start = self.points[before]
         return np.asarray(start + (place - before) * (self.points[before + 1] - start))
 
-    def near(self, along: Array) -> Points:
-        """Give the route's point before each place, which is faster than to interpolate."""
-        return np.asarray(self.points[self.point(along)])
-
     def point(self, along: Array) -> Indices:
-        """Give the number of the route's point before each place; past the end the last one."""
+        """Find the point before each place, which is faster than to interpolate; past the end the last."""
         place = np.maximum(along / self.spacing, 0)
         return np.minimum(place.astype(np.intp), len(self.points) - 1)
 
@@ -191,7 +185,12 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     >>> route.label[route.point(np.array([3.9, 4.1]))].tolist()
     [-1, 0]
     """
-    _check_length(graph, path)
+    fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
+    if path.length > 3600 * fastest:
+        raise MocapError(
+            f"The path is {path.length:.0f} m long, more than these clips walk in an hour "
+            f"({3600 * fastest:.0f} m, at {fastest:.2f} m/s): is it in metres?"
+        )
     if not (np.isfinite(wishes.least) and wishes.least > 0):
         raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
     if not 0 <= wishes.slide <= 1:
@@ -204,30 +203,16 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
     label = np.full(len(points), -1)
     for start, name in sorted(wishes.labels):
         label[along >= start - 1e-9] = graph.label_number(name)
-    ground = on_ground(points)
-    clock, others = _clock(along, wishes), _together(wishes.others)
-    return Route(ground, float(along[1]), label, clock, wishes.least, wishes.slide, others, wishes.apart)
+    # The tracks of others, as long as the longest; others stay at their end.
+    frames = np.arange(max(map(len, wishes.others), default=1))
+    others = [on_ground(track[np.minimum(frames, len(track) - 1)]) for track in wishes.others]
+    together = np.array(others, complex).reshape(-1, len(frames))
+    return Route(on_ground(points), float(along[1]), label, _clock(along, wishes), wishes, together)
 
 
 def least_progress(graph: CompiledGraph, route: Route) -> Array:
     """Give the progress of each frame of all edges, shape (T,): its step, or γ where the step is less."""
-    return np.maximum(graph.tracks.step, route.least / graph.fps)
-
-
-def _together(tracks: Sequence[Array]) -> Points:
-    """Put the tracks of others into one array (K, T), as long as the longest; others stay at their end."""
-    frames = np.arange(max(map(len, tracks), default=1))
-    stay = [track[np.minimum(frames, len(track) - 1)] for track in tracks]
-    return np.array([on_ground(track) for track in stay], complex).reshape(-1, len(frames))
-
-
-def _check_length(graph: CompiledGraph, path: GroundPath) -> None:
-    fastest = float(np.abs(graph.ahead[:, -1] - graph.at).max()) / AHEAD[-1]
-    if path.length > 3600 * fastest:
-        raise MocapError(
-            f"The path is {path.length:.0f} m long, more than these clips walk in an hour "
-            f"({3600 * fastest:.0f} m, at {fastest:.2f} m/s): is it in metres?"
-        )
+    return np.maximum(graph.tracks.step, route.wishes.least / graph.fps)
 
 
 def _clock(along: Array, wishes: Wishes) -> Array:

@@ -16,7 +16,6 @@ from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.steering.layered_search import LayeredSearch, States, standing
-from mocap.steering.own_turning import Bending
 from mocap.steering.path_objective import Route, Settings, least_progress
 
 LAYER = 0.15  # metres of path
@@ -51,17 +50,15 @@ def find_walk(graph: CompiledGraph, route: Route, starts: States, settings: Sett
     ------
     NoWalk : where every walk ends before the route does, or the time is over before the first step.
     """
-    search, stopped = PathSearch(graph, route, starts, settings), ""
-    deadline = time.monotonic() + settings.seconds
+    search, deadline = PathSearch(graph, route, starts, settings), time.monotonic() + settings.seconds
     try:
         for layer in settings.progress(range(int(route.length / LAYER) + 1)):
             for _ in search.rounds(layer):
                 if time.monotonic() > deadline:
-                    stopped = "out of time"
-                    return search.found(stopped)
+                    return search.found("out of time")
     except KeyboardInterrupt:
-        stopped = "interrupted"
-    return search.found(stopped)
+        return search.found("interrupted")
+    return search.found("")
 
 
 class PathSearch(LayeredSearch):
@@ -77,18 +74,20 @@ class PathSearch(LayeredSearch):
     def __init__(self, graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> None:
         super().__init__(starts, settings.width_on(route))
         self.graph, self.route, self.settings = graph, route, settings
-        hops, bending = graph.hops, route.bending
-        progress = (
-            np.maximum(bending.own.step, CREEP / graph.fps) if bending else least_progress(graph, route)
-        )
+        hops, own = graph.hops, route.own
+        progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph, route)
         before = np.concatenate([[0.0], np.cumsum(progress)])
         parts = before[hops.starts + hops.counts] - before[hops.starts]  # (H, 2)
-        # Metres: a running sum over the frames of all edges (T,); what to subtract from it in both parts of
-        # each hop (H, 2), so that it counts from the hop's start; and the length of each hop (H,).
-        self.along, self.length = before[1:], parts.sum(axis=1)
+        # Metres: a running sum over the frames of all edges (T,), and what to subtract from it in both parts
+        # of each hop (H, 2), so that it counts from the hop's start.
+        self.along = before[1:]
         self.since = before[hops.starts] - np.stack([np.zeros(len(parts)), parts[:, 0]], axis=1)
-        # The price of each hop's transition (H,); metres from each node in the next `AHEAD` seconds (N, 3).
-        self.price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)[hops.last]
+        # The hops as walks of one hop each, at the price of their transitions.
+        price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)[hops.last]
+        every, place = np.arange(len(parts)), (graph.turn[hops.last], graph.move[hops.last])
+        node, length = graph.target[hops.last], parts.sum(axis=1)
+        self.hops = States(node, *place, length, hops.frames, price, every, every)
+        # Metres from each node in the next `AHEAD` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
     def expand(self, states: States) -> States:
@@ -97,37 +96,18 @@ class PathSearch(LayeredSearch):
         The cost of an edge is that of [KGP02, Eq. 9], g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖², plus the
         prices. One departure from the paper: after each hop s moves half-way to the point of the path
         abreast of the body, so that a walk which cuts a corner need not walk the metres that it saved.
-        `Wishes.slide` is the share of that distance.
+        `Wishes.slide` is the share of that distance. Walks that are laid on the path stay on it.
         """
-        graph, length = self.graph, self.length
-        of, hop = graph.hops.leaving(states.node)
-        last, turn = graph.hops.last[hop], states.turn[of]
-        new = States(
-            graph.target[last],
-            turn * graph.turn[last],
-            states.move[of] + turn * graph.move[last],
-            states.along[of] + length[hop],
-            states.frames[of] + graph.hops.frames[hop],
-            states.cost[of] + (self.price[hop] + self.hop_costs(states, of, hop)),
-            of,
-            hop,
-        )
-        if self.route.bending:
-            return self.laid(new, self.route.bending)
-        return new._replace(along=new.along + self.slide(new, length[hop]))
-
-    def laid(self, states: States, bending: Bending) -> States:
-        """Put walks on the path, and turn them the way it goes."""
-        route, node = self.route, states.node
-        turn = np.exp(-1j * bending.own.going[node]) * route.ways[route.point(states.along)]
-        return states._replace(turn=turn, move=route.at(states.along) - turn * self.graph.at[node])
-
-    def slide(self, states: States, most: Array) -> Array:
-        """Give the metres by which s moves: a share of those to the point abreast, at most of `most` (N,)."""
-        body = states.move + states.turn * self.graph.at[states.node]
-        way = self.route.ways[self.route.point(states.along)]
-        abreast = ((body - self.route.near(states.along)) * way.conj()).real
-        return np.asarray(self.route.slide * np.minimum(np.maximum(abreast, -most), most))
+        of, hop = self.graph.hops.leaving(states.node)
+        hops, route = self.hops.take(hop), self.route
+        new = states.then(of, hops._replace(cost=hops.cost + self.hop_costs(states, of, hop)))
+        at, point = self.graph.at[new.node], route.point(new.along)
+        if route.own:
+            turn = np.exp(-1j * route.own.going[new.node]) * route.ways[point]
+            return new._replace(turn=turn, move=route.at(new.along) - turn * at)
+        off = new.move + new.turn * at - route.points[point]
+        abreast = np.clip((off * route.ways[point].conj()).real, -hops.along, hops.along)
+        return new._replace(along=new.along + route.wishes.slide * abreast)
 
     def frames_along(self, hop: Indices, start: Array) -> tuple[Indices, Indices, Array]:
         """List the frames that n hops play: their rows, which hop each belongs to, and metres along the path.
@@ -150,10 +130,10 @@ class PathSearch(LayeredSearch):
         of = chosen[number]
         first = np.cumsum(graph.hops.frames[hop]) - graph.hops.frames[hop]
         body = states.move[of] + states.turn[of] * graph.tracks.ground[row]
-        if route.bending:
-            step = route.bending.own.step[row]
-            rates = route.bending.rates(row, route.point(along), graph.fps)
-            off = prices.bend * rates**2 + IDLE * (step < route.least / graph.fps)
+        if own := route.own:  # radians that a frame is turned beyond what it turns itself
+            turned = route.curvature[route.point(along)] * own.step[row] - own.turn[row]
+            off = prices.bend * (turned * graph.fps) ** 2
+            off += IDLE * (own.step[row] < route.wishes.least / graph.fps)
         else:
             off = _square(body - route.at(along))
             off += prices.stray * off**2
@@ -171,7 +151,7 @@ class PathSearch(LayeredSearch):
         """Compute the cost of bodies that are too near to others, of the shape of `body`."""
         price = np.zeros(body.shape)
         for other in self.route.others:
-            near = self.route.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
+            near = self.route.wishes.apart - np.abs(body - other[np.minimum(frame, len(other) - 1)])
             price += self.settings.crowding * np.maximum(near, 0.0) ** 2
         return price
 
@@ -182,8 +162,8 @@ class PathSearch(LayeredSearch):
         path. The second term is at most `Settings.rescue` (m²), because a transition can still save the walk.
         """
         graph, node, route = self.graph, states.node, self.route
-        line = route.near(states.along[:, None] + self.ahead[node])
-        ahead = line if route.bending else states.move[:, None] + states.turn[:, None] * graph.ahead[node]
+        line = route.points[route.point(states.along[:, None] + self.ahead[node])]
+        ahead = line if route.own else states.move[:, None] + states.turn[:, None] * graph.ahead[node]
         off = _square(ahead - line)
         if len(route.others):  # to give way takes longer: look up to three times as far
             body = states.move + states.turn * graph.at[node]
@@ -217,9 +197,8 @@ class PathSearch(LayeredSearch):
         hops = walk.hop[1:]
         if not len(hops):
             raise NoWalk(f"The search was {stopped} before its first step.")
-        along = self.frames_along(hops, walk.along[:-1])[2]
-        edges, cost = self.graph.hops.edges(hops), float(walk.cost[-1])
-        turn, move = complex(walk.turn[0]), complex(walk.move[0])
+        along, edges = self.frames_along(hops, walk.along[:-1])[2], self.graph.hops.edges(hops)
+        turn, move, cost = complex(walk.turn[0]), complex(walk.move[0]), float(walk.cost[-1])
         return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
 
 

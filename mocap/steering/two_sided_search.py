@@ -4,9 +4,12 @@ A search from one side finds many walks that pass near the end, and few that sta
 are lengthened from both sides. Every node where one of each kind stands joins two of them: n walks from each
 side give up to n² walks. This is the bidirectional search of I. Pohl (1971) with beams for its two fronts.
 
-The walks are `States`, whose `along` are their metres and whose `hop` is their last step. All
+The walks are `States`, whose `along` are their metres and whose `hop` is the edge of their last step. All
 places are in the world: p ↦ turn · p + move lays the clip of a walk's last node. Where walk a from the
 start meets walk b from the end, b's clip lies where a's should. The difference is what must be bent.
+
+The steps are `States`, too, walks of one edge each: over the graph's N nodes, and from the K frames that look
+like the start, points N to N + K, to those that look like the end, which come after.
 """
 
 from __future__ import annotations
@@ -15,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Mask, Points, ranges
+from mocap._shared.arrays import Array, Indices, Mask, ranges
+from mocap.body.planar import PlanarTransform
 from mocap.graphs.compiled_graph import CompiledGraph
 from mocap.steering.end_bending import RISE, STRETCH, TURN, Limits
 from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
@@ -36,44 +40,19 @@ MEET = 3000  # walks from the start that are joined with those from the end
 PAIRS = 3_000_000  # joins that are compared, at most
 
 
-class Steps(NamedTuple):
-    """Edges to walk along, from the start's frames over the nodes to the end's frames: M steps.
-
-    Each `leaves` one point and `enters` another, moves the clip's frame by `turn` and `move`, plays `frames`
-    along `metres`, has a `cost`, and belongs to an `edge` of the graph, -1 for none. `at` (P,) is where the
-    root is at each point, in the clip's coordinates.
-    """
-
-    leaves: Indices
-    enters: Indices
-    turn: Points
-    move: Points
-    frames: Indices
-    metres: Array
-    cost: Array
-    edge: Indices
-    at: Points
-
-    def backwards(self) -> Steps:
-        """Give the same steps, walked from where they enter to where they leave."""
-        turn = self.turn.conj()
-        return self._replace(leaves=self.enters, enters=self.leaves, turn=turn, move=-turn * self.move)
-
-
 class Joined(NamedTuple):
     """A walk from start to end: its edges, and the frames that it plays of them.
 
     `edges`: numbers in the compiled graph; `first`: the frames of the first edge that it leaves out;
-    `frames`: how many there are from the start to the end; `turn`, `move`: where the first clip lies; `end`:
-    where the last frame's root must come to, a ground point; `apart`: by how much it must be turned there,
-    radians; `cost`: of its seams, and of the poses at its ends.
+    `frames`: how many there are from the start to the end; `place`: lays the first clip; `end`: where the
+    last frame's root must come to, a ground point; `apart`: by how much it must be turned there, radians;
+    `cost`: of its seams, and of the poses at its ends.
     """
 
     edges: Indices
     first: int
     frames: int
-    turn: complex
-    move: complex
+    place: PlanarTransform
     end: complex
     apart: float
     cost: float
@@ -96,17 +75,25 @@ class TwoSided:
         self.graph, self.frames, self.limits = graph, frames, limits
         self.starts, self.ends = starts, ends = near
         self.steps = steps_between(graph, starts, ends)
-        self.first, self.last = (len(graph.nodes) + n for n in (0, len(starts.off)))
-        moving = graph.tracks.step * graph.fps
-        self.speed = float(np.percentile(moving, 75))
-        self.here = complex(starts.move[0] + starts.turn[0] * self.steps.at[self.first])
-        self.there = complex(ends.move[0] + ends.turn[0] * self.steps.at[self.last])
+        # Where the root is at each point, in the coordinates of its clip.
+        first = graph.tracks.first
+        roots = [graph.tracks.ground[first[some.stretch] + some.since] for some in near]
+        self.at = np.concatenate([graph.at, *roots])
+        self.speed = float(np.percentile(graph.tracks.step * graph.fps, 75))
+        self.here, self.there = (
+            complex(some.move[0] + some.turn[0] * at[0]) for some, at in zip(near, roots, strict=True)
+        )
 
     def best(self, most: int) -> list[Joined]:
         """Join the walks of both sides, and give the cheapest ones; none where no two of them meet."""
         half, rest = self.frames / 2, (self.limits.pace - 0.5) * self.frames
-        there = _Front(self, self.steps, self.starts, half)
-        back = _Front(self, self.steps.backwards(), self.ends, rest)
+        turn = self.steps.turn.conj()  # of the same steps, walked from where they enter to where they leave
+        backwards = self.steps._replace(
+            node=self.steps.trail, trail=self.steps.node, turn=turn, move=-turn * self.steps.move
+        )
+        first, last = (len(self.graph.nodes) + n for n in (0, len(self.starts.off)))
+        there = _Front(self, self.steps, self.starts, first, (self.there, half))
+        back = _Front(self, backwards, self.ends, last, (self.here, rest))
         for front in (there, back):
             for _ in front:
                 pass
@@ -117,8 +104,8 @@ class TwoSided:
         price = self.prices(middle.take(one), behind.take(other))
         order = np.argsort(price, kind="stable")
         order = order[np.isfinite(price[order])]
-        _, first = np.unique(one[order], return_index=True)  # with each walk from the start its best end
-        cheap = order[np.sort(first)[:most]]
+        _, first_of = np.unique(one[order], return_index=True)  # with each walk from the start its best end
+        cheap = order[np.sort(first_of)[:most]]
         return [self.join(there.trace(middle, int(one[n])), back.trace(behind, int(other[n]))) for n in cheap]
 
     def prices(self, one: States, other: States) -> Array:
@@ -149,59 +136,50 @@ class TwoSided:
 
     def join(self, there: States, back: States) -> Joined:
         """List the edges of two walks that meet."""
-        steps = np.concatenate([there.hop[1:], back.hop[:0:-1]])
-        start, end = int(there.node[0]) - self.first, int(back.node[0]) - self.last
-        edges, turn = self.steps.edge[steps], complex(self.starts.turn[start])
-        laid = complex(self.ends.turn[end])
+        starts, ends, graph = self.starts, self.ends, self.graph
+        edges = np.concatenate([there.hop[1:], back.hop[:0:-1]])
+        point = int(back.node[0])
+        start, end = int(there.node[0]) - len(graph.nodes), point - len(graph.nodes) - len(starts.off)
+        turn, laid = complex(starts.turn[start]), complex(ends.turn[end])
         return Joined(
-            edges=edges,
-            first=int(self.starts.since[start]),
-            frames=int(self.steps.frames[steps].sum()),
-            turn=turn,
-            move=complex(self.starts.move[start]),
-            end=complex(self.ends.move[end] + laid * self.steps.at[self.last + end]),
-            apart=float(np.angle(laid / (turn * np.prod(self.graph.turn[edges])))),
-            cost=float(self.steps.cost[steps].sum()),
+            edges,
+            int(starts.since[start]),
+            int(there.frames[-1] + back.frames[-1]),
+            PlanarTransform.from_complex(turn, complex(starts.move[start])),
+            complex(ends.move[end] + laid * self.at[point]),
+            float(np.angle(laid / (turn * np.prod(graph.turn[edges])))),
+            float(there.cost[-1] + back.cost[-1]),
         )
 
 
 class _Front(LayeredSearch):
-    """The walks of one side, lengthened until they are `most` frames long."""
+    """The walks of one side from the points `first` on, to a place, until they are so many frames long."""
 
-    def __init__(self, of: TwoSided, steps: Steps, seeds: Choices, most: float) -> None:
-        first, goal = (of.first, of.there) if seeds is of.starts else (of.last, of.here)
+    def __init__(
+        self, of: TwoSided, steps: States, seeds: Choices, first: int, to: tuple[complex, float]
+    ) -> None:
         nodes = first + np.arange(len(seeds.off))
         super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH, every=True)
-        self.of, self.steps, self.most, self.goal = of, steps, most, goal
-        self.order = np.argsort(steps.leaves, kind="stable")
-        self.first = np.searchsorted(steps.leaves[self.order], np.arange(len(steps.at) + 1))
+        self.of, (self.goal, self.most) = of, to
+        self.steps = steps.take(np.argsort(steps.trail, kind="stable"))
+        self.first = np.searchsorted(self.steps.trail, np.arange(len(of.at) + 1))
 
     def expand(self, states: States) -> States:
         """Lengthen every walk by every step that leaves its point."""
         count = np.diff(self.first)[states.node]
-        of, step = np.repeat(np.arange(len(count)), count), self.order[ranges(self.first[states.node], count)]
-        steps, turn = self.steps, states.turn[of]
-        return States(
-            node=steps.enters[step],
-            turn=turn * steps.turn[step],
-            move=states.move[of] + turn * steps.move[step],
-            along=states.along[of] + steps.metres[step],
-            frames=states.frames[of] + steps.frames[step],
-            cost=states.cost[of] + steps.cost[step],
-            trail=of,
-            hop=step,
-        )
+        of, step = np.repeat(np.arange(len(count)), count), ranges(self.first[states.node], count)
+        return states.then(of, self.steps.take(step))
 
     def score(self, states: States) -> Array:
         """Rate walks by their cost, and by how much longer steps must become to reach the goal in time."""
-        place = states.move + states.turn * self.steps.at[states.node]
+        place = states.move + states.turn * self.of.at[states.node]
         left = np.maximum(self.of.frames - states.frames, 1) / self.of.graph.fps
         short = np.log(np.maximum(np.abs(self.goal - place) / (self.of.speed * left), 1.0))
         return np.asarray(states.cost + STRETCH * left * short**2)
 
     def cells(self, states: States) -> Indices:
         """Give the point, and cells of the ground and of directions."""
-        return standing(states, self.steps.at, PLACE, ANGLE)
+        return standing(states, self.of.at, PLACE, ANGLE)
 
     def layers(self, states: States) -> Indices:
         """Count layers of `LAYER` seconds."""
@@ -212,36 +190,31 @@ class _Front(LayeredSearch):
         return states.frames >= self.most
 
 
-def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> Steps:
-    """List all edges of a graph as steps, with those from each start to the next node, and to each end."""
+def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> States:
+    """List all edges of a graph as steps, with those from each start to the next node, and to each end.
+
+    Each is a walk of one step from the point `trail` to the point `node`, along the edge `hop`.
+    """
     number = {node: n for n, node in enumerate(graph.nodes)}
-    leaves = np.array([number[edge[0]] for edge in graph.edges])
-    first, last = len(graph.nodes), len(graph.nodes) + len(starts.off)
+    leaves, every = np.array([number[edge[0]] for edge in graph.edges]), np.arange(len(graph.edges))
     one, other = np.nonzero(  # an end on the same stretch as a start, after it
         (starts.stretch[:, None] == ends.stretch) & (starts.since[:, None] <= ends.since)
     )
-    rows = np.concatenate([[0.0], np.cumsum(graph.tracks.step)])
-    every = np.arange(len(leaves))
-    edge = np.concatenate([every, starts.stretch, ends.stretch, starts.stretch[one]])
-    begin = np.concatenate([0 * every, starts.since, 0 * ends.since, starts.since[one]])
-    stop = np.concatenate([graph.frames, graph.frames[starts.stretch], ends.since, ends.since[other]])
-    origin = graph.tracks.first[edge]
-    pose = [POSE * choices.off**2 for choices in (starts, ends)]
+    start = len(graph.nodes) + np.arange(len(starts.off))
+    end = len(graph.nodes) + len(starts.off) + np.arange(len(ends.off))
+    come, go, both = starts.stretch, ends.stretch, starts.stretch[one]
+    begun, ended = POSE * starts.off**2, POSE * ends.off**2
     seam = np.where(graph.blended, SEAM + MATCH * graph.cost**2, 0.0)
-    from_start, to_end = first + np.arange(len(starts.off)), last + np.arange(len(ends.off))
-    whole = np.where(np.arange(len(edge)) < len(every), edge, -1)
-    at = [graph.tracks.ground[graph.tracks.first[c.stretch] + c.since] for c in (starts, ends)]
-    return Steps(
-        leaves=np.concatenate([leaves, from_start, leaves[ends.stretch], from_start[one]]),
-        enters=np.concatenate([graph.target, graph.target[starts.stretch], to_end, to_end[other]]),
-        turn=np.where(whole >= 0, graph.turn[whole], 1.0),
-        move=np.where(whole >= 0, graph.move[whole], 0.0),
-        frames=stop - begin,
-        metres=rows[origin + stop] - rows[origin + begin],
-        cost=np.concatenate([seam, *pose, pose[0][one] + pose[1][other]]),
-        edge=edge,
-        at=np.concatenate([graph.at, *at]),
-    )
+    parts = [  # point left, point entered, edge, its first frame and the one after its last, and the cost
+        (leaves, graph.target, every, 0 * every, graph.frames, seam),
+        (start, graph.target[come], come, starts.since, graph.frames[come], begun),
+        (leaves[go], end, go, 0 * go, ends.since, ended),
+        (start[one], end[other], both, starts.since[one], ends.since[other], begun[one] + ended[other]),
+    ]
+    left, entered, edge, begin, stop, cost = map(np.concatenate, zip(*parts, strict=True))
+    metres, row = np.concatenate([[0.0], np.cumsum(graph.tracks.step)]), graph.tracks.first[edge]
+    along = metres[row + stop] - metres[row + begin]
+    return States(entered, graph.turn[edge], graph.move[edge], along, stop - begin, cost, left, edge)
 
 
 def _meetings(one: Indices, other: Indices) -> tuple[Indices, Indices]:

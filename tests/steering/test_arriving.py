@@ -20,7 +20,8 @@ from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
-from mocap.steering.end_bending import Limits, bend_to, level_rise, played
+from mocap.steering import moments
+from mocap.steering.end_bending import Limits, bend_to, level_rise
 from mocap.steering.held_ends import meet_poses
 from mocap.steering.in_betweens import in_between
 from mocap.steering.moments import Moment, choices
@@ -56,9 +57,9 @@ def require_met(found, seconds):
         apart = float(heading(motion.rotations[frame, 0]) - heading(asked.rotations[0, 0]))
         assert abs(np.degrees((apart + np.pi) % (2 * np.pi) - np.pi)) <= 0.1
         assert np.degrees(rotations.angle_between(motion.rotations[frame], asked.rotations[0])).max() <= 0.1
-    assert max(missed.place for missed in found.missed) <= 1e-3
-    assert np.abs(found.turned).max() <= np.radians(60)
-    for values in (found.steps, found.pace):
+    assert found.missed[:, 0].max() <= 1e-3
+    assert np.abs(found.arrived.turned).max() <= np.radians(60)
+    for values in (found.arrived.steps, found.arrived.pace):
         assert values.min() >= 0.8 - 1e-6
         assert values.max() <= 1.25 + 1e-6
     assert slide(found.motion) <= 1e-4
@@ -117,11 +118,10 @@ def test_without_bending_the_best_walk_misses_by_decimetres():
     graph, lacks = walking(), []
     for seed in range(8):
         start, end, seconds = asked_anywhere(graph, seed)
-        near = [choices(graph, moment, way=way, most=6) for moment, way in ((start, 1), (end, -1))]
+        near = [choices(graph, moment, way=way, limit=np.inf) for moment, way in ((start, 1), (end, -1))]
         frames = round(seconds * graph.fps)
         best = TwoSided(graph, (near[0], near[1]), frames, Limits()).best(1)[0]
-        place = PlanarTransform.from_complex(best.turn, best.move)
-        walk = to_motion(graph.source, [graph.edges[edge] for edge in best.edges], place=place)
+        walk = to_motion(graph.source, [graph.edges[edge] for edge in best.edges], place=best.place)
         last = walk[: best.first + best.frames + 1].root_positions[-1]
         lacks.append(np.linalg.norm((last - end.placed().root_positions[0])[[0, 2]]))
     assert np.median(lacks) > 0.3
@@ -189,7 +189,7 @@ def test_a_clip_is_its_own_in_between():
     clip = walking().source.clips[1]
     found = quietly(walking(), Moment(clip, 200), Moment(clip, 320), 4.0)
     assert found.seams == 0
-    assert np.degrees(np.abs(found.turned).max()) < 1
+    assert np.degrees(np.abs(found.arrived.turned).max()) < 1
     np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[200:321], atol=5e-3)
 
 
@@ -306,10 +306,11 @@ def first_half(graph, edges, frames):
 
 
 @pytest.mark.parametrize("frames", [100, 140, 200])
-def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(frames):
+def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(monkeypatch, frames):
     graph = tiny()
     clip = graph.source.clips[0]
-    near = tuple(choices(graph, Moment(clip, at), way=way, most=1) for at, way in ((20, 1), (160, -1)))
+    monkeypatch.setattr(moments, "MOST", 1)
+    near = tuple(choices(graph, Moment(clip, at), way=way, limit=np.inf) for at, way in ((20, 1), (160, -1)))
     found = TwoSided(graph, near, frames, Limits()).best(1000)
     most = 1.25**0.85
     lengths = {tuple(edges): n for edges, n in every_walk(frames) if 1 / most <= n / frames <= most}
@@ -327,8 +328,8 @@ def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(f
 @example(x=0.0, z=0.0, turn=0.0)
 def test_a_walk_is_bent_to_any_end_near_its_own(x, z, turn):
     walk = samples.sample("walk_straight")[:481:4]
-    bent = bend_to(walk, on_ground(walk.root_positions[-1]) + z + 1j * x, turn, Limits())
-    assert bent.lack < 1e-4
+    bent = bend_to(walk, len(walk), on_ground(walk.root_positions[-1]) + z + 1j * x, turn, Limits())
+    assert bent.lack < 1e-4 and (bent.pace == 1).all()
     assert abs(bent.turned.sum() / walk.fps - turn) < 1e-6
     assert np.abs(bent.turned[[0, -1]]).max() < 0.05  # radians per second: level at both ends
     assert np.abs(bent.steps[[0, -1]] - 1).max() < 0.02
@@ -340,9 +341,9 @@ def test_a_walk_is_bent_to_any_end_near_its_own(x, z, turn):
 def test_turning_is_held_to_its_limit_where_there_is_a_way():
     walk = samples.sample("walk_straight")[:481:4]
     end = on_ground(walk.root_positions[-1]) + 1.2j
-    free = bend_to(walk, end, 0.0, Limits(turn=10.0))
+    free = bend_to(walk, len(walk), end, 0.0, Limits(turn=10.0))
     limit = 0.9 * np.abs(free.turned).max()
-    held = bend_to(walk, end, 0.0, Limits(turn=limit))
+    held = bend_to(walk, len(walk), end, 0.0, Limits(turn=limit))
     assert held.lack < 1e-3
     assert np.abs(held.turned).max() <= limit
 
@@ -356,11 +357,11 @@ def test_a_level_rise_rises_from_0_to_1(count):
     assert (np.diff(rise) >= 0).all()
 
 
-def test_played_in_as_many_frames_a_motion_is_itself():
+def test_a_walk_that_is_played_slower_keeps_its_pace_at_both_ends():
     walk = samples.sample("walk_straight")[:101]
-    same, pace = played(walk, 101)
-    assert same is walk
-    assert (pace == 1).all()
+    slower = bend_to(walk, 111, on_ground(walk.root_positions[-1]), 0.0, Limits())
+    assert len(slower.motion) == 111 and 0.87 < slower.pace.min() < 0.91
+    assert slower.pace[[0, -1]] == pytest.approx([1, 1], abs=0.01)
 
 
 def test_poses_fade_within_half_a_second_and_are_exact():
