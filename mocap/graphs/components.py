@@ -122,21 +122,6 @@ def component_numbers(ways: Indices, count: int) -> Indices:
     return np.asarray(connected_components(matrix, directed=True, connection="strong")[1])
 
 
-def induced(graph: nx.MultiDiGraph, kept: Nodes) -> nx.MultiDiGraph:
-    """Copy the kept nodes and all edges between them, in the order of the graph.
-
-    `graph.subgraph(kept).copy()` does not keep this order, and random walks depend on it.
-    """
-    part = nx.MultiDiGraph(**graph.graph)
-    part.add_nodes_from((node, data) for node, data in graph.nodes(data=True) if node in kept)
-    part.add_edges_from(
-        (start, end, key, data)
-        for start, end, key, data in graph.edges(keys=True, data=True)
-        if start in kept and end in kept
-    )
-    return part
-
-
 def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:
     """Find the nodes that a walk from some nodes can reach, and these nodes themselves.
 

@@ -113,7 +113,7 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
 
     Raises
     ------
-    MocapError : for another suffix, a clip's name that XML cannot hold, and a file that cannot be written.
+    MocapError : for another suffix, and a file that cannot be written.
 
     Notebook: 05b-choice-points
     """
@@ -121,8 +121,6 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
         raise MocapError(f"This graph is written as .graphml, got '{path}'.")
     plain = nx.MultiDiGraph()
     names = [clip.name for clip in motion_graph.clips]
-    if unfit := [name for name in names if not name.isprintable()]:
-        raise MocapError(f"GraphML cannot hold the clip's name {unfit[0]!r}.")
     for clip, frame in motion_graph.graph:
         seconds = frame / motion_graph.fps
         plain.add_node(f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=seconds)

@@ -20,7 +20,7 @@ from mocap._shared.arrays import Array
 from mocap.blending.interpolation import blend
 from mocap.blending.weights import sine_weights
 from mocap.body.motion import Motion, concatenate, require_alike
-from mocap.body.planar import IDENTITY, PlanarTransform, lay_on
+from mocap.body.planar import IDENTITY, lay_on
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.distance_grids import check_window
 from mocap.matching.other_metrics import Metric, euler_grid
@@ -68,10 +68,9 @@ def segment_distances(
     Notebook: 05-motion-graph
     """
     require_alike(clips)
-    check_window(window, segment, "A segment")
+    for clip in clips:
+        check_window(window, min(segment, len(clip)), f"A segment of '{clip.name}'")
     pieces = [clip[cut] for clip in clips for cut in segments(len(clip), segment)]
-    for piece in pieces:
-        check_window(window, len(piece), f"'{piece.name}'")
     tails = concatenate([piece[-window:] for piece in pieces])
     heads = concatenate([piece[:window] for piece in pieces])
     return metric(tails, heads, window=window)[::window, ::window]
@@ -122,7 +121,12 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
         raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0, got {threshold}.")
-    _check_lengths(clips, segment, window)
+    for clip in clips:  # a window to enter a segment, and one to leave it
+        if (length := min(segment, len(clip))) <= 2 * window:
+            raise MocapError(
+                f"'{clip.name}': a segment of {length} frames is too short for windows of {window} at both "
+                "its ends."
+            )
     distances = segment_distances(clips, segment=segment, window=window, metric=metric)
     cuts = enumerate(segments(len(clip), segment) for clip in clips)
     parts = [Segment(clip, part.start, part.stop) for clip, slices in cuts for part in slices]
@@ -182,20 +186,6 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
     """
     odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
     return np.asarray(odds / odds.sum())
-
-
-def _check_lengths(clips: Sequence[Motion], segment: int, window: int) -> None:
-    """Raise unless each segment is longer than two windows: one to enter and one to leave."""
-    if not clips:
-        raise MocapError("A segment graph needs at least one clip.")
-    if window < 2:
-        raise MocapError(f"A window needs at least two frames, got {window}.")
-    for clip in clips:
-        if (length := min(segment, len(clip))) <= 2 * window:
-            raise MocapError(
-                f"'{clip.name}': a segment of {length} frames is too short for windows of {window} at both "
-                "its ends."
-            )
 
 
 def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | None = None) -> list[int]:
@@ -266,30 +256,23 @@ def segment_motion(
         raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")
     window = graph.graph["window"]
     place, lift = IDENTITY, 0.0
-    current, pieces = _frames(clips, graph, walk[0]), []
-    for here, there in pairwise(walk):
-        if not graph.has_edge(here, there):
-            raise NoWalk(f"The walk jumps from segment {here} to segment {there}.")
-        following = _frames(clips, graph, there)
-        if graph.edges[here, there]["kind"] == "clip":
-            pieces.append(current)
-            current = _placed(following, place, lift)
-            continue
-        tail = current[-window:]
-        place = lay_on(following, tail)
-        lift = tail.root_positions[0, 1] - following.root_positions[0, 1] if drift else 0.0
-        following = _placed(following, place, lift)
-        pieces += [current[:-window], blend(tail, following[:window], sine_weights(window))]
-        current = following[window:]
-    return replace(concatenate([*pieces, current]), name="walk")
-
-
-def _frames(clips: Sequence[Motion], graph: nx.DiGraph, node: int) -> Motion:
-    part = Segment(**graph.nodes[node])
-    return clips[part.clip][part.start : part.end]
-
-
-def _placed(motion: Motion, place: PlanarTransform, lift: float) -> Motion:
-    """Move a segment; with the identity it stays bit for bit."""
-    moved = motion if place is IDENTITY else place.apply_motion(motion)
-    return replace(moved, root_positions=np.add(moved.root_positions, [0.0, lift, 0.0])) if lift else moved
+    pieces: list[Motion] = []
+    for before, node in pairwise([None, *walk]):
+        part = Segment(**graph.nodes[node])
+        piece = clips[part.clip][part.start : part.end]
+        if pieces and not graph.has_edge(before, node):
+            raise NoWalk(f"The walk jumps from segment {before} to segment {node}.")
+        blended = bool(pieces) and graph.edges[before, node]["kind"] == "transition"
+        if blended:
+            tail = pieces[-1][-window:]
+            place = lay_on(piece, tail)
+            lift = tail.root_positions[0, 1] - piece.root_positions[0, 1] if drift else 0.0
+        if place is not IDENTITY:
+            piece = place.apply_motion(piece)
+        if lift:
+            piece = replace(piece, root_positions=np.add(piece.root_positions, [0.0, lift, 0.0]))
+        if blended:
+            mixed = blend(tail, piece[:window], sine_weights(window))
+            pieces[-1:] = [pieces[-1][:-window], mixed]
+        pieces.append(piece[window:] if blended else piece)
+    return replace(concatenate(pieces), name="walk")

@@ -149,8 +149,11 @@ def from_transitions(
     """
     _require_names(clips)
     require_alike(clips)
-    for transition in transitions:
-        _require_inside(clips, transition, window)
+    for t in transitions:
+        for clip, start in ((t.source, t.leave), (t.target, t.enter)):
+            if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
+                span = f"{window} frames from frame {start} of clip {clip}"
+                raise MocapError(f"A transition of {span} lies outside the clips.")
     return MotionGraph(tuple(clips), window, cut_and_join(clips, transitions, window))
 
 
@@ -192,14 +195,6 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
             labels = labels_between(clips[clip], start, end)
             graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, labels=labels)
     return graph
-
-
-def _require_inside(clips: Sequence[Motion], t: Transition, window: int) -> None:
-    for clip, start in ((t.source, t.leave), (t.target, t.enter)):
-        if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
-            raise MocapError(
-                f"A transition of {window} frames from frame {start} of clip {clip} lies outside the clips."
-            )
 
 
 def _require_names(clips: Sequence[Motion]) -> None:

@@ -28,7 +28,6 @@ from mocap.graphs.components import (
     Labels,
     Nodes,
     component_numbers,
-    induced,
     largest_components,
     numbered_edges,
     reached,
@@ -197,7 +196,8 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
         one = " of edges with the same labels" if len(found) > 1 else ""
         raise NoWalk(f"The graph has no cycle{one}, so a walk through it ends: allow costlier transitions.")
     kept: Nodes = frozenset().union(*components.values())
-    pruned = induced(graph, kept)
+    pruned = graph.copy()  # its nodes keep their order, which random walks depend on
+    pruned.remove_nodes_from([node for node in graph if node not in kept])
     frames = {labels: count for labels, (_, count) in found.items()}
     for message in (*_too_short(frames, least_frames), *_missing_ways(pruned, components)):
         warnings.warn(message, MocapWarning, stacklevel=4)  # points at the caller of `graphs.prune`

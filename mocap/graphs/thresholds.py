@@ -133,15 +133,14 @@ def threshold_curve(
     values = np.linspace(0, largest, 31)[1:] if thresholds is None else np.array(thresholds, float).ravel()
     if np.isnan(values).any():
         raise MocapError(f"Thresholds must be numbers, got {values.tolist()}.")
+    lengths = np.array([len(clip) for clip in clips])
+    for clip, frame in ((transitions.source, transitions.leave), (transitions.target, transitions.enter)):
+        if np.any(clip >= len(clips)) or np.any(frame + window > lengths[clip]):
+            raise MocapError("These transitions have windows that lie outside the clips.")
     transitions = transitions[np.argsort(transitions.cost)]
     counts = np.searchsorted(transitions.cost, values)  # how many are below each
-    places, ends, leave, enter = _places(clips, transitions, window)
-    costs = np.full(len(places), np.inf)  # of the cheapest transition at each place
-    for numbers in (leave, enter):
-        np.minimum.at(costs, numbers, transitions.cost)
-    costs[ends] = -np.inf
-    nodes = np.searchsorted(np.sort(costs), values)
-    frames = np.array([_largest(places, ends, leave[:count], enter[:count]) for count in counts], np.intp)
+    sizes = [_size(lengths, transitions[:count], window) for count in counts]
+    nodes, frames = np.array(sizes, np.intp).reshape(-1, 2).T
     edges = counts + nodes - len(clips)  # a clip of n nodes has n - 1 stretches
     gaps = velocity_gaps(clips, transitions, window=window)
     sums = [np.cumsum([0.0, *column])[counts] for column in (transitions.cost, gaps)]
@@ -149,36 +148,18 @@ def threshold_curve(
     return ThresholdCurve(values, counts, nodes, edges, frames, cost, gap)
 
 
-def _places(
-    clips: Sequence[Motion], transitions: Transitions, window: int
-) -> tuple[Indices, Indices, Indices, Indices]:
-    """Give numbers to the nodes of the graph with all transitions, in the order of clips and frames.
-
-    Returns each node's place on a line on which the clips follow one another, then the node numbers of the
-    clips' starts and ends, of the nodes that the transitions leave, and of those that they enter.
-    """
-    lengths = np.array([len(clip) for clip in clips])
-    inside = np.ones(len(transitions), bool)
-    for clip, frame in ((transitions.source, transitions.leave), (transitions.target, transitions.enter)):
-        inside &= (clip < len(clips)) & (frame + window <= lengths[np.minimum(clip, len(clips) - 1)])
-    if not inside.all():
-        raise MocapError(f"These clips do not have the windows of {transitions[int(inside.argmin())][:4]}.")
+def _size(lengths: Indices, transitions: Transitions, window: int) -> tuple[int, int]:
+    """Count the nodes of a graph, and the frames that its largest strongly connected component plays."""
     starts = np.cumsum(lengths + 1) - lengths - 1  # one more each: a clip's last node comes after its frames
     leave = starts[transitions.source] + transitions.leave
     enter = starts[transitions.target] + transitions.enter + window
-    places, numbers = np.unique(np.concatenate([starts, starts + lengths, leave, enter]), return_inverse=True)
-    ends, leave, enter = np.split(numbers, [2 * len(clips), 2 * len(clips) + len(transitions)])
-    return places, ends, leave, enter
-
-
-def _largest(places: Indices, ends: Indices, leave: Indices, enter: Indices) -> int:
-    """Count the frames that the largest strongly connected component plays."""
+    places, number = np.unique(np.concatenate([starts + lengths, starts, leave, enter]), return_inverse=True)
     # A stretch of clip leaves every node but the ends of clips.
-    before = np.setdiff1d(np.arange(len(places)), ends[len(ends) // 2 :])
-    tails, heads = np.concatenate([before, leave]), np.concatenate([before + 1, enter])
-    frames = np.zeros(len(tails), np.intp)
-    frames[: len(before)] = places[before + 1] - places[before]
-    return largest_component(np.stack([tails, heads], axis=1), frames, len(places))[1]
+    before = np.setdiff1d(np.arange(len(places)), number[: len(lengths)])
+    left, entered = np.split(number[2 * len(lengths) :], 2)
+    ways = np.stack([np.concatenate([before, left]), np.concatenate([before + 1, entered])], axis=1)
+    frames = np.concatenate([np.diff(places)[before], np.zeros_like(left)])
+    return len(places), largest_component(ways, frames, len(places))[1]
 
 
 def velocity_gaps(clips: Sequence[Motion], transitions: Transitions, *, window: int) -> Array:

@@ -13,7 +13,7 @@ from mocap.body.planar import IDENTITY
 from mocap.errors import MocapError
 from mocap.graphs.graph_summary import summary, write_graphml
 from mocap.graphs.motion_graph import build, from_transitions
-from mocap.graphs.pruning import notes_example, prune
+from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
 from tests.strategies import wave
 
@@ -68,12 +68,6 @@ def test_it_tells_which_labels_can_be_reached():
     assert "run          leads to nothing else" in summary(one_way.graph, fps=30.0).table()
 
 
-def test_an_empty_graph_has_a_summary():
-    graph = notes_example()
-    graph.clear()
-    assert summary(graph, fps=30.0)[:8] == (0, 0.0, 0, 0, 0, 0.0, 0.0, 0.0)
-
-
 def test_graphml_holds_every_node_and_edge(tmp_path):
     path = tmp_path / "graph.graphml"
     write_graphml(LABELLED, path)
@@ -90,6 +84,3 @@ def test_graphml_holds_every_node_and_edge(tmp_path):
     assert ET.parse(path).getroot().tag.endswith("graphml")
     with pytest.raises(MocapError, match=r"written as .graphml, got"):
         write_graphml(LABELLED, tmp_path / "graph.xml")
-    odd = replace(LABELLED, clips=(replace(CLIPS[0], name="a\x01"), CLIPS[1]))
-    with pytest.raises(MocapError, match="cannot hold the clip's name"):
-        write_graphml(odd, path)

@@ -16,8 +16,6 @@ from mocap.graphs import storage
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import to_motion
 from tests.strategies import wave
 
 MARK = {"walk": np.arange(90) < 60, "stroll": np.arange(90) > 40}
@@ -57,12 +55,6 @@ def test_it_comes_back_bit_for_bit(tmp_path, graph):
     assert again.read_bytes() == (tmp_path / "graph.npz").read_bytes()
 
 
-def test_the_same_seed_walks_the_same_way(saved):
-    back = storage.load(saved, CLIPS)
-    walks = [to_motion(graph, random_walk(graph, seconds=9, seed=3)) for graph in (GRAPH, back)]
-    np.testing.assert_array_equal(walks[0].rotations, walks[1].rotations)
-
-
 def test_a_file_tells_something_without_its_clips(saved):
     found = storage.read(saved)
     assert (found.fps, found.window, found.names, found.frames) == (30.0, 8, ("a", "b ü"), (90, 70))
@@ -76,8 +68,6 @@ def test_clips_that_changed_are_named(saved):
     longer = Skeleton(a.skeleton.names, a.skeleton.parents, a.skeleton.offsets * 1.1)
     for other in (
         replace(a, rotations=nudged),
-        replace(a, root_positions=a.root_positions + 1e-12),
-        replace(a, fps=60.0),
         replace(a, labels={}),
         replace(a, labels={"walk": MARK["stroll"], "stroll": MARK["walk"]}),
         replace(a, skeleton=longer),
@@ -105,9 +95,6 @@ def test_what_is_no_graph_is_refused(tmp_path, saved):
     for path in (text, empty, array, other, half):
         with pytest.raises(FormatError, match="expected a motion graph saved by mocap, version 1, got"):
             storage.read(path)
-    for path, words in ((tmp_path / "none.npz", "No such file"), (tmp_path, "Is a directory")):
-        with pytest.raises(MocapError, match=words):
-            storage.read(path)
 
 
 @pytest.mark.parametrize(
@@ -125,9 +112,6 @@ def test_what_is_no_graph_is_refused(tmp_path, saved):
         ({"version": 2, "nodes": None}, "version 2, which a newer mocap wrote"),
         ({"format": "mocap motion"}, "npz of another kind"),
         ({"origins": ["not JSON"]}, "origins are"),
-        ({"origins": ["{}"]}, "origins are"),
-        ({"origins": ["[]"]}, "origins are"),
-        ({"origins": ['{"path": 1}']}, "origins are"),
         ({"origins": ["{}", "{}"]}, "origins are"),
     ],
 )
@@ -165,26 +149,6 @@ def test_a_flipped_byte_is_refused_or_does_no_harm(saved, place, flip):
     except MocapError:
         return
     assert nx.utils.graphs_equal(found.graph, GRAPH.graph)
-
-
-def test_a_failed_write_leaves_the_old_file(saved, monkeypatch):
-    before = saved.read_bytes()
-
-    def interrupted(*_args, **_kwargs):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(np, "savez_compressed", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        storage.save(WHOLE, saved)
-    assert saved.read_bytes() == before
-    assert list(saved.parent.iterdir()) == [saved]
-
-
-def test_only_its_own_suffix_is_written(tmp_path):
-    with pytest.raises(MocapError, match=r"written as .npz, got"):
-        storage.save(GRAPH, tmp_path / "graph.json")
-    with pytest.raises(MocapError, match="Cannot write"):
-        storage.save(GRAPH, tmp_path / "nowhere" / "graph.npz")
 
 
 def test_clips_are_found_where_they_were_and_where_they_moved_together(tmp_path):

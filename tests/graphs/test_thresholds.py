@@ -76,9 +76,9 @@ def test_what_makes_no_curve():
         threshold_curve(CLIPS, found[:0], window=WINDOW)
     with pytest.raises(MocapError, match="Thresholds must be numbers"):
         threshold_curve(CLIPS, found, window=WINDOW, thresholds=[0.1, np.nan])
-    with pytest.raises(MocapError, match="do not have the windows of"):
+    with pytest.raises(MocapError, match="windows that lie outside"):
         threshold_curve(CLIPS[:1], found, window=WINDOW)
-    with pytest.raises(MocapError, match="do not have the windows of"):
+    with pytest.raises(MocapError, match="windows that lie outside"):
         threshold_curve(CLIPS, found, window=80)
 
 
