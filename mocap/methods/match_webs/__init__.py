@@ -8,17 +8,15 @@ at a place, and get the weights of the blend that does it.
 
 Reading order (notebooks 16)
 ----------------------------
- 1. `valleys`: cells of a grid that are lowest along their row or column
- 2. `local_alignment`: paths through a grid that begin and end anywhere
- 3. `grid_pieces`: the same in a grid that is too large to hold
- 4. `webs`: `MatchWeb`, all paths of a set of clips
- 5. `web_files`: save a web, load it again
- 6. `crossings`: what the paths lay on some frames: one step of the search
- 7. `match_search`: what is like the query, and what is like that
- 8. `motion_measures`: numbers to ask a motion for
- 9. `random_blends`: weights of random blends
-10. `motion_spaces`: blends of examples, sampled and measured
-11. `wishes`: from a wish back to weights
+1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere
+2. `grid_pieces`: the same in a grid that is too large to hold
+3. `webs`: `MatchWeb`, all paths of a set of clips
+4. `web_files`: save a web, load it again
+5. `match_search`: what is like the query, and what is like that
+6. `motion_measures`: numbers to ask a motion for
+7. `random_blends`: weights of random blends
+8. `motion_spaces`: blends of examples, sampled and measured
+9. `wishes`: from a wish back to weights
 
 References
 ----------
@@ -38,12 +36,11 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "valleys": ["minima_1d"],
-        "local_alignment": ["apart", "local_paths"],
+        "local_alignment": ["apart", "local_paths", "minima_1d"],
         "webs": ["MatchWeb", "build_web"],
         "web_files": ["load_web", "save_web"],
         "match_search": ["Match", "cut_out", "search"],
-        "motion_measures": ["hand_target", "leap", "mean_speed", "turn"],
+        "motion_measures": ["hand_target", "mean_speed", "turn"],
         "random_blends": ["random_weights"],
         "motion_spaces": ["MotionSpace", "blend_of", "sample_space"],
         "wishes": ["neighbour_weights", "weights_for"],

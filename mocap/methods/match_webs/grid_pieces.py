@@ -3,73 +3,63 @@
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
-from mocap.matching.distance_grids import Cloud, Floats, cloud_distances, tiles
-from mocap.methods.match_webs.local_alignment import apart, local_paths
-from mocap.methods.match_webs.valleys import minima_1d
+from mocap.matching.distance_grids import Cloud, cloud_distances, tiles
+from mocap.methods.match_webs.local_alignment import apart, local_paths, minima_1d
 
 ROWS, COLUMNS = 600, 4000  # windows on the sides of the part of the grid that a worker gets at a time
+OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
+SLOPE = 2  # frames of one clip at most in a row that lie on one frame of the other
+LEAST = 9  # frames that a path advances in each clip, 0.3 s
+NEAR = 3  # frames; a path of which more than half lies so close to a better one is left out
+OFF_MINIMUM = 0.5  # by how much a cell that is no one-dimensional minimum costs more, in units of `below`
 
 
-class Limits(NamedTuple):
-    """What a path must be: `PathShape` with `least` and `near` in frames, and `below` in metres."""
+def find_paths(  # noqa: PLR0913 (a grid, a limit, and how to work)
+    cloud: Cloud,
+    starts: Indices,
+    taper: Array,
+    below: float,
+    *,
+    progress: Progress,
+    executor: Executor | None,
+) -> list[Array]:
+    """Find the paths above the diagonal, each of shape (K, 3): two windows and their RMS distance.
 
-    below: float
-    slope: int
-    least: int
-    off_minimum: float
-    near: int
-
-
-class Piece(NamedTuple):
-    """Windows in a row, from number `start` on."""
-
-    start: int
-    cloud: Cloud
-
-
-class Grid(NamedTuple):
-    """All windows of some clips in a row; `starts` says where each clip begins, and where the last ends."""
-
-    cloud: Cloud
-    starts: Indices
-    taper: Array
-    limits: Limits
-
-    def paths(self, overlap: int, progress: Progress, executor: Executor | None) -> list[Array]:
-        """Find the paths above the diagonal, each of shape (K, 3): two windows and their RMS distance.
-
-        Parameters
-        ----------
-        overlap : windows that two parts of a long clip share.
-        progress, executor : as for `build_web`.
-        """
-        rows, columns = (pieces(self.starts.tolist(), most, overlap) for most in (ROWS, COLUMNS))
-        pairs = [
-            (row, slice(max(row.start, column.start), column.stop))  # nothing lies below the diagonal
-            for row in rows
-            for column in columns
-            if column.stop > row.start
-        ]
-        tasks = ((self._piece(i), self._piece(j), self.taper, self.limits) for i, j in progress(pairs))
-        found = []
-        for cells in run_in_order(paths_between, tasks, executor):
-            ends = np.flatnonzero(np.diff(cells[:, 0])) + 1
-            found += [path for path in np.split(cells[:, 1:], ends) if len(path)]
-        if np.diff(self.starts).max() > ROWS:  # then parts of a clip may have found the same
-            found.sort(key=lambda path: float((path[:, 2] - self.limits.below).sum()))
-            found = apart(found, near=self.limits.near)
-        return found
-
-    def _piece(self, windows: slice) -> Piece:
-        count = len(self.cloud.sizes) - len(self.taper) + 1
-        return Piece(windows.start, self.cloud.part(slice(windows.start, min(windows.stop, count))))
+    Parameters
+    ----------
+    cloud : all windows of some clips in a row.
+    starts : where each clip begins, and where the last ends.
+    taper : shape (k,), the weights of a window's frames.
+    below : the mean distance that a path may have, metres.
+    progress, executor : as for `build_web`.
+    """
+    rows, columns = (pieces(starts.tolist(), most, OVERLAP) for most in (ROWS, COLUMNS))
+    pairs = [
+        (row, slice(max(row.start, column.start), column.stop))  # nothing lies below the diagonal
+        for row in rows
+        for column in columns
+        if column.stop > row.start
+    ]
+    last = len(cloud.sizes) - len(taper) + 1
+    tasks = (
+        (*(cloud.part(slice(part.start, min(part.stop, last))) for part in pair), corner, taper, below)
+        for pair in progress(pairs)
+        for corner in [(pair[0].start, pair[1].start)]
+    )
+    found = []
+    for cells in run_in_order(paths_between, tasks, executor):
+        ends = np.flatnonzero(np.diff(cells[:, 0])) + 1
+        found += [path for path in np.split(cells[:, 1:], ends) if len(path)]
+    if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
+        found.sort(key=lambda path: float((path[:, 2] - below).sum()))
+        found = apart(found, near=NEAR)
+    return found
 
 
 def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
@@ -98,36 +88,30 @@ def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
     return [*found, slice(begin, starts[-1])]
 
 
-def paths_between(a: Piece, b: Piece, taper: Array, limits: Limits) -> Array:
+def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], taper: Array, below: float) -> Array:
     """Find the paths in the grid of two pieces: what one worker does at a time.
 
     Parameters
     ----------
     a, b : the same piece twice, or a later one second.
-    taper : shape (k,), the weights of a window's frames.
-    limits : what a path must be.
+    corner : their first windows, in the numbering of all.
+    taper, below : as for `find_paths`.
 
     Returns
     -------
     Shape (N, 4), path after path, best first: the path's number, the two windows, and their RMS distance in
     metres.
     """
-    grid = _distances(a, b, taper, limits.least)
-    costs = grid - np.float32(limits.below)
-    costs += np.where(minima_1d(grid), np.float32(0), np.float32(limits.off_minimum * limits.below))
-    paths = apart(local_paths(costs, slope=limits.slope, least=limits.least), near=limits.near)
+    grid = np.empty((len(a.sizes), len(b.sizes)), a.heights.dtype)
+    for tile in tiles(*grid.shape):
+        grid[tile] = cloud_distances(a.part(tile[0]), b.part(tile[1]), taper)
+    np.sqrt(grid, out=grid)
+    first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
+    if first + len(grid) > 0:
+        grid[np.tri(*grid.shape, first - 1, dtype=bool)] = np.inf
+    costs = grid - np.float32(below)
+    costs += np.where(minima_1d(grid), np.float32(0), np.float32(OFF_MINIMUM * below))
+    paths = apart(local_paths(costs, slope=SLOPE, least=LEAST), near=NEAR)
     numbers = np.repeat(np.arange(len(paths)), [len(path) for path in paths])
     cells = np.concatenate([np.empty((0, 2), np.intp), *paths])
-    places = cells + np.array([a.start, b.start])
-    return np.column_stack([numbers, places, grid[cells[:, 0], cells[:, 1]]])
-
-
-def _distances(a: Piece, b: Piece, taper: Array, least: int) -> Floats:
-    """Measure √D of all pairs of windows; infinite where the second is not at least so much later."""
-    grid = np.empty((len(a.cloud.sizes), len(b.cloud.sizes)), a.cloud.heights.dtype)
-    for tile in tiles(*grid.shape):
-        grid[tile] = cloud_distances(a.cloud.part(tile[0]), b.cloud.part(tile[1]), taper)
-    np.sqrt(grid, out=grid)
-    if a.start + len(grid) + least > b.start:
-        grid[np.tri(*grid.shape, a.start - b.start + least - 1, dtype=bool)] = np.inf
-    return grid
+    return np.column_stack([numbers, cells + np.array(corner), grid[tuple(cells.T)]])

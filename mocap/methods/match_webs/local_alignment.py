@@ -14,9 +14,55 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Indices
+from mocap._shared.arrays import Indices, Mask
 from mocap.errors import MocapError
 from mocap.matching.time_paths import PathSums, origins, path_sums, trace
+
+
+def minima_1d(grid: ArrayLike) -> Mask:
+    """Mark the cells of a grid that are no higher than both neighbours in their row, or in their column.
+
+    In the paper: [KG04, minima].
+
+    Where two clips move alike at any pace, the grid has a valley. Its floor consists of such minima [KG04];
+    of local minima in two dimensions a valley has only a few.
+
+    Parameters
+    ----------
+    grid : shape (n, m); cells beyond the border count as infinite, and infinite cells are no minima.
+
+    Returns
+    -------
+    Shape (n, m), booleans.
+
+    Raises
+    ------
+    MocapError : for a grid that is not of two dimensions or holds NaN.
+
+    Examples
+    --------
+    >>> minima_1d([[0, 2, 3, 4], [2, 1, 2, 3], [3, 2, 2, 4]]).astype(int)
+    array([[1, 0, 0, 0],
+           [0, 1, 1, 1],
+           [0, 1, 1, 0]])
+
+    Notebook: 16-match-webs
+    """
+    cells = _checked(grid)
+    marks = np.zeros(cells.shape, bool)
+    for values, found in ((cells, marks), (cells.T, marks.T)):
+        low = np.ones(values.shape, bool)
+        low[:, 1:] = values[:, 1:] <= values[:, :-1]
+        low[:, :-1] &= values[:, :-1] <= values[:, 1:]
+        found |= low
+    return np.asarray(marks & (cells < np.inf))
+
+
+def _checked(grid: ArrayLike) -> NDArray[Any]:
+    cells = np.asarray(grid)
+    if cells.ndim != 2 or np.isnan(cells).any():
+        raise MocapError(f"A grid has two dimensions and no NaN, got shape {cells.shape}.")
+    return cells
 
 
 def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator[Indices]:
@@ -50,9 +96,7 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
 
     Notebook: 16-match-webs
     """
-    grid = np.asarray(costs)
-    if grid.ndim != 2 or np.isnan(grid).any():
-        raise MocapError(f"Paths need a grid of two dimensions without NaN, got shape {grid.shape}.")
+    grid = _checked(costs)
     sums = path_sums(grid, np.ones(grid.shape, bool), slope=slope)
     for end in _ends(sums, least):
         yield trace(sums, divmod(int(end), grid.shape[1]))

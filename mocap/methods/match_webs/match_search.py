@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
-from itertools import groupby, pairwise
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
 from mocap.matching.point_clouds import point_cloud
-from mocap.methods.match_webs.crossings import Crossing, crossings
+from mocap.methods.match_webs.grid_pieces import LEAST
 from mocap.methods.match_webs.webs import MatchWeb
 
 SAME = 0.5  # share of the union of two stretches above which they are one match
+COVER = 0.9  # share of the stretch that a path must cover; over the rest it is carried on straight
 LEAK, FEW = 5, 20  # a step with so many times the matches of the step before leaks, unless they are few
 
 
@@ -97,7 +96,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     query = _query(web, clip, frames)
     limit = web.below if below is None else below
     _check(web, limit, lengths, steps)
-    low, high = (share * (query.stop - query.start) for share in lengths)
+    shortest, longest = (share * (query.stop - query.start) for share in lengths)
     found, asking, left_out = [query], [0], 0
     places = np.array([query[1:3]])
     while asking and (steps is None or found[-1].generation < steps):
@@ -107,18 +106,23 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
             (other, number)
             for number in moving
             for other in crossings(web, found[number].start, found[number].stop, limit)
-            if low <= other.stop - other.start <= high
+            if shortest <= other.stop - other.start <= longest
         ]
         before = len(found)
         for other, number in sorted(new, key=lambda pair: pair[0].cost):
-            if not _is_among(other, places):
+            starts, stops = places.T
+            common = np.minimum(stops, other.stop) - np.maximum(starts, other.start)
+            union = np.maximum(stops, other.stop) - np.minimum(starts, other.start)
+            if (common <= SAME * union).all():
                 found.append(_composed(web, found[number], other, number))
                 places = np.append(places, [other[:2]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
-    first, *others = (_in_own_frames(web, one) for one in found)
-    start, stop, _ = frames.indices(len(web.clips[clip]))
-    return [first._replace(start=start, stop=stop), *others]
+    own = [_in_own_frames(web, clip, one) for one in found]
+    own[0] = own[0]._replace(
+        start=frames.start or 0, stop=len(web.clips[clip]) if frames.stop is None else frames.stop
+    )
+    return own
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
@@ -129,11 +133,11 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
     first, last = frames.start or 0, len(motion) if frames.stop is None else frames.stop
     if not 0 <= first < last <= len(motion):
         raise MocapError(f"'{motion.name}' has frames 0 to {len(motion) - 1}, got {first}:{last}.")
-    start, stop = (round(float(web.number(clip, frame))) for frame in (first, last))
+    start, stop = np.round(web.number(clip, [first, last])).astype(int).tolist()
     stop = min(stop, int(web.starts[clip + 1]))
-    if stop - start < round(web.shape.least * web.rate):
+    if stop - start < LEAST:
         raise MocapError(
-            f"A query must last {web.shape.least:g} s or more, as the paths of this web do; "
+            f"A query must last {LEAST / web.rate:g} s or more, as the paths of this web do; "
             f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s."
         )
     rows = np.arange(start, stop, dtype=float)
@@ -155,35 +159,27 @@ def _check(web: MatchWeb, below: float, lengths: tuple[float, float], steps: int
 
 def _spread(web: MatchWeb, found: Match) -> float:
     """Measure how far the points of a match are from their mean place, RMS in metres."""
-    points = point_cloud(
-        cut_out(web, _in_own_frames(web, found))[:: max(1, round(web.clips[0].fps / web.rate))]
-    )
+    every = max(1, round(web.clips[0].fps / web.rate))
+    points = point_cloud(cut_out(web, _in_own_frames(web, found.clip, found))[::every])
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
-
-
-def _is_among(other: Crossing, places: NDArray[np.integer[Any]]) -> bool:
-    """Say whether a stretch and a match, [start, stop), have more than half of their union in common."""
-    starts, stops = places.T
-    common = np.minimum(stops, other.stop) - np.maximum(starts, other.start)
-    union = np.maximum(stops, other.stop) - np.minimum(starts, other.start)
-    return bool((common > SAME * union).any())
 
 
 def _composed(web: MatchWeb, match: Match, other: Crossing, via: int) -> Match:
     """Lay a new match on the query: through the match that found it."""
-    start, stop, cost, own, frames = other
-    inside = (match.frames >= own[0]) & (match.frames <= own[-1])
-    laid = np.interp(match.frames[inside], own, frames)
-    return Match(web.clip_at(start), start, stop, cost, via, match.generation + 1, match.rows[inside], laid)
+    inside = (match.frames >= other.own[0]) & (match.frames <= other.own[-1])
+    rows, laid = match.rows[inside], np.interp(match.frames[inside], other.own, other.other)
+    return Match(web.clip_at(other.start), *other[:3], via, match.generation + 1, rows, laid)
 
 
-def _in_own_frames(web: MatchWeb, match: Match) -> Match:
-    """Count a match in its clip's own frames."""
-    clip = match.clip
-    start, stop = (round(float(web.own_frame(clip, number))) for number in (match.start, match.stop))
-    of_query = web.clip_at(int(match.rows[0])) if len(match.rows) else clip
-    rows, frames = web.own_frame(of_query, match.rows), web.own_frame(clip, match.frames)
-    return match._replace(start=start, stop=min(stop, len(web.clips[clip])), rows=rows, frames=frames)
+def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
+    """Count a match in the own frames of its clip and of the query's clip."""
+    start, stop = np.round(web.own_frame(match.clip, match[1:3])).astype(int).tolist()
+    return match._replace(
+        start=start,
+        stop=min(stop, len(web.clips[match.clip])),
+        rows=web.own_frame(query, match.rows),
+        frames=web.own_frame(match.clip, match.frames),
+    )
 
 
 def _warn(found: Sequence[Match], left_out: int) -> None:
@@ -195,15 +191,65 @@ def _warn(found: Sequence[Match], left_out: int) -> None:
         )
     if len(found) == 1:
         messages.append("The query found only itself: raise the limit, or take another query.")
-    counts = [len(list(step)) for _, step in groupby(found, key=lambda one: one.generation)][1:]
-    leaks = [now for before, now in pairwise(counts) if now > max(LEAK * before, FEW)]
-    if leaks:
+    counts = np.bincount([one.generation for one in found])
+    if (leaks := counts[2:][counts[2:] > np.maximum(LEAK * counts[1:-1], FEW)]).size:
         messages.append(
             f"One step found {leaks[0]} matches, more than {LEAK} times the step before: one wrong match may "
             "have led to others; lower the limit."
         )
     for message in messages:
         warnings.warn(message, MocapWarning, stacklevel=3)
+
+
+class Crossing(NamedTuple):
+    """The frames [start, stop) that a path lays on a stretch, in the numbering of all clips' frames.
+
+    `cost` is the path's mean RMS distance inside the stretch, metres; `own` and `other`, shape (K,), are
+    frames of the stretch, each once, and the frames that lie on them.
+    """
+
+    start: int
+    stop: int
+    cost: float
+    own: Array
+    other: Array
+
+
+def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Crossing]:
+    """List what the paths of a web lay on the frames [start, stop), in the numbering of all.
+
+    A web is symmetric: a path serves a stretch in either of its clips.
+
+    Parameters
+    ----------
+    web : as from `build_web`.
+    start, stop : frames at the web's rate.
+    below : the mean RMS distance of a path inside the stretch, metres.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> from mocap.methods.match_webs.webs import build_web
+    >>> web = build_web([sample("walk_straight")], below=0.05)
+    >>> found = min(crossings(web, 60, 92, 0.05), key=lambda crossing: crossing.cost)
+    >>> found.start, found.stop
+    (25, 58)
+    """
+    first, last = web.cells[web.offsets[:-1]], web.cells[web.offsets[1:] - 1]
+    needed = COVER * (stop - start)
+    for side in (0, 1):
+        covered = np.minimum(last[:, side], stop - 1) - np.maximum(first[:, side], start) + 1
+        for number in np.flatnonzero(covered >= needed):
+            cells, costs = web.path(number)
+            inside = slice(*np.searchsorted(cells[:, side], [start, stop]))
+            cost = float(costs[inside].mean())
+            if cost <= below:
+                own, other = cells[inside, side].astype(float), cells[inside, 1 - side].astype(float)
+                clip = web.clip_at(int(other[0]))  # straight on to the stretch's ends, but not beyond it
+                begin = max(int(other[0] - (own[0] - start)), int(web.starts[clip]))
+                end = min(int(other[-1] + (stop - own[-1])), int(web.starts[clip + 1]))
+                frames, at, count = np.unique(own, return_index=True, return_counts=True)
+                yield Crossing(begin, end, cost, frames, np.add.reduceat(other, at) / count)
 
 
 def cut_out(web: MatchWeb, match: Match) -> Motion:

@@ -1,6 +1,6 @@
-"""Numbers to ask a motion for: how far it turns, how fast it goes, where the hand reaches, how high it jumps.
+"""Numbers to ask a motion for: how far it turns, how fast it goes, where the hand reaches.
 
-Any function of a `Motion` that gives one number or a few can be the measure of a space; these are four.
+Any function of a `Motion` that gives one number or a few can be the measure of a space; these are three.
 """
 
 import numpy as np
@@ -41,19 +41,6 @@ def mean_speed(motion: Motion) -> float:
     """
     way = np.abs(np.diff(on_ground(motion.root_positions))).sum()
     return float(way / max(motion.duration, 1 / motion.fps))
-
-
-def leap(motion: Motion) -> Array:
-    """Measure a jump: the root's greatest height, and how far it comes over the ground; shape (2,), metres.
-
-    Examples
-    --------
-    >>> from mocap.datasets.generated import generate_walk
-    >>> leap(generate_walk([[0, 0], [0, 5]])).round(1)
-    array([1. , 5.1])
-    """
-    places = on_ground(motion.root_positions)
-    return np.array([motion.root_positions[:, 1].max(), np.abs(places[-1] - places[0])])
 
 
 def hand_target(motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus") -> Array:

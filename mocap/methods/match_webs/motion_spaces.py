@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from mocap._shared.arrays import Array, frozen
 from mocap.blending.clocks import checked
@@ -45,11 +43,6 @@ class MotionSpace:
     def __repr__(self) -> str:
         examples, (samples, numbers) = self.weights.shape[1], self.values.shape
         return f"MotionSpace({examples} examples, {samples} samples of {numbers} numbers)"
-
-    @cached_property
-    def tree(self) -> cKDTree:
-        """The samples' scaled values, ready to look up the nearest ones."""
-        return cKDTree(self.values / self.scale)
 
 
 def sample_space(
@@ -92,17 +85,12 @@ def sample_space(
         raise MocapError(f"Take 0 samples or more, got {count}.")
     examples = np.eye(len(registration.clips))
     known = _measured(registration, measure, examples)
-    weights = random_weights(known, max(count, 1))[:count]
+    weights = random_weights(known, count)
     values = np.concatenate([known, _measured(registration, measure, weights, known.shape[1])])
-    if scale is None:
-        width = values.std(axis=0)
-        given = np.where(width > 0, width, 1.0)
-    else:
-        given = np.asarray(scale, float)
-    if given.shape != values.shape[1:] or not (np.isfinite(given).all() and (given > 0).all()):
-        raise MocapError(
-            f"A scale is {values.shape[1]} numbers above 0, got {shortened(str(given.tolist()))}."
-        )
+    width = values.std(axis=0)
+    given = np.where(width > 0, width, 1.0) if scale is None else np.asarray(scale, float)
+    if given.shape != width.shape or not (np.isfinite(given).all() and (given > 0).all()):
+        raise MocapError(f"A scale is {len(width)} numbers above 0, got {shortened(str(given.tolist()))}.")
     return MotionSpace(registration, np.concatenate([examples, weights]), values, given)
 
 
@@ -134,9 +122,6 @@ def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | Non
 
 def _mixed(registration: Registration, weights: Array, fps: float | None, rounds: int) -> Motion:
     some = np.flatnonzero(np.abs(weights) > 1e-9)
-    contacts = tuple(
-        match._replace(starts=match.starts[some], stops=match.stops[some]) for match in registration.contacts
-    )
     few = replace(
         registration,
         clips=tuple(registration.clips[n] for n in some),
@@ -145,7 +130,10 @@ def _mixed(registration: Registration, weights: Array, fps: float | None, rounds
         angles=tuple(registration.angles[n] for n in some),
         centres=tuple(registration.centres[n] for n in some),
         costs=registration.costs[some],
-        contacts=contacts,
+        contacts=tuple(
+            match._replace(starts=match.starts[some], stops=match.stops[some])
+            for match in registration.contacts
+        ),
     )
     return mix(few, weights[some] / weights[some].sum(), fps=fps, rounds=rounds)
 

@@ -26,7 +26,7 @@ def random_weights(
     values : shape (C, d), the measure of each example.
     count : of blends.
     spread : δ, not negative.
-    near : from how many of the nearest examples the others are drawn; from all by default.
+    near : from how many of the nearest examples the others are drawn, d or more; from all by default.
     seed : another one gives other blends.
 
     Returns
@@ -35,8 +35,7 @@ def random_weights(
 
     Raises
     ------
-    MocapError : for fewer than d + 1 examples, values that are not finite, a count below 1, a spread below 0,
-        and a `near` below d.
+    MocapError : for fewer than d + 1 examples, values that are not finite, and a spread below 0.
 
     Examples
     --------
@@ -47,8 +46,13 @@ def random_weights(
     Notebook: 16-match-webs
     """
     measured = np.asarray(values, float)
-    _check(measured, count, spread, near)
+    if measured.ndim != 2 or not np.isfinite(measured).all():
+        raise MocapError(f"Examples need finite values of shape (C, d), got shape {measured.shape}.")
     examples, numbers = measured.shape
+    if examples < numbers + 1:
+        raise MocapError(f"A measure of {numbers} numbers needs {numbers + 1} examples, got {examples}.")
+    if not 0 <= spread < np.inf:
+        raise MocapError(f"Weights spread by 0 or more beyond 0 and 1, got {spread}.")
     rng = np.random.default_rng(seed)
     width = measured.std(axis=0)
     scaled = measured / np.where(width > 0, width, 1)
@@ -58,26 +62,6 @@ def random_weights(
         first = rng.integers(examples)
         others = ranked[first][ranked[first] != first][:near]
         chosen = np.append(first, rng.choice(others, numbers, replace=False))
-        row[chosen] = _on_stretched_simplex(rng, len(chosen), spread)
+        while row.max() > 1 + spread or not row.any():
+            row[chosen] = (1 + len(chosen) * spread) * rng.dirichlet(np.ones(len(chosen))) - spread
     return weights
-
-
-def _on_stretched_simplex(rng: np.random.Generator, corners: int, spread: float) -> Array:
-    while True:
-        weights = (1 + corners * spread) * rng.dirichlet(np.ones(corners)) - spread
-        if weights.max() <= 1 + spread:
-            return np.asarray(weights)
-
-
-def _check(values: Array, count: int, spread: float, near: int | None) -> None:
-    if values.ndim != 2 or not np.isfinite(values).all() or not values.size:
-        raise MocapError(f"Examples need finite values of shape (C, d), got shape {values.shape}.")
-    examples, numbers = values.shape
-    if examples < numbers + 1:
-        raise MocapError(f"A measure of {numbers} numbers needs {numbers + 1} examples, got {examples}.")
-    if count < 1:
-        raise MocapError(f"Draw 1 blend or more, got {count}.")
-    if not 0 <= spread < np.inf:
-        raise MocapError(f"Weights spread by 0 or more beyond 0 and 1, got {spread}.")
-    if near is not None and near < numbers:
-        raise MocapError(f"A blend needs {numbers} neighbours, got near={near}.")

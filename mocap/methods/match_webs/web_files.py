@@ -1,29 +1,26 @@
 """Save a match web to one file: its paths as flat arrays in an `.npz`, its clips by name and fingerprint."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
+from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
 from mocap.body.motion import Motion, fingerprint
 from mocap.errors import MocapError
-from mocap.methods.match_webs.webs import MatchWeb, PathShape
+from mocap.methods.match_webs.webs import MatchWeb
 
-# The arrays of the file, with C clips, N cells and P paths (and so P + 1 offsets, X).
-ARRAYS: Layout = {
-    "names": ("U", ("C",)),
-    "fingerprints": ("U", ("C",)),
-    "lengths": ("i", ("C",)),  # of each clip in frames of the web; 0 for one that was too short
-    "numbers": ("f", (2,)),  # rate and below
-    "window": ("i", ()),
-    "shape": ("f", (4,)),
-    "cells": ("i", ("N", 2)),
-    "costs": ("f", ("N",)),
-    "offsets": ("i", ("X",)),
+# The arrays of the file, with C clips, N cells and P paths (and so P + 1 offsets, X), and what is in them.
+ARRAYS: dict[str, tuple[str, tuple[int | str, ...], Callable[[MatchWeb], object]]] = {
+    "names": ("U", ("C",), lambda web: [clip.name for clip in web.clips]),
+    "fingerprints": ("U", ("C",), lambda web: [fingerprint(clip) for clip in web.clips]),
+    "lengths": ("i", ("C",), lambda web: np.diff(web.starts)),  # in frames of the web; 0 if too short
+    "numbers": ("f", (2,), lambda web: [web.rate, web.below]),
+    "window": ("i", (), lambda web: web.window),
+    "cells": ("i", ("N", 2), lambda web: web.cells),
+    "costs": ("f", ("N",), lambda web: web.costs),
+    "offsets": ("i", ("X",), lambda web: web.offsets),
 }
 
 
@@ -50,18 +47,7 @@ def save_web(web: MatchWeb, path: str | Path) -> None:
     ...     load_web(f"{folder}/web.npz", [walk])
     MatchWeb(1 clips, 8 paths, below 5 cm)
     """
-    arrays = {
-        "names": [clip.name for clip in web.clips],
-        "fingerprints": [fingerprint(clip) for clip in web.clips],
-        "lengths": np.diff(web.starts),
-        "numbers": [web.rate, web.below],
-        "window": web.window,
-        "shape": web.shape,
-        "cells": web.cells,
-        "costs": web.costs,
-        "offsets": web.offsets,
-    }
-    write_arrays(path, WEB, arrays)
+    write_arrays(path, WEB, {key: take(web) for key, (_, _, take) in ARRAYS.items()})
 
 
 def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
@@ -82,23 +68,6 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
     MocapError : for other clips than those that the web was built of.
     """
     arrays = read_arrays(path, WEB)
-    _require_clips(path, arrays, clips)
-    rate, below = arrays["numbers"].tolist()
-    slope, *shape = arrays["shape"].tolist()
-    return MatchWeb(
-        tuple(clips),
-        np.cumsum([0, *arrays["lengths"]]),
-        rate,
-        int(arrays["window"]),
-        below,
-        PathShape(int(slope), *shape),
-        arrays["cells"],
-        arrays["costs"],
-        arrays["offsets"],
-    )
-
-
-def _require_clips(path: str | Path, arrays: Arrays, clips: Sequence[Motion]) -> None:
     names = arrays["names"].tolist()
     if len(names) != len(clips):
         raise MocapError(f"{path} was built of {len(names)} clips, got {len(clips)}.")
@@ -107,15 +76,22 @@ def _require_clips(path: str | Path, arrays: Arrays, clips: Sequence[Motion]) ->
             raise MocapError(
                 f"{path} was built of '{name}', not of this '{clip.name}': take that clip, or build anew."
             )
+    starts, below = np.cumsum([0, *arrays["lengths"]]), float(arrays["numbers"][1])
+    parts = (arrays[key] for key in ("cells", "costs", "offsets"))
+    return MatchWeb(tuple(clips), starts, int(arrays["window"]), below, *parts)
 
 
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     """Yield what must hold; each rule needs those before it."""
     cells, offsets, lengths = arrays["cells"], arrays["offsets"], arrays["lengths"]
-    yield "rate and distance are above 0", (arrays["numbers"] > 0) & (arrays["numbers"] < np.inf)
+    yield (
+        "its frames are 30 a second, its distances above 0",
+        [
+            arrays["numbers"][0] == MatchWeb.rate,
+            0 < arrays["numbers"][1] < np.inf,
+        ],
+    )
     yield "the window has frames", arrays["window"] > 0
-    slope, *others = arrays["shape"].tolist()
-    yield "paths have a shape", [slope >= 1, *(0 <= number < np.inf for number in others)]
     yield "clips have lengths", lengths >= 0
     yield "paths begin at the first cell", len(offsets) > 0 and offsets[0] == 0
     yield "paths end at the last cell", offsets[-1] == len(cells)
@@ -130,4 +106,4 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
 
 
-WEB = Kind("a match web", 1, ARRAYS, _rules)
+WEB = Kind("a match web", 1, {key: row[:2] for key, row in ARRAYS.items()}, _rules)

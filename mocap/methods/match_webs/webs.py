@@ -6,8 +6,7 @@ import warnings
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,28 +19,7 @@ from mocap.matching.distance_grids import check_window
 from mocap.matching.lower_bound import Weights
 from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
-from mocap.methods.match_webs.grid_pieces import Grid, Limits
-
-RATE = 30.0  # frames per second at which clips are compared
-OVERLAP = 10.0  # seconds that two parts of a long clip share: no query is longer
-
-
-class PathShape(NamedTuple):
-    """Which paths a web holds.
-
-    slope : frames of one clip at most in a row that lie on one frame of the other.
-    least : seconds that a path advances in each clip.
-    off_minimum : by how much a cell that is no one-dimensional minimum costs more, in units of `below`.
-    near : seconds; a path of which more than half lies so close to a better one is left out.
-    """
-
-    slope: int = 2
-    least: float = 0.3
-    off_minimum: float = 0.5
-    near: float = 0.1
-
-
-SHAPE = PathShape()
+from mocap.methods.match_webs.grid_pieces import LEAST, find_paths
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -52,7 +30,7 @@ class MatchWeb:
     ----------
     clips : the motions, each at its own rate.
     starts : shape (C + 1,): where each clip's frames begin, at the web's rate, in the numbering of all.
-    rate, window, below, shape : how it was built, as for `build_web`.
+    window, below : how it was built, as for `build_web`.
     cells : shape (N, 2): pairs of frames in the numbering of all, path after path, the earlier frame first.
         A pair is the middle of two windows.
     costs : shape (N,), the RMS distance of each pair of windows, metres.
@@ -61,30 +39,23 @@ class MatchWeb:
 
     clips: tuple[Motion, ...]
     starts: Indices
-    rate: float
     window: int
     below: float
-    shape: PathShape
     cells: NDArray[np.integer[Any]]
     costs: NDArray[np.floating[Any]]
     offsets: Indices
+    rate: ClassVar[float] = 30.0  # frames per second at which clips are compared
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "starts", frozen(self.starts, np.intp))
-        object.__setattr__(self, "cells", frozen(self.cells, np.int32))
-        object.__setattr__(self, "costs", frozen(self.costs, np.float32))
-        object.__setattr__(self, "offsets", frozen(self.offsets, np.intp))
+        kinds = {"starts": np.intp, "cells": np.int32, "costs": np.float32, "offsets": np.intp}
+        for key, kind in kinds.items():
+            object.__setattr__(self, key, frozen(getattr(self, key), kind))
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
     def __repr__(self) -> str:
         return f"MatchWeb({len(self.clips)} clips, {len(self)} paths, below {100 * self.below:g} cm)"
-
-    @cached_property
-    def ends(self) -> tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]:
-        """The first and the last cell of each path, shape (P, 2) each."""
-        return self.cells[self.offsets[:-1]], self.cells[self.offsets[1:] - 1]
 
     def path(
         self, number: int | np.integer[Any]
@@ -125,7 +96,7 @@ def build_web(
     ----------
     clips : motions of one skeleton and one frame rate.
     below : the mean RMS distance that a path may have, metres. A search can ask for less, but not for more.
-    window : frames in a window, at the web's rate of 30 Hz.
+    window : frames in a window, two or more, at the web's rate of 30 Hz.
     progress : wraps the pairs of pieces as they are worked through, to show a bar.
     executor : where to work: threads, processes or a cluster, as for `find_transitions`.
 
@@ -137,7 +108,7 @@ def build_web(
     Raises
     ------
     SkeletonMismatch, MocapError : for no clips, different skeletons or rates, clips that are all too short,
-        a `below` that is not above 0, and a window without frames.
+        a `below` that is not above 0, and a window of fewer than two frames.
 
     Warns
     -----
@@ -152,55 +123,37 @@ def build_web(
 
     Notebook: 16-match-webs
     """
-    _check(clips, below)
-    low = [resample(clip, RATE) for clip in clips]
-    limits = Limits(
-        below, SHAPE.slope, round(SHAPE.least * RATE), SHAPE.off_minimum, round(SHAPE.near * RATE)
-    )
-    check_window(window, max(map(len, low)), "the longest clip")
-    long = _long_enough(low, window + limits.least)
-    gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
-    weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, window))
-    ready = join_clouds([clip for clip, use in zip(low, long, strict=True) if use], weights, gap, np.float32)
-    lengths = np.array([len(clip) * use for clip, use in zip(low, long, strict=True)])
-    starts = np.cumsum([0, *lengths])
-    grid = Grid(ready, np.cumsum([0, *(lengths + gap)[long]]), weights.taper, limits)
-    paths = grid.paths(round(OVERLAP * RATE), progress, executor)
-    cells = np.concatenate([np.empty((0, 3)), *paths])
-    first = np.searchsorted(grid.starts, cells[:, :2], side="right") - 1  # gaps before each cell
-    return MatchWeb(
-        tuple(clips),
-        starts,
-        RATE,
-        window,
-        float(below),
-        SHAPE,
-        cells[:, :2] - gap * first + window // 2,
-        cells[:, 2],
-        np.cumsum([0, *map(len, paths)]),
-    )
-
-
-def _check(clips: Sequence[Motion], below: float) -> None:
     if not clips:
         raise MocapError("A web needs clips, got none.")
     require_alike(clips)
     if not (np.isfinite(below) and below > 0):
         raise MocapError(f"A web needs a distance above 0 m, got below={below}.")
+    if window == 1:
+        raise MocapError("A web needs windows of two frames or more: they keep clips apart, got window=1.")
+    low = [resample(clip, MatchWeb.rate) for clip in clips]
+    check_window(window, max(map(len, low)), "the longest clip")
+    long = _long_enough(low, window + LEAST)
+    weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, window))
+    ready = join_clouds([clip for clip, use in zip(low, long, strict=True) if use], weights, 0, np.float32)
+    starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
+    paths = find_paths(ready, np.unique(starts), weights.taper, below, progress=progress, executor=executor)
+    cells = np.concatenate([np.empty((0, 3)), *paths])
+    offsets = np.cumsum([0, *map(len, paths)])
+    return MatchWeb(
+        tuple(clips), starts, window, float(below), cells[:, :2] + window // 2, cells[:, 2], offsets
+    )
 
 
 def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
     """Say which clips can hold a path, and warn of the others."""
     long = np.array([len(clip) >= frames for clip in clips])
     short = [f"'{clip.name}'" for clip, use in zip(clips, long, strict=True) if not use]
-    needed = f"{frames / clips[0].fps:.2g} s"
     if not long.any():
-        raise MocapError(f"No clip is long enough for a path: that takes {needed}.")
+        raise MocapError(f"No clip is long enough for a path: that takes {frames / MatchWeb.rate:.2g} s.")
     if short:
-        more = f" and {len(short) - 4} more" if len(short) > 4 else ""
+        names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
+        needed = f"{frames / MatchWeb.rate:.2g} s"
         warnings.warn(
-            f"Too short to hold a path of {needed}, and left out: {', '.join(short[:4])}{more}.",
-            MocapWarning,
-            stacklevel=3,
+            f"Too short to hold a path of {needed}, and left out: {names}.", MocapWarning, stacklevel=3
         )
     return long

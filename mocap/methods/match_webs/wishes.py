@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import nnls
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.errors import MocapError, shortened
 from mocap.methods.match_webs.motion_spaces import MotionSpace
 
@@ -63,13 +63,30 @@ def weights_for(
         raise MocapError(f"Take 1 nearest sample or more, got {k}.")
     if method not in ("convex", "neighbours"):
         raise MocapError(f'A method is "convex" or "neighbours", got {method!r}.')
-    default = CONVEX if method == "convex" else numbers + 2
-    distances, nearest = space.tree.query(asked / space.scale, k=range(1, min(k or default, samples) + 1))
+    count = min(k or (CONVEX if method == "convex" else numbers + 2), samples)
+    nearest, gaps = (row[0] for row in nearest_samples(asked[None], space.values, space.scale, count))
     if method == "neighbours":
-        shares = neighbour_weights(distances)
-    else:
-        shares = _convex_weights((space.values[nearest] - asked) / space.scale, distances)
+        shares = neighbour_weights(gaps)
+    else:  # v ≥ 0 with the sum one that makes Σ v · offset least; of equals, those of the nearest samples
+        offsets = (space.values[nearest] - asked) / space.scale
+        ridge = RIDGE * np.diag(gaps / max(gaps[-1], 1e-300))
+        rows = np.concatenate([offsets.T, np.full((1, count), SUM), ridge])
+        shares, _ = nnls(rows, np.concatenate([np.zeros(numbers), [SUM], np.zeros(count)]))
+        shares /= shares.sum()
     return np.asarray(shares @ space.weights[nearest])
+
+
+def nearest_samples(asked: Array, among: Array, scale: Array, count: int) -> tuple[Indices, Array]:
+    """Find the samples (S, d) nearest to what is asked (M, d), in units of scale: numbers and gaps, (M, k).
+
+    Examples
+    --------
+    >>> nearest_samples(np.array([[0.0]]), np.array([[4.0], [1], [2]]), np.ones(1), 2)
+    (array([[1, 2]]), array([[1., 2.]]))
+    """
+    gaps = np.linalg.norm((asked[:, None] - among) / scale, axis=-1)
+    near = np.argsort(gaps, axis=1, kind="stable")[:, :count]
+    return near, np.take_along_axis(gaps, near, 1)
 
 
 def neighbour_weights(distances: ArrayLike) -> Array:
@@ -94,12 +111,3 @@ def neighbour_weights(distances: ArrayLike) -> Array:
     d = np.where(only, 1.0, d)
     raw = np.where(only, np.eye(d.shape[-1])[0], near / d - near / d[..., -1:])
     return np.asarray(raw / raw.sum(axis=-1, keepdims=True))
-
-
-def _convex_weights(offsets: Array, distances: Array) -> Array:
-    """Find v ≥ 0 with the sum one that makes Σ v · offset least; of equals, those of the nearest samples."""
-    count = len(distances)
-    ridge = RIDGE * np.diag(distances / max(distances[-1], 1e-300))
-    rows = np.concatenate([offsets.T, np.full((1, count), SUM), ridge])
-    shares, _ = nnls(rows, np.concatenate([np.zeros(offsets.shape[1]), [SUM], np.zeros(count)]))
-    return np.asarray(shares / shares.sum())

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
 
 from mocap.errors import MocapError
-from mocap.methods.match_webs import apart, local_paths
+from mocap.matching import local_minima
+from mocap.methods.match_webs import apart, local_paths, minima_1d
 
 
 def path_sum(costs, path):
@@ -81,7 +83,36 @@ def test_an_infinite_cell_is_never_crossed():
     assert all(len(set(path[:, 0]) & {3}) == 0 for path in local_paths(costs))
 
 
+@given(
+    arrays(
+        np.int64, array_shapes(min_dims=2, max_dims=2, max_side=8), elements={"min_value": 0, "max_value": 5}
+    )
+)
+def test_minima_are_no_higher_than_both_neighbours_along_the_row_or_the_column(grid):
+    def value(i, j):
+        return grid[i, j] if 0 <= i < grid.shape[0] and 0 <= j < grid.shape[1] else np.inf
+
+    marks = minima_1d(grid)
+    for (i, j), mark in np.ndenumerate(marks):
+        row = value(i, j) <= min(value(i, j - 1), value(i, j + 1))
+        column = value(i, j) <= min(value(i - 1, j), value(i + 1, j))
+        assert mark == (row or column)
+
+
+def test_a_valley_has_a_floor_of_minima_in_one_dimension_and_few_in_two():
+    rows, columns = np.indices((40, 60))
+    grid = (columns - 1.3 * rows) ** 2 + 0.02 * rows
+    floor = minima_1d(grid)
+    assert all(floor[i].any() for i in range(40))
+    assert len(local_minima(grid)) < 15
+
+
+def test_infinite_cells_are_no_minima():
+    assert not minima_1d(np.full((3, 3), np.inf)).any()
+
+
 @pytest.mark.parametrize("grid", [np.zeros(4), np.array([[0, np.nan]])])
 def test_hostile_grids_are_refused(grid):
-    with pytest.raises(MocapError, match="Paths need a grid of two dimensions without NaN"):
-        next(local_paths(grid))
+    for use in (minima_1d, lambda costs: next(local_paths(costs))):
+        with pytest.raises(MocapError, match="A grid has two dimensions and no NaN, got shape"):
+            use(grid)

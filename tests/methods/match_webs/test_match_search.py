@@ -6,9 +6,40 @@ from mocap import datasets
 from mocap.body import Skeleton
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.match_webs import build_web, cut_out, search
+from mocap.methods.match_webs import build_web, cut_out, match_search, search
+from mocap.methods.match_webs.match_search import crossings
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
+
+
+def test_a_path_serves_a_query_in_either_of_its_clips(bundled):
+    """Ask for the rows of a path: its columns. Ask for its columns: its rows."""
+    web = bundled.web
+    firsts, lasts = web.cells[web.offsets[:-1]], web.cells[web.offsets[1:] - 1]
+    for number in range(0, len(web), 37):
+        cells, costs = web.path(number)
+        for side in (0, 1):
+            start, stop = firsts[number, side], lasts[number, side] + 1
+            there = [
+                crossing
+                for crossing in crossings(web, start, stop, web.below)
+                if crossing.start == cells[0, 1 - side] and crossing.stop == cells[-1, 1 - side] + 1
+            ]
+            assert any(crossing.cost == pytest.approx(float(costs.mean()), abs=1e-5) for crossing in there)
+
+
+def test_what_a_path_does_not_cover_is_carried_on_straight_but_not_beyond_the_clip(bundled):
+    web = bundled.web
+    for start in range(20, 250, 23):
+        for crossing in crossings(web, start, start + 30, web.below):
+            clip = web.clip_at(crossing.start)
+            assert web.starts[clip] <= crossing.start < crossing.stop <= web.starts[clip + 1]
+            assert crossing.own[-1] - crossing.own[0] + 1 >= 0.9 * 30
+            assert crossing.cost <= web.below
+            assert len(crossing.own) == len(crossing.other) == len(set(crossing.own))
+            assert (np.diff(crossing.other) >= 0).all()
+            if crossing.start > web.starts[clip]:
+                assert abs(crossing.start - (crossing.other[0] - (crossing.own[0] - start))) <= 1
 
 
 def test_a_walking_cycle_finds_the_others_in_steps_and_no_sneaking_or_jogging(bundled):
@@ -92,13 +123,18 @@ def test_a_query_like_nothing_else_says_so(bundled):
         search(bundled.web, 0, slice(240, 370), below=0.001)
 
 
-def test_a_search_that_explodes_says_so(bundled, recwarn):
-    """Half a cycle is found in steps of its own size, then a flood: a hint, no verdict."""
-    query = cycles(bundled.clips[0], 2 / 3, 13 / 6)[2]
-    search(bundled.web, 0, query, below=0.021)
-    floods = [w for w in recwarn if "more than 5 times the step before" in str(w.message)]
-    counts = np.bincount([m.generation for m in search(bundled.web, 0, query, below=0.021)])
-    assert bool(floods) == bool((counts[2:] > np.maximum(5 * counts[1:-1], 20)).any())
+def test_a_search_that_explodes_says_so(bundled, monkeypatch, recwarn):
+    """A hint, no verdict: the second step finds 14, the first one 5."""
+
+    def ask():
+        found = search(bundled.web, 0, slice(240, 300), below=0.03, lengths=(1 / 2, 2))
+        return np.bincount([match.generation for match in found])[:3].tolist()
+
+    assert ask() == [1, 5, 14] and not recwarn
+    monkeypatch.setattr(match_search, "LEAK", 2)
+    monkeypatch.setattr(match_search, "FEW", 13)
+    with pytest.warns(MocapWarning, match="One step found 14 matches, more than 2 times the step before"):
+        ask()
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -7,7 +5,7 @@ from mocap import datasets
 from mocap.body import PlanarTransform, Skeleton, arcs, rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.methods.match_webs import hand_target, leap, mean_speed, turn
+from mocap.methods.match_webs import hand_target, mean_speed, turn
 
 
 def walk(degrees, speed=1.2):
@@ -32,17 +30,8 @@ def test_one_frame_has_no_speed_and_no_turn():
 def test_measures_do_not_depend_on_where_a_clip_was_captured():
     here = walk(70)
     there = PlanarTransform(2.0, 50.0, -9.0).apply_motion(here)
-    for measure in (turn, mean_speed, leap, hand_target):
+    for measure in (turn, mean_speed, hand_target):
         assert np.allclose(measure(here), measure(there), atol=1e-9)
-
-
-def test_a_leap_is_as_high_and_as_far_as_the_root_goes():
-    here = walk(0)
-    roots = here.root_positions.copy()
-    roots[100, 1] = 1.7
-    assert leap(replace(here, root_positions=roots)) == pytest.approx(
-        [1.7, np.linalg.norm((roots[-1] - roots[0])[[0, 2]])]
-    )
 
 
 def test_the_hand_is_measured_where_the_arm_is_longest():

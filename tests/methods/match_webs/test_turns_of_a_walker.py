@@ -45,7 +45,10 @@ def walker(real_data):
     return clips, turns
 
 
-@pytest.mark.parametrize(("side", "count"), [(1, 20), (-1, 18), (0, 40)])
+@pytest.mark.parametrize(
+    ("side", "count"),
+    [(1, 20), *(pytest.param(*case, marks=pytest.mark.sweep) for case in ((-1, 18), (0, 40)))],
+)
 def test_turns_are_got_as_asked_without_the_one_that_is_asked_for(walker, side, count):
     clips, turns = walker
     cuts = [clips[n][part] for angle in ANGLES if angle * side >= 0 for n, part in turns[angle]]

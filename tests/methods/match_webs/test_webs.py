@@ -34,7 +34,7 @@ def check_paths(web):
             assert (edges[1::2] - edges[::2] <= SLOPE).all()
         clips = {tuple(web.clip_at(frame) for frame in cell) for cell in cells[[0, -1]]}
         assert len(clips) == 1 and next(iter(clips)) == tuple(sorted(next(iter(clips))))
-        assert (cells[-1] - cells[0]).min() >= web.shape.least * web.rate
+        assert (cells[-1] - cells[0]).min() >= 9
         assert (cells[:, 0] < cells[:, 1]).all()
         assert sum(tuple(cell) in seen for cell in cells.tolist()) <= 0.5 * len(cells)
         seen.update((i, j + away) for i, j in cells.tolist() for away in range(-NEAR, NEAR + 1))
@@ -104,7 +104,7 @@ def test_a_planted_copy_is_found_at_its_own_pace():
     assert np.polyfit(match.rows, match.frames, 1)[0] == pytest.approx(1 / 1.25, abs=0.05)
 
 
-@pytest.mark.parametrize("window", [1, 3])
+@pytest.mark.parametrize("window", [2, 3])
 def test_no_path_runs_from_one_clip_into_the_next(bundled, window):
     parts = [bundled.clips[0][a : a + 120] for a in range(0, 600, 120)]
     web = build_web(parts, below=0.1, window=window)
@@ -142,6 +142,7 @@ def still(joints=1, frames=100, fps=30.0):
         ([still()], {"below": 0}, MocapError, "above 0 m, got below=0"),
         ([still()], {"below": np.nan}, MocapError, "above 0 m, got below=nan"),
         ([still()], {"window": 0}, MocapError, "A window needs a whole number of frames"),
+        ([still()], {"window": 1}, MocapError, "A web needs windows of two frames or more"),
         ([still(frames=5)], {}, MocapError, "No clip is long enough for a path: that takes 0.47 s"),
     ],
 )

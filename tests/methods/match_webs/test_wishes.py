@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
 from mocap import datasets
@@ -17,6 +16,7 @@ from mocap.methods.match_webs import (
     sample_space,
     weights_for,
 )
+from mocap.methods.match_webs.wishes import nearest_samples
 from tests.methods.match_webs.spaces_of_walks import PUNCHES, gait, space
 
 METHODS = ("convex", "neighbours")
@@ -46,7 +46,7 @@ def test_convex_weights_are_exact_for_a_linear_measure_and_those_of_neighbours_a
     rng = np.random.default_rng(5)
     off = {method: [] for method in METHODS}
     for _ in range(40):
-        near = made.tree.query(made.values[rng.integers(6, 126)], k=12)[1]
+        near = nearest_samples(made.values[[rng.integers(6, 126)]], made.values, made.scale, 12)[0][0]
         wish = rng.dirichlet(np.ones(4)) @ made.values[near[:4]]  # inside the hull of the nearest
         for method in METHODS:
             got = weights_for(made, wish, method=method) @ made.values[:6]
@@ -117,7 +117,7 @@ def test_degrees_and_metres_per_second_need_a_scale():
 def test_out_of_reach_the_blend_stays_at_the_edge():
     made = space(100)
     wishes = np.array([[90.0, 1.1], [0, 2.2], [-70, 0.4], [60, 2.0]])
-    nearest, _ = made.tree.query(wishes / made.scale)
+    nearest = nearest_samples(wishes, made.values, made.scale, 1)[1][:, 0]
     for method in METHODS:
         assert (obtained(made, wishes, method=method) <= 1.1 * nearest).all()
 
@@ -186,6 +186,7 @@ def radial(values, wishes):
     return np.column_stack([cdist(wishes, values), np.ones(len(wishes)), wishes]) @ shares
 
 
+@pytest.mark.sweep
 def test_punches_reach_their_targets(punches):
     made = sample_space(punches, centimetres, count=400, scale=[1, 1, 1])
     few = MotionSpace(punches, made.weights[:109], made.values[:109], made.scale)
@@ -205,7 +206,7 @@ def test_punches_reach_their_targets(punches):
     assert off(shepard(made.values[:9], wishes)) > 4  # the examples alone, by 1 / d²
 
     far = np.array([[75.0, 158, 30], [10, 160, 60], [50, 60, 60], [60, 130, 110]])
-    nearest = cKDTree(few.values).query(far)[0]
+    nearest = nearest_samples(far, few.values, few.scale, 1)[1][:, 0]
     for method in METHODS:
         rows = [weights_for(few, wish, method=method) for wish in far]
         assert np.min(rows) >= -0.1 - 1e-12 and np.max(rows) <= 1.1 + 1e-12
