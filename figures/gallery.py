@@ -30,6 +30,7 @@ from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
 from PIL import Image
+from walking import generate_walk
 
 from mocap import (
     MocapError,
@@ -476,13 +477,13 @@ def draw_registration() -> Figure:
     """Draw the path of time through a grid, and a walk to the left and one to the right with their blend."""
     figure = plt.figure(figsize=(9, 3.9), layout="constrained")
     grid_axes, ground = figure.subplots(1, 2)
-    slow, brisk = (datasets.generate_walk([[0, 0], [0, 5]], speed=speed, seed=1) for speed in (0.8, 1.4))
+    slow, brisk = (generate_walk([[0, 0], [0, 5]], speed=speed, seed=1) for speed in (0.8, 1.4))
     grid = np.sqrt(matching.distance_grid(resample(slow, 30), resample(brisk, 30), window=5))
     curve = blending.register([slow, brisk]).times[1]
     plotting.warp_image(grid, matching.time_path(grid, slack=36), curve=curve, ax=grid_axes)
     grid_axes.set(xlabel="brisk walk (s)", ylabel="slow walk (s)", title="which frame belongs to which")
     turns = [arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))]).points[::20] for turn in (120, -120)]
-    both = blending.register([datasets.generate_walk(path, speed=1.1, seed=1) for path in turns])
+    both = blending.register([generate_walk(path, speed=1.1, seed=1) for path in turns])
     blends = [blending.mix(both, [1 - share, share]) for share in np.linspace(0, 1, 5)]
     placed = [planar.place(blend, 0.0, [0, 0]) for blend in blends]
     plotting.ground_tracks(placed, colours=[SOURCES[0], *[plotting.PATH] * 3, SOURCES[1]], ax=ground)
@@ -495,7 +496,7 @@ def draw_match_webs() -> Figure:
     figure = plt.figure(figsize=(9.4, 3.9), layout="constrained")
     left, right = figure.subplots(1, 2)
     walks = [
-        datasets.generate_walk(arcs((0, 0), 0, [(6, np.radians(turn))]).points, speed=speed, seed=seed)
+        generate_walk(arcs((0, 0), 0, [(6, np.radians(turn))]).points, speed=speed, seed=seed)
         for seed, (speed, turn) in enumerate(itertools.product((0.8, 1.1, 1.4), (-150, 0, 150)))
     ]
     slow, brisk = (resample(walks[n], 30)[:130] for n in (1, 8))

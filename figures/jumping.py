@@ -1,6 +1,6 @@
 """The bundled jump, generated from a few figures: crouch, push off, fly, land, stand.
 
-`python figures/jumping.py` writes `mocap/datasets/jump.npz`, which `datasets.sample("jump")` reads.
+`bundled_clips.py` stores it; `datasets.sample("jump")` gives it.
 
 The centre of mass comes first: its height runs from pose to pose by quintic curves that fit place, speed and
 acceleration, and in the air it is the parabola of gravity. The feet stand, rise on their balls, leave the
@@ -15,21 +15,20 @@ softly than people do: it is pushed with 25 m/s² at most, they are with 35 to 5
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import BPoly, PchipInterpolator
 from scipy.ndimage import gaussian_filter1d
+from walking.footsteps import FootPath, about_ball, toe_angle
+from walking.gait import WALK
+from walking.gait_timing import drift
+from walking.walking_body import FOOT, FPS, SKELETON, leg
 
 from mocap._shared.arrays import Array, Mask
 from mocap._shared.easing import quintic_step
 from mocap.body import rotations
 from mocap.body.motion import Motion
-from mocap.datasets.footsteps import FootPath, about_ball, toe_angle
-from mocap.datasets.gait import WALK
-from mocap.datasets.gait_timing import drift
-from mocap.datasets.walking_body import FOOT, FPS, SKELETON, leg
 from mocap.quality.falling import centre_of_mass
 
 GRAVITY = 9.81
@@ -239,15 +238,3 @@ def _labels(course: Course, frames: int) -> dict[str, Mask]:
     times = np.arange(frames) / FPS
     jumping = (times > course.still) & (times < course.done)
     return {"stand": ~jumping, "jump": jumping}
-
-
-def save_jump(path: Path) -> None:
-    """Write the arrays of the bundled jump."""
-    jump = generate_jump()
-    marks = {name: jump.contacts[name] for name in ("lfoot", "rfoot", "ltoes", "rtoes")}
-    arrays = {"root_positions": jump.root_positions, "rotations": jump.rotations}
-    np.savez_compressed(path, **arrays, **marks, jump=jump.labels["jump"])
-
-
-if __name__ == "__main__":
-    save_jump(Path(__file__).parents[1] / "mocap" / "datasets" / "jump.npz")

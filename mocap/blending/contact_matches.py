@@ -64,8 +64,8 @@ def match_contacts(
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> walk, same_clock = generate("walk_straight"), Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
+    >>> from mocap.datasets.samples import sample
+    >>> walk, same_clock = sample("walk_straight"), Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))
     >>> match = match_contacts([walk, walk[12:]], [same_clock, same_clock], (1.0, 3.0))[1]
     >>> match.joint, match.starts.round(1)
     ('lfoot', array([2.5, 2.4]))
@@ -94,8 +94,8 @@ def plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> walk, twice_as_fast = generate("walk_straight"), Curve(0.0, 1.0, np.array([-1.0, 1.0, 3.0]))
+    >>> from mocap.datasets.samples import sample
+    >>> walk, twice_as_fast = sample("walk_straight"), Curve(0.0, 1.0, np.array([-1.0, 1.0, 3.0]))
     >>> plants_on_clock(walk, twice_as_fast)["lfoot"][0].round(2)
     array([0.06, 0.2 ])
 

@@ -40,8 +40,8 @@ def crossfade(registration: Registration, *, seconds: float = 1.0, at: float | N
     Examples
     --------
     >>> from mocap.blending.registering import register
-    >>> from mocap.datasets.generated import generate_walk
-    >>> slow, brisk = (generate_walk([[0, 0], [0, 4]], speed=speed) for speed in (0.8, 1.2))
+    >>> from mocap.datasets.samples import sample
+    >>> slow, brisk = (sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.4_0"))
     >>> faster = crossfade(register([slow, brisk]), seconds=2.0)
     >>> faster.name, bool(3.3 < faster.duration < 5.0)
     ('walk to walk', True)

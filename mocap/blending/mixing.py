@@ -68,11 +68,11 @@ def mix(
     Examples
     --------
     >>> from mocap.blending.registering import register
-    >>> from mocap.datasets.generated import generate_walk
-    >>> walks = [generate_walk([[0, 0], [0, 4]], speed=speed) for speed in (0.8, 1.2)]
+    >>> from mocap.datasets.samples import sample
+    >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> walking = register(walks)
     >>> walking.durations.round(2), round(mix(walking, [0.5, 0.5]).duration, 2)
-    (array([3.57, 3.21]), 3.38)
+    (array([4.67, 4.22]), 4.44)
 
     Notebook: 15-registration
     """

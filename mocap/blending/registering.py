@@ -129,11 +129,11 @@ def register(
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate_walk
-    >>> walks = [generate_walk([[0, 0], [0, 4]], speed=speed) for speed in (0.8, 1.2)]
+    >>> from mocap.datasets.samples import sample
+    >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> walking = register(walks)
     >>> walking.durations.round(1), bool(walking.costs[1] < 0.1)
-    (array([3.6, 3.2]), True)
+    (array([4.7, 4.2]), True)
 
     Notebook: 15-registration
     """

@@ -31,7 +31,7 @@ class Leg(NamedTuple):
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> leg = Leg(2, 3, 4, 5)
     >>> SKELETON.names[leg.knee], leg.lengths(SKELETON).round(3)
     ('ltibia', array([0.429, 0.43 , 0.136]))
@@ -56,7 +56,7 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> [SKELETON.names[joint] for joint in find_legs(SKELETON)[0]]
     ['lfemur', 'ltibia', 'lfoot', 'ltoes']
 
@@ -83,7 +83,7 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> name_leg(SKELETON, "lfemur", "ltibia", "lfoot", "ltoes")
     Leg(hip=2, knee=3, ankle=4, ball=5)
     """

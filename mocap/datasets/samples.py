@@ -1,16 +1,30 @@
-"""The bundled clips by name; they need no network."""
+"""The bundled clips by name; they need no network.
+
+They were generated: footsteps planned along a path, a few harmonics for each joint, and inverse kinematics
+for the legs (`figures/walking`). `clips.npz` holds their numbers in multiples of 2⁻³¹, each clip as the sixth
+differences of its columns: these are small where a motion is smooth.
+"""
 
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from mocap.body.motion import Motion
-from mocap.datasets.generated import CLIPS, generate
-from mocap.datasets.walking_body import FPS, SKELETON
+from mocap.body.skeleton import Skeleton
+from mocap.errors import MocapError
 
-SAMPLES: tuple[str, ...] = tuple(CLIPS)
-"""The names of the bundled walks, from which motion graphs are built; `sample("jump")` is a jump."""
+FPS, UNIT, ORDER = 120.0, 2.0**-31, 6
+FEET = ["lfoot", "rfoot", "ltoes", "rtoes"]
+STORE = Path(__file__).with_name("clips.npz")  # from `figures/bundled_clips.py`
+
+SAMPLES = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "sneak", "jog", "stop_and_go")
+"""The names of the bundled clips from which motion graphs are built; `sample` has some more."""
+
+with np.load(STORE) as _store:
+    SKELETON = Skeleton(_store["names"].tolist(), _store["parents"], _store["offsets"])
+    _KEYS = [key.removesuffix("/moving") for key in _store.files if key.endswith("/moving")]
 
 
 @cache
@@ -19,7 +33,8 @@ def sample(name: str = "walk_circle") -> Motion:
 
     Parameters
     ----------
-    name : one of `SAMPLES`, or "jump".
+    name : one of `SAMPLES`; "jump"; "bend_sneak" or "bend_walk", around one bend; or a walk of 5 or 6 metres
+        by its speed (m/s) and its turn (degrees to the left), as in "walk_5m_0.8_0" and "walk_6m_1.4_-180".
 
     Raises
     ------
@@ -27,15 +42,32 @@ def sample(name: str = "walk_circle") -> Motion:
 
     Examples
     --------
-    >>> sample("walk_straight").skeleton
-    Skeleton(38 joints, root 'root')
+    >>> sample("walk_straight")
+    Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
 
     Notebook: 01-skeletons-and-clips
     """
-    if name != "jump":
-        return generate(name)
-    with np.load(Path(__file__).with_name("jump.npz")) as stored:  # from `figures/jumping.py`
-        arrays = dict(stored)
-    roots, turns, jumping = (arrays.pop(key) for key in ("root_positions", "rotations", "jump"))
-    labels = {"stand": ~jumping, "jump": jumping}
-    return Motion(SKELETON, roots, turns, FPS, name, labels, arrays)
+    if name not in _KEYS:
+        raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(_KEYS)}.")
+    keys = ("digits", "moving", "flipped", "labels", "kind", "contacts")
+    with np.load(STORE) as store:
+        digits, moving, flipped, labels, kind, contacts = (store[f"{name}/{key}"] for key in keys)
+    folded = sum(plane.astype(np.int64) << 8 * place for place, plane in enumerate(digits))
+    numbers: Any = (folded >> 1) ^ -(folded & 1)
+    for _ in range(ORDER):
+        numbers = numbers.cumsum(axis=1)
+    columns = np.zeros((len(kind), len(moving)))  # root positions, its quaternions, (x, y, z) of the others
+    columns[:, moving] = UNIT * numbers.T
+    turns = np.empty((len(kind), len(SKELETON), 4))
+    turns[:, 0], turns[:, 1:, 1:] = columns[:, 3:7], columns[:, 7:].reshape(len(kind), -1, 3)
+    turns[:, 0] /= np.linalg.norm(turns[:, 0], axis=-1, keepdims=True)
+    turns[:, 1:, 0] = np.sqrt(1 - (turns[:, 1:, 1:] ** 2).sum(axis=-1))
+    return Motion(
+        SKELETON,
+        columns[:, :3],
+        np.where(flipped.T[..., None], -turns, turns),
+        FPS,
+        name if name in (*SAMPLES, "jump") else str(labels[0]),
+        {str(label): kind == number for number, label in enumerate(labels)},
+        dict(zip(FEET, contacts, strict=True)),
+    )

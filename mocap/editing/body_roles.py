@@ -52,7 +52,7 @@ def roles(skeleton: Skeleton, told: Mapping[str, str] | None = None) -> dict[str
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> found = roles(SKELETON)
     >>> [SKELETON.names[found[role]] for role in ("pelvis", "waist", "chest", "neck", "left wrist")]
     ['root', 'lowerback', 'thorax', 'lowerneck', 'lwrist']
@@ -77,7 +77,7 @@ def legs_among(who: Mapping[str, int]) -> tuple[Leg, Leg]:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> legs_among(roles(SKELETON))[0]
     Leg(hip=2, knee=3, ankle=4, ball=5)
     """

@@ -60,7 +60,7 @@ def symmetry(skeleton: Skeleton) -> Symmetry:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> found = symmetry(SKELETON)
     >>> found.across.tolist(), found.gap
     ([1.0, 0.0, 0.0], 0.0)

@@ -83,8 +83,8 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> clip = generate("walk_straight")
+    >>> from mocap.datasets.samples import sample
+    >>> clip = sample("walk_straight")
     >>> marked = mark_plants(replace(clip, contacts={}))
     >>> round(float((marked.contacts["lfoot"] == clip.contacts["lfoot"]).mean()), 2)
     1.0

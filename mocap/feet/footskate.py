@@ -74,8 +74,8 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoi
     Examples
     --------
     >>> from mocap.blending.joining import join
-    >>> from mocap.datasets.generated import generate
-    >>> walk = generate("walk_straight")
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")
     >>> skating = join(walk, 500, walk, 233, 40)
     >>> rise = (clean_up(skating).root_positions - skating.root_positions)[:, 1]
     >>> bool(0.002 < abs(rise).max() < 0.01)

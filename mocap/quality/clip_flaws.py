@@ -105,8 +105,8 @@ def warn_of_size(motions: Iterable[Motion]) -> None:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> warn_of_size([generate("walk_straight")])
+    >>> from mocap.datasets.samples import sample
+    >>> warn_of_size([sample("walk_straight")])
     """
     for motion in motions:
         height = height_of(joint_positions(motion))

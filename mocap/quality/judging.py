@@ -55,8 +55,8 @@ class Judgement(NamedTuple):
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> judged = judge(generate("walk_straight"))
+    >>> from mocap.datasets.samples import sample
+    >>> judged = judge(sample("walk_straight"))
     >>> judged.worst.ratio < 1, judged.stand_out
     (True, [])
     """
@@ -133,8 +133,8 @@ def judge(
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from mocap.datasets.generated import generate
-    >>> walk = generate("walk_straight")
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")
     >>> gliding = replace(walk, root_positions=walk.root_positions * [0.8, 1, 0.8])
     >>> [measure.name for measure in judge(gliding).stand_out]
     ['skate', 'slide']
@@ -168,8 +168,8 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> for line in judgement_table([judge(generate("walk_straight"))]).splitlines():
+    >>> from mocap.datasets.samples import sample
+    >>> for line in judgement_table([judge(sample("walk_straight"))]).splitlines():
     ...     print(line[:60])
     name          score  height    jolt tremble    sunk    turn
     walk_straight   0.0  1.69 m    0.38    0.05    0.00    0.23

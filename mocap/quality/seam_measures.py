@@ -154,8 +154,8 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     Examples
     --------
     >>> from mocap.blending.joining import join
-    >>> from mocap.datasets.generated import generate
-    >>> walk = generate("walk_straight")
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")
     >>> seam_quality(join(walk, 500, walk, 233, 40), (500, 540), spread([walk])).velocity_jump < 1
     True
 
@@ -226,8 +226,8 @@ def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weigh
     Examples
     --------
     >>> from mocap.blending import cubic_weights, join, lay_window_on
-    >>> from mocap.datasets.generated import generate
-    >>> walk = generate("walk_straight")
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")
     >>> for window in (10, 40):
     ...     first, second = walk[490:560], lay_window_on(walk, 500, walk, 233, window)[223:293]
     ...     result = join(walk, 500, walk, 233, window)[490:560]

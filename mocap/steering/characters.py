@@ -43,7 +43,7 @@ class Character(Protocol):
     --------
     A statue fits, too; nothing has to be inherited:
 
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> class Statue:
     ...     skeleton, fps, frames_left = SKELETON, 30.0, 0
     ...     def step(self, heading, speed, label=""):

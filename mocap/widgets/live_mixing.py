@@ -47,8 +47,8 @@ class Mixer:
     Examples
     --------
     >>> from mocap.blending import register
-    >>> from mocap.datasets import generate_walk
-    >>> slow, brisk = (generate_walk([[0, 0], [0, 4]], speed=speed) for speed in (0.8, 1.2))
+    >>> from mocap.datasets import sample
+    >>> slow, brisk = (sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0"))
     >>> mixer = Mixer(register([slow, brisk]), [1, 0])
     >>> mixer.player.frame = 30
     >>> mixer.sliders[0].value, mixer.sliders[1].value = 0.0, 1.0  # as a reader moves them

@@ -136,10 +136,10 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     Examples
     --------
     >>> from mocap import datasets
-    >>> canvas = draw_path(lambda path: datasets.generate_walk(path), [(0, 0), (0, 3)])
+    >>> canvas = draw_path(lambda path: datasets.sample("jog")[: 40 * len(path)], [(0, 0), (0, 3)])
     >>> canvas.path = [(0, 0), (0, 2), (1, 4)]  # as a reader draws it
-    >>> canvas.error is None, canvas.player.motions[0].root_positions[-1].round()[[0, 2]].tolist()
-    (True, [1.0, 4.0])
+    >>> canvas.error is None, len(canvas.player.motions[0])
+    (True, 120)
 
     Notebook: 08-path-synthesis
     """

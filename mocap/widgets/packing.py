@@ -42,7 +42,7 @@ def drawn(skeleton: Skeleton) -> Drawn:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> body = drawn(SKELETON)
     >>> body.bones[0], len(body.joints)
     ([1, 2, 1], 38)

@@ -14,10 +14,10 @@ import matplotlib.pyplot as plt
 import nbformat
 import numpy as np
 import pytest
+from walking import generate_walk
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.planar import PlanarTransform
-from mocap.datasets.generated import generate_walk
 from mocap.datasets.samples import sample
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition

@@ -9,12 +9,11 @@ import numpy as np
 from mocap._shared.arrays import runs
 from mocap.blending.clocks import frame_times
 from mocap.body import rotations
-from mocap.body.ground_path import arcs
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
-from mocap.datasets.generated import generate_walk
+from mocap.datasets.samples import sample
 from mocap.feet import mark_plants
 from mocap.files.load_save import load
 from mocap.matching.point_clouds import align, point_cloud
@@ -26,11 +25,7 @@ HALF = np.array([0.5, 0.5])
 @cache
 def walks():
     """Nine generated walks of 5 m, with plants that are exact by construction: {(speed, turn): motion}."""
-    made = {}
-    for seed, (speed, turn) in enumerate(itertools.product(SPEEDS, TURNS)):
-        path = arcs((0.0, 0.0), 0.0, [(5.0, np.radians(turn))])
-        made[speed, turn] = generate_walk(path.points[::20], speed=speed, seed=seed)
-    return made
+    return {pair: sample("walk_5m_{}_{}".format(*pair)) for pair in itertools.product(SPEEDS, TURNS)}
 
 
 @cache

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from walking import generate_walk
 
 from mocap.blending.clocks import frame_times
 from mocap.blending.mixing import ground_course, mix
@@ -15,7 +16,6 @@ from mocap.blending.timewarps import fit_curve
 from mocap.body.motion import resample
 from mocap.body.planar import PlanarTransform, on_ground
 from mocap.datasets import sample
-from mocap.datasets.generated import generate_walk
 from mocap.errors import MocapWarning
 from mocap.feet import clean_up, mark_plants
 from mocap.files.load_save import load

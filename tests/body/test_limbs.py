@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from walking.walking_body import SKELETON
 
 from mocap.body.limbs import find_legs, name_leg
 from mocap.body.skeleton import Skeleton
-from mocap.datasets.walking_body import SKELETON
 from mocap.errors import MocapError
 from mocap.files.load_save import load_skeleton
 

@@ -79,8 +79,7 @@ CELLS = {
         canvas""",
     "drawn": "drawn",
     "mix": """
-        ways = [[[0, 0], [0, 2], [side, 4]] for side in (2, -2)]
-        both = blending.register([datasets.generate_walk(way) for way in ways])
+        both = blending.register([datasets.sample(f"walk_5m_1.1_{turn}") for turn in (-120, 120)])
         mixer = Mixer(both, [1, 0])
         mixer""",
     "set": "live.frame = 33",

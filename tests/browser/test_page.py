@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PIL import Image
+from walking import generate_walk
 
 from mocap.body import resample
-from mocap.datasets import generate_walk
 from mocap.widgets.player import play
 from tests.browser.conftest import wait_until
 from tests.strategies import wave

@@ -6,11 +6,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from walking import generate_walk
 
 from mocap.body.motion import resample
 from mocap.cli.main import main
 from mocap.datasets import samples
-from mocap.datasets.generated import generate_walk
 from mocap.files import load_save
 
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")

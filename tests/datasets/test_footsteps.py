@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from walking.footsteps import smooth_path, winding
 
-from mocap.datasets.footsteps import smooth_path, winding
 from tests.strategies import seeds
 
 

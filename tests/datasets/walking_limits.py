@@ -1,10 +1,10 @@
 """What holds for every generated clip: heels above the floor, and joints within their limits."""
 
 import numpy as np
+from walking.walking_body import FOOT, SKELETON
 
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics
-from mocap.datasets.walking_body import FOOT, SKELETON
 
 
 def check_floor(motion, heel):
@@ -34,3 +34,13 @@ def check_limits(motion, hip, ankle):
         elbow = np.linalg.norm(turn["radius"], axis=-1)
         assert 10 < elbow.min() < elbow.max() < 140
         assert np.ptp(turn["radius"] / elbow[:, None], axis=0).max() < 0.05  # a hinge
+
+
+def check_stored(stored, made):
+    """A clip is stored to the nanometre, with the marks and the name of what was made."""
+    np.testing.assert_allclose(stored.root_positions, made.root_positions, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(stored.rotations, made.rotations, rtol=0, atol=1e-9)
+    assert (stored.name, stored.fps) == (made.name, made.fps)
+    for mine, theirs in ((stored.labels, made.labels), (stored.contacts, made.contacts)):
+        assert list(mine) == list(theirs)
+        assert all(np.array_equal(mark, theirs[key]) for key, mark in mine.items())

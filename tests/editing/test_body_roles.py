@@ -5,7 +5,7 @@ import pytest
 
 from mocap import load
 from mocap.body.skeleton import Skeleton
-from mocap.datasets.generated import SKELETON
+from mocap.datasets.samples import SKELETON
 from mocap.editing.body_roles import ROLES, legs_among, roles
 from mocap.errors import MocapError
 from tests.editing.bodies import DAZ, LONG, SMPL, UNDERSCORED, UP_AND_LOW, renamed, walk, without

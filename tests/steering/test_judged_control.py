@@ -8,7 +8,7 @@ import pytest
 
 from mocap.body.motion import Motion
 from mocap.body.rotations import about_y
-from mocap.datasets.generated import SKELETON
+from mocap.datasets.samples import SKELETON
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.methods.motion_matching import MotionMatcher, Wants

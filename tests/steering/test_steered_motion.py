@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.datasets.generated import SKELETON
+from mocap.datasets.samples import SKELETON
 from mocap.errors import MocapError
 from mocap.steering.characters import Pose
 from mocap.steering.graph_control import Controller

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mocap.datasets.generated import SKELETON
+from mocap.datasets.samples import SKELETON
 from mocap.steering import Pose
 
 TURNS = np.tile([1.0, 0, 0, 0], (len(SKELETON), 1))

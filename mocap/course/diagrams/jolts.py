@@ -38,8 +38,8 @@ def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, and a ste
     Examples
     --------
     >>> from mocap.blending import cubic_weights, join
-    >>> from mocap.datasets.generated import generate
-    >>> walk = generate("walk_straight")[:80]
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")[:80]
     >>> figure = added_by_blend(join(walk, 20, walk, 20, 10), walk, walk, 20, cubic_weights(10), step=2)
     >>> [len(ax.lines) for ax in figure.axes]
     [3, 0]

@@ -83,7 +83,7 @@ def packed_skeleton(skeleton: Skeleton) -> dict[str, Any]:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> body = packed_skeleton(SKELETON)
     >>> [(SKELETON.names[joint], SIDES[side]) for joint, side in body["feet"]]
     [('ltoes', 'left'), ('rtoes', 'right')]

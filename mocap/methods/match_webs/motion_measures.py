@@ -16,11 +16,9 @@ def turn(motion: Motion) -> float:
 
     Examples
     --------
-    >>> from mocap.body.ground_path import arcs
-    >>> from mocap.datasets.generated import generate_walk
-    >>> walk = generate_walk(arcs((0, 0), 0, [(5, np.pi / 2)]).points)
-    >>> round(np.degrees(turn(walk)) / 10)
-    9
+    >>> from mocap.datasets.samples import sample
+    >>> round(np.degrees(turn(sample("walk_5m_0.8_120"))) / 10)
+    11
 
     Notebook: 16-match-webs
     """
@@ -33,9 +31,9 @@ def mean_speed(motion: Motion) -> float:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate_walk
-    >>> round(mean_speed(generate_walk([[0, 0], [0, 5]], speed=1.3)), 1)
-    1.3
+    >>> from mocap.datasets.samples import sample
+    >>> round(mean_speed(sample("walk_5m_1.4_0")), 1)
+    1.4
 
     Notebook: 16-match-webs
     """

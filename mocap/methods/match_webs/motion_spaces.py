@@ -73,9 +73,9 @@ def sample_space(
     Examples
     --------
     >>> from mocap.blending import registering
-    >>> from mocap.datasets.generated import generate_walk
+    >>> from mocap.datasets.samples import sample
     >>> from mocap.methods.match_webs.motion_measures import mean_speed
-    >>> walks = [generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.2)]
+    >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> sample_space(registering.register(walks), mean_speed, count=10)
     MotionSpace(2 examples, 12 samples of 1 numbers)
 
@@ -110,10 +110,10 @@ def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | Non
     Examples
     --------
     >>> from mocap.blending.registering import register
-    >>> from mocap.datasets.generated import generate_walk
-    >>> walks = [generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.0, 1.2)]
+    >>> from mocap.datasets.samples import sample
+    >>> walks = [sample(f"walk_5m_{speed}_0") for speed in (0.8, 1.1, 1.4)]
     >>> blend_of(register(walks), [0, 0.5, 0.5])
-    Motion('walk + walk', 276 frames at 120 Hz, 38 joints)
+    Motion('walk + walk', 363 frames at 120 Hz, 38 joints)
 
     Notebook: 16-match-webs
     """

@@ -43,14 +43,14 @@ def weights_for(
     Examples
     --------
     >>> from mocap.blending.registering import register
-    >>> from mocap.datasets.generated import generate_walk
+    >>> from mocap.datasets.samples import sample
     >>> from mocap.methods.match_webs.motion_measures import mean_speed
     >>> from mocap.methods.match_webs.motion_spaces import blend_of, sample_space
-    >>> walks = [generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.2)]
+    >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> space = sample_space(register(walks), mean_speed, count=10)
-    >>> weights = weights_for(space, 1.1)
+    >>> weights = weights_for(space, 1.0)
     >>> round(mean_speed(blend_of(space.registration, weights)), 2)
-    1.1
+    1.0
 
     Notebook: 16-match-webs
     """

@@ -30,8 +30,8 @@ def body_track(motion: Motion) -> tuple[Points, Array]:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> ground, facing = body_track(generate("walk_straight"))
+    >>> from mocap.datasets.samples import sample
+    >>> ground, facing = body_track(sample("walk_straight"))
     >>> ground.shape
     (1201,)
     """
@@ -62,8 +62,8 @@ def features(motion: Motion) -> Array:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> walk = features(generate("walk_straight"))
+    >>> from mocap.datasets.samples import sample
+    >>> walk = features(sample("walk_straight"))
     >>> walk.shape, walk[100, 20].round(1)  # after one second she is 1 m ahead
     ((1201, 27), np.float64(1.0))
 

@@ -83,8 +83,8 @@ def standardise(values: Array, weights: Mapping[str, float]) -> tuple[Array, Arr
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> values, mean, scale = standardise(features(generate("walk_circle")), WEIGHTS)
+    >>> from mocap.datasets.samples import sample
+    >>> values, mean, scale = standardise(features(sample("walk_circle")), WEIGHTS)
     >>> [round(float(values[:, GROUPS[name]].std(axis=0).mean()), 2) for name in GROUPS]
     [0.75, 1.0, 1.0, 1.0, 1.5]
     """
@@ -170,8 +170,8 @@ def turn_speeds(motion: Motion) -> Array:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate
-    >>> turn_speeds(generate("walk_straight")).shape
+    >>> from mocap.datasets.samples import sample
+    >>> turn_speeds(sample("walk_straight")).shape
     (1201, 38, 3)
     """
     relative = rotations.multiply(rotations.inverse(motion.rotations[:-1]), motion.rotations[1:])

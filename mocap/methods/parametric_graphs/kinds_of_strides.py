@@ -101,12 +101,11 @@ def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -
 
     Examples
     --------
-    >>> from mocap.body import arcs, resample
-    >>> from mocap.datasets.generated import generate_walk
-    >>> circle = arcs((0, 0), 0, [(2.0, 4 * np.pi)]).points
-    >>> strides = cut_strides([resample(generate_walk(circle, speed=0.2), 30)])
-    >>> bool((on_the_spot(strides).values[:, 1] < 0.35).all())
-    True
+    >>> from mocap.body import resample
+    >>> from mocap.datasets.samples import sample
+    >>> strides = cut_strides([resample(sample("walk_circle"), 30)])
+    >>> len(strides), len(on_the_spot(strides, slow=0.8))
+    (30, 11)
 
     Notebook: 17-parametric-graphs
     """

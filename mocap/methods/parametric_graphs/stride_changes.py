@@ -39,11 +39,10 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import generate_walk
+    >>> from mocap.datasets.samples import sample
     >>> from mocap.body import resample
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
-    >>> line = [[0, 0], [0, 6]]
-    >>> kinds = [cut_strides([resample(generate_walk(line, style=kind), 30)]) for kind in ("walk", "jog")]
+    >>> kinds = [cut_strides([resample(sample(f"walk_6m_{speed}_0"), 30)]) for speed in (0.7, 1.65)]
     >>> speeds = [kind.values[:, 1].mean() for kind in (kinds[0], changing_strides(*kinds), kinds[1])]
     >>> bool(speeds[0] < speeds[1] < speeds[2])
     True

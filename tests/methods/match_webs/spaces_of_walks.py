@@ -4,8 +4,8 @@ from functools import cache
 from itertools import product
 
 import numpy as np
+from walking import generate_walk
 
-from mocap import datasets
 from mocap.blending.registering import register
 from mocap.body import arcs
 from mocap.methods.match_webs import build_web, cut_out, mean_speed, sample_space, search, turn
@@ -24,7 +24,7 @@ def gait(motion):
 @cache
 def found():
     walks = [
-        datasets.generate_walk(arcs((0, 0), 0, [(5, np.radians(degrees))]).points, speed=speed, seed=seed)
+        generate_walk(arcs((0, 0), 0, [(5, np.radians(degrees))]).points, speed=speed, seed=seed)
         for seed, (speed, degrees) in enumerate(product(SPEEDS, TURNS))
     ]
     web = build_web(walks, below=0.1)

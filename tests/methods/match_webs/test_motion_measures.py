@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+from walking import generate_walk
 
-from mocap import datasets
 from mocap.body import PlanarTransform, Skeleton, arcs, rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
@@ -9,7 +9,7 @@ from mocap.methods.match_webs import hand_target, mean_speed, turn
 
 
 def walk(degrees, speed=1.2):
-    return datasets.generate_walk(arcs((0, 0), 0, [(5, np.radians(degrees))]).points, speed=speed)
+    return generate_walk(arcs((0, 0), 0, [(5, np.radians(degrees))]).points, speed=speed)
 
 
 @pytest.mark.parametrize("degrees", [-240, -60, 0, 90, 300])

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+from walking import generate_walk
 
-from mocap import datasets
 from mocap.blending.mixing import mix
 from mocap.blending.registering import register
 from mocap.errors import MocapError
@@ -11,7 +11,7 @@ from tests.methods.match_webs.spaces_of_walks import found, gait, space
 
 @pytest.fixture(scope="module")
 def three():
-    return register([datasets.generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.0, 1.2)])
+    return register([generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.0, 1.2)])
 
 
 def test_the_web_finds_the_cycles_of_all_turns_and_speeds():
@@ -34,7 +34,7 @@ def test_examples_are_samples_and_all_samples_are_what_their_blends_do():
 
 def test_blends_do_what_no_interpolation_of_the_examples_says():
     """The speed of half and half is not half of the speeds: seconds are averaged, not speeds."""
-    walks = register([datasets.generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.4)])
+    walks = register([generate_walk([[0, 0], [0, 3]], speed=speed) for speed in (0.8, 1.4)])
     made = sample_space(walks, mean_speed, count=0)
     middle = mean_speed(blend_of(walks, [0.5, 0.5]))
     assert abs(middle - made.values.mean()) > 0.02

@@ -3,10 +3,10 @@
 from functools import cache
 
 import numpy as np
+from walking import generate_walk
+from walking.footsteps import winding
 
 from mocap.body.motion import resample
-from mocap.datasets.footsteps import winding
-from mocap.datasets.generated import generate_walk
 from mocap.methods.parametric_graphs.parametric_edges import Sampling
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
 from mocap.methods.parametric_graphs.stride_changes import changing_strides

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from walking import generate_walk
 
 from mocap.body import arcs
 from mocap.body.motion import resample
 from mocap.datasets import samples
-from mocap.datasets.generated import generate_walk
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from walking import generate_walk
 
 from mocap.body.motion import resample
-from mocap.datasets.generated import generate_walk
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import distance_grid
 from mocap.methods.parametric_graphs.made_strides import facing_windows, make_stride

@@ -15,8 +15,8 @@ from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.arrays import Array
 from mocap._shared.easing import quintic_step
-from mocap.datasets.gait import Gait, mix
-from mocap.datasets.walking_body import FPS
+from walking.gait import Gait, mix
+from walking.walking_body import FPS
 
 Stage = tuple[float, float, float]
 

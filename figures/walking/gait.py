@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
 from mocap._shared.arrays import Array
-from mocap.datasets.footsteps import Roll, foot_pitch
-from mocap.datasets.walking_body import FIGURES
+from walking.footsteps import Roll, foot_pitch
+from walking.walking_body import FIGURES
 
 Row = Sequence[float]
 

@@ -18,11 +18,11 @@ from scipy.ndimage import gaussian_filter1d
 from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
 from mocap.body.motion import Motion
-from mocap.datasets.footsteps import FootPath, SmoothPath, Steps, foot_path, smooth_path, winding
-from mocap.datasets.gait import GAITS, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
-from mocap.datasets.gait_timing import Timing, changing, drift, halting, steady
-from mocap.datasets.walking_body import FIGURES, FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
 from mocap.errors import MocapError
+from walking.footsteps import FootPath, SmoothPath, Steps, foot_path, smooth_path, winding
+from walking.gait import GAITS, WALK, joint_angles, knee_flexion, mix, mix_rolls, pelvis_drift
+from walking.gait_timing import Timing, changing, drift, halting, steady
+from walking.walking_body import FIGURES, FOOT, FPS, HIPS, SKELETON, leg, pelvis_height
 
 GRAVITY = 9.81
 STANDING_KNEE = np.radians(18.0)

@@ -20,8 +20,8 @@ from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.skeleton import Skeleton
 from mocap.body.two_bone_ik import two_bone
-from mocap.datasets.footsteps import Foot, FootPath
 from mocap.errors import MocapError
+from walking.footsteps import Foot, FootPath
 
 STATURE = 1.75  # metres
 FPS = 120.0
