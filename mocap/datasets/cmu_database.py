@@ -1,33 +1,26 @@
 """Trials of the CMU Graphics Lab Motion Capture Database, fetched once and kept.
 
 `cmu.tsv` beside this module lists the files of subjects 02, 03, 16, 49 and 127 with their SHA-256, so a file
-is either whole or refused. Files are kept as `<subject>/<file>` in the platform's cache folder, or in the
-folder that the environment variable `MOCAP_DATA` names. A file that is there needs no network.
+is either whole or refused. `downloads` keeps them as `<subject>/<file>`.
 """
 
 from __future__ import annotations
 
 import csv
-import hashlib
 import re
-import sys
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, overload
+from typing import NamedTuple, overload
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
+from mocap.datasets.downloads import fetch
 from mocap.editing.retargeted import retarget
 from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
 
-if TYPE_CHECKING:
-    from pooch import Pooch
-
 BASE_URL = "http://mocap.cs.cmu.edu/subjects"
-RETRIES = 3  # after 1, 2 and 3 seconds
-TIMEOUT = 30.0  # seconds without an answer
 TERMS = (
     "These clips come from the CMU Graphics Lab Motion Capture Database (mocap.cs.cmu.edu), created with "
     "funding from NSF EIA-0196217. They are free for research and in commercial products, but you may not "
@@ -78,8 +71,8 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     found = []
     for name, row in _registry().items():
         person, file = name.split("/")
-        asked = subject in (None, int(person)) and _says(row["description"], kind)
-        if file.endswith(".amc") and asked:
+        said = kind is None or re.search(rf"\b{re.escape(kind)}\b", row["description"], re.IGNORECASE)
+        if file.endswith(".amc") and said and subject in (None, int(person)):
             found.append(Trial(file[:-4], int(person), int(row["frames"]), row["description"]))
     if not found:
         subjects = ", ".join(sorted({name.split("/")[0] for name in _registry()}))
@@ -87,10 +80,6 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
         word_asked = f" with '{shortened(kind, 40)}' in its description" if kind is not None else ""
         raise MocapError(f"No trial{person_asked}{word_asked} is listed; the subjects are {subjects}.")
     return found
-
-
-def _says(description: str, kind: str | None) -> bool:
-    return kind is None or bool(re.search(rf"\b{re.escape(kind)}\b", description, re.IGNORECASE))
 
 
 @overload
@@ -140,64 +129,14 @@ def cmu(
         subject_folder = clip.split("_")[0]
         if f"{subject_folder}/{clip}.amc" not in _registry():
             raise MocapError(f"No trial '{clip}' is listed; `mocap data list` shows those that are.")
-        asf = fetch(f"{subject_folder}/{subject_folder}.asf")
-        motion = load(fetch(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
+        asf = fetch_listed(f"{subject_folder}/{subject_folder}.asf")
+        motion = load(fetch_listed(f"{subject_folder}/{clip}.amc"), skeleton=asf, fps=120.0)
         return motion if skeleton is None else retarget(motion, skeleton)
     if subject is None and kind is None:
         raise MocapError('Which trials? Name one, as in cmu("16_15"), or give subject= or kind=.')
     return [cmu(trial.name, skeleton=skeleton) for trial in trials(subject, kind)]
 
 
-def fetch(name: str) -> Path:
-    """Find a listed file, such as "16/16.asf", in the cache, or download it.
-
-    Raises
-    ------
-    MocapError : when it cannot be downloaded; the cache never keeps part of a file.
-    """
-    from requests import RequestException
-
-    store = _store()
-    url, hint = store.get_url(name), f"put a copy of {name} into a folder that MOCAP_DATA names"
-    try:
-        return Path(store.fetch(name, downloader=_download))
-    except RequestException as error:
-        status = error.response.status_code if error.response is not None else None
-        answer = f"answers {status}" if status else "breaks off or does not answer"
-        raise MocapError(f"{url} {answer}: try again later, or {hint}.") from error
-    except ValueError as error:  # the checksum
-        raise MocapError(f"{url} is not the file listed: its checksum differs; {hint}.") from error
-    except OSError as error:
-        problem = f"Cannot keep {name} in {store.abspath} ({error.strerror or error})"
-        raise MocapError(f"{problem}: let MOCAP_DATA name a folder you may write to.") from error
-
-
-def _store() -> Pooch:
-    import pooch
-
-    pooch.get_logger().setLevel("WARNING")
-    return pooch.create(
-        path=pooch.os_cache("mocap"),
-        base_url=BASE_URL,
-        env="MOCAP_DATA",
-        registry={name: row["sha256"] for name, row in _registry().items()},
-        retry_if_failed=RETRIES,
-    )
-
-
-def _download(url: str, output_file: str, store: Pooch) -> None:
-    """Download a file, and give it the line ends of the listed one: copies differ only in these."""
-    import pooch
-
-    _show_terms()
-    pooch.HTTPDownloader(progressbar=sys.stderr.isatty(), timeout=TIMEOUT)(url, output_file, store)
-    got = Path(output_file).read_bytes()
-    unix = got.replace(b"\r\n", b"\n")
-    for data in (unix, unix.replace(b"\n", b"\r\n")):
-        if hashlib.sha256(data).hexdigest() in store.registry.values():
-            Path(output_file).write_bytes(data)
-
-
-@cache
-def _show_terms() -> None:
-    print(TERMS, file=sys.stderr)
+def fetch_listed(name: str) -> Path:
+    """Find a listed file, such as "16/16.asf", where fetched files are kept, or download it."""
+    return fetch(name, f"{BASE_URL}/{name}", _registry()[name]["sha256"], TERMS)

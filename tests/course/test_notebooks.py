@@ -231,7 +231,7 @@ def test_without_clips_and_network_real_data_steps_aside_in_one_sentence(monkeyp
     def unplugged(*_):
         raise requests.ConnectionError
 
-    monkeypatch.setattr("mocap.datasets.cmu_database._download", unplugged)
+    monkeypatch.setattr("pooch.HTTPDownloader.__call__", unplugged)
     monkeypatch.setattr("pooch.core.time.sleep", lambda seconds: None)
     monkeypatch.setenv("MOCAP_DATA", str(tmp_path))
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path))

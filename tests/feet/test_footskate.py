@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.ndimage import maximum_filter1d
+from walking import generate
 
 from mocap._shared.arrays import runs
 from mocap.blending.inertialization import inertialize
@@ -222,7 +223,7 @@ class Held(NamedTuple):
 
 
 def test_plants_stand_where_pins_hold_them():
-    clip = WALK[:480]
+    clip = generate("walk_straight")[:480]
     ankle, ball = LEGS[0].ankle, LEGS[0].ball
     start, stop = runs(clip.contacts["ltoes"])[1]
     free = np.full((480, 2, 3), np.inf)

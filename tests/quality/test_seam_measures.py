@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from walking import generate
 
 from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
 from mocap.body.motion import Motion, concatenate, resample
@@ -46,7 +47,8 @@ def test_jumps_are_those_of_curves_known_in_closed_form():
 
 
 def test_a_clip_s_own_frames_are_nothing_special():
-    inside = [seam_quality(WALK, (start, start + 40), USUAL) for start in range(40, 1100, 120)]
+    walk = generate("walk_straight")  # as stored, feet tremble by a nanometre
+    inside = [seam_quality(walk, (start, start + 40), USUAL) for start in range(40, 1100, 120)]
     assert np.mean([q.velocity_jump <= 1 for q in inside]) > 0.9
     assert max(q.slide for q in inside) < 1e-9
 

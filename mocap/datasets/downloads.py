@@ -1,0 +1,75 @@
+"""Files from the network, fetched once and kept, each whole or refused.
+
+They are kept in the platform's cache folder, or in the one that the environment variable `MOCAP_DATA`
+names. A file that is there needs no network.
+"""
+
+import hashlib
+import os
+import sys
+from functools import cache
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from mocap.errors import MocapError
+
+RETRIES = 3  # after 1, 2 and 3 seconds
+TIMEOUT = 30.0  # seconds without an answer
+
+
+def kept_in() -> Path:
+    """Give the folder of all fetched files."""
+    import pooch
+
+    return Path(os.environ.get("MOCAP_DATA") or pooch.os_cache("mocap"))
+
+
+def fetch(name: str, url: str, sha256: str | None, terms: str) -> Path:
+    """Find a file where fetched files are kept, or download it, and print the terms of its use.
+
+    Parameters
+    ----------
+    name : the file seen from that folder, such as "16/16.asf".
+    url : where to get it.
+    sha256 : its checksum, where it is known. Files that differ from it in line ends only are taken.
+    terms : what to print, once, when something was downloaded.
+
+    Raises
+    ------
+    MocapError : when it cannot be had, is not the file listed, or cannot be kept; part of a file never is.
+    """
+    import pooch
+    from requests import RequestException
+
+    def download(url: str, output_file: str, store: pooch.Pooch) -> None:
+        pooch.HTTPDownloader(progressbar=sys.stderr.isatty(), timeout=TIMEOUT)(url, output_file, store)
+        show_once(terms)
+        if name.endswith((".asf", ".amc")):
+            unix = Path(output_file).read_bytes().replace(b"\r\n", b"\n")
+            for data in (unix, unix.replace(b"\n", b"\r\n")):
+                if hashlib.sha256(data).hexdigest() == sha256:
+                    Path(output_file).write_bytes(data)
+
+    place = f"{urlsplit(url).netloc}/.../{url.rpartition('/')[2]}"
+    hint = f"put a copy of {name} into a folder that MOCAP_DATA names"
+    pooch.get_logger().setLevel("WARNING")
+    store = pooch.create(
+        kept_in(), base_url="", registry={name: sha256}, urls={name: url}, retry_if_failed=RETRIES
+    )
+    try:
+        return Path(store.fetch(name, downloader=download))
+    except RequestException as error:
+        status = error.response.status_code if error.response is not None else None
+        answer = f"answers {status}" if status else "breaks off or does not answer"
+        raise MocapError(f"{place} {answer}: try again later, or {hint}.") from error
+    except ValueError as error:  # the checksum
+        raise MocapError(f"{place} is not the file listed: its checksum differs; {hint}.") from error
+    except OSError as error:
+        problem = f"Cannot keep {name} in {store.abspath} ({error.strerror or error})"
+        raise MocapError(f"{problem}: let MOCAP_DATA name a folder you may write to.") from error
+
+
+@cache
+def show_once(terms: str) -> None:
+    """Print the terms of a set's use, at the first call."""
+    print(terms, file=sys.stderr)

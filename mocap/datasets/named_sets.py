@@ -1,0 +1,182 @@
+"""Sets of clips that other labs share: from a copy of your own, or fetched once."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import tomllib
+import zipfile
+import zlib
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, NamedTuple
+
+from mocap._shared.atomic import replacing, write_text
+from mocap._shared.progress import Progress
+from mocap.datasets.downloads import fetch, kept_in, show_once
+from mocap.errors import MocapError, shortened
+
+if TYPE_CHECKING:
+    from mocap.body.limbs import Leg
+    from mocap.body.motion import Motion
+    from mocap.body.skeleton import Skeleton
+
+WHOLE = "TERMS.txt"  # written when all clips of a set are there
+_TABLES = tomllib.loads(Path(__file__).with_name("sets.toml").read_text("utf-8"))
+
+
+class NamedSet(NamedTuple):
+    """A set of clips; `sets.toml` says what the fields are."""
+
+    title: str
+    licence: str
+    allows: str
+    address: str
+    archive: str
+    fps: float
+    hips: str
+    legs: list[str]
+    megabytes: int | None = None
+    sha256: str | None = None
+    clip_url: str = ""
+
+    def find_legs(self, skeleton: Skeleton) -> tuple[Leg, Leg]:
+        """Give the left and the right leg of a body of this set."""
+        from mocap.body.limbs import name_leg  # the command line lists the sets without numpy
+
+        right = [name.replace("Left", "Right").replace("_L", "_R") for name in self.legs]
+        return name_leg(skeleton, *self.legs), name_leg(skeleton, *right)
+
+    def terms(self) -> str:
+        """Say whose clips they are, under which licence, and what that allows."""
+        return f"These clips come from {self.title} ({self.address}), under {self.licence}: {self.allows}."
+
+    def size(self) -> str:
+        """Say how large the archive is."""
+        return f"{self.megabytes} MB" if self.megabytes else "some hundred MB"
+
+
+SETS = {name: NamedSet(**known) for name, known in _TABLES["sets"].items()}
+"""The sets by the names of their folders."""
+
+HASHES: dict[str, str] = _TABLES["clips"]
+
+
+def folder_of(name: str) -> Path:
+    """Give the folder in which a set is looked for, and into which it is fetched.
+
+    Raises
+    ------
+    MocapError : for an unknown set.
+
+    Examples
+    --------
+    >>> folder_of("amass")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: No set 'amass' is known; there are: bandai_namco, lafan1, 100style.
+    """
+    if name not in SETS:
+        raise MocapError(f"No set '{shortened(name, 40)}' is known; there are: {', '.join(SETS)}.")
+    return kept_in() / name
+
+
+def list_set(name: str) -> list[str]:
+    """List the clips of a set that are at hand, by their files' names.
+
+    Raises
+    ------
+    MocapError : for an unknown set.
+    """
+    return sorted(path.stem for path in folder_of(name).rglob("*.bvh"))
+
+
+def fetch_set(name: str, progress: Progress = iter) -> list[str]:
+    """Download all clips of a named set, unless they are at hand; its terms are printed first.
+
+    Where the checksum of the whole is known, it is checked.
+
+    Parameters
+    ----------
+    name : the set, one of `SETS`; `SETS[name].size()` says how large it is.
+    progress : shows how far the unpacking is, as `tqdm.tqdm` does.
+
+    Returns
+    -------
+    The clips' names.
+
+    Raises
+    ------
+    MocapError : for an unknown set, without a network, and for an archive that is not the one listed.
+
+    Examples
+    --------
+    >>> fetch_set("amass")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: No set 'amass' is known; there are: bandai_namco, lafan1, 100style.
+    """
+    folder = folder_of(name)
+    if not (folder / WHOLE).exists():
+        known = SETS[name]
+        show_once(known.terms())
+        packed = fetch(f"{name}/{name}.zip", known.archive, known.sha256, known.terms())
+        _unpack(packed, folder, progress)
+        write_text(folder / WHOLE, f"{known.terms()}\n")
+        packed.unlink()
+    return list_set(name)
+
+
+def _unpack(archive: Path, folder: Path, progress: Progress) -> None:
+    """Write all .bvh files of an archive into a folder, without the archive's own folders."""
+    try:
+        with zipfile.ZipFile(archive) as files:
+            places = {name: PurePosixPath(name) for name in files.namelist()}
+            clips = [
+                name
+                for name, place in places.items()
+                if place.suffix.lower() == ".bvh" and not place.name.startswith("._")  # which macOS adds
+            ]
+            for name in progress(clips):
+                with replacing(folder / places[name].name) as beside:
+                    beside.write_bytes(files.read(name))
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
+        raise MocapError(f"{archive} is damaged, or no .zip file: delete it, and try again.") from error
+    if not clips:
+        raise MocapError(f"{archive} holds no .bvh file.")
+
+
+def from_set(name: str, clip: str) -> Motion:
+    """Read a clip of a named set, from your own copy or fetched; its terms are printed once.
+
+    Parameters
+    ----------
+    name : the set, one of `SETS`, such as "lafan1".
+    clip : the name of a file, such as "walk1_subject1"; it may lie in any folder of the set.
+
+    Raises
+    ------
+    MocapError : for an unknown set, a clip that is not there, with how to get it, a clip that cannot be
+        fetched, and a file that is not the one listed.
+
+    Examples
+    --------
+    >>> from_set("100style", "Nobody_FW")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: No clip 'Nobody_FW' ...: `mocap data fetch 100style` gets the set (1469 MB) ...
+    """
+    from mocap.files.load_save import load
+
+    folder = folder_of(name)
+    known, sha256 = SETS[name], HASHES.get(clip)
+    show_once(known.terms())
+    path = next((path for path in sorted(folder.rglob("*.bvh")) if path.stem == clip), None)
+    if path is None:
+        part = re.fullmatch(r"dataset-([12])_[\w-]+", clip)
+        if not known.clip_url or not part:
+            raise MocapError(
+                f"No clip '{shortened(clip, 40)}' in {folder}: `mocap data fetch {name}` gets the set "
+                f"({known.size()}) from {known.address}, or unpack it there."
+            )
+        url = known.clip_url.format(part=part[1], clip=clip)
+        path = fetch(f"{name}/{clip}.bvh", url, sha256, known.terms())
+    if sha256 and hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
+        raise MocapError(f"{path} is not the file listed: its checksum differs. Get it anew.")
+    return load(path)
