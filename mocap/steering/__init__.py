@@ -27,12 +27,11 @@ Reading order (notebooks 08, 12, 17, 18)
 14. `held_ends`: the last differences faded out, and feet that stand where the poses put them
 15. `in_betweens`: from one pose to another, at its place and in time: 11 to 14 in one function
 16. `characters`: the protocol, the pose that a step gives, and how frames are placed
-17. `look_ahead`: the walks ahead of a controlled character, and their cost
-18. `graph_control`: a character on a motion graph
-19. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-20. `steered_motion`: steer a character by a list of headings, and measure how soon it obeys
-21. `pursuit`: lead a character to places, and along a path
-22. `judged_control`: one protocol for all characters
+17. `graph_control`: a character on a motion graph, and how it looks ahead
+18. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+19. `steered_motion`: steer a character by a list of headings, and measure how soon it obeys
+20. `pursuit`: lead a character along a path
+21. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -60,7 +59,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
         "steered_motion": ["measure_delay", "steer"],
-        "pursuit": ["pursue", "walk_to"],
+        "pursuit": ["pursue"],
         "judged_control": ["command_headings", "judge_control"],
     },
 )

@@ -56,21 +56,17 @@ class Character(Protocol):
     @property
     def skeleton(self) -> Skeleton:
         """The joints that the poses move."""
-        ...
 
     @property
     def fps(self) -> float:
         """Steps per second."""
-        ...
 
     @property
     def frames_left(self) -> int:
         """The frames until its next choice; 0 for one that can choose in every frame."""
-        ...
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame; heading in radians (0 is +z, π/2 is +x), speed in metres per second."""
-        ...
 
 
 def require_command(heading: float, speed: float) -> None:

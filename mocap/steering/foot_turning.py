@@ -13,6 +13,7 @@ from collections import deque
 import numpy as np
 
 from mocap._shared.arrays import Points
+from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.steering.characters import Pose
 from mocap.steering.graph_control import Controller
@@ -80,10 +81,10 @@ class FootTurner:
         # would turn too far and back, for ever: a straight walk would wag by 18°.
         self.track: deque[complex] = deque(maxlen=round(character.fps / 3) + 1)
         self.last, self.turn = 0j, 1 + 0j
-        self.feet: Points = np.zeros(0, complex)
+        self.feet: Points = np.zeros(4, complex)
         self.pivot = 0j  # the foot that stands
         self.angle = 0.0  # by which the last frame was turned, radians
-        self.turned = np.zeros(0)  # by how much each foot was turned since it stands, radians
+        self.turned = np.zeros(4)  # by how much each foot was turned since it stands, radians
 
     @property
     def frames_left(self) -> int:
@@ -93,22 +94,19 @@ class FootTurner:
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Turn a little about the foot that stands, then walk on by one frame as `Controller.step` does."""
         if len(self.track) > 1:
-            self._turn(self._missing(heading))
+            self._turn(heading)
         pose = self.character.step(heading, speed, label)
-        x, _, z = pose.root_position.tolist()
-        self.track.append(self.track[-1] + (complex(z, x) - self.last) / self.turn if self.track else 0j)
-        self.last = complex(z, x)
+        root = complex(on_ground(pose.root_position))
+        self.track.append(self.track[-1] + (root - self.last) / self.turn if self.track else 0j)
+        self.last = root
         self._find_standing_foot(self.character.feet())
         return pose
 
-    def _missing(self, heading: float) -> float:
-        """Give the angle from the direction of the last third of a second to the heading; 0 if it stands."""
-        way = self.turn * (self.track[-1] - self.track[0])
-        stands = abs(way) * self.fps < WALKING * (len(self.track) - 1)
-        return 0.0 if stands else cmath.phase(cmath.exp(1j * heading) / way)
-
-    def _turn(self, missing: float) -> None:
+    def _turn(self, heading: float) -> None:
         """Turn towards the heading, as far as the rate and the stances allow."""
+        way = self.turn * (self.track[-1] - self.track[0])  # in the last third of a second
+        stands = abs(way) * self.fps < WALKING * (len(self.track) - 1)
+        missing = 0.0 if stands else cmath.phase(cmath.exp(1j * heading) / way)
         most = self.rate / self.fps * min(1.0, (missing / FULL) ** 2)
         least, largest = min(0.0, -MOST - self.turned.min()), max(0.0, MOST - self.turned.max())
         rise = self.rate / (EASE * self.fps**2)
@@ -124,7 +122,7 @@ class FootTurner:
     def _find_standing_foot(self, feet: Points) -> None:
         """Take the slowest of the feet's joints as the pivot, and forget the turns of those in the air."""
         if len(self.track) == 1:
-            self.feet, self.turned = feet, np.zeros(len(feet))
+            self.feet = feet
         moved = np.abs(feet - self.feet)
         self.turned[moved > STANDING / self.fps] = 0
         pivot = complex(feet[moved.argmin()])

@@ -1,11 +1,20 @@
-"""Control on a motion graph: a character that gets a new command in any frame while it walks [KGP02, 5.3]."""
+"""Control on a motion graph: a character that gets a new command in any frame while it walks [KGP02, 5.3].
+
+It looks ahead: many walks grow by one hop per round, and the best stay. The cost of a walk is the sum of
+‖v - v'‖² Δt over its hops: v is the mean velocity of the root over the hop, v' the velocity of the command,
+and Δt the hop's duration. Each transition adds `SEAM`; each second without the label of the command adds
+`LABEL`.
+"""
+
+from __future__ import annotations
 
 import cmath
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Points
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
@@ -14,9 +23,77 @@ from mocap.errors import MocapError, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.steering.characters import Pose, place_frames, require_command
-from mocap.steering.look_ahead import Command, LookAhead, WalksAhead
 
+SEAM = 0.1  # m²/s, as all costs here
+LABEL = 4.0  # m²/s per second
 LONGEST, WIDEST = 60.0, 10_000  # seconds to look ahead, walks that stay in each round
+
+
+class WalksAhead(NamedTuple):
+    """N walks from the end of the hop that the character plays, shape (N,) each."""
+
+    first: Indices  # the first hop of each, -1 for a walk without hops
+    node: Indices  # the node at its end
+    turn: Points  # turns the clip of that node
+    frames: Indices
+    cost: Array
+
+
+class LookAhead:
+    """How a controlled character looks ahead on a compiled graph, with H hops and L labels.
+
+    Parameters
+    ----------
+    graph : the compiled graph.
+    seconds : to look ahead.
+    width : walks that stay in each round.
+    """
+
+    def __init__(self, graph: CompiledGraph, seconds: float, width: int) -> None:
+        hops, bears = graph.hops, graph.labels.bears
+        self.graph, self.horizon, self.width = graph, seconds * graph.fps, width
+        # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
+        leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
+        end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
+        self.moved = end - graph.at[leaves]
+        self.seconds: Array = hops.frames / graph.fps
+        self.price = np.where(graph.blended[hops.last], SEAM, 0.0)
+        without = np.pad(np.cumsum(~bears, axis=1), ((0, 0), (1, 0)))  # (L, T + 1), frames
+        played: Indices = without[:, hops.starts + hops.counts] - without[:, hops.starts]  # (L, H, 2)
+        self.lacks: Array = played.sum(axis=-1) / graph.fps
+
+    def longer(self, walks: WalksAhead, velocity: complex, label: int) -> WalksAhead | None:
+        """Lengthen every walk below the horizon by every hop that leaves its node; keep the best walks.
+
+        Parameters
+        ----------
+        walks : so far.
+        velocity, label : the command: a velocity on the ground, z + ix, and a label's number or -1.
+
+        Returns
+        -------
+        The `width` walks with the lowest cost per frame, the best first; None where no walk can be longer.
+        """
+        graph, hops = self.graph, self.graph.hops
+        short = walks.frames < self.horizon
+        of, hop = hops.leaving(walks.node[short])
+        if not len(hop):
+            return None
+        of, last = np.flatnonzero(short)[of], hops.last[hop]
+        off = walks.turn[of] * self.moved[hop] - velocity * self.seconds[hop]
+        cost = (off.real**2 + off.imag**2) / self.seconds[hop] + self.price[hop]
+        if label >= 0:
+            cost += LABEL * self.lacks[label, hop]
+        longer = WalksAhead(
+            np.where(walks.first[of] < 0, hop, walks.first[of]),
+            graph.target[last],
+            walks.turn[of] * graph.turn[last],
+            walks.frames[of] + hops.frames[hop],
+            walks.cost[of] + cost,
+        )
+        walks = WalksAhead(*(np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True)))
+        best = np.argsort(walks.cost / walks.frames)[: self.width]
+        return WalksAhead(*(values[best] for values in walks))
 
 
 class Controller:
@@ -24,7 +101,7 @@ class Controller:
 
     While it plays one hop, it looks ahead from the end of this hop: in each frame all walks ahead grow by one
     round, so that no step takes long. At the end of the hop it takes the first hop of the best walk. The cost
-    of a walk compares its velocity with the command, as `look_ahead` says.
+    of a walk compares its velocity with the command, as this file says.
 
     A step makes little garbage. But when Python's collector visits a large graph, this takes 30 to 90 ms.
     Where every step must be on time, call `gc.freeze()` after the graph is built.
@@ -50,8 +127,6 @@ class Controller:
     (38, 4)
     """
 
-    walks: WalksAhead  # from the end of the hop under way
-
     def __init__(
         self,
         graph: MotionGraph | CompiledGraph,
@@ -68,12 +143,12 @@ class Controller:
             )
         self.skeleton, self.fps = self.graph.source.clips[0].skeleton, self.graph.fps
         self.ahead = LookAhead(self.graph, ahead, width)
-        self.edges: list[int] = []  # still to be played; the first one is under way
+        self.edges: list[int] = []  # of the hop under way, still to be played; the first one is being played
         self.frame = 0  # of the first edge
         self.turn, self.move = 1 + 0j, 0j  # place its clip: p ↦ turn · p + move
         # The node where the hop under way ends, and how its clip is turned there.
         self.node, self.end_turn = 0 if start is None else self.graph.index(start), self.turn
-        self.command = Command(0j, -1)
+        self.command = 0j, -1
         self._restart()
 
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
@@ -91,12 +166,15 @@ class Controller:
         NoWalk : for a label that no clip of the graph has.
         """
         require_command(heading, speed)
-        command = Command(speed * complex(np.exp(1j * heading)), self.graph.label_number(label))
+        command = speed * complex(np.exp(1j * heading)), self.graph.label_number(label)
         if command != self.command:
             self.command = command
             self._restart()
         if self.edges and self.frame == self.graph.frames[self.edges[0]]:
-            self._leave(self.edges.pop(0))
+            self.turn, self.move = self._after()
+            self.turn /= abs(self.turn)  # stays of length 1 on walks of any length
+            self.frame = 0
+            del self.edges[0]
         if not self.edges:
             self._choose()
         elif not self.decided:
@@ -107,7 +185,7 @@ class Controller:
     @property
     def frames_left(self) -> int:
         """The frames until the next choice: the rest of the hop under way."""
-        return sum(int(self.graph.frames[edge]) for edge in self.edges) - self.frame * bool(self.edges)
+        return int(self.graph.frames[self.edges].sum()) - self.frame * bool(self.edges)
 
     def feet(self) -> Points:
         """Give where ankles and balls are on the ground in the last pose, left before right, shape (4,).
@@ -121,12 +199,10 @@ class Controller:
         """
         if not self.frame:
             raise MocapError("Feet are those of the last pose: take a step first.")
-        graph, (edge, here, there, alpha) = self.graph, self._played()
-        feet = self._feet[here[0]][here[1]]
-        if graph.blended[edge]:
-            laid = graph.turn[edge] * self._feet[there[0]][there[1]] + graph.move[edge]
-            feet = alpha * feet + (1 - alpha) * laid
-        return np.asarray(self.turn * feet + self.move)
+        (clip, frame), (other, then), alpha = self._played()
+        edge = self.edges[0]
+        laid = self.graph.turn[edge] * self._feet[other][then] + self.graph.move[edge]
+        return np.asarray(self.turn * (alpha * self._feet[clip][frame] + (1 - alpha) * laid) + self.move)
 
     def turn_about(self, point: complex, angle: float) -> None:
         """Turn what comes from now on about a point on the ground, z + ix, by an angle in radians.
@@ -144,27 +220,26 @@ class Controller:
         joints = [joint for leg in find_legs(self.skeleton) for joint in (leg.ankle, leg.ball)]
         return [on_ground(joint_positions(clip)[:, joints]) for clip in self.graph.source.clips]
 
-    def _played(self) -> tuple[int, Node, Node, float]:
-        """Give the edge under way, and the two clip frames and the weight that its last frame is made of."""
-        graph, edge = self.graph, self.edges[0]
-        row = graph.tracks.first[edge] + self.frame - 1
-        here, there = (clips[row].tolist() for clips in (graph.plays.here, graph.plays.there))
-        return edge, here, there, float(graph.plays.alpha[row])
+    def _played(self) -> tuple[Node, Node, float]:
+        """Give the two clip frames, and the weight of the first one, that the last frame is made of."""
+        plays, row = self.graph.plays, self.graph.tracks.first[self.edges[0]] + self.frame - 1
+        here, there = plays.here[row].tolist(), plays.there[row].tolist()
+        return here, there, float(plays.alpha[row])
+
+    def _after(self) -> tuple[complex, complex]:
+        """Place the clip that the edge under way leads to."""
+        turn, move = (complex(some[self.edges[0]]) for some in (self.graph.turn, self.graph.move))
+        return self.turn * turn, self.move + self.turn * move
 
     def _pose(self) -> Pose:
         """Take the last frame from its clip, or blend it from two clips in a transition."""
-        graph, (edge, here, there, alpha) = self.graph, self._played()
+        here, there, alpha = self._played()
         root, turns = self._placed(here, self.turn, self.move)
-        blending = bool(graph.blended[edge])
-        if blending:
-            turn, move = (
-                self.turn * complex(graph.turn[edge]),
-                self.move + self.turn * complex(graph.move[edge]),
-            )
-            other, turned = self._placed(there, turn, move)
+        if blending := here != there:
+            other, turned = self._placed(there, *self._after())
             root, turns = alpha * root + (1 - alpha) * other, rotations.slerp(turned, turns, np.array(alpha))
         clip, frame = here if alpha >= 0.5 else there
-        marks = graph.source.clips[clip].contacts.items()
+        marks = self.graph.source.clips[clip].contacts.items()
         return Pose(root, turns, blending, {name: bool(mark[frame]) for name, mark in marks})
 
     def _placed(self, at: Node, turn: complex, move: complex) -> tuple[Array, Array]:
@@ -174,12 +249,13 @@ class Controller:
         return place_frames(place, clip.root_positions[frame], clip.rotations[frame])
 
     def _restart(self) -> None:
-        """Look ahead anew, from the end of the hop under way."""
-        self.walks, self.decided = self.ahead.start(self.node, self.end_turn), False
+        """Look ahead anew, from the end of the hop under way, with one walk without hops."""
+        none, turn = np.zeros(1, np.intp), np.array([self.end_turn])
+        self.walks, self.decided = WalksAhead(none - 1, none + self.node, turn, none, np.zeros(1)), False
 
     def _look(self) -> None:
         """Look ahead by one round; without longer walks the choice is clear."""
-        longer = self.ahead.longer(self.walks, self.command)
+        longer = self.ahead.longer(self.walks, *self.command)
         self.walks, self.decided = longer or self.walks, longer is None
 
     def _choose(self) -> None:
@@ -194,10 +270,3 @@ class Controller:
         self.frame, self.node = 0, int(self.graph.target[last])
         self.end_turn = self.turn * complex(self.graph.turn[last])
         self._restart()
-
-    def _leave(self, edge: int) -> None:
-        """Place the clip that an edge leads to."""
-        self.move += self.turn * complex(self.graph.move[edge])
-        self.turn *= complex(self.graph.turn[edge])
-        self.turn /= abs(self.turn)  # stays of length 1 on walks of any length
-        self.frame = 0

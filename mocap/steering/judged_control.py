@@ -104,12 +104,15 @@ def judge_control(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # how much was let go is `kept`
         cleaned = clean_up(motion)
-    planted = [sum(int(mark.sum()) for mark in some.contacts.values()) for some in (motion, cleaned)]
+    planted, slides = [], []
+    for some in (motion, cleaned):
+        planted.append(sum(int(mark.sum()) for mark in some.contacts.values()))
+        # Two frames are too few to slide.
+        slides.append(mean_slide(slide for slide in plant_slides(some) if slide.stop - slide.start > 2))
     limit = np.percentile(usual.within(1), USUAL)
     return ControlReport(
         measure_delay(make(), speed=speed, seed=seed),
-        _mean_slide(motion),
-        _mean_slide(cleaned),
+        *slides,
         planted[1] / planted[0],
         float((jumps(motion)[0] > limit).mean()),
         _wags(motion, headings),
@@ -118,21 +121,12 @@ def judge_control(
     )
 
 
-def _mean_slide(motion: Motion) -> float:
-    """Average the slides of plants, cm; two frames are too few to slide."""
-    return mean_slide(slide for slide in plant_slides(motion) if slide.stop - slide.start > 2)
-
-
 def _wags(motion: Motion, headings: Array) -> float:
     """Measure how the direction swings in the last half second of each command, degrees."""
-    back = round(motion.fps / 3)
-    x, _, z = motion.root_positions.T
-    way = np.angle((z + 1j * x)[back:] - (z + 1j * x)[:-back])
-    every, half = round(EVERY * motion.fps), round(motion.fps / 2)
-    ends = [
-        np.unwrap(way[stop - half - back : stop - back]) for stop in range(every, len(headings) + 1, every)
-    ]
-    return float(np.degrees(np.sqrt(np.mean([np.var(end) for end in ends]))))
+    back, half, every = (round(seconds * motion.fps) for seconds in (1 / 3, 1 / 2, EVERY))
+    track, ends = on_ground(motion.root_positions), np.arange(every, len(headings) + 1, every)
+    way = np.angle(track[back:] - track[:-back])[ends[:, None] - back + np.arange(-half, 0)]
+    return float(np.degrees(np.sqrt(np.var(np.unwrap(way), axis=1).mean())))
 
 
 def _pivots(motion: Motion) -> float:

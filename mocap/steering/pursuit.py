@@ -1,10 +1,9 @@
-"""Lead a character by commands alone: to places, and along a path [ours].
+"""Lead a character by commands alone: along a path [ours].
 
 A character that is steered does not know where it should be later. So a point is carried ahead of it, and the
 command is to go there. What it cannot turn as sharply as asked, it makes up for afterwards.
 """
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +12,7 @@ from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import MocapError
 from mocap.steering.characters import Character, Pose
 from mocap.steering.steered_motion import as_motion
 
@@ -27,61 +26,6 @@ class Pursued(NamedTuple):
     motion: Motion
     off: Array
     progress: float
-
-
-def walk_to(
-    character: Character,
-    places: Sequence[tuple[float, float]],
-    *,
-    speed: float = 1.1,
-    radius: float = 0.5,
-    limit: float = 60.0,
-) -> Motion:
-    """Walk to some places in turn, each command towards the next place.
-
-    Parameters
-    ----------
-    character : any; it walks on from where it is.
-    places : (x, z), metres.
-    speed : metres per second.
-    radius : metres from a place at which it is reached.
-    limit : seconds per place.
-
-    Raises
-    ------
-    NoWalk : where a place is not reached in time, with how near it came.
-    MocapError : for no places, and numbers that make no sense.
-
-    Examples
-    --------
-    >>> from mocap import body, datasets, graphs
-    >>> from mocap.steering import Controller
-    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
-    >>> character = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
-    >>> walked = walk_to(character, [(2.0, 4.0)])
-    >>> bool(np.hypot(*(walked.root_positions[-1, [0, 2]] - [2, 4])) <= 0.5)
-    True
-    """
-    goals = np.asarray(places, float)
-    if goals.ndim != 2 or goals.shape[1] != 2 or not len(goals) or not np.isfinite(goals).all():
-        raise MocapError(f"Places are finite numbers (x, z), one or more, got {places}."[:200])
-    if not (radius > 0 and limit > 0):
-        raise MocapError(f"A radius and a limit are above 0, got {radius} m and {limit} s.")
-    poses = [character.step(0.0, speed)]
-    for number, goal in enumerate(goals):
-        least = np.inf
-        for _ in range(round(limit * character.fps)):
-            away = goal - poses[-1].root_position[[0, 2]]
-            least = min(least, float(np.hypot(*away)))
-            if least <= radius:
-                break
-            poses.append(character.step(float(np.arctan2(*away)), speed))
-        else:
-            raise NoWalk(
-                f"Place {number + 1} of {len(goals)} is not reached in {limit:g} s; "
-                f"it came to {least:.2f} m: allow a larger radius, or walk slower."
-            )
-    return as_motion(character, poses)
 
 
 def pursue(

@@ -8,10 +8,12 @@ import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.motion import Motion
+from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.steering.characters import Character, Pose
 
 LONGEST = 8.0  # seconds; a turn that takes longer counts as that long
+OBEYS = np.radians(20)  # between the way of the last third of a second and the heading, at most
 
 
 class Steered(NamedTuple):
@@ -36,9 +38,9 @@ class Steered(NamedTuple):
         -------
         Three numbers; nan where the command is not obeyed, as `measure_delay` defines it.
         """
-        fps, (x, _, z) = self.motion.fps, self.motion.root_positions.T
-        track, back = (z + 1j * x) * np.exp(-1j * heading), round(self.motion.fps / 3)
-        obeys = np.abs(np.angle(track[frame:] - track[frame - back : -back])) < np.pi / 9
+        fps, track = self.motion.fps, on_ground(self.motion.root_positions) * np.exp(-1j * heading)
+        back = round(fps / 3)
+        obeys = np.abs(np.angle(track[frame:] - track[frame - back : -back])) < OBEYS
         if not obeys.any():
             return np.full(3, np.nan)
         took = int(obeys.argmax()) + 1
@@ -160,20 +162,19 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
     track, costs, delays, never = [0j] * back, [], [], 0
     for _ in range(turns):
         heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
-        wait, frames, blends = character.frames_left, 0, 0
-        obeys = False
+        wait, frames, blends, obeys = character.frames_left, 0, 0, False
         while not obeys and frames < round(LONGEST * fps):
             start = time.thread_time()
             pose = character.step(heading, speed)
             costs.append(time.thread_time() - start)
-            track.append(complex(pose.root_position[2], pose.root_position[0]))
+            track.append(complex(on_ground(pose.root_position)))
             blends += pose.blending and frames >= wait
             way = (track[-1] - track[-1 - back]) * np.exp(-1j * heading)
-            obeys, frames = frames >= back and abs(np.angle(way)) < np.pi / 9, frames + 1
+            obeys, frames = frames >= back and abs(np.angle(way)) < OBEYS, frames + 1
         delays.append((frames, min(wait, frames), blends))
         never += not obeys
     took, waited, blended = np.transpose(delays) / fps
-    slowest, cost = float(np.percentile(took, 95)), 1e3 * np.array(costs)
     # The first step looks ahead from the start without any frame to do so before; games do it while loading.
-    worst, parts = float(cost[1:].max()), (float(waited.mean()), float(blended.mean()))
-    return Delay(float(took.mean()), slowest, float(cost[1:].mean()), worst, *parts, never)
+    cost = 1e3 * np.array(costs[1:])
+    means = [float(some.mean()) for some in (took, cost, waited, blended)]
+    return Delay(means[0], float(np.percentile(took, 95)), means[1], float(cost.max()), *means[2:], never)

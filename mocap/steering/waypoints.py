@@ -84,15 +84,20 @@ def through_waypoints(
     """
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)
-    along = _places_along(path, points)
-    labels = [(place, point.label) for place, point in zip(along, waypoints, strict=True)]
-    times = [(place, p.seconds) for place, p in zip(along, waypoints, strict=True) if p.seconds is not None]
+    placed = list(zip(_places_along(path, points), waypoints, strict=True))
+    labels = [(along, point.label) for along, point in placed]
+    times = [(along, point.seconds) for along, point in placed if point.seconds is not None]
     if times and waypoints[0].seconds is None:
         times.insert(0, (0.0, 0.0))
-    if any(seconds == 0 for place, seconds in times if place > 0):
+    if any(seconds == 0 for along, seconds in times if along > 0):
         raise MocapError("Only the first waypoint can be asked for at 0 s.")
     followed = follow_path(graph, path, Wishes(labels=labels, times=times), settings=settings, bend=bend)
-    return WaypointWalk(followed, [_arrival(followed, a, p) for a, p in zip(along, waypoints, strict=True)])
+    arrivals = []
+    for along, point in placed:
+        frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
+        off, seconds = float(np.hypot(*(followed.track[frame] - point[:2]))), frame / followed.graph.fps
+        arrivals.append(Arrival(off, seconds, np.nan if point.seconds is None else seconds - point.seconds))
+    return WaypointWalk(followed, arrivals)
 
 
 def _places_along(path: GroundPath, points: Array) -> list[float]:
@@ -104,11 +109,3 @@ def _places_along(path: GroundPath, points: Array) -> list[float]:
         first += int(near)
         found.append(first)
     return [*path.along[found].tolist(), path.length]
-
-
-def _arrival(followed: Followed, along: float, point: Waypoint) -> Arrival:
-    """Measure how a walk meets a waypoint that is `along` metres along the path."""
-    frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
-    seconds = frame / followed.graph.clips[0].fps
-    off = float(np.hypot(*(followed.track[frame] - [point.x, point.z])))
-    return Arrival(off, seconds, np.nan if point.seconds is None else seconds - point.seconds)

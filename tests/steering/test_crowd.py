@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 
 from mocap.body.ground_path import GroundPath
-from mocap.editing.bending import LIMIT
 from mocap.errors import MocapError, MocapWarning
 from mocap.steering.crowd import walk_crowd
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings
 from tests.bundled import walking
-from tests.steering.test_bent_following import straight_walker
 
 GRAPH = walking()
 CROSSING = [GroundPath([[0, 0], [0, 6]]), GroundPath([[3, 3], [-3, 3]])]
@@ -71,31 +69,3 @@ def test_who_is_far_apart_walks_as_if_alone():
 def test_no_distance_is_told():
     with pytest.raises(MocapError, match="more than 0 m apart"):
         walk_crowd(GRAPH, CROSSING, apart=0.0)
-
-
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-@pytest.mark.parametrize("graph", [walking, straight_walker])
-def test_bent_walks_go_around_one_another_and_nobody_waits(graph):
-    """Three paths, two of them head on: without bending, a walker that only goes straight has to wait."""
-    paths = [GroundPath([[0, 0], [0, 8]]), GroundPath([[4, 4], [-4, 4]]), GroundPath([[0.2, 8], [0.2, 0]])]
-    crowd = walk_crowd(graph(), paths, bend=LIMIT)
-    assert crowd.waits == [0.0, 0.0, 0.0]
-    assert crowd.nearest.min() >= 0.8
-    assert crowd.walks[0].off.mean() < 0.025
-    aside = crowd.walks[2]
-    assert aside.path is paths[2]
-    assert 0.5 < aside.off.max() < 1.3
-    for end in (0, -1):
-        assert aside.off[end] < 0.1
-    plain = walk_crowd(graph(), paths)
-    assert sum(plain.waits) >= sum(crowd.waits)
-    assert plain.nearest.min() < crowd.nearest.min() + 0.02
-
-
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-def test_a_bent_walk_also_waits_where_no_way_around_is_enough():
-    """Where many stand in the way, the way around one leads into another."""
-    paths = [GroundPath([[x, 0], [x, 6]]) for x in (-1.2, 0, 1.2)] + [GroundPath([[0, 6], [0, 0]])]
-    crowd = walk_crowd(walking(), paths, bend=LIMIT)
-    assert crowd.waits[:3] == [0.0, 0.0, 0.0]
-    assert crowd.nearest[:3, :3].min() > 0.8

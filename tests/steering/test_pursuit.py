@@ -1,42 +1,14 @@
-"""Characters led by commands come to places, and keep near paths."""
+"""Characters led by commands keep near paths."""
 
 import numpy as np
 import pytest
 
 from mocap.body.ground_path import SHAPES, GroundPath, circle
 from mocap.body.planar import PlanarTransform, on_ground
-from mocap.errors import MocapError, NoWalk
-from mocap.steering import Controller, pursue, walk_to
+from mocap.errors import MocapError
+from mocap.steering import Controller, pursue
 from tests.bundled import walking
 from tests.steering.test_judged_control import CHARACTERS
-
-
-def test_it_comes_to_all_places_in_turn():
-    places = [(2.0, 4.0), (-3.0, 5.0), (0.0, 0.0)]
-    walked = walk_to(Controller(walking()), places, speed=0.8)
-    ground = walked.root_positions[:, [0, 2]]
-    reached = [np.flatnonzero(np.linalg.norm(ground - place, axis=1) <= 0.5)[0] for place in places[:2]]
-    assert reached[0] < reached[1] < len(ground) - 1
-    assert np.linalg.norm(ground[-1] - places[2]) <= 0.5
-
-
-def test_a_place_that_is_not_reached_in_time_is_named():
-    with pytest.raises(NoWalk, match=r"Place 1 of 1 is not reached in 3 s; it came to \d+\.\d\d m"):
-        walk_to(Controller(walking()), [(0.0, 90.0)], limit=3.0)
-
-
-@pytest.mark.parametrize(
-    ("places", "settings", "sentence"),
-    [
-        ([], {}, "Places are finite numbers"),
-        ([(1.0, np.nan)], {}, "Places are finite numbers"),
-        ([(1.0, 2.0, 3.0)], {}, "Places are finite numbers"),
-        ([(1.0, 2.0)], {"radius": 0.0}, "A radius and a limit are above 0"),
-    ],
-)
-def test_places_that_make_no_sense_are_refused(places, settings, sentence):
-    with pytest.raises(MocapError, match=sentence):
-        walk_to(Controller(walking()), places, **settings)
 
 
 @pytest.mark.parametrize("path", [GroundPath([[3, 1], [3, 9]]), circle(2.5)], ids=["line", "circle"])
@@ -79,13 +51,11 @@ def test_it_does_not_matter_which_way_a_path_and_a_character_start(towards):
 
 
 @pytest.mark.parametrize(("name", "off"), [("strides", 0.7), ("steps", 0.2), ("matching", 0.15)])
-def test_every_character_is_led_along_every_shape_and_to_places(name, off):
+def test_every_character_is_led_along_every_shape(name, off):
     make = CHARACTERS[name]
     for shape in SHAPES.values():
         led = pursue(make(), shape(), speed=0.8)
         assert led.progress == 1 and led.off.mean() < off
-    walked = walk_to(make(), [(2.0, 4.0), (-2.0, 1.0)], speed=0.8)
-    assert np.linalg.norm(walked.root_positions[-1, [0, 2]] - [-2, 1]) <= 0.5
 
 
 def test_it_ends_where_the_time_is_over():
