@@ -15,8 +15,8 @@ from typing import NamedTuple, overload
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.downloads import fetch
-from mocap.editing.retargeted import retarget
-from mocap.editing.upright_bodies import Stance
+from mocap.editing.retargeting import retarget
+from mocap.editing.stances import Stance
 from mocap.errors import MocapError, shortened
 from mocap.files.load_save import load
 

@@ -23,14 +23,11 @@ Reading order (notebooks 10 to 14)
 15. `looping`: a cycle closed by a warp
 16. `warp_plans`: a whole warp out of a small text file
 17. `body_roles`: which joint does what
-18. `upright_bodies`: how a body stands, as a value
-19. `stances`: find it, whatever the rest pose is
-20. `proportions`: a body with shorter legs or a larger head
-21. `copied_motion`: every joint looks where the same joint of the other body looks
-22. `floors`: where the new feet may be
-23. `retargeted`: all of it in one function
-24. `mirroring`: left and right swapped, by names and geometry
-25. `cycles`: the stretch of a clip that makes the best cycle, closed
+18. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+19. `copied_motion`: every joint looks where the same joint of the other body looks
+20. `retargeting`: where the new feet may be, and all of it in one function
+21. `mirroring`: left and right swapped, by names and geometry
+22. `cycles`: the stretch of a clip that makes the best cycle, closed
 
 References
 ----------
@@ -59,11 +56,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "body_roles": ["roles"],
         "copied_motion": ["copied"],
-        "floors": ["floor_pins"],
-        "proportions": ["proportioned"],
-        "retargeted": ["retarget", "standing_like"],
-        "stances": ["stance_of", "stance_of_zero"],
-        "upright_bodies": ["Stance"],
+        "stances": ["Stance", "proportioned", "stance_of", "stance_of_zero"],
+        "retargeting": ["floor_pins", "retarget", "standing_like"],
         "keys": ["Key", "cardinal", "keys_around", "offsets"],
         "looping": ["looped", "repeated"],
         "posing": ["posed"],

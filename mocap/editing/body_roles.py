@@ -4,7 +4,7 @@ Legs, arms and head are found by the names that files use. The trunk is found by
 the legs meet, the chest is where the arms meet, and the waist and the neck are the first joints above them.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from textwrap import shorten
 
 from mocap.body.limbs import Leg, find_legs, name_leg
@@ -12,10 +12,11 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
 TRUNK = ("pelvis", "waist", "chest", "neck", "head")
-LIMBS = ("clavicle", "shoulder", "elbow", "wrist", "hip", "knee", "ankle", "ball")
 LEG = ("hip", "knee", "ankle", "ball")
-FEET = tuple(f"{side} {part}" for side in ("left", "right") for part in ("ankle", "ball"))
-ROLES = (*TRUNK, *(f"{side} {part}" for side in ("left", "right") for part in LIMBS))
+LIMBS = ("clavicle", "shoulder", "elbow", "wrist", *LEG)
+SIDES = ("left", "right")
+FEET = tuple(f"{side} {part}" for side in SIDES for part in ("ankle", "ball"))
+ROLES = (*TRUNK, *(f"{side} {part}" for side in SIDES for part in LIMBS))
 """What a joint can be to a body: from "pelvis" to "right ball"."""
 
 # Shoulder, elbow and wrist of a left and a right arm, as files name them; a prefix up to a colon is ignored.
@@ -62,9 +63,12 @@ def roles(skeleton: Skeleton, told: Mapping[str, str] | None = None) -> dict[str
     told = dict(told or {})
     if unknown := [role for role in told if role not in ROLES]:
         raise MocapError(f"No role '{unknown[0]}'; there are: {shorten(', '.join(ROLES), 150)}.")
-    found = {role: skeleton.index(name) for role, name in told.items()}
-    found = _legs(skeleton, told) | _arms(skeleton) | _head(skeleton) | found
+    given = {role: skeleton.index(name) for role, name in told.items()}
+    found = _named(skeleton, known_legs=all(f"{side} {part}" in given for side in SIDES for part in LEG))
+    found |= given
     found = _trunk(skeleton, found) | found
+    for leg in legs_among(found):
+        name_leg(skeleton, *(skeleton.names[joint] for joint in leg))
     joints = list(found.values())
     if twice := [role for role, joint in found.items() if joints.count(joint) > 1]:
         name = skeleton.names[found[twice[0]]]
@@ -81,70 +85,41 @@ def legs_among(who: Mapping[str, int]) -> tuple[Leg, Leg]:
     >>> legs_among(roles(SKELETON))[0]
     Leg(hip=2, knee=3, ankle=4, ball=5)
     """
-    left, right = (Leg(*(who[f"{side} {part}"] for part in LEG)) for side in ("left", "right"))
+    left, right = (Leg(*(who[f"{side} {part}"] for part in LEG)) for side in SIDES)
     return left, right
 
 
-def _legs(skeleton: Skeleton, told: Mapping[str, str]) -> dict[str, int]:
-    """Find both legs by name, or take those that are told whole."""
-    sides = {side: [f"{side} {part}" for part in LEG] for side in ("left", "right")}
-    if all(role in told for asked in sides.values() for role in asked):
-        legs = [name_leg(skeleton, *(told[role] for role in asked)) for asked in sides.values()]
-    else:
+def _named(skeleton: Skeleton, *, known_legs: bool) -> dict[str, int]:
+    """Find legs, arms and head by their names; only the legs must be there, unless they are told."""
+    plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
+    found = {}
+    if not known_legs:
         try:
-            legs = list(find_legs(skeleton))
+            legs = find_legs(skeleton)
         except MocapError as error:
             tried = str(error).split(" Name each")[0]
             raise MocapError(f'{tried} Name them: told={{"left hip": "...", ...}}.') from None
-    pairs = zip(sides.values(), legs, strict=True)
-    return {role: joint for asked, leg in pairs for role, joint in zip(asked, leg, strict=True)}
-
-
-def _plain(skeleton: Skeleton) -> list[str]:
-    return [name.rsplit(":", 1)[-1] for name in skeleton.names]
-
-
-def _arms(skeleton: Skeleton) -> dict[str, int]:
-    """Find both arms by name; a body may have none."""
-    plain = _plain(skeleton)
-    for pair in _ARMS:
-        if all(name in plain for side in pair for name in side.split()):
-            return {
-                f"{side} {part}": plain.index(name)
-                for side, names in zip(("left", "right"), pair, strict=True)
-                for part, name in zip(("shoulder", "elbow", "wrist"), names.split(), strict=True)
-            }
-    return {}
-
-
-def _head(skeleton: Skeleton) -> dict[str, int]:
-    lower = [name.lower() for name in _plain(skeleton)]
-    return {"head": lower.index("head")} if "head" in lower else {}
+        for side, leg in zip(SIDES, legs, strict=True):
+            found |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
+    arms = next((pair for pair in _ARMS if set(" ".join(pair).split()) <= set(plain)), ())
+    for side, arm in zip(SIDES, arms, strict=False):
+        names = zip(("shoulder", "elbow", "wrist"), arm.split(), strict=True)
+        found |= {f"{side} {part}": plain.index(name) for part, name in names}
+    heads = [joint for joint, name in enumerate(plain) if name.lower() == "head"]
+    return found | ({"head": heads[0]} if heads else {})
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:
     """Find the trunk by the tree: what the limbs and the head hang on."""
-    pelvis = _meeting(skeleton, [limbs[f"{side} hip"] for side in ("left", "right")])
-    trunk = {"pelvis": pelvis}
-    shoulders = [limbs[f"{side} shoulder"] for side in ("left", "right") if f"{side} shoulder" in limbs]
-    if len(shoulders) == 2 and (chest := _meeting(skeleton, shoulders)) != pelvis:
-        trunk["chest"] = chest
-        trunk |= {"waist": way[0]} if len(way := _way(skeleton, pelvis, chest)) > 1 else {}
-        for side in ("left", "right"):
-            way = _way(skeleton, chest, limbs[f"{side} shoulder"])
-            trunk |= {f"{side} clavicle": way[0]} if len(way) > 1 else {}
-        if "head" in limbs and len(way := _way(skeleton, chest, limbs["head"])) > 1:
-            trunk["neck"] = way[0]
-    return trunk
-
-
-def _meeting(skeleton: Skeleton, joints: Sequence[int]) -> int:
-    """Find the nearest joint above all of some joints."""
-    lines = [skeleton.path_to_root(joint)[1:] for joint in joints]
-    return max(set(lines[0]).intersection(*lines[1:]), default=0)
-
-
-def _way(skeleton: Skeleton, above: int, joint: int) -> list[int]:
-    """List the joints from below `above` down to `joint`, or none where `joint` does not hang on it."""
-    line = skeleton.path_to_root(joint)
-    return line[: line.index(above)][::-1] if above in line else []
+    up = {role: skeleton.path_to_root(joint)[1:] for role, joint in limbs.items()}
+    pelvis, chest = (
+        max(set(up.get(f"left {part}", ())) & set(up.get(f"right {part}", ())), default=0)
+        for part in ("hip", "shoulder")
+    )
+    if pelvis not in (above := skeleton.path_to_root(chest)[1:]):  # no arms, or they hang on the pelvis
+        return {"pelvis": pelvis}
+    trunk = {"pelvis": pelvis, "chest": chest}
+    # The first joint on the way from the chest to a limb, and from the pelvis to the chest.
+    ways = {"neck": up.get("head", []), **{f"{side} clavicle": up[f"{side} shoulder"] for side in SIDES}}
+    trunk |= {role: way[way.index(chest) - 1] for role, way in ways.items() if chest in way[1:]}
+    return trunk | ({"waist": above[above.index(pelvis) - 1]} if above[0] != pelvis else {})

@@ -15,9 +15,9 @@ from mocap._shared.arrays import Array, Mask, frozen
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.feet.ankle_targets import place_plants
+from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import settled_marks
 
 Rows = slice | Sequence[int] | NDArray[np.intp] | Mask
@@ -61,7 +61,13 @@ class Pins:
                 f"{len(self.joints)} different joints need low and high (F, {len(self.joints)}, 3), "
                 f"got {self.low.shape} and {self.high.shape} for the joints {self.joints[:8]}."
             )
-        _require_boxes(self.low, self.high, [f"joint {joint}" for joint in self.joints])
+        wrong = ~(self.low <= self.high) | (self.low == np.inf) | (self.high == -np.inf)
+        if wrong.any():
+            frame, pin, axis = at = tuple(np.argwhere(wrong)[0])
+            raise MocapError(
+                f"Frame {frame}, joint {self.joints[pin]}: a pin needs low ≤ high, got {self.low[at]:.4g} "
+                f"and {self.high[at]:.4g} for {'xyz'[axis]}; from -inf to inf an axis is free."
+            )
 
     def __len__(self) -> int:
         return len(self.low)
@@ -124,51 +130,22 @@ def pin(
 
     Notebook: 14-levels
     """
-    name, number = _joint(motion.skeleton, joint)
-    rows = _frames(motion, frames)
-    lows, highs = np.full((len(motion), 1, 3), -np.inf), np.full((len(motion), 1, 3), np.inf)
-    low = np.asarray(low, float)
-    high = low if high is None else np.asarray(high, float)
-    for kind, values in ((lows, low), (highs, high)):
-        if values.shape not in ((3,), (len(rows), 3)):
-            raise MocapError(f"'{name}': a place is (3,) or ({len(rows)}, 3) metres, got {values.shape}.")
-        kind[rows, 0] = values
-    _require_boxes(lows, highs, [f"'{name}'"])
-    return Pins((number,), lows, highs)
-
-
-def _require_boxes(low: Array, high: Array, names: Sequence[str]) -> None:
-    """Raise `MocapError` unless -∞ ≤ low ≤ high ≤ ∞, and a place that is held is finite; (F, P, 3) each."""
-    wrong = ~(low <= high) | (low == np.inf) | (high == -np.inf)
-    if wrong.any():
-        frame, pin, axis = np.argwhere(wrong)[0]
+    number = motion.skeleton.index(joint) if isinstance(joint, str) else int(joint)
+    try:
+        rows = np.arange(len(motion))[frames if isinstance(frames, slice) else list(frames)]
+    except IndexError:
         raise MocapError(
-            f"Frame {frame}, {names[pin]}: a pin needs low ≤ high, got {low[frame, pin, axis]:.4g} and "
-            f"{high[frame, pin, axis]:.4g} for {'xyz'[axis]}; from -inf to inf an axis is free."
-        )
-
-
-def _joint(skeleton: Skeleton, joint: str | int) -> tuple[str, int]:
-    """Find a joint's name and index."""
-    number = skeleton.index(joint) if isinstance(joint, str) else int(joint)
-    if not 0 <= number < len(skeleton):
-        raise MocapError(f"No joint {number}: there are {len(skeleton)}, counted from 0.")
-    return skeleton.names[number], number
-
-
-def _frames(motion: Motion, frames: Rows) -> NDArray[np.intp]:
-    """List the frames' numbers."""
-    if isinstance(frames, slice):
-        return np.arange(len(motion))[frames]
-    rows = np.asarray(frames)
-    if rows.dtype == bool and rows.shape == (len(motion),):
-        return np.flatnonzero(rows)
-    if rows.ndim != 1 or (rows.size and rows.dtype.kind not in "iu"):
-        raise MocapError(f"Frames are numbers, a slice, or {len(motion)} marks; got shape {rows.shape}.")
-    if rows.size and not (rows.min() >= 0 and rows.max() < len(motion)):
-        off = int(rows[(rows < 0) | (rows >= len(motion))][0])
-        raise MocapError(f"'{motion.name}' has no frame {off}: it has {len(motion)}, counted from 0.")
-    return rows.astype(np.intp)
+            f"'{motion.name}' has {len(motion)} frames, counted from 0; frames are their numbers, a slice, "
+            f"or {len(motion)} marks."
+        ) from None
+    boxes = np.full((2, len(motion), 1, 3), [[[[-np.inf]]], [[[np.inf]]]])
+    for box, place in zip(boxes, (low, low if high is None else high), strict=True):
+        if np.shape(place) not in ((3,), (len(rows), 3)):
+            raise MocapError(f"'{joint}': a place is (3,) or ({len(rows)}, 3) metres, got {np.shape(place)}.")
+        box[rows, 0] = place
+    pins = Pins((number,), *boxes)
+    require_pins_of(motion, pins)
+    return pins
 
 
 def join_pins(*several: Pins) -> Pins:
@@ -203,17 +180,16 @@ def join_pins(*several: Pins) -> Pins:
     high = -low
     for pins in several:
         columns = [joints.index(joint) for joint in pins.joints]
-        before_low, before_high = low[:, columns], high[:, columns]
-        common = np.maximum(before_low, pins.low), np.minimum(before_high, pins.high)
-        # An axis that is held already stays, unless it is held anew.
-        held, stays = pins.held, before_low == before_high
+        before = low[:, columns], high[:, columns]
+        common = np.maximum(before[0], pins.low), np.minimum(before[1], pins.high)
         apart = common[0] > common[1]
-        low[:, columns] = np.where(stays & ~held, before_low, np.where(held | apart, pins.low, common[0]))
-        high[:, columns] = np.where(stays & ~held, before_high, np.where(held | apart, pins.high, common[1]))
+        later = pins.held | (apart & (before[0] != before[1]))
+        for kind, new, old, both in zip((low, high), (pins.low, pins.high), before, common, strict=True):
+            kind[:, columns] = np.select([later, apart], [new, old], both)
     return Pins(joints, low, high)
 
 
-def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None) -> Pins:
+def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: ArrayLike | None = None) -> Pins:
     """Hold each planted ankle and ball at one place for as long as it stands: where it is on average.
 
     In the paper: [Gle98, constraints].
@@ -225,6 +201,8 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None) -> Pins:
     ----------
     motion : its `contacts` say when ankles and balls stand.
     legs : found by name by default.
+    heights : shape (legs, 2), metres: how high ankle and ball stand, if not where they are. An ankle and a
+        ball that stand together are then as far apart as the flat foot is long.
 
     Raises
     ------
@@ -241,13 +219,19 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None) -> Pins:
     """
     legs = legs_of(motion.skeleton, legs)
     positions, several = joint_positions(motion), []
-    for leg, marks in zip(legs, settled_marks(motion, legs), strict=True):
-        joints = (leg.ankle, leg.ball)
-        tracks = (positions[:, leg.ankle], positions[:, leg.ball])
-        places = place_plants(tracks, (marks[0], marks[1]), float(leg.lengths(motion.skeleton)[2]))
-        several += [
-            pin(motion, j, mark, place[mark]) for j, mark, place in zip(joints, marks, places, strict=True)
-        ]
+    for number, (leg, marks) in enumerate(zip(legs, settled_marks(motion, legs), strict=True)):
+        tracks = np.swapaxes(positions[:, [leg.ankle, leg.ball]], 0, 1)  # (2, F, 3)
+        length = float(leg.lengths(motion.skeleton)[2])
+        if heights is not None:
+            ankle, ball = own = np.asarray(heights, float)[number]
+            tracks, length = tracks * [1, 0, 1], np.sqrt(length**2 - (ankle - ball) ** 2)
+        places = place_plants((tracks[0], tracks[1]), (marks[0], marks[1]), length)
+        if heights is not None:
+            places[..., 1] = own[:, None]
+        low, high = (
+            np.swapaxes(np.where(marks[..., None], places, free), 0, 1) for free in (-np.inf, np.inf)
+        )
+        several.append(Pins((leg.ankle, leg.ball), low, high))
     return join_pins(*several)
 
 
@@ -279,5 +263,12 @@ def require_pins_of(motion: Motion, pins: Pins) -> None:
     """Raise `MocapError` unless the pins have the motion's frames and joints of its skeleton."""
     if len(pins) != len(motion):
         raise MocapError(f"'{motion.name}' has {len(motion)} frames, its pins have {len(pins)}.")
-    for joint in pins.joints:
-        _joint(motion.skeleton, joint)
+    if unknown := [joint for joint in pins.joints if not 0 <= joint < len(motion.skeleton)]:
+        raise MocapError(f"No joint {unknown[0]}: there are {len(motion.skeleton)}, counted from 0.")
+
+
+def with_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
+    """Mark when ankles and balls stand, unless the motion says it of all of them."""
+    legs = legs_of(motion.skeleton, legs)
+    names = {motion.skeleton.names[joint] for leg in legs for joint in (leg.ankle, leg.ball)}
+    return motion if names <= set(motion.contacts) else mark_plants(motion, legs)

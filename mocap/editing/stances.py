@@ -7,141 +7,98 @@ along one line. So two bodies are compared as they stand: feet flat, heading +z.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics, joint_positions
+from mocap.body.limbs import Leg
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.body_roles import FEET, legs_among, roles
-from mocap.editing.upright_bodies import Stance, joint_points
+from mocap.editing.body_roles import FEET, SIDES, legs_among, roles
+from mocap.editing.pins import with_plants
 from mocap.errors import MocapError
-from mocap.feet.footplants import mark_plants
 
 # Degrees. A rest pose stands where the hips are level and the thighs hang, within these. The files at hand
 # keep to 0 and 20 (CMU), 0 and 1 (others), or are 90 and 90 off: their rest poses are no stances.
 LEVEL, HANGING = 30.0, 45.0
 
 
-def stance_of_zero(
-    skeleton: Skeleton, heights: Mapping[str, float] | float, *, told: Mapping[str, str] | None = None
-) -> Stance:
-    """Take a skeleton's rest pose, all rotations zero, as its stance, and lay its feet flat.
+@dataclass(frozen=True, eq=False, repr=False)
+class Stance:
+    """How a skeleton stands upright on its flat feet, heading +z.
 
     Parameters
     ----------
-    skeleton : its rest pose must stand upright and head +z.
-    heights : metres over the floor by role, as `standing_heights` measures them; or one number for both
-        balls, with the ankles as far above as in the rest pose.
-    told : roles given by hand.
+    skeleton : J joints.
+    roles : {role: joint}, from `roles`.
+    turns : shape (J, 4), quaternions: how each joint is turned in the world.
+    heights : {role: metres} of both ankles and balls over the floor.
 
     Raises
     ------
-    MocapError : for a rest pose that does not stand: hips not level with the left one at +x, or thighs that
-        do not hang; such files need `stance_of_walk` of a clip.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> walk = sample("walk_straight")
-    >>> stance = stance_of_zero(walk.skeleton, standing_heights(walk))
-    >>> stance.points[walk.skeleton.index("lfoot")].round(2)
-    array([ 0.09, -0.94,  0.04])
-    """
-    who = roles(skeleton, told)
-    turns = np.tile(rotations.IDENTITY, (len(skeleton), 1))
-    points = joint_points(skeleton, turns)
-    if not _upright(who, points):
-        level, hanging = _off_upright(who, points)
-        raise MocapError(
-            f"The rest pose of {skeleton!r} does not stand: its hips are {level:.0f}° off level, its thighs "
-            f"{hanging:.0f}° off hanging; give stance_of_walk of a clip."
-        )
-    if not isinstance(heights, Mapping):
-        rises = {
-            side: points[who[f"{side} ankle"], 1] - points[who[f"{side} ball"], 1]
-            for side in ("left", "right")
-        }
-        heights = {role: heights + rises[role.split()[0]] * role.endswith("ankle") for role in FEET}
-    stance = Stance(skeleton, who, turns, dict(heights))
-    return replace(stance, turns=_flat_feet(stance))
-
-
-def _off_upright(who: Mapping[str, int], points: Array) -> tuple[float, float]:
-    """Measure how far the hips are off level, the left one at +x, and the thighs off hanging, degrees."""
-    across = points[who["left hip"]] - points[who["right hip"]]
-    thighs = [points[who[f"{side} knee"]] - points[who[f"{side} hip"]] for side in ("left", "right")]
-    return _degrees(across, [1, 0, 0]), max(_degrees(thigh, [0, -1, 0]) for thigh in thighs)
-
-
-def _upright(who: Mapping[str, int], points: Array) -> bool:
-    level, hanging = _off_upright(who, points)
-    return level <= LEVEL and hanging <= HANGING
-
-
-def _degrees(vector: Array, other: list[int]) -> float:
-    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(vector, other)), np.dot(vector, other))))
-
-
-def _flat_feet(stance: Stance) -> Array:
-    """Turn each foot, with the joints below it, so that ankle and ball are at the stance's heights.
-
-    A foot that hangs at rest, by more than 45°, is laid straight ahead.
-    """
-    turns, points = np.array(stance.turns), stance.points
-    for side, leg in zip(("left", "right"), stance.legs, strict=True):
-        bone = points[leg.ball] - points[leg.ankle]
-        drop = stance.heights[f"{side} ankle"] - stance.heights[f"{side} ball"]
-        ahead = bone[[0, 2]] if np.hypot(*bone[[0, 2]]) > abs(bone[1]) else np.array([0.0, 1.0])
-        ahead = ahead / np.hypot(*ahead) * np.sqrt(bone @ bone - drop**2)
-        lay = rotations.between(bone, [ahead[0], -drop, ahead[1]])
-        foot = [joint for joint in range(len(turns)) if leg.ankle in stance.skeleton.path_to_root(joint)]
-        turns[foot] = rotations.multiply(lay, turns[foot])
-    return turns
-
-
-def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stance:
-    """Take the mean over a walk as the stance of its skeleton; this needs no rest pose that means anything.
-
-    The idea is ours: each joint's mean turn against the body's heading, which is square to the hips' line; a
-    foot's own, while it stands flat, against where it points. The mean of rotations is SciPy's, which does
-    not depend on the signs of their quaternions.
-
-    Parameters
-    ----------
-    motion : upright, with feet that stand flat at times; its plants are marked if they are not yet.
-    told : roles given by hand.
-
-    Raises
-    ------
-    MocapError : for a clip in which no foot stands.
+    MocapError : for heights that no foot of this length has.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> stance = stance_of_walk(sample("walk_straight"))
-    >>> rotations.rotate(stance.turns[0], [0, 0, 1]).round(1) + 0.0  # the pelvis looks ahead
-    array([0., 0., 1.])
+    >>> stance, round(stance.heights["left ankle"], 2)
+    (Stance(38 joints, legs 0.86 m, ankles 0.068 m and balls 0.026 m over the floor), 0.07)
     """
-    who = roles(motion.skeleton, told)
-    pose = forward_kinematics(motion)
-    world = rotations.from_matrix(pose.matrices)
-    heading = heading_by_hips(pose.positions, who)
-    seen = rotations.multiply(rotations.about_y(-heading)[:, None], world)
-    turns = rotations.mean(np.swapaxes(seen, 0, 1))
-    flat = _standing(motion, who)
-    for side in ("left", "right"):
-        ankle, ball = (who[f"{side} {part}"] for part in ("ankle", "ball"))
-        down = flat[f"{side} ankle"] & flat[f"{side} ball"]
-        if down.any():
-            along = (pose.positions[:, ball] - pose.positions[:, ankle])[down]
-            back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
-            standing = np.swapaxes(world[down][:, [ankle, ball]], 0, 1)
-            turns[[ankle, ball]] = rotations.mean(rotations.multiply(back, standing))
-    return Stance(motion.skeleton, who, turns, standing_heights(motion, told=told))
+
+    skeleton: Skeleton
+    roles: Mapping[str, int]
+    turns: Array
+    heights: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        for side, leg in zip(SIDES, self.legs, strict=True):
+            length = leg.lengths(self.skeleton)[2]
+            if not abs(self.drop(side)) < length:
+                raise MocapError(
+                    f"The {side} ankle would stand {100 * self.drop(side):.3g} cm over its ball; "
+                    f"the foot is {100 * length:.3g} cm long."
+                )
+
+    def __repr__(self) -> str:
+        return (
+            f"Stance({len(self.skeleton)} joints, legs {self.leg:.2f} m, ankles {self.height('ankle'):.3f} m "
+            f"and balls {self.height('ball'):.3f} m over the floor)"
+        )
+
+    @cached_property
+    def points(self) -> Array:
+        """Where the joints are in this stance, seen from joint 0, shape (J, 3), metres."""
+        points = np.zeros((len(self.skeleton), 3))
+        for joint, above in enumerate(self.skeleton.parents[1:], start=1):
+            points[joint] = points[above] + rotations.rotate(self.turns[above], self.skeleton.offsets[joint])
+        return points
+
+    @property
+    def legs(self) -> tuple[Leg, Leg]:
+        """The left and the right leg."""
+        return legs_among(self.roles)
+
+    @property
+    def leg(self) -> float:
+        """How long a leg is from hip to ankle, the mean of both, metres."""
+        return float(np.mean([leg.lengths(self.skeleton)[:2].sum() for leg in self.legs]))
+
+    def height(self, part: str) -> float:
+        """Give the mean height of both ankles ("ankle"), or both balls ("ball"), over the floor, metres."""
+        return float(np.mean([self.heights[f"{side} {part}"] for side in SIDES]))
+
+    def drop(self, side: str) -> float:
+        """Give how far the ball of a side is below its ankle on a flat foot, metres."""
+        return self.heights[f"{side} ankle"] - self.heights[f"{side} ball"]
+
+    def bone(self, start: str, end: str) -> Array:
+        """Give the way from one role's joint to another's, (3,), metres."""
+        return np.asarray(self.points[self.roles[end]] - self.points[self.roles[start]])
 
 
 def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stance:
@@ -150,7 +107,7 @@ def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stanc
     Parameters
     ----------
     motion : a walk, where the rest pose means nothing; its feet give the heights in any case.
-    told : roles given by hand.
+    told : {role: joint's name}, as for `roles`.
 
     Raises
     ------
@@ -165,10 +122,105 @@ def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stanc
     Notebook: 13-retargeting
     """
     who = roles(motion.skeleton, told)
-    turns = np.tile(rotations.IDENTITY, (len(motion.skeleton), 1))
-    if _upright(who, joint_points(motion.skeleton, turns)):
-        return stance_of_zero(motion.skeleton, standing_heights(motion, told=told), told=told)
-    return stance_of_walk(motion, told=told)
+    motion = with_plants(motion, legs_among(who))
+    heights = standing_heights(motion, who)
+    try:
+        return stance_of_zero(motion.skeleton, heights, told=told)
+    except MocapError:
+        return stance_of_walk(motion, told=told)
+
+
+def stance_of_zero(
+    skeleton: Skeleton, heights: Mapping[str, float] | float, *, told: Mapping[str, str] | None = None
+) -> Stance:
+    """Take a skeleton's rest pose, all rotations zero, as its stance, and lay its feet flat.
+
+    A foot that hangs at rest, by more than 45°, is laid straight ahead.
+
+    Parameters
+    ----------
+    skeleton : its rest pose must stand upright and head +z.
+    heights : metres over the floor by role, as `standing_heights` measures them; or one number for both
+        balls, with the ankles as far above as in the rest pose.
+    told : {role: joint's name}, as for `roles`.
+
+    Raises
+    ------
+    MocapError : for a rest pose that does not stand: hips not level with the left one at +x, or thighs that
+        do not hang; such files need `stance_of_walk` of a clip.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> stance = stance_of_zero(walk.skeleton, 0.026)
+    >>> stance.points[walk.skeleton.index("lfoot")].round(2)
+    array([ 0.09, -0.94,  0.04])
+    """
+    turns = np.tile(rotations.IDENTITY, (len(skeleton), 1))
+    rest = Stance(skeleton, roles(skeleton, told), turns, dict.fromkeys(FEET, 0.0))
+    level = _degrees(rest.bone("right hip", "left hip"), [1, 0, 0])
+    hanging = max(_degrees(rest.bone(f"{side} hip", f"{side} knee"), [0, -1, 0]) for side in SIDES)
+    if level > LEVEL or hanging > HANGING:
+        raise MocapError(
+            f"The rest pose of {skeleton!r} does not stand: its hips are {level:.0f}° off level, its thighs "
+            f"{hanging:.0f}° off hanging; give stance_of_walk of a clip."
+        )
+    bones = {side: rest.bone(f"{side} ankle", f"{side} ball") for side in SIDES}
+    if not isinstance(heights, Mapping):
+        heights = {role: heights - bones[role.split()[0]][1] * role.endswith("ankle") for role in FEET}
+    stance = replace(rest, heights=heights)
+    for (side, bone), leg in zip(bones.items(), stance.legs, strict=True):
+        drop, ahead = stance.drop(side), bone[[0, 2]]
+        ahead = ahead if np.hypot(*ahead) > abs(bone[1]) else np.array([0.0, 1.0])
+        ahead = ahead / np.hypot(*ahead) * np.sqrt(bone @ bone - drop**2)
+        foot = [joint for joint in range(len(turns)) if leg.ankle in skeleton.path_to_root(joint)]
+        turns[foot] = rotations.between(bone, [ahead[0], -drop, ahead[1]])
+    return replace(stance, turns=turns)
+
+
+def _degrees(vector: Array, other: list[int]) -> float:
+    return float(np.degrees(rotations.angle_between(rotations.IDENTITY, rotations.between(vector, other))))
+
+
+def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stance:
+    """Take the mean over a walk as the stance of its skeleton; this needs no rest pose that means anything.
+
+    The idea is ours: each joint's mean turn against the body's heading, which is square to the hips' line; a
+    foot's own, while it stands flat, against where it points. The mean of rotations is SciPy's, which does
+    not depend on the signs of their quaternions.
+
+    Parameters
+    ----------
+    motion : upright, with feet that stand flat at times; its plants are marked if they are not yet.
+    told : {role: joint's name}, as for `roles`.
+
+    Raises
+    ------
+    MocapError : for a clip in which an ankle or a ball never stands.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> stance = stance_of_walk(sample("walk_straight"))
+    >>> rotations.rotate(stance.turns[0], [0, 0, 1]).round(1) + 0.0  # the pelvis looks ahead
+    array([0., 0., 1.])
+    """
+    who = roles(motion.skeleton, told)
+    legs = legs_among(who)
+    motion = with_plants(motion, legs)
+    pose = forward_kinematics(motion)
+    world = np.swapaxes(rotations.from_matrix(pose.matrices), 0, 1)  # (J, F, 4)
+    heading = heading_by_hips(pose.positions, who)
+    turns = rotations.mean(rotations.multiply(rotations.about_y(-heading), world))
+    for leg in legs:
+        foot = [leg.ankle, leg.ball]
+        flat = np.logical_and(*(motion.contacts[motion.skeleton.names[joint]] for joint in foot))
+        if flat.any():
+            along = (pose.positions[:, leg.ball] - pose.positions[:, leg.ankle])[flat]
+            back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
+            turns[foot] = rotations.mean(rotations.multiply(back, world[foot][:, flat]))
+    return Stance(motion.skeleton, who, turns, standing_heights(motion, who))
 
 
 def heading_by_hips(positions: Array, who: Mapping[str, int]) -> Array:
@@ -183,27 +235,20 @@ def heading_by_hips(positions: Array, who: Mapping[str, int]) -> Array:
     return np.asarray(np.arctan2(-across[:, 2], across[:, 0]))
 
 
-def standing_heights(motion: Motion, *, told: Mapping[str, str] | None = None) -> dict[str, float]:
-    """Measure how high ankles and balls are while they stand: medians, metres, by role.
+def standing_heights(motion: Motion, who: Mapping[str, int]) -> dict[str, float]:
+    """Measure how high ankles and balls are while the foot is flat, or they stand: medians, metres, by role.
 
     Parameters
     ----------
-    motion : on a floor at y = 0; its plants are marked if they are not yet.
-    told : roles given by hand.
+    motion : on a floor at y = 0; its `contacts` say when ankles and balls stand.
+    who : the roles of its joints.
 
     Raises
     ------
     MocapError : for an ankle or a ball that never stands.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> {role: round(height, 3) for role, height in standing_heights(sample("walk_straight")).items()}
-    {'left ankle': 0.068, 'left ball': 0.026, 'right ankle': 0.068, 'right ball': 0.026}
     """
-    who = roles(motion.skeleton, told)
-    down, positions = _standing(motion, who), joint_positions(motion)
-    heights = {}
+    down = {role: motion.contacts[motion.skeleton.names[who[role]]] for role in FEET}
+    positions, heights = joint_positions(motion), {}
     for role in FEET:
         side = role.split()[0]
         flat = down[f"{side} ankle"] & down[f"{side} ball"]
@@ -214,9 +259,42 @@ def standing_heights(motion: Motion, *, told: Mapping[str, str] | None = None) -
     return heights
 
 
-def _standing(motion: Motion, who: Mapping[str, int]) -> dict[str, Mask]:
-    """Read, or find, when ankles and balls stand, (F,) booleans by role."""
-    names = {role: motion.skeleton.names[who[role]] for role in FEET}
-    if not set(names.values()) <= set(motion.contacts):
-        motion = mark_plants(motion, legs_among(who))
-    return {role: motion.contacts[name] for role, name in names.items()}
+def proportioned(
+    stance: Stance, *, legs: float = 1.0, trunk: float = 1.0, arms: float = 1.0, head: float = 1.0
+) -> Stance:
+    """Make the legs, the trunk, the arms and the head of a body longer or shorter: a child has short legs.
+
+    Parameters
+    ----------
+    stance : how the body stands.
+    legs, trunk, arms, head : new lengths as shares of the old ones. The legs are all below the hips, the arms
+        all below the shoulders, the head all above the neck's first joint; the rest is the trunk.
+
+    Returns
+    -------
+    How the new body stands; its ankles and balls are as high as its legs are long.
+
+    Raises
+    ------
+    MocapError : for a share that is not above 0.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> adult = stance_of_walk(sample("walk_straight"))
+    >>> child = proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
+    >>> round(child.leg / adult.leg, 3)
+    0.55
+
+    Notebook: 13-retargeting
+    """
+    for name, share in {"legs": legs, "trunk": trunk, "arms": arms, "head": head}.items():
+        if not (np.isfinite(share) and share > 0):
+            raise MocapError(f"The share of the {name} must be above 0, got {share}.")
+    old, share_below = stance.skeleton, {"hip": legs, "shoulder": arms, "neck": head}
+    tops = {joint: share_below.get(role.split()[-1], 0) for role, joint in stance.roles.items()}
+    shares = np.full(len(old), float(trunk))
+    for joint, above in enumerate(old.parents[1:], start=1):  # a parent stands before its children
+        shares[joint] = tops.get(above) or shares[above]
+    body = Skeleton(old.names, old.parents, old.offsets * shares[:, None], old.axes, old.dofs)
+    return Stance(body, stance.roles, stance.turns, {role: legs * stance.heights[role] for role in FEET})

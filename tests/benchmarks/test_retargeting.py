@@ -7,7 +7,7 @@ import pytest
 
 from mocap.body.kinematics import forward_kinematics
 from mocap.editing.copied_motion import copied
-from mocap.editing.retargeted import retarget
+from mocap.editing.retargeting import retarget
 from mocap.editing.stances import stance_of
 from tests.benchmarks.timing import least
 from tests.editing.bodies import adult, child, walk, without

@@ -10,9 +10,7 @@ from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
-from mocap.editing.proportions import proportioned
-from mocap.editing.stances import stance_of
-from mocap.editing.upright_bodies import Stance
+from mocap.editing.stances import Stance, proportioned, stance_of
 
 # As cgspeed's conversions of the CMU clips name them, and as Bandai-Namco's files do.
 LONG = {"root": "Hips", "lowerback": "LowerBack", "upperback": "Spine", "thorax": "Spine1"}

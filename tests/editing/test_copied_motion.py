@@ -11,8 +11,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.editing.copied_motion import copied
-from mocap.editing.proportions import proportioned
-from mocap.editing.stances import stance_of, stance_of_walk
+from mocap.editing.stances import proportioned, stance_of, stance_of_walk
 from mocap.errors import MocapError, SkeletonMismatch
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
 

@@ -7,8 +7,8 @@ import pytest
 
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
-from mocap.editing.floors import dips_of, floor_pins
 from mocap.editing.pins import pin_errors
+from mocap.editing.retargeting import dips_of, floor_pins
 from mocap.errors import MocapError
 from tests.editing.bodies import adult, child, walk
 

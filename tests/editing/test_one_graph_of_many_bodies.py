@@ -12,7 +12,7 @@ from mocap import load
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets.cmu_database import cmu
-from mocap.editing.retargeted import retarget
+from mocap.editing.retargeting import retarget
 from mocap.editing.stances import stance_of, stance_of_walk
 from mocap.graphs.motion_graph import MotionGraph, build
 from mocap.graphs.pruning import prune

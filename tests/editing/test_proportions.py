@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.editing.proportions import proportioned
-from mocap.editing.stances import stance_of
+from mocap.editing.stances import proportioned, stance_of
 from mocap.errors import MocapError
 from tests.editing.bodies import adult, walk, without
 

@@ -14,14 +14,11 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
-from mocap.editing.floors import dips_of, floor_pins
 from mocap.editing.pins import pin, pin_errors
-from mocap.editing.proportions import proportioned
-from mocap.editing.retargeted import retarget, standing_like
+from mocap.editing.retargeting import dips_of, floor_pins, retarget, standing_like
 from mocap.editing.solver import REACH, solve
-from mocap.editing.stances import stance_of, stance_of_walk
+from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_walk
 from mocap.editing.steps import Basis
-from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
 from mocap.feet.footplants import mark_plants, runs
 from mocap.feet.footskate import clean_up

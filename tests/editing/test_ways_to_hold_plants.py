@@ -12,9 +12,8 @@ from mocap.editing.displacements import displaced
 from mocap.editing.edits import edit
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.editing.pins import Pins, pin_errors, plant_pins
-from mocap.editing.proportions import proportioned
 from mocap.editing.solver import REACH, solve
-from mocap.editing.stances import stance_of
+from mocap.editing.stances import proportioned, stance_of
 from mocap.editing.steps import Basis
 from mocap.feet.footskate import clean_up
 from tests.editing.wishes import captured, plants_kept, smoothness, walk

@@ -6,23 +6,22 @@ from body to body, so that trees and rest poses may differ, and the last knots a
 """
 
 import warnings
+from collections.abc import Mapping
 
 import numpy as np
 
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.editing.bodies import Body, body_of
+from mocap.editing.bodies import body_of
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
 from mocap.editing.edits import let_go
-from mocap.editing.floors import dips_of, floor_pins
-from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins
+from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins, with_plants
 from mocap.editing.solver import CLOSE, solve_quietly
-from mocap.editing.stances import stance_of, stance_of_zero
+from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.steps import Basis
-from mocap.editing.upright_bodies import Stance
 from mocap.errors import MocapWarning, shortened
-from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 
 # Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°. Few passes are
@@ -84,7 +83,7 @@ def retarget(
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> from mocap.editing.proportions import proportioned
+    >>> from mocap.editing.stances import proportioned
     >>> walk = sample("walk_straight")[:240]
     >>> child = proportioned(stance_of(walk), legs=0.55, trunk=0.62, arms=0.58, head=0.85)
     >>> worn = retarget(walk, child)
@@ -95,10 +94,16 @@ def retarget(
     """
     source = stance_of(motion) if source is None else source
     target = body if isinstance(body, Stance) else standing_like(body, source)
-    base = copied(_standing(motion, source), source, target, scale=scale)
+    planted = with_plants(motion, source.legs)
+    if pin_errors(planted, plant_pins(planted, source.legs)).max() > STILL:
+        planted = clean_up(planted, source.legs)
+    base = copied(planted, source, target, scale=scale)
     dips = {role: dip * target.leg / source.leg for role, dip in dips_of(motion, source).items()}
     wishes = join_pins(floor_pins(base, target, dips), *([] if pins is None else [pins]))
-    worn = solve_quietly(base, wishes, RETARGET, _priced(base, target, wishes)).motion
+    who, trunk = target.roles, target.skeleton.path_to_root(target.roles.get("chest", 0))
+    stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
+    prices = dict.fromkeys((target.skeleton.names[joint] for joint in stiff), STIFF)
+    worn = solve_quietly(base, wishes, RETARGET, body_of(base, wishes.joints, prices=prices)).motion
     if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
         warnings.warn(
             f"'{shortened(motion.name)}': the hips move by {100 * moved:.0f} cm to take these steps, "
@@ -109,13 +114,53 @@ def retarget(
     return let_go(worn, wishes, floor_pins(base, target))
 
 
-def _priced(base: Motion, target: Stance, pins: Pins) -> Body:
-    """Price the joints that may turn: knees and trunk more than others."""
-    who, names = target.roles, target.skeleton.names
-    trunk = target.skeleton.path_to_root(who["chest"]) if "chest" in who else []
-    stiff = [*(leg.knee for leg in target.legs), *(joint for joint in trunk if joint > who["pelvis"])]
-    prices = dict.fromkeys((names[joint] for joint in stiff), STIFF)
-    return body_of(base, pins.joints, prices=prices)
+def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None = None) -> Pins:
+    """Hold each plant at the height that its joint stands at, and keep feet above the floor.
+
+    Feet differ: an ankle stands 4 cm over the ball in one body and 8 cm in another. So plants take their
+    heights from how the new body stands, not from the old feet. A plant's place over the ground is the mean
+    over its frames [Gle98]. The floor is level, at y = 0: a plant on a step comes down to it.
+
+    Parameters
+    ----------
+    motion : the copied motion; its `contacts` say when ankles and balls stand.
+    stance : how its body stands.
+    dips : how far each ankle and ball may be lower than it stands, metres by role; without it there is no
+        floor, only plants.
+
+    Raises
+    ------
+    MocapError : for marks that are missing.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")
+    >>> pins = floor_pins(walk, stance_of(walk))
+    >>> ankle = pins.low[:, 0, 1]  # held at one height, or free
+    >>> np.unique(ankle[np.isfinite(ankle)]).round(3)
+    array([0.068])
+
+    Notebook: 13-retargeting
+    """
+    heights = np.reshape([stance.heights[role] for role in FEET], (2, 2))
+    floors = [
+        pin(
+            motion,
+            stance.roles[role],
+            slice(None),
+            [-np.inf, stance.heights[role] - dip, -np.inf],
+            [np.inf] * 3,
+        )
+        for role, dip in (dips or {}).items()
+    ]
+    return join_pins(*floors, plant_pins(motion, stance.legs, heights))
+
+
+def dips_of(motion: Motion, stance: Stance) -> dict[str, float]:
+    """Measure how far each ankle and ball ever is below where it stands, metres by role, 0 or more."""
+    lowest = joint_positions(motion)[..., 1].min(axis=0)
+    return {role: max(0.0, stance.heights[role] - float(lowest[stance.roles[role]])) for role in FEET}
 
 
 def standing_like(skeleton: Skeleton, source: Stance) -> Stance:
@@ -130,11 +175,3 @@ def standing_like(skeleton: Skeleton, source: Stance) -> Stance:
     """
     ratio = stance_of_zero(skeleton, 0.0).leg / source.leg
     return stance_of_zero(skeleton, ratio * source.height("ball"))
-
-
-def _standing(motion: Motion, source: Stance) -> Motion:
-    """Mark when feet stand, unless that is known, and clean them up, unless they stand still already."""
-    names = {motion.skeleton.names[source.roles[role]] for role in FEET}
-    marked = motion if names <= set(motion.contacts) else mark_plants(motion, source.legs)
-    slides = pin_errors(marked, plant_pins(marked, source.legs)).max() > STILL
-    return clean_up(marked, source.legs) if slides else marked
