@@ -120,17 +120,6 @@ def test_a_group_is_played_at_a_fiftieth_of_its_simulation(count, nodes):
     assert played <= simulated / 50
 
 
-def test_bounds_make_a_search_twice_as_quick():
-    group, scene = graph(), course(1)
-    slow, quick = fastest(
-        lambda: groups.plan_group(group, scene, bounds=False),
-        lambda: groups.plan_group(group, scene),
-        turns=3,
-    )
-    print(f"\nwith bounds {slow / quick:.1f} × as quick")
-    assert slow >= 2 * quick
-
-
 def test_a_search_takes_at_most_four_times_as_long_as_simulating():
     """On average over the courses among eight discs that are found; seed 0 is closed from the start."""
     group, times = graph(), []

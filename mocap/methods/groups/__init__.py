@@ -14,15 +14,14 @@ constrained simulation, and a search that known bounds make easy. All else is ou
 Reading order (notebook 19)
 ---------------------------
 1. `flocking`: walking people simulated by three rules
-2. `configurations`: when do two groups stand and move alike?
-3. `clustering`: configurations that come again
-4. `group_clips`: clips that lead from node to node
-5. `group_graphs`: the graph, and what a walk through it plays
-6. `group_files`: save and load it
-7. `scenes`: where to go, and what stands in the way
-8. `planning`: a search for the way
-9. `group_steering`: the same without a plan, to compare with
-10. `group_walkers`: a character of a motion graph for each member
+2. `configurations`: when do two groups stand and move alike, and which moments come again?
+3. `group_clips`: clips that lead from node to node
+4. `group_graphs`: the graph, and what a walk through it plays
+5. `group_files`: save and load it
+6. `scenes`: where to go, and what stands in the way
+7. `planning`: a search for the way
+8. `group_steering`: the same without a plan, to compare with
+9. `group_walkers`: a character of a motion graph for each member
 
 References
 ----------
@@ -36,9 +35,8 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "flocking": ["RATE", "Flock", "Trajectories", "nearest_two", "simulate"],
-        "configurations": ["Configuration", "compare", "seen_from_itself"],
-        "clustering": ["cluster"],
+        "flocking": ["RATE", "Configuration", "Flock", "Trajectories", "nearest_two", "simulate"],
+        "configurations": ["cluster", "compare", "seen_from_itself"],
         "group_clips": ["GroupClip", "bend_to"],
         "group_graphs": [
             "GroupGraph",

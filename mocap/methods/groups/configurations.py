@@ -1,4 +1,4 @@
-"""When do two groups stand and move alike? Members are matched, and one group is laid on the other.
+"""When do two groups stand and move alike, and which moments come again and again? [LCF05].
 
 A configuration is where all members of a group are and how they move. Two of them are alike when some order
 of the members and some turn and move of the ground bring one near the other, as windows of two clips are
@@ -6,31 +6,22 @@ alike when a planar transform brings their points together. All of this is ours;
 configurations are clustered.
 """
 
+import warnings
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from mocap._shared.arrays import Array, Indices, Points
-from mocap.errors import MocapError
+from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap.errors import MocapError, MocapWarning
+from mocap.methods.groups.flocking import RATE, Configuration, Trajectories
 
 SECONDS = 0.7  # a difference of 1 m/s counts as much as 0.7 m
 STARTS = (0.0, 0.5, -0.5)  # radians about where the velocities point
 ROUNDS = 5
+EVERY = 1.0  # seconds between the frames that nodes are chosen from
+COVERED = 0.8  # a smaller share of the simulation near a node is warned of
 SLOWEST = 0.2  # m/s; the mean velocity of a slower group has no direction
-
-
-class Configuration(NamedTuple):
-    """Where N members are and how they move, (..., N) complex each; leading axes hold other configurations.
-
-    Examples
-    --------
-    >>> Configuration(np.array([0j, 1j]), np.array([1 + 0j, 1 + 0j])).velocities.mean()
-    np.complex128(1+0j)
-    """
-
-    places: Points
-    velocities: Points
 
 
 class Match(NamedTuple):
@@ -95,7 +86,7 @@ def compare(
 
     Raises
     ------
-    MocapError : for groups of different sizes, numbers that are not finite, and no round.
+    MocapError : for groups of different sizes, and numbers that are not finite.
 
     Examples
     --------
@@ -109,70 +100,119 @@ def compare(
 
     Notebook: 19-group-graphs
     """
-    if rounds < 1 or not starts or not np.isfinite(starts).all():
-        raise MocapError(f"A comparison takes a round or more from finite turns, got {rounds} and {starts}.")
-    pairs, shape = _pairs(first, second)
-    tried = [_by_turns(pairs, start, rounds) for start in starts]
-    best = np.argmin([match.rms for match in tried], axis=0)
-    parts = (np.stack(part)[best, np.arange(len(best))] for part in zip(*tried, strict=True))
-    return Match._make(part.reshape((*shape, *part.shape[1:])) for part in parts)
-
-
-class _Pairs(NamedTuple):
-    """M pairs of configurations, (M, N) each."""
-
-    places: Points
-    velocities: Points
-    other_places: Points
-    other_velocities: Points
-
-
-def _pairs(first: Configuration, second: Configuration) -> tuple[_Pairs, tuple[int, ...]]:
-    """Put all pairs in a row."""
     sizes = first.places.shape[-1], second.places.shape[-1]
     if sizes[0] != sizes[1]:
         raise MocapError(f"Groups of {sizes[0]} and {sizes[1]} members cannot be matched.")
-    if any(group.places.shape != group.velocities.shape for group in (first, second)):
-        raise MocapError("A configuration has one place and one velocity for each member.")
     parts = np.broadcast_arrays(*first, *second)
     if not all(np.isfinite(part).all() for part in parts):
         raise MocapError("A configuration has places and velocities that are not finite.")
-    return _Pairs._make(part.reshape(-1, sizes[0]) for part in parts), parts[0].shape[:-1]
+    rows = [part.reshape(-1, sizes[0]) for part in parts]
+    one, other = Configuration(*rows[:2]), Configuration(*rows[2:])
+    tried = [_by_turns(one, other, start, rounds) for start in starts]
+    best = np.argmin([match.rms for match in tried], axis=0)
+    found = (np.stack(part)[best, np.arange(len(best))] for part in zip(*tried, strict=True))
+    return Match._make(part.reshape((*parts[0].shape[:-1], *part.shape[1:])) for part in found)
 
 
-def _by_turns(pairs: _Pairs, start: float, rounds: int) -> Match:
-    """Assign and lay on by turns, from one turn, until no pair gets nearer."""
-    way, other_way = pairs.velocities.mean(-1), pairs.other_velocities.mean(-1)
+def _by_turns(one: Configuration, other: Configuration, start: float, rounds: int) -> Match:
+    """Assign and lay M pairs on by turns, (M, N) each, from one turn, until no pair gets nearer."""
+    way, other_way = one.velocities.mean(-1), other.velocities.mean(-1)
     turn = np.exp(1j * (np.angle(way * other_way.conj()) + start))
-    move = pairs.places.mean(-1) - turn * pairs.other_places.mean(-1)
-    before = np.full(len(turn), np.inf)
+    match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, np.zeros(0))
+    match = match._replace(move=one.places.mean(-1) - turn * other.places.mean(-1))
     for _ in range(rounds):
-        square = assignment_costs(pairs, turn, move)
-        order = np.array([linear_sum_assignment(costs)[1] for costs in square])
-        turn, move, rms = _laid(pairs, order)
-        if (rms > before - 1e-9).all():
+        before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
+        match = _laid(one, other, np.array([linear_sum_assignment(costs)[1] for costs in square]))
+        if (match.rms > before - 1e-9).all():
             break
-        before = rms
-    return Match(rms, order, turn, move)
+    return match
 
 
-def assignment_costs(pairs: _Pairs, turn: Points, move: Points) -> Array:
+def assignment_costs(one: Configuration, other: Configuration, turn: Points, move: Points) -> Array:
     """Say what it costs to take member j of the second for member i of the first, (M, N, N) m²."""
-    there = turn[:, None] * pairs.other_places + move[:, None]
-    going = turn[:, None] * pairs.other_velocities
-    gap = pairs.places[:, :, None] - there[:, None]
-    change = pairs.velocities[:, :, None] - going[:, None]
+    gap = one.places[:, :, None] - (turn[:, None] * other.places + move[:, None])[:, None]
+    change = one.velocities[:, :, None] - (turn[:, None] * other.velocities)[:, None]
     return np.asarray(gap.real**2 + gap.imag**2 + SECONDS**2 * (change.real**2 + change.imag**2))
 
 
-def _laid(pairs: _Pairs, order: Indices) -> tuple[Points, Points, Array]:
-    """Lay the second on the first, its members in an order: turn, move, RMS distance."""
-    there, going = (np.take_along_axis(part, order, axis=-1) for part in pairs[2:])
-    middle, other = pairs.places.mean(-1), there.mean(-1)
-    cross = ((pairs.places - middle[:, None]) * (there - other[:, None]).conj()).sum(-1)
-    cross = cross + SECONDS**2 * (pairs.velocities * going.conj()).sum(-1)
+def _laid(one: Configuration, other: Configuration, order: Indices) -> Match:
+    """Lay the second on the first, its members in an order."""
+    there, going = (np.take_along_axis(part, order, axis=-1) for part in other)
+    middle, centre = one.places.mean(-1), there.mean(-1)
+    cross = ((one.places - middle[:, None]) * (there - centre[:, None]).conj()).sum(-1)
+    cross = cross + SECONDS**2 * (one.velocities * going.conj()).sum(-1)
     turn = cross / np.maximum(np.abs(cross), 1e-12)
-    move = middle - turn * other
-    gap = np.abs(pairs.places - turn[:, None] * there - move[:, None])
-    change = np.abs(pairs.velocities - turn[:, None] * going)
-    return turn, move, np.sqrt((gap**2 + SECONDS**2 * change**2).mean(-1))
+    move = middle - turn * centre
+    gap = np.abs(one.places - turn[:, None] * there - move[:, None])
+    change = np.abs(one.velocities - turn[:, None] * going)
+    return Match(np.sqrt((gap**2 + SECONDS**2 * change**2).mean(-1)), order, turn, move)
+
+
+class Clusters(NamedTuple):
+    """Nodes, which frame each was, and the share of the simulation within `reach` of one.
+
+    `distances` (S, S), metres: of any two of the S frames that were looked at.
+    """
+
+    nodes: tuple[Configuration, ...]
+    frames: Indices
+    covered: float
+    distances: Array
+
+
+def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clusters:
+    """Choose configurations that come again [LCF05, nodes]; how is ours.
+
+    Each time the one with the most others within `reach` that no node has yet. Comparing is O(S² N³) for S
+    frames of N members: this is the longest part of building a graph.
+
+    Parameters
+    ----------
+    flock : as `simulate` gives it.
+    nodes : how many to choose at most; fewer where all are covered.
+    reach : metres, RMS.
+
+    Raises
+    ------
+    MocapError : for no frames, less than one node, a reach not above 0, and a group that stands.
+
+    Warns
+    -----
+    MocapWarning : where less than 80 % of the simulation are within `reach` of a node.
+
+    Examples
+    --------
+    >>> from mocap.methods.groups.flocking import simulate
+    >>> found = cluster(simulate(4, 60), nodes=4, reach=0.4)
+    >>> len(found.nodes), found.covered > 0.8
+    (4, True)
+
+    Notebook: 19-group-graphs
+    """
+    if not len(flock.places):
+        raise MocapError("There is no frame to take nodes from.")
+    if not (nodes >= 1 and reach > 0):
+        raise MocapError(f"Clusters take a node or more and a reach above 0; got {nodes}, {reach} m.")
+    step = round(EVERY * RATE)
+    seen, _, _ = seen_from_itself(Configuration(*(part[::step] for part in flock)))
+    rows = list(map(Configuration, *seen))
+    distances = np.zeros((len(rows),) * 2)
+    for row in range(1, len(rows)):  # with all before it, from the direction of the velocities alone
+        before = Configuration(*(part[:row] for part in seen))
+        rms = compare(rows[row], before, starts=(0.0,), rounds=2).rms
+        distances[row, :row] = distances[:row, row] = rms
+    free: Mask = np.ones(len(distances), bool)
+    chosen: list[int] = []
+    while len(chosen) < nodes and free.any():
+        best = int(((distances < reach) & free).sum(axis=1).argmax())
+        chosen.append(best)
+        free &= distances[best] >= reach
+    covered = 1 - float(free.mean())
+    if covered < COVERED:
+        warnings.warn(
+            f"{len(chosen)} nodes are within {reach:g} m of {covered:.0%} of what was simulated: "
+            "take more nodes, or a larger reach.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return Clusters(tuple(rows[row] for row in chosen), np.array(chosen) * step, covered, distances)

@@ -7,7 +7,7 @@ a flock settles into a lattice that hardly ever changes, so that there is nothin
 Points on the ground are complex, z + ix, ten of them per second.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,51 +52,50 @@ class Flock(NamedTuple):
     whim: float = 0.5
 
     def check(self) -> None:
-        """Raise MocapError for figures below 0 or not finite, for no space, and for speeds that cross."""
+        """Raise MocapError for figures below 0 or not finite, and for no space."""
         for name, figure in self._asdict().items():
-            if not 0 <= figure < np.inf:
+            if not 0 <= figure < np.inf or (name == "space" and not figure):
                 raise MocapError(f"The figures of a flock are finite and not below 0; {name} is {figure}.")
-        if not (self.space > 0 and self.slowest <= self.fastest):
-            raise MocapError(
-                "A flock keeps a space above 0 m, and its slowest speed is not above its fastest; "
-                f"got {self.space} m, {self.slowest} and {self.fastest} m/s."
-            )
 
 
-class Trajectories(NamedTuple):
-    """Where N members are in each of F frames, and how they move: `places` and `velocities`, (F, N) complex.
+class Configuration(NamedTuple):
+    """Where N members are and how they move: `places` and `velocities`, (..., N) complex each.
+
+    Leading axes hold other configurations: frames, or runs side by side.
 
     Examples
     --------
-    >>> Trajectories(np.zeros((2, 3), complex), np.ones((2, 3), complex)).places.shape
-    (2, 3)
+    >>> Configuration(np.array([0j, 1j]), np.array([1 + 0j, 1 + 0j])).velocities.mean()
+    np.complex128(1+0j)
     """
 
     places: Points
     velocities: Points
 
 
-class Whims:
-    """Each member's own wish: a direction and a pace that drift about the group's.
+Trajectories = Configuration
+"""Configurations frame by frame, (F, N), ten per second."""
+
+
+def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> Iterator[Points]:
+    """Yield frame by frame each member's own wish: a direction and a pace that drift about the group's.
 
     Parameters
     ----------
     shape : of the members, with any leading axes for runs side by side.
     rules : how much they drift.
     random : draws them.
+
+    Yields
+    ------
+    Complex numbers of that shape: a direction times a share of the pace.
     """
-
-    def __init__(self, shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> None:
-        self.direction, self.mood = np.zeros(shape), np.zeros(shape)
-        self.rules, self.random = rules, random
-
-    def drift(self) -> Points:
-        """Go on by one frame; give the wishes, complex: a direction and a share of the pace."""
-        step, root = 1 / RATE, np.sqrt(1 / RATE) * self.rules.whim
-        shape = self.direction.shape
-        self.direction += -step * self.direction / 2.0 + root * self.random.normal(size=shape)
-        self.mood += -step * self.mood / 4.0 + root * 0.35 * self.random.normal(size=shape)
-        return np.asarray(np.exp(1j * self.direction) * np.clip(1 + self.mood, 0.6, 1.4))
+    step, root = 1 / RATE, np.sqrt(1 / RATE) * rules.whim
+    direction, mood = np.zeros(shape), np.zeros(shape)
+    while True:
+        direction += -step * direction / 2.0 + root * random.normal(size=shape)
+        mood += -step * mood / 4.0 + root * 0.35 * random.normal(size=shape)
+        yield np.asarray(np.exp(1j * direction) * np.clip(1 + mood, 0.6, 1.4))
 
 
 def steering_force(now: Trajectories, wish: Points, rules: Flock, discs: Sequence[Disc] = ()) -> Points:
@@ -192,14 +191,18 @@ def simulate(count: int, seconds: float, *, rules: Flock | None = None, seed: in
     rules.check()
     start = random.normal(0, 1.5, (2, count))
     now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
-    whims, heading, bend, frames = Whims((count,), rules, random), 0.0, 0.0, []
+    wishes, heading, bend, frames = whims((count,), rules, random), 0.0, 0.0, []
     for _ in range(round((seconds + SETTLE) * RATE)):
         bend += -bend / 3.0 / RATE + np.sqrt(1 / RATE) * 0.25 * random.normal()
         heading += np.clip(bend, -0.5, 0.5) / RATE
-        now = advance(now, np.exp(1j * heading) * whims.drift(), rules)
+        now = advance(now, np.exp(1j * heading) * next(wishes), rules)
         frames.append(now)
-    places, velocities = (np.array(part) for part in zip(*frames[round(SETTLE * RATE) :], strict=True))
-    return Trajectories(places, velocities)
+    return stacked(frames[round(SETTLE * RATE) :])
+
+
+def stacked(frames: Sequence[Configuration]) -> Trajectories:
+    """Put configurations one after the other."""
+    return Trajectories(*(np.array(part) for part in zip(*frames, strict=True)))
 
 
 def nearest_two(places: Points) -> Array:

@@ -12,8 +12,19 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Points
-from mocap.methods.groups.configurations import Configuration, compare
-from mocap.methods.groups.flocking import APART, RATE, Trajectories, Whims, advance, nearest_two, push_apart
+from mocap.methods.groups.configurations import compare
+from mocap.methods.groups.flocking import (
+    APART,
+    RATE,
+    Configuration,
+    Flock,
+    Trajectories,
+    advance,
+    nearest_two,
+    push_apart,
+    stacked,
+    whims,
+)
 
 BENDS = (-1.2, -0.6, 0.0, 0.6, 1.2)  # radians
 SECONDS = 4.0  # of a clip: shorter ones must be bent harder
@@ -69,27 +80,28 @@ class Drawn(NamedTuple):
         return int((~self.collided[:, 1].astype(bool) & (self.hardest <= HARDEST)).sum())
 
 
-def run_from(node: Configuration, bend: float, whims: Whims) -> Trajectories:
-    """Simulate runs of four seconds side by side that start at a node and turn by `bend`.
+def run_from(
+    node: Configuration, bend: float, runs: int, rules: Flock, random: np.random.Generator
+) -> Trajectories:
+    """Simulate runs of four seconds side by side that start at a node of N members and turn by `bend`.
 
     Parameters
     ----------
     node : where all start.
     bend : radians.
-    whims : of R runs of N members.
+    runs : how many, R.
+    rules, random : as for `whims`.
 
     Returns
     -------
     Places and velocities, shape (F + 1, R, N).
     """
-    runs = len(whims.direction)
-    now = Trajectories(np.tile(node.places, (runs, 1)), np.tile(node.velocities, (runs, 1)))
-    frames, total = [now], round(SECONDS * RATE)
+    now = Configuration(*(np.tile(part, (runs, 1)) for part in node))
+    wishes, frames, total = whims(now.places.shape, rules, random), [now], round(SECONDS * RATE)
     for frame in range(total):
         heading = bend * min(1.0, 1.6 * frame / total)
-        now = advance(now, np.exp(1j * heading) * whims.drift(), whims.rules)
-        frames.append(now)
-    return Trajectories(*(np.array(part) for part in zip(*frames, strict=True)))
+        frames.append(advance(frames[-1], np.exp(1j * heading) * next(wishes), rules))
+    return stacked(frames)
 
 
 def bend_to(run: Trajectories, goal: Configuration) -> Points:
@@ -171,25 +183,21 @@ def clips_from(
     -------
     For each node a clip, and what `Drawn` says of it: bent, collided before, collided after, hardest.
     """
-    ends = Configuration(runs.places[-1], runs.velocities[-1])
+    ends = Configuration(*(part[-1] for part in runs))
     made = []
     for end, goal in enumerate(nodes):
         match = compare(ends, goal, rounds=4)
         best = int(match.rms.argmin())
         order, turn, move = match.order[best], complex(match.turn[best]), complex(match.move[best])
         there = Configuration(turn * goal.places[order] + move, turn * goal.velocities[order])
-        bent = bend_to(Trajectories(runs.places[:, best], runs.velocities[:, best]), there)
+        bent = bend_to(Trajectories(*(part[:, best] for part in runs)), there)
         paths, free = part(bent)
         velocities = np.gradient(paths, 1 / RATE, axis=0)
         velocities[0], velocities[-1] = nodes[start].velocities, there.velocities
-        clip = GroupClip(start, end, paths, velocities, order, turn, move, _bounds(paths))
+        middle = paths.mean(axis=1)
+        reach = np.ptp(middle.real) / 2 + middle.real.min(), np.ptp(middle.imag) / 2 + middle.imag.min()
+        disc = complex(*reach), float(np.abs(paths - complex(*reach)).max())
+        clip = GroupClip(start, end, paths, velocities, order, turn, move, disc)
         before = bool(nearest_two(bent).min() < APART)
         made.append((clip, (float(match.rms[best]), before, not free, float(accelerations(paths).max()))))
     return made
-
-
-def _bounds(paths: Points) -> tuple[complex, float]:
-    """Find a disc that holds all places: the middle of the extent of the group's mean, and the farthest."""
-    middle = paths.mean(axis=1)
-    centre = complex(np.ptp(middle.real) / 2 + middle.real.min(), np.ptp(middle.imag) / 2 + middle.imag.min())
-    return centre, float(np.abs(paths - centre).max())

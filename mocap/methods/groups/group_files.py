@@ -1,28 +1,33 @@
 """Group motion graphs in `.npz` files."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
-from mocap.methods.groups.configurations import Configuration
+from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
+from mocap.methods.groups.flocking import Configuration
 from mocap.methods.groups.group_clips import Drawn, GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph
 
-_ARRAYS: Layout = {  # of K nodes, C clips with T frames together, N members, and D clips drawn
-    "node_places": ("c", ("K", "N")),
-    "node_velocities": ("c", ("K", "N")),
-    **dict.fromkeys(("starts", "ends", "lengths"), ("i", ("C",))),
-    "places": ("c", ("T", "N")),
-    "velocities": ("c", ("T", "N")),
-    "orders": ("i", ("C", "N")),
-    **dict.fromkeys(("turns", "moves", "centres"), ("c", ("C",))),
-    "radii": ("f", ("C",)),
-    "bent": ("f", ("D",)),
-    "collided": ("b", ("D", 2)),
-    "hardest": ("f", ("D",)),
+# Of K nodes, C clips with T frames together, N members, and D clips drawn: kind, shape, and what is in it.
+ARRAYS: dict[str, tuple[str, tuple[int | str, ...], Callable[[GroupGraph], object]]] = {
+    "node_places": ("c", ("K", "N"), lambda graph: [node.places for node in graph.nodes]),
+    "node_velocities": ("c", ("K", "N"), lambda graph: [node.velocities for node in graph.nodes]),
+    "starts": ("i", ("C",), lambda graph: [clip.start for clip in graph.clips]),
+    "ends": ("i", ("C",), lambda graph: [clip.end for clip in graph.clips]),
+    "lengths": ("i", ("C",), lambda graph: [len(clip.places) for clip in graph.clips]),
+    "places": ("c", ("T", "N"), lambda graph: np.concatenate([clip.places for clip in graph.clips])),
+    "velocities": ("c", ("T", "N"), lambda graph: np.concatenate([clip.velocities for clip in graph.clips])),
+    "orders": ("i", ("C", "N"), lambda graph: [clip.order for clip in graph.clips]),
+    "turns": ("c", ("C",), lambda graph: [clip.turn for clip in graph.clips]),
+    "moves": ("c", ("C",), lambda graph: [clip.move for clip in graph.clips]),
+    "centres": ("c", ("C",), lambda graph: [clip.disc[0] for clip in graph.clips]),
+    "radii": ("f", ("C",), lambda graph: [clip.disc[1] for clip in graph.clips]),
+    "bent": ("f", ("D",), lambda graph: graph.drawn.bent),
+    "collided": ("b", ("D", 2), lambda graph: graph.drawn.collided),
+    "hardest": ("f", ("D",), lambda graph: graph.drawn.hardest),
 }
 
 
@@ -33,23 +38,7 @@ def save_group(graph: GroupGraph, path: str | Path) -> None:
     ------
     MocapError : for another suffix, and where the file cannot be written.
     """
-    clips = graph.clips
-    arrays = {
-        "node_places": [node.places for node in graph.nodes],
-        "node_velocities": [node.velocities for node in graph.nodes],
-        "starts": [clip.start for clip in clips],
-        "ends": [clip.end for clip in clips],
-        "lengths": [len(clip.places) for clip in clips],
-        "places": np.concatenate([clip.places for clip in clips]),
-        "velocities": np.concatenate([clip.velocities for clip in clips]),
-        "orders": [clip.order for clip in clips],
-        "turns": [clip.turn for clip in clips],
-        "moves": [clip.move for clip in clips],
-        "centres": [clip.disc[0] for clip in clips],
-        "radii": [clip.disc[1] for clip in clips],
-        **graph.drawn._asdict(),
-    }
-    write_arrays(path, _KIND, arrays)
+    write_arrays(path, GROUP, {key: take(graph) for key, (_, _, take) in ARRAYS.items()})
 
 
 def load_group(path: str | Path) -> GroupGraph:
@@ -59,12 +48,11 @@ def load_group(path: str | Path) -> GroupGraph:
     ------
     FormatError, MocapError : for a file that is missing, is another kind of file, or contradicts itself.
     """
-    arrays = read_arrays(path, _KIND)
-    stops = np.cumsum(arrays["lengths"])
-    frames = (np.split(arrays[key], stops[:-1]) for key in ("places", "velocities"))
+    arrays = read_arrays(path, GROUP)
+    stops = np.cumsum(arrays["lengths"])[:-1]
     rows = zip(
         *(arrays[key].tolist() for key in ("starts", "ends")),
-        *frames,
+        *(np.split(arrays[key], stops) for key in ("places", "velocities")),
         arrays["orders"],
         *(arrays[key].tolist() for key in ("turns", "moves")),
         zip(arrays["centres"].tolist(), arrays["radii"].tolist(), strict=True),
@@ -78,7 +66,7 @@ def load_group(path: str | Path) -> GroupGraph:
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     lengths, nodes = arrays["lengths"], len(arrays["node_places"])
     yield "all numbers are finite", [np.isfinite(part).all() for part in arrays.values()]
-    yield "clips have frames", len(lengths) and lengths.min() > 1
+    yield "clips have frames, all as many", len(lengths) and np.ptp(lengths) == 0 and lengths[0] > 1
     yield "clips fill the frames", lengths.sum() == len(arrays["places"])
     for key in ("starts", "ends"):
         yield "clips join nodes", (arrays[key] >= 0) & (arrays[key] < nodes)
@@ -86,4 +74,4 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     yield "clips renumber everybody", np.sort(arrays["orders"], axis=-1) == everybody
 
 
-_KIND = Kind("a group motion graph", 1, _ARRAYS, _rules)
+GROUP = Kind("a group motion graph", 1, {key: row[:2] for key, row in ARRAYS.items()}, _rules)

@@ -3,16 +3,14 @@
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Points
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.groups.clustering import cluster
-from mocap.methods.groups.configurations import Configuration, seen_from_itself
-from mocap.methods.groups.flocking import Flock, Trajectories, Whims, simulate
+from mocap.methods.groups.configurations import cluster, seen_from_itself
+from mocap.methods.groups.flocking import Configuration, Flock, Trajectories, simulate
 from mocap.methods.groups.group_clips import BENDS, HARDEST, Drawn, GroupClip, clips_from, run_from
 
 
@@ -65,6 +63,10 @@ class Placed(NamedTuple):
         """Say where spots of the ground lie as the group sees them."""
         return (spots - self.move) / self.turn
 
+    def after(self, clip: GroupClip) -> "Placed":
+        """Say where the group stands after a clip."""
+        return Placed(clip.end, self.turn * clip.turn, self.turn * clip.move + self.move)
+
 
 def make_clips(
     nodes: Sequence[Configuration],
@@ -90,7 +92,7 @@ def make_clips(
 
     Raises
     ------
-    MocapError : for no nodes, bends or seeds; for a node that stands; where no clip is kept, with how many
+    MocapError : for a node that stands; where no clip is kept, with how many
         collide and how many are too hard.
 
     Warns
@@ -99,21 +101,15 @@ def make_clips(
 
     Notebook: 19-group-graphs
     """
-    if not (len(nodes) and len(bends) and np.isfinite(bends).all() and seeds >= 1):
-        raise MocapError(
-            "Clips take a node, a bend and a seed or more, and finite bends; got "
-            f"{len(nodes)} nodes, bends {list(bends)} and {seeds} seeds."[:140]
-        )
     for node in nodes:
         seen_from_itself(node)  # refuses who stands
     rules, random = rules or Flock(), np.random.default_rng(seed)
     rules.check()
-    members = nodes[0].places.shape[-1]
     made = [
         one
         for start, node in enumerate(nodes)
         for bend in bends
-        for one in clips_from(start, nodes, run_from(node, bend, Whims((seeds, members), rules, random)))
+        for one in clips_from(start, nodes, run_from(node, bend, seeds, rules, random))
     ]
     facts = zip(*(about for _, about in made), strict=True)
     bent, before, after, hardest = (np.array(column) for column in facts)
@@ -125,8 +121,8 @@ def make_clips(
             f"{int((hardest > HARDEST).sum())} need more than {HARDEST:g} m/s²."
         )
     if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
-        said = f"No clip joins {missing} of {len(nodes) ** 2} pairs of nodes."
-        warnings.warn(said, MocapWarning, stacklevel=2)
+        pairs = f"{missing} of {len(nodes) ** 2} pairs"
+        warnings.warn(f"No clip joins {pairs} of nodes.", MocapWarning, stacklevel=2)
     return GroupGraph(tuple(nodes), clips, drawn)
 
 
@@ -216,19 +212,14 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
     if wrong := [number for number in walk if not 0 <= number < len(graph.clips)]:
         raise MocapError(f"There is no clip {wrong[0]}: this graph has {len(graph.clips)}.")
     clips = [graph.clips[number] for number in walk]
-    for before, after in pairwise(clips):
-        if before.end != after.start:
-            raise MocapError(f"A clip to node {before.end} is followed by one that leaves {after.start}.")
-    node, turn, move = start = start or Placed(clips[0].start)
-    graph.check(start)
-    if node != clips[0].start:
-        raise MocapError(f"A walk from node {node} starts with a clip that leaves {clips[0].start}.")
+    at = start or Placed(clips[0].start)
+    graph.check(at)
     order, places, velocities = np.arange(graph.members), [], []
     for clip in clips:
-        places.append((turn * clip.places + move)[:, order])
-        velocities.append((turn * clip.velocities)[:, order])
-        order = clip.order[order]
-        turn, move = turn * clip.turn, turn * clip.move + move
-    ends: list[Points] = [places[-1][-1:], velocities[-1][-1:]]
-    rows = ([frames[:-1] for frames in part] for part in (places, velocities))
-    return Trajectories(*(np.concatenate([*row, end]) for row, end in zip(rows, ends, strict=True)))
+        if at.node != clip.start:
+            raise MocapError(f"A group at node {at.node} cannot go on by a clip that leaves {clip.start}.")
+        places.append((at.turn * clip.places + at.move)[:, order])
+        velocities.append((at.turn * clip.velocities)[:, order])
+        order, at = clip.order[order], at.after(clip)
+    rows = ([*(frames[:-1] for frames in part), part[-1][-1:]] for part in (places, velocities))
+    return Trajectories(*map(np.concatenate, rows))

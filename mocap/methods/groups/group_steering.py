@@ -7,8 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError
-from mocap.methods.groups.configurations import Configuration
-from mocap.methods.groups.flocking import RATE, Flock, Trajectories, Whims, advance
+from mocap.methods.groups.flocking import RATE, Configuration, Flock, Trajectories, advance, stacked, whims
 from mocap.methods.groups.scenes import Scene
 
 
@@ -47,14 +46,14 @@ def steer_group(
     rules.check()
     if not 0 < limit < np.inf:  # in a pocket it would steer for ever
         raise MocapError(f"A flock is steered for more than 0 seconds and not for ever, got {limit}.")
-    now, goal = Trajectories(*start), 0
-    whims, frames = Whims(start.places.shape, rules, np.random.default_rng(seed)), [now]
+    wishes, frames = whims(start.places.shape, rules, np.random.default_rng(seed)), [start]
+    goal = 0
     while goal < len(scene.points) and len(frames) <= limit * RATE:
-        ahead = scene.points[goal] - now.places.mean()
-        now = advance(now, np.exp(1j * np.angle(ahead)) * whims.drift(), rules, scene.discs)
+        ahead = scene.points[goal] - frames[-1].places.mean()
+        now = advance(frames[-1], np.exp(1j * np.angle(ahead)) * next(wishes), rules, scene.discs)
         frames.append(now)
         goal += bool(abs(now.places.mean() - scene.points[goal]) < scene.near)
-    return Trajectories(*(np.array(part) for part in zip(*frames, strict=True))), goal
+    return stacked(frames), goal
 
 
 def clearances(flock: Trajectories, scene: Scene) -> Array:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Points, frozen
+from mocap._shared.arrays import Array, Points
 from mocap._shared.progress import Progress
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
@@ -117,7 +117,9 @@ def walk_group(
             f"A plan that is walked lasts a second or more, got {(len(flock.places) - 1) / RATE:g} s: "
             "does it lead away from where the group starts?"
         )
-    compiled = _with_plants(graph)
+    source = graph.source if isinstance(graph, CompiledGraph) else graph
+    marked = with_plants(source)
+    compiled = compile_graph(graph if marked is source else marked)
     walked = [_walk_one(compiled, places, bend=bend) for places in progress(list(flock.places.T))]
     motions = tuple(motion for motion, _ in walked)
     kept = float(np.mean([share for _, share in walked]))
@@ -128,19 +130,15 @@ def walk_group(
             MocapWarning,
             stacklevel=2,
         )
-    return GroupWalkers(motions, kept, frozen(wanted, np.complex128))
-
-
-def _with_plants(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
-    """Compile a graph whose clips say when feet stand."""
-    source = graph.source if isinstance(graph, CompiledGraph) else graph
-    marked = with_plants(source)
-    return compile_graph(graph if marked is source else marked)
+    return GroupWalkers(motions, kept, wanted)
 
 
 def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool) -> tuple[Motion, float]:
     """Walk one member's way, (F,) complex at ten places per second; say which share of plants is kept."""
-    wanted, further = _at_rate(places, graph.fps), _carried_on(places)
+    wanted = _at_rate(places, graph.fps)
+    # Carried on straight, so that a walk along it lasts until its end and does not wait there.
+    step = (places[-1] - places[-11]) / 10 if abs(places[-1] - places[-11]) > MOVES else MOVES
+    further = np.concatenate([places, places[-1] + step * np.arange(1, round(BEYOND * RATE) + 1)])
     path = GroundPath(from_ground(further))
     along = np.minimum(np.concatenate([[0.0], np.cumsum(np.abs(np.diff(further)))]), path.length)  # rounding
     some = np.arange(0, len(further), round(EVERY * RATE))
@@ -161,12 +159,6 @@ def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool) -> tuple[Moti
         warnings.simplefilter("ignore", MocapWarning)
         cleaned = clean_up(walked)
     return cleaned, plants_kept(cleaned, walked)
-
-
-def _carried_on(places: Points) -> Points:
-    """Carry a way on straight, so that a walk along it lasts until its end and does not wait there."""
-    step = (places[-1] - places[-11]) / 10 if abs(places[-1] - places[-11]) > MOVES else MOVES
-    return np.concatenate([places, places[-1] + step * np.arange(1, round(BEYOND * RATE) + 1)])
 
 
 def _at_rate(places: Points, fps: float) -> Points:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.arrays import Indices
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.groups.flocking import RATE
 from mocap.methods.groups.group_graphs import GroupGraph, Placed
@@ -60,14 +60,13 @@ class _State(NamedTuple):
         return clips[::-1]
 
 
-def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
+def plan_group(
     graph: GroupGraph,
     scene: Scene,
     *,
     start: Placed | None = None,
     weight: float = 2.0,
     most: int = MOST,
-    bounds: bool = True,
 ) -> GroupWalk:
     """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
 
@@ -82,7 +81,6 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
     start : where the group stands; at node 0 in the origin, going along +z, by default.
     weight : more finds a way sooner, and a longer one.
     most : states to expand at most.
-    bounds : compare discs first; False tests every frame, for measuring.
 
     Raises
     ------
@@ -103,35 +101,38 @@ def plan_group(  # noqa: PLR0913 (where, from where, and how thoroughly)
     _check_start(graph, begin, scene)
     if not 0 <= weight < np.inf:
         raise MocapError(f"A plan weighs what is left by 0 or more, got {weight}.")
-    obstacles, course = Obstacles(scene, bounds=bounds), _Course.of(scene, weight)
-    exits = [Exits(graph, node) for node in range(len(graph.nodes))]
+    obstacles, points = Obstacles(scene), len(scene.points)
+    exits = {node: Exits.of(graph, node) for node in {clip.start for clip in graph.clips}}
     waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, None, -1))], 0, 0
     seen: set[tuple[float, ...]] = set()
     while waiting and len(seen) < most:
         state = heappop(waiting)[2]
         farthest = max(farthest, state.goal)
-        if state.goal == len(scene.points):
+        if state.goal == points:
             return GroupWalk(state.walk(), state.seconds, len(seen), obstacles.tested, obstacles.spared)
         if (key := _key(state, timed=bool(scene.others))) in seen:
             continue
         seen.add(key)
-        leaving = exits[state.at.node]
-        for promise, after in course.go_on(leaving, obstacles.free(leaving, state.at, state.frames), state):
+        if (leaving := exits.get(state.at.node)) is None:
+            continue
+        rows = obstacles.free(leaving, state.at, state.frames)
+        for left, after in _go_on(leaving, rows, state, scene):
             count += 1
+            promise = after.seconds + (0.0 if after.goal == points else weight * left)
             heappush(waiting, (promise, count, after))
-    why = f"the limit of {most} states ended the search" if waiting else "obstacles closed every way"
-    raise NoWalk(
-        f"No way past point {farthest + 1} of {len(scene.points)} was found: {why} ({len(seen)} tried). "
-        + _what_helps(graph, scene, closed=not waiting)
-    )
-
-
-def _what_helps(graph: GroupGraph, scene: Scene, *, closed: bool) -> str:
-    """Say what to change where no way was found; the gap named just lets the narrowest node through."""
+    # The gap named just lets the narrowest node through.
     wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body
-    if closed:
-        return f"Start farther off or turned, take fewer members, or leave gaps of {wide:.1f} m."
-    return f"Set a point on the way, take fewer members, leave gaps of {wide:.1f} m, or allow more states."
+    why, helps = (
+        "obstacles closed every way",
+        "Start farther off or turned, take fewer members, or leave gaps",
+    )
+    if waiting:
+        why = f"the limit of {most} states ended the search"
+        helps = "Set a point on the way, take fewer members, allow more states, or leave gaps"
+    raise NoWalk(
+        f"No way past point {farthest + 1} of {points} was found: {why} ({len(seen)} tried). "
+        f"{helps} of {wide:.1f} m."
+    )
 
 
 def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
@@ -155,52 +156,22 @@ def _key(state: _State, *, timed: bool) -> tuple[float, ...]:
     return (node, state.goal, *cell, *([state.frames] if timed else []))
 
 
-class _Course(NamedTuple):
-    """Points to pass within `near`, the metres from each to the last one, and the weight of what is left."""
-
-    points: Points
-    near: float
-    remaining: Array
-    weight: float
-
-    @classmethod
-    def of(cls, scene: Scene, weight: float) -> "_Course":
-        """Measure a scene's legs."""
-        legs = np.abs(np.diff(scene.points))
-        remaining = np.append(np.cumsum(legs[::-1])[::-1], 0.0)
-        return cls(np.array(scene.points, dtype=np.complex128), scene.near, remaining, weight)
-
-    def go_on(self, exits: Exits, rows: Indices, state: _State) -> Iterator[tuple[float, _State]]:
-        """Walk some of the clips that leave a node: the promise and the state after each."""
-        if not len(rows):
-            return
-        points, ways = state.at.sees(self.points), exits.middles[rows]
-        close = (np.abs(ways - points[state.goal]) < self.near).any(axis=1)
-        passed = [
-            self._passed(way, points, state.goal) if hit else (state.goal, 0)
-            for way, hit in zip(ways, close, strict=True)
-        ]
-        left = self._left(points, ways[:, -1], exits.turns[rows], [goal for goal, _ in passed])
-        for row, (goal, frame), seconds in zip(rows.tolist(), passed, left.tolist(), strict=True):
-            clip, done = exits.clips[row], goal == len(points)
-            frames = state.frames + len(clip.places) - 1
-            so_far = (state.frames + frame if done else frames) / RATE
-            turn, move = state.at.turn, state.at.move
-            at = Placed(clip.end, turn * clip.turn, turn * clip.move + move)
-            after = _State(at, goal, frames, so_far, state, exits.numbers[row])
-            yield so_far + (0.0 if done else self.weight * seconds), after
-
-    def _passed(self, way: Points, points: Points, goal: int) -> tuple[int, int]:
-        """Say which point is next after a way, (F,), and in which frame the last one was passed."""
-        frame = 0
-        while goal < len(points) and (close := np.abs(way[frame:] - points[goal]) < self.near).any():
-            frame += int(close.argmax())
-            goal += 1
-        return goal, frame
-
-    def _left(self, points: Points, here: Points, turns: Points, goals: list[int]) -> Array:
-        """Expect how many seconds are left: metres to the next point and on from there, and turning there."""
-        goal = np.minimum(goals, len(points) - 1)
-        ahead = points[goal] - here
-        metres = np.maximum(np.abs(ahead) - self.near, 0.0) + self.remaining[goal]
-        return np.asarray(metres / PACE + TURNING * np.abs(np.angle(ahead / turns)))
+def _go_on(exits: Exits, rows: Indices, state: _State, scene: Scene) -> Iterator[tuple[float, _State]]:
+    """Walk some of the clips that leave a node: the seconds expected from its end on, and the state there."""
+    points, ways = state.at.sees(np.array(scene.points)), exits.middles[rows]
+    goals, frames = np.full(len(rows), state.goal), np.zeros(len(rows), int)
+    for row in np.flatnonzero((np.abs(ways - points[state.goal]) < scene.near).any(axis=1)):
+        for point in points[state.goal :]:
+            if not (close := np.abs(ways[row, frames[row] :] - point) < scene.near).any():
+                break
+            goals[row], frames[row] = goals[row] + 1, frames[row] + close.argmax()
+    legs = np.abs(np.diff(scene.points))
+    goal = np.minimum(goals, len(legs))
+    ahead = points[goal] - ways[:, -1]
+    metres = np.maximum(np.abs(ahead) - scene.near, 0.0) + np.append(np.cumsum(legs[::-1])[::-1], 0.0)[goal]
+    left = metres / PACE + TURNING * np.abs(np.angle(ahead / exits.turns[rows]))
+    last = state.frames + ways.shape[1] - 1
+    passed = np.where(goals == len(points), state.frames + frames, last) / RATE
+    for row, at, seconds, more in zip(rows, goals.tolist(), passed.tolist(), left.tolist(), strict=True):
+        clip = exits.clips[row]
+        yield more, _State(state.at.after(clip), at, last, seconds, state, exits.numbers[row])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Indices, Points
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.errors import MocapError
 from mocap.methods.groups.flocking import APART, Disc
 from mocap.methods.groups.group_clips import GroupClip
@@ -36,23 +36,15 @@ class Scene(NamedTuple):
 
     def check(self, start: complex) -> None:
         """Raise MocapError for what makes no sense, and for a start nowhere or inside a disc."""
-        if not np.isfinite(start):
-            raise MocapError(f"A group starts at a finite place, got {start}.")
-        if not self.points or not np.isfinite(self.points).all():
+        if not self.points or np.ndim(self.points) != 1 or not np.isfinite([start, *self.points]).all():
             raise MocapError(
-                f"A scene has one point z + ix to pass or more, all finite; got {self.points}."[:200]
+                f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"[
+                    :190
+                ]
+                + f" from {start}."
             )
-        if np.ndim(self.points) != 1:
-            raise MocapError(f"A point of a scene is one complex number z + ix, got {self.points[0]}."[:200])
-        if not (0 < self.near < np.inf and 0 <= self.body < np.inf):
-            raise MocapError(
-                "A scene is passed within more than 0 m and kept clear of by 0 m or more; "
-                f"got {self.near} m and {self.body} m."
-            )
-        if any(other.ndim != 2 or not other.size or not np.isfinite(other).all() for other in self.others):
-            raise MocapError("Other groups are finite places in a table of frames by members, one or more.")
         for centre, radius in self.discs:
-            if not (np.isfinite(centre) and np.isfinite(radius) and radius > 0):
+            if not (np.isfinite(centre) and 0 < radius < np.inf):
                 raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
             if abs(start - centre) < radius:
                 raise MocapError(
@@ -60,25 +52,28 @@ class Scene(NamedTuple):
                 )
 
 
-class Exits:
-    """The C clips that leave a node, side by side; shorter ones stay where they end.
+class Exits(NamedTuple):
+    """The C clips that leave a node, side by side: numbers, clips, bounds, turns, places and their middles.
 
-    Parameters
-    ----------
-    graph : whose clips.
-    node : that they leave.
+    `centres`, `radii` and `turns` (C,); `places` (C, F, N), complex, and their `middles` (C, F).
     """
 
-    def __init__(self, graph: GroupGraph, node: int) -> None:
-        self.numbers = graph.leaving(node)
-        self.clips = [graph.clips[number] for number in self.numbers]
-        self.centres = np.array([clip.disc[0] for clip in self.clips])
-        self.radii = np.array([clip.disc[1] for clip in self.clips])
-        self.turns = np.array([clip.turn for clip in self.clips])
-        frames = np.arange(max((len(clip.places) for clip in self.clips), default=0))
-        rows = [clip.places[np.minimum(frames, len(clip.places) - 1)] for clip in self.clips]
-        self.places = np.reshape(rows, (len(rows), len(frames), graph.members))  # (C, F, N)
-        self.middles = self.places.mean(axis=2)
+    numbers: list[int]
+    clips: list[GroupClip]
+    centres: Points
+    radii: Array
+    turns: Points
+    places: Points
+    middles: Points
+
+    @classmethod
+    def of(cls, graph: GroupGraph, node: int) -> "Exits":
+        """Take the clips that leave a node, which all last as long."""
+        numbers = graph.leaving(node)
+        clips = [graph.clips[number] for number in numbers]
+        bounds = zip(*((*clip.disc, clip.turn) for clip in clips), strict=True)
+        places = np.array([clip.places for clip in clips])
+        return cls(numbers, clips, *map(np.array, bounds), places, places.mean(axis=2))
 
 
 class Obstacles:
@@ -87,38 +82,31 @@ class Obstacles:
     Parameters
     ----------
     scene : whose discs and other groups.
-    bounds : compare bounds first; without them every frame is tested.
     """
 
-    def __init__(self, scene: Scene, *, bounds: bool = True) -> None:
+    def __init__(self, scene: Scene) -> None:
         self.spots = np.array([spot for spot, _ in scene.discs], dtype=np.complex128)
         self.sizes = np.array([radius + scene.body for _, radius in scene.discs])
-        self.others, self.bounds = scene.others, bounds
+        self.others = scene.others
         self.tested = self.spared = 0
 
     def free(self, exits: Exits, at: Placed, frame: int) -> Indices:
         """List which of the clips that leave a node keep clear of all, laid at a place, from a frame on."""
         spots = at.sees(self.spots)
-        reach = exits.radii[:, None] + self.sizes
-        near = np.abs(exits.centres[:, None] - spots) <= (reach if self.bounds else np.inf)
+        near = np.abs(exits.centres[:, None] - spots) <= exits.radii[:, None] + self.sizes
         self.spared += near.size - int(near.sum())
         free = np.ones(len(exits.clips), bool)
         for disc in np.flatnonzero(near.any(axis=0)):
             rows = np.flatnonzero(near[:, disc] & free)  # a clip that hits one disc is not tested again
             self.tested += len(rows)
-            gaps = np.abs(exits.places[rows] - spots[disc])
-            free[rows] = gaps.min(axis=(1, 2)) >= self.sizes[disc]
-        kept = np.flatnonzero(free)
+            free[rows] = np.abs(exits.places[rows] - spots[disc]).min(axis=(1, 2)) >= self.sizes[disc]
+        frames = frame + np.arange(exits.places.shape[1])
         for other in self.others:
-            kept = kept[[self._apart(exits.clips[row], at, frame, other) for row in kept]]
-        return kept
-
-    def _apart(self, clip: GroupClip, at: Placed, frame: int, other: Points) -> bool:
-        """Say whether a clip keeps away from the members of another group in the same frames."""
-        frames = frame + np.arange(len(clip.places))
-        others = at.sees(other[np.minimum(frames, len(other) - 1)])
-        if self.bounds and np.abs(others - clip.disc[0]).min() > clip.disc[1] + APART:
-            self.spared += 1
-            return True
-        self.tested += 1
-        return bool(np.abs(clip.places[:, :, None] - others[:, None]).min() >= APART)
+            members = at.sees(other[np.minimum(frames, len(other) - 1)])
+            for row in np.flatnonzero(free):
+                if np.abs(members - exits.centres[row]).min() > exits.radii[row] + APART:
+                    self.spared += 1
+                    continue
+                self.tested += 1
+                free[row] = np.abs(exits.places[row][:, :, None] - members[:, None]).min() >= APART
+        return np.flatnonzero(free)

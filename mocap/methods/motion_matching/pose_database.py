@@ -31,10 +31,10 @@ class PoseDatabase:
     clips : of one skeleton and one rate.
     values : shape (T, 27), standardised features; `mean` and `scale` (27,) made them so.
     ground, heading, drift, spin : shape (T,): where the body is and faces, and its velocity and turning.
-    usable : shape (T,), frames that a search may find.
-    last : shape (T,), the number of the last frame of each frame's clip.
     roots, turns : shape (T, 3) and (T, J, 4), the poses.
     speeds : shape (T, J + 1, 3): the root's in m/s, then each joint's in its own frame, rad/s.
+    usable : shape (T,), frames that a search may find.
+    last : shape (T,), the number of the last frame of each frame's clip.
     labels, contacts : as those of the clips, (T,) each.
     """
 
@@ -46,11 +46,11 @@ class PoseDatabase:
     heading: Array
     drift: Points
     spin: Array
-    usable: Mask
-    last: Indices
     roots: Array
     turns: Array
     speeds: Array
+    usable: Mask
+    last: Indices
     labels: Mapping[str, Mask]
     contacts: Mapping[str, Mask]
 
@@ -135,23 +135,14 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
         )
     frames = [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
-    ground, facing, drift, spin, roots, turns, speeds = (
-        np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True)
-    )
     return PoseDatabase(
         tuple(clips),
         frozen(values, np.float64),
         mean,
         scale,
-        ground,
-        facing,
-        drift,
-        spin,
+        *(np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True)),
         np.concatenate([np.arange(count)[::-1] >= END * rate for count in frames]),
         np.repeat(np.cumsum(frames) - 1, frames),
-        roots,
-        turns,
-        speeds,
         _marks([clip.labels for clip in clips], frames),
         _marks([clip.contacts for clip in clips], frames),
     )

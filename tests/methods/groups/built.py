@@ -14,8 +14,12 @@ def flock(count: int = 12, seconds: float = 120.0) -> Trajectories:
     return simulate(count, seconds)
 
 
-@cache
 def graph(count: int = 12, nodes: int = 8) -> GroupGraph:
+    return _graph(count, nodes)
+
+
+@cache
+def _graph(count: int, nodes: int) -> GroupGraph:
     return build_group(count, nodes=nodes)
 
 

@@ -1,20 +1,22 @@
 """Groups are matched by the best order, against all orders, and by a good turn, against 72 of them."""
 
+import warnings
 from itertools import permutations
 
 import numpy as np
 import pytest
 from scipy.optimize import linear_sum_assignment
 
-from mocap.errors import MocapError
+from mocap.errors import MocapError, MocapWarning
 from mocap.methods.groups.configurations import (
     SECONDS,
     Configuration,
-    _pairs,
     assignment_costs,
+    cluster,
     compare,
     seen_from_itself,
 )
+from mocap.methods.groups.flocking import Trajectories
 from tests.methods.groups.built import flock
 
 ALL_AROUND = tuple(2 * np.pi * k / 72 for k in range(72))
@@ -40,9 +42,7 @@ def greedy(costs):
 
 def by_frames(first, second, orders):
     """RMS of an order when both are seen from their own frames."""
-    costs = assignment_costs(
-        _pairs(first, second)[0], np.ones(len(first.places)), np.zeros(len(first.places))
-    )
+    costs = assignment_costs(first, second, np.ones(len(first.places)), np.zeros(len(first.places)))
     rows = np.arange(costs.shape[1])
     return np.sqrt([cost[rows, order].mean() for cost, order in zip(costs, orders(costs), strict=True)])
 
@@ -50,7 +50,7 @@ def by_frames(first, second, orders):
 def test_the_match_is_as_good_as_the_best_of_all_orders():
     """And better: `compare` turns the second, too."""
     first, second = drawn(6, 25)
-    costs = assignment_costs(_pairs(first, second)[0], np.ones(25), np.zeros(25))
+    costs = assignment_costs(first, second, np.ones(25), np.zeros(25))
     orders = np.array(list(permutations(range(6))))
     best = costs[:, np.arange(6), orders].mean(axis=-1).min(axis=1)
     assert (compare(first, second).rms <= np.sqrt(best) + 1e-12).all()
@@ -137,22 +137,63 @@ def lined_up(places, velocities=None):
 
 
 @pytest.mark.parametrize(
-    ("other", "how", "sentence"),
+    ("other", "sentence"),
     [
-        (lined_up([0j, 1j, 2j]), {}, "Groups of 3 and 2 members cannot be matched"),
-        (lined_up([0j, np.nan]), {}, "not finite"),
-        (lined_up([0j, 1j]), {"starts": ()}, "a round or more from finite turns"),
-        (lined_up([0j, 1j]), {"rounds": 0}, r"a round or more from finite turns, got 0 and \(0.0"),
-        (lined_up([0j, 1j]), {"starts": (np.nan,)}, r"from finite turns, got 5 and \(nan"),
-        (lined_up([0j, 1j], [1]), {}, "one place and one velocity for each member"),
+        (lined_up([0j, 1j, 2j]), "Groups of 3 and 2 members cannot be matched"),
+        (lined_up([0j, np.nan]), "not finite"),
     ],
 )
-def test_what_cannot_be_compared_is_refused(other, how, sentence):
+def test_what_cannot_be_compared_is_refused(other, sentence):
     with pytest.raises(MocapError, match=sentence):
-        compare(other, lined_up([0j, 1j]), **how)
+        compare(other, lined_up([0j, 1j]))
 
 
 @pytest.mark.parametrize(("velocities", "speed"), [([1j, -1j], "0.00"), ([np.nan, np.nan], "nan")])
 def test_a_group_that_stands_has_no_direction(velocities, speed):
     with pytest.raises(MocapError, match=f"moves by {speed} m/s on average has no direction"):
         seen_from_itself(lined_up([0j, 1j], velocities))
+
+
+@pytest.mark.parametrize(("count", "nodes", "covered"), [(12, 8, 0.85), (6, 6, 0.85)])
+def test_few_nodes_cover_most_of_a_simulation(count, nodes, covered):
+    found = cluster(flock(count, 300.0), nodes=nodes)
+    assert len(found.nodes) <= nodes and found.covered >= covered
+    near = (found.distances[found.frames // 10] < 0.5).any(axis=0)
+    assert near.mean() == pytest.approx(found.covered)
+
+
+def test_the_first_node_has_the_most_others_near():
+    found = cluster(flock(6, 120.0), nodes=3)
+    assert (found.distances < 0.5).sum(axis=1).argmax() == found.frames[0] // 10
+
+
+def test_nodes_are_the_same_wherever_the_flock_walked_and_whatever_its_numbers():
+    walked = flock(6, 120.0)
+    order = np.random.default_rng(2).permutation(6)
+    moved = Trajectories(*(part[:, order] * np.exp(1.2j) for part in walked))
+    moved = Trajectories(moved.places + 30 - 7j, moved.velocities)
+    one, other = cluster(walked, nodes=4), cluster(moved, nodes=4)
+    np.testing.assert_array_equal(one.frames, other.frames)
+    np.testing.assert_allclose(one.distances, other.distances, atol=1e-6)
+
+
+def test_where_nodes_cover_little_it_says_so():
+    with pytest.warns(MocapWarning, match=r"1 nodes are within 0.3 m of \d+% of what was simulated"):
+        cluster(flock(12, 60.0), nodes=1, reach=0.3)
+
+
+def test_it_ends_where_all_are_covered():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(cluster(flock(6, 60.0), nodes=50, reach=2.0).nodes) < 50
+
+
+def test_no_frames_have_no_nodes():
+    with pytest.raises(MocapError, match="There is no frame to take nodes from"):
+        cluster(Trajectories(*np.zeros((2, 0, 3), complex)))
+
+
+@pytest.mark.parametrize("wrong", [{"nodes": 0}, {"reach": 0.0}, {"reach": np.nan}])
+def test_what_makes_no_sense_is_refused(wrong):
+    with pytest.raises(MocapError, match="a node or more and a reach above 0"):
+        cluster(flock(6, 30.0), **wrong)

@@ -113,8 +113,7 @@ def test_two_are_pushed_just_apart(gap):
         ({"rules": Flock(space=-1.0)}, "not below 0; space is -1.0"),
         ({"rules": Flock(pace=np.nan)}, "finite and not below 0; pace is nan"),
         ({"count": np.nan}, "two members or more, got nan"),
-        ({"rules": Flock(space=0.0)}, "a space above 0 m, .* got 0.0 m"),
-        ({"rules": Flock(slowest=2.0)}, "got 1.4 m, 2.0 and 1.6 m/s"),
+        ({"rules": Flock(space=0.0)}, "space is 0.0"),
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, sentence):
