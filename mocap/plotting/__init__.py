@@ -7,16 +7,15 @@ Reading order (notebooks 00 to 19)
 ----------------------------------
 1. `style`: colours that colour-blind readers can tell apart
 2. `bodies`: bodies as lines, on flat axes
-3. `axes`: 3D axes with a ground
-4. `stick_figures`: bodies on 3D axes
-5. `bodies_on_path`: a whole walk in one picture
-6. `grids`: distances and costs as images
-7. `ground_charts`: paths, footprints and ways from above
-8. `charts`: curves, bands, bars and trees
-9. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-10. `search_tree`: the walks that a search expands and cuts off
-11. `storyboards`: a transition in four panels
-12. `picture`: a figure as a picture in a notebook
+3. `stick_figures`: bodies on 3D axes with a ground
+4. `bodies_on_path`: a whole walk in one picture
+5. `grids`: distances and costs as images
+6. `ground_charts`: paths, footprints and ways from above
+7. `charts`: curves, bands, bars and trees
+8. `graph_drawing`: motion graphs as timelines and as nodes with arrows
+9. `search_tree`: the walks that a search expands and cuts off
+10. `storyboards`: a transition in panels
+11. `picture`: a figure as a picture in a notebook
 
 References
 ----------
@@ -40,8 +39,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "source_colours",
         ],
         "bodies": ["bones", "flat_bodies", "target_poses"],
-        "axes": ["ground_axes", "to_picture"],
-        "stick_figures": ["StickFigure", "laid_over", "stick_figure"],
+        "stick_figures": ["StickFigure", "ground_axes", "laid_over", "stick_figure", "to_picture"],
         "bodies_on_path": ["bodies_along"],
         "grids": ["boxes_image", "distance_image", "walk_rows", "warp_image", "web_image"],
         "ground_charts": [
@@ -62,7 +60,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "search_tree": ["TreePicture", "grow_tree"],
-        "storyboards": ["Shot", "storyboard"],
+        "storyboards": ["storyboard"],
         "picture": ["Picture", "show", "stack"],
     },
 )

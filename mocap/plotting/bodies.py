@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -19,18 +19,11 @@ from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.style import ASKED, COLOURS
 
 
-class Bones(NamedTuple):
-    """The B lines of a body: from joint `starts` to joint `ends`, on the body's side `sides`; shapes (B,)."""
+def bones(skeleton: Skeleton) -> tuple[Indices, Indices, NDArray[np.str_]]:
+    """List the B lines of a body: the joints where they start and end, and their sides, shapes (B,).
 
-    starts: NDArray[np.intp]
-    ends: NDArray[np.intp]
-    sides: NDArray[np.str_]
-
-
-def bones(skeleton: Skeleton) -> Bones:
-    """List the lines of a body; joints that share a place share one line.
-
-    The line from a parent to its child is the parent's bone, and so it is on the parent's side.
+    Joints that share a place share one line. The line from a parent to its child is the parent's bone, and so
+    it is on the parent's side.
 
     Examples
     --------
@@ -43,7 +36,7 @@ def bones(skeleton: Skeleton) -> Bones:
     """
     ends = np.array(distinct_joints(skeleton)[1:], np.intp)
     starts = skeleton.parents[ends]
-    return Bones(starts, ends, np.array([skeleton.side(int(parent)) for parent in starts], str))
+    return starts, ends, np.array([skeleton.side(int(parent)) for parent in starts], str)
 
 
 def head_joints(skeleton: Skeleton) -> list[int]:
@@ -90,7 +83,6 @@ def draw_body(
 def flat_bodies(
     motion: Motion,
     frames: Sequence[int],
-    *,
     view: Literal["side", "front"] = "side",
     alpha: float = 1.0,
     ax: Axes | None = None,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
@@ -12,9 +13,8 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
-from mocap.plotting.axes import rims
 from mocap.plotting.bodies import draw_body
+from mocap.plotting.stick_figures import rims
 from mocap.plotting.style import ASKED, FLOOR, MARK, PATH, QUIET, own_colour, source_colours
 
 WIDTH = 9.0  # inches
@@ -22,7 +22,6 @@ LOW, HIGH = 1.9, 4.6  # inches: the least and the greatest height of the picture
 RISE = np.radians(24)  # how far above the ground the camera stands
 MOST = 15  # bodies; more would hide one another
 FEW = 3  # characters; of more, the bodies of one moment are drawn together
-GREY = "#666666"
 APART = 0.7  # metres between two bodies at least
 
 
@@ -59,26 +58,32 @@ def bodies_along(
 
     Notebook: 00-quickstart
     """
-    asked = np.reshape(np.asarray(path, float), (-1, 2))
+    asked = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
     clouds = [joint_positions(motion) for motion in motions]
-    ways = [cloud[:, 0, [0, 2]] for cloud in clouds]
-    view = _View(np.concatenate([*ways, asked]))
-    view.ax.add_collection(PolyCollection(list(view.see(rims(discs))), facecolors=QUIET, zorder=0.5))
-    view.line(asked, ASKED, "asked path", 4.0)
+    ways = [cloud[:, 0] * [1, 0, 1] for cloud in clouds]
+    figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
+    ax = figure.add_subplot(aspect="equal")
+    look = _draw_floor(ax, np.concatenate([*ways, asked]))
+    ax.add_collection(PolyCollection(list(rims(discs) @ look[:2].T), facecolors=QUIET, zorder=0.5))
+    lines = [(asked, ASKED, "asked path", 4.0)] if len(asked) else []
     named = len(motions) == 1 or len({motion.name for motion in motions}) > 1  # colours need different names
     together = np.linspace(0, min(map(len, motions)) - 1, 3).astype(int)  # of a group, the same three moments
     for number, (motion, cloud, way) in enumerate(zip(motions, clouds, ways, strict=True)):
         own = own_colour(number, len(motions))
         spans = _spans(motion, sources if number == 0 else (), own, named)
-        for start, end, colour, name in spans:
-            view.line(way[start : end + 1], colour or PATH, name)
+        lines += [(way[start : end + 1], colour or PATH, name, 1.6) for start, end, colour, name in spans]
         for frame in together if len(motions) > FEW else _chosen(way):
             (colour,) = [colour for start, end, colour, _ in spans if start <= frame < end]
-            view.body(motion.skeleton, cloud[frame], colour)
+            near = 4 - float(np.tanh(look[2] @ cloud[frame, 0] / 50))  # over those that are farther
+            head = {"markersize": 7, "zorder": near, "clip_on": False}
+            points = cloud[frame] @ look[:2].T
+            draw_body(ax, motion.skeleton, points, colour=colour, head=head, linewidths=2, zorder=near)
+    for way, colour, name, wide in lines:
+        ax.plot(*look[:2] @ way.T, color=colour, linewidth=wide, label=name, zorder=1)
     if len(marked := np.asarray(list(seams), int)):
-        places = view.see(clouds[0][marked, 0] * [1, 0, 1])
-        view.ax.plot(*places.T, "D", color=MARK, markersize=6, label="seam", zorder=2)
-    return view.framed()
+        ax.plot(*look[:2] @ ways[0][marked].T, "D", color=MARK, markersize=6, label="seam", zorder=2)
+    _frame(ax)
+    return figure
 
 
 def _spans(
@@ -92,72 +97,48 @@ def _spans(
     return [(start, end, colours[name], name) for (start, name), end in zip(sources, ends, strict=True)]
 
 
-class _View:
-    """A parallel projection in which the longest way over the ground, points (N, 2), runs across."""
+def _draw_floor(ax: Axes, ground: Array) -> Array:
+    """Choose where to look from, so that the longest way over the ground runs across; draw squares of 1 m.
 
-    def __init__(self, ground: Array) -> None:
-        x, z = np.linalg.svd(ground - ground.mean(axis=0), full_matrices=False)[2][0]
-        if (ground[-1] - ground[0]) @ (x, z) < 0:
-            x, z = -x, -z
-        self.axes = np.array([[x, 0, z], [z, 0, -x]])  # across, and away from the camera
-        self.up = np.cos(RISE) * np.array([0, 1, 0]) + np.sin(RISE) * self.axes[1]
-        self.figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
-        self.ax = self.figure.add_subplot(aspect="equal")
-        self.ax.set_axis_off()
-        self._grid(_level(ground) @ self.axes.T)
-
-    def see(self, points: Array) -> Array:
-        """Project points, shape (..., 3), metres, to places in the picture, shape (..., 2)."""
-        return np.stack([points @ self.axes[0], points @ self.up], axis=-1)
-
-    def _grid(self, ground: Array) -> None:
-        """Draw squares of 1 m on the floor; of 10, 100, ... m rather than more than a thousand in a row."""
-        cell = 10.0 ** np.ceil(np.log10(max(np.ptp(ground, axis=0).max() / 1000, 1.0)))
-        low, high = np.floor(ground.min(axis=0) / cell - 0.5), np.ceil(ground.max(axis=0) / cell + 0.5)
-        away = [((x, low[1]), (x, high[1])) for x in np.arange(low[0], high[0] + 1)]
-        along = [((low[0], z), (high[0], z)) for z in np.arange(low[1], high[1] + 1)]
-        lines = self.see(cell * np.array([*away, *along]) @ self.axes)
-        self.ax.add_collection(LineCollection(list(lines), colors=FLOOR, linewidths=0.8, zorder=0))
-
-    def line(self, ground: Array, colour: str, name: str, wide: float = 1.6) -> None:
-        """Draw a line over the ground, points (x, z); each name stands in the legend once."""
-        if len(ground):
-            known = name in self.ax.get_legend_handles_labels()[1]
-            label = None if known or not name else name
-            self.ax.plot(*self.see(_level(ground)).T, color=colour, linewidth=wide, label=label, zorder=1)
-
-    def body(self, skeleton: Skeleton, points: Array, colour: str | None) -> None:
-        """Draw a body, over those that are farther from the camera."""
-        near = 4 - float(np.tanh(points[0] @ self.axes[1] / 50))
-        head = {"markersize": 7, "zorder": near, "clip_on": False}
-        draw_body(self.ax, skeleton, self.see(points), colour=colour, head=head, linewidths=2, zorder=near)
-
-    def framed(self) -> Figure:
-        """Make the picture as high as what it shows, and name the colours above it."""
-        self.ax.margins(0.02, 0.04)
-        self.ax.autoscale_view()
-        wide, high = np.ptp(self.ax.get_xlim()), np.ptp(self.ax.get_ylim())
-        self.figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
-        if columns := min(6, len(self.ax.get_legend_handles_labels()[1])):
-            self.ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, fontsize=9, frameon=False)
-        self.ax.text(
-            1, 1.02, "lines 1 m apart", transform=self.ax.transAxes, ha="right", fontsize=8, color=GREY
-        )
-        return self.figure
+    They are 10, 100, ... m wide rather than more than a thousand in a row. Returned are the picture's
+    directions across, up and away from the camera, as rows of (3, 3).
+    """
+    across = np.linalg.svd(ground - ground.mean(axis=0), full_matrices=False)[2][0]
+    across = -across if (ground[-1] - ground[0]) @ across < 0 else across
+    away = np.cross([0, 1, 0], across)
+    floor = np.stack([across, away])
+    low, high = (f(ground @ floor.T, axis=0) for f in (np.min, np.max))
+    cell = 10.0 ** np.ceil(np.log10(max((high - low).max() / 1000, 1.0)))
+    low, high = np.floor(low / cell - 0.5), np.ceil(high / cell + 0.5)
+    grid = [((x, low[1]), (x, high[1])) for x in np.arange(low[0], high[0] + 1)]
+    grid += [((low[0], z), (high[0], z)) for z in np.arange(low[1], high[1] + 1)]
+    look = np.stack([across, np.cos(RISE) * np.array([0, 1, 0]) + np.sin(RISE) * away, away])
+    lines = cell * np.array(grid) @ floor @ look[:2].T
+    ax.add_collection(LineCollection(list(lines), colors=FLOOR, linewidths=0.8, zorder=0))
+    return look
 
 
-def _chosen(ground: Array) -> list[int]:
-    """Choose frames of a path, shape (F, 2), whose places are far enough from each other."""
+def _frame(ax: Axes) -> None:
+    """Make the picture as high as what it shows, and name each colour above it, once."""
+    ax.set_axis_off()
+    ax.margins(0.02, 0.04)
+    ax.autoscale_view()
+    wide, high = np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())
+    ax.figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
+    handles, names = ax.get_legend_handles_labels()
+    if named := dict(zip(names, handles, strict=True)):
+        look = {"loc": "lower left", "bbox_to_anchor": (0, 1), "fontsize": 9, "frameon": False}
+        ax.legend(named.values(), named, ncols=min(6, len(named)), **look)
+    ax.text(1, 1.02, "lines 1 m apart", transform=ax.transAxes, ha="right", fontsize=8, color="#666666")
+
+
+def _chosen(way: Array) -> list[int]:
+    """Choose frames of a path over the ground, shape (F, 3), whose places are far enough from each other."""
     apart, chosen = APART, [0]
     while True:
-        for frame, place in enumerate(ground):
-            if np.linalg.norm(ground[chosen] - place, axis=-1).min() > apart:
+        for frame, place in enumerate(way):
+            if np.linalg.norm(way[chosen] - place, axis=-1).min() > apart:
                 chosen.append(frame)
         if len(chosen) <= MOST:
             return chosen
         apart, chosen = 1.15 * apart, [0]
-
-
-def _level(ground: Array) -> Array:
-    """Give points (x, z), shape (N, 2), the height 0: shape (N, 3)."""
-    return np.insert(ground, 1, 0.0, axis=-1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle, repeat
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -13,7 +14,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
 from mocap.methods.match_webs.match_search import Match
 from mocap.plotting.style import ASKED, ASTRAY, COLOURS, CURVES, MARK, PATH, QUIET, source_colours
 
@@ -58,10 +58,8 @@ def joint_curve(
     for start, end in np.reshape(seams, (-1, 2)) / fps:
         ax.axvspan(start, end, color=MARK, alpha=0.25, linewidth=1)
     curves = ax.plot(np.arange(len(columns)) / fps, columns, linewidth=1.6)
-    for number, curve in enumerate(curves):
-        curve.set_color(CURVES[number % len(CURVES)])
-    for curve, label in zip(curves, labels, strict=False):
-        curve.set_label(label)
+    for curve, colour, label in zip(curves, cycle(CURVES), labels or repeat(None)):
+        curve.set(color=colour, label=label)
     if len(labels) > 1:
         ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=len(labels))
     ax.set(xlabel="time (s)", ylabel=labels[0] if len(labels) == 1 else None)
@@ -232,7 +230,11 @@ def match_tree(
     Notebook: 16-match-webs
     """
     ax = ax or plt.figure(figsize=(7, 4), layout="constrained").add_subplot()
-    places, colours = _tree_places(matches), source_colours([*order, *kinds])
+    places, colours = np.zeros((len(matches), 2)), source_colours([*order, *kinds])
+    for step in range(1, 1 + max(match.generation for match in matches)):  # as their finders stand
+        inside = [n for n, match in enumerate(matches) if match.generation == step]
+        inside.sort(key=lambda n: (places[matches[n].via, 1], n))
+        places[inside] = [(step, n - (len(inside) - 1) / 2) for n in range(len(inside))]
     links = [(places[match.via], places[n]) for n, match in enumerate(matches) if match.via >= 0]
     ax.add_collection(LineCollection(links, colors=QUIET, linewidths=0.8, zorder=0))
     ax.scatter(places[:, 0], places[:, 1], s=26, color=[colours[kind] for kind in kinds])
@@ -247,23 +249,8 @@ def match_tree(
     return ax
 
 
-def _tree_places(matches: Sequence[Match]) -> Array:
-    """Place each match at its step; within a step as its finders stand, from the middle to both sides."""
-    places = np.zeros((len(matches), 2))
-    for step in range(1, 1 + max(match.generation for match in matches)):
-        inside = [n for n, match in enumerate(matches) if match.generation == step]
-        inside.sort(key=lambda n: (places[matches[n].via, 1], n))
-        places[inside] = [(step, n - (len(inside) - 1) / 2) for n in range(len(inside))]
-    return places
-
-
 def space_image(
-    values: ArrayLike,
-    examples: int,
-    *,
-    wishes: ArrayLike = (),
-    got: ArrayLike = (),
-    ax: Axes | None = None,
+    values: ArrayLike, examples: int, *, wishes: ArrayLike = (), got: ArrayLike = (), ax: Axes | None = None
 ) -> Axes:
     """Draw what the samples of a space do, and arrows from wishes to what their blends do.
 

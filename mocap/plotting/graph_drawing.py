@@ -1,7 +1,8 @@
 """Pictures of graphs: large ones as bars and arcs along time, small ones as nodes and arrows."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -11,7 +12,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.path import Path
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices
 from mocap.errors import MocapError
@@ -58,13 +58,19 @@ def timeline(
     """
     clips, fps = motion_graph.clips, motion_graph.clips[0].fps
     ax = ax or plt.figure(figsize=(7, 0.7 * len(clips) + 1), layout="constrained").add_subplot()
-    edges = [edge for _, _, edge in motion_graph.graph.edges(data=True)]
     frames = np.array(list(motion_graph.graph.edges(keys=False)), int).reshape(-1, 2, 2)  # (clip, frame)
     ends = frames[..., ::-1] / [fps, -1]  # (E, 2, 2): (seconds, row)
+    edges = [edge for _, _, edge in motion_graph.graph.edges(data=True)]
     stays = np.array([edge["kind"] == "clip" for edge in edges], bool)
+    whole = [[(0, -clip), (len(motion) / fps, -clip)] for clip, motion in enumerate(clips)]
+    ax.add_collection(LineCollection(whole, colors=QUIET, linewidths=1, zorder=0))
+    colours = [SOURCES[clip % len(SOURCES)] for clip in frames[stays, 0, 0]]
+    ax.add_collection(LineCollection(list(ends[stays]), colors=colours, linewidths=5, capstyle="butt"))
+    if len(motion_graph.graph) <= MOST_NODES:
+        x, y = np.array(motion_graph.graph.nodes).reshape(-1, 2)[:, ::-1].T / [[fps], [-1]]
+        ax.plot(x, y, "o", color="white", markeredgecolor=COLOURS["middle"], markersize=5)
     costs = np.array([edge.get("cost", 0.0) for edge in edges])[~stays]
-    chosen = np.sort(_cheapest(frames[~stays][..., 0], costs, each)[:most])
-    _draw_clips(motion_graph, frames[stays], ax)
+    chosen = sorted(islice(_cheapest(frames[~stays, :, 0], costs, each), most))
     arcs = _arcs(ends[~stays][chosen])
     fade = min(1.0, 0.06 + 60 / (len(arcs) + 1))
     transitions = LineCollection(list(arcs), colors=MARK, linewidths=0.7, alpha=fade, zorder=1.5)
@@ -82,33 +88,14 @@ def timeline(
     return transitions
 
 
-def _cheapest(pairs: Indices, costs: Array, each: int | None) -> Indices:
-    """Order transitions by cost, the lowest first; from each clip to each, keep `each`: their numbers."""
-    order = np.argsort(costs, kind="stable")
-    if each is None:
-        return order
+def _cheapest(pairs: Indices, costs: Array, each: int | None) -> Iterator[int]:
+    """Give the numbers of transitions by cost, the lowest first; from each clip to each, at most `each`."""
     seen: Counter[tuple[int, ...]] = Counter()
-    kept = []
-    for number in order:
+    for number in np.argsort(costs, kind="stable").tolist():
         pair = tuple(pairs[number].tolist())
         seen[pair] += 1
-        if seen[pair] <= each:
-            kept.append(number)
-    return np.array(kept, int)
-
-
-def _draw_clips(motion_graph: MotionGraph, pieces: Indices, ax: Axes) -> None:
-    """Draw clips as thin lines, their `pieces` in the graph, (clip, frame), as bars, and up to 100 nodes."""
-    clips, fps = motion_graph.clips, motion_graph.clips[0].fps
-    whole = [[(0, -clip), (len(motion) / fps, -clip)] for clip, motion in enumerate(clips)]
-    ax.add_collection(LineCollection(whole, colors=QUIET, linewidths=1, zorder=0))
-    colours = [SOURCES[clip % len(SOURCES)] for clip in pieces[:, 0, 0]]
-    bars = list(pieces[..., ::-1] / [fps, -1])
-    ax.add_collection(LineCollection(bars, colors=colours, linewidths=5, capstyle="butt"))
-    nodes = np.array(motion_graph.graph.nodes).reshape(-1, 2)
-    if len(nodes) <= MOST_NODES:
-        x, y = nodes[:, 1] / fps, -nodes[:, 0]
-        ax.plot(x, y, "o", color="white", markeredgecolor=COLOURS["middle"], markersize=5)
+        if each is None or seen[pair] <= each:
+            yield number
 
 
 def _draw_ends(arcs: Array, ax: Axes) -> None:
@@ -128,11 +115,7 @@ def _arcs(ends: Array) -> Array:
 
 
 def node_link(
-    graph: nx.DiGraph,
-    *,
-    places: Places | None = None,
-    kept: nx.DiGraph | None = None,
-    ax: Axes | None = None,
+    graph: nx.DiGraph, *, places: Places | None = None, kept: nx.DiGraph | None = None, ax: Axes | None = None
 ) -> tuple[PathCollection, list[FancyArrowPatch]]:
     """Draw a small directed graph: nodes as discs with their names, edges as bent arrows.
 
@@ -168,42 +151,28 @@ def node_link(
             "`plotting.timeline` shows large ones."
         )
     ax = ax or plt.figure(figsize=(4, 4), layout="constrained").add_subplot()
-    places = places or nx.circular_layout(graph)
+    places, ink = places or nx.circular_layout(graph), COLOURS["middle"]
     kept = graph if kept is None else kept
     at = np.array([places[node] for node in graph], float)
-    faces = [COLOURS["middle"] if node in kept else "#E8E8E8" for node in graph]
-    discs = ax.scatter(at[:, 0], at[:, 1], s=420, c=faces, edgecolors=COLOURS["middle"], zorder=2)
+    faces = [ink if node in kept else "#E8E8E8" for node in graph]
+    discs = ax.scatter(at[:, 0], at[:, 1], s=420, c=faces, edgecolors=ink, zorder=2)
+    words: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9, "zorder": 3}
     for node, place in zip(graph, at, strict=True):
-        colour = "white" if node in kept else COLOURS["middle"]
-        ax.annotate(_name(node), place, ha="center", va="center", color=colour, fontsize=9, zorder=3)
-    arrows = [_arrow(places[a], places[b], kept.has_edge(a, b)) for a, b in graph.edges()]
-    for arrow in arrows:
-        ax.add_patch(arrow)
+        name = ",".join(map(str, node)) if isinstance(node, tuple) else str(node)
+        ax.annotate(name, place, color="white" if node in kept else ink, **words)
+    arrows = []
+    for a, b in graph.edges():
+        # An arrow bends to its left, so that it and the arrow back are apart; a loop goes over its node.
+        way: Any = _round_above if np.array_equal(places[a], places[b]) else "arc3,rad=0.15"
+        shape: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 12, "shrinkA": 11, "shrinkB": 11}
+        arrow = FancyArrowPatch(places[a], places[b], connectionstyle=way, linewidth=1.2, zorder=1, **shape)  # type: ignore[arg-type]
+        stays = kept.has_edge(a, b)
+        arrow.set(color=ink if stays else QUIET, linestyle="-" if stays else "--")
+        arrows.append(ax.add_patch(arrow))
     ax.set(aspect="equal")
     ax.margins(0.2)
     ax.set_axis_off()
     return discs, arrows
-
-
-def _name(node: object) -> str:
-    return ",".join(map(str, node)) if isinstance(node, tuple) else str(node)
-
-
-def _arrow(start: Sequence[float], end: Sequence[float], kept: bool) -> FancyArrowPatch:
-    """Bend an arrow to its left, so that an arrow and the arrow back are apart; a loop goes over its node."""
-    return FancyArrowPatch(
-        (start[0], start[1]),
-        (end[0], end[1]),
-        connectionstyle=_round_above if np.array_equal(start, end) else "arc3,rad=0.15",  # type: ignore[arg-type]  # any callable will do
-        arrowstyle="-|>",
-        mutation_scale=12,
-        shrinkA=11,
-        shrinkB=11,
-        color=COLOURS["middle"] if kept else QUIET,
-        linestyle="-" if kept else "--",
-        linewidth=1.2,
-        zorder=1,
-    )
 
 
 def _round_above(start: Sequence[float], _: object, *, shrinkA: float, **__: object) -> Path:
@@ -212,15 +181,12 @@ def _round_above(start: Sequence[float], _: object, *, shrinkA: float, **__: obj
     return Path(start + shrinkA * corners, [Path.MOVETO, Path.CURVE4, Path.CURVE4, Path.CURVE4])
 
 
-def before_and_after(
-    whole: MotionGraph, pruned: MotionGraph, *, axes: ArrayLike | None = None
-) -> tuple[LineCollection, LineCollection]:
+def before_and_after(whole: MotionGraph, pruned: MotionGraph) -> list[LineCollection]:
     """Draw a motion graph before and after pruning, one above the other.
 
     Parameters
     ----------
     whole, pruned : the graph before and after.
-    axes : two; new ones by default.
 
     Returns
     -------
@@ -236,13 +202,10 @@ def before_and_after(
 
     Notebook: 06b-pruning-clips
     """
-    if axes is None:
-        size = (7, 1.4 * len(whole.clips) + 1.6)
-        axes = plt.figure(figsize=size, layout="constrained").subplots(2, 1, sharex=True)
-    before, after = np.ravel(np.asarray(axes, object))
-    arcs = timeline(whole, ax=before), timeline(pruned, ax=after)
-    for ax, graph, when in ((before, whole, "before"), (after, pruned, "after")):
-        ax.set_title(
-            f"{when}: {graph.graph.number_of_nodes()} nodes, {graph.count('transition')} transitions"
-        )
-    return arcs
+    figure = plt.figure(figsize=(7, 1.4 * len(whole.clips) + 1.6), layout="constrained")
+    both, drawn = zip((whole, pruned), ("before", "after"), strict=True), []
+    for ax, (graph, when) in zip(figure.subplots(2, 1, sharex=True), both, strict=True):
+        drawn.append(timeline(graph, ax=ax))
+        counts = f"{graph.graph.number_of_nodes()} nodes, {graph.count('transition')} transitions"
+        ax.set_title(f"{when}: {counts}")
+    return drawn

@@ -24,12 +24,7 @@ STEPS = LinearSegmentedColormap.from_list("steps", ["#E4E4E4", QUIET])
 
 
 def distance_image(
-    grid: Grid,
-    *,
-    fps: float,
-    minima: ArrayLike = (),
-    names: Sequence[str] = ("", ""),
-    ax: Axes | None = None,
+    grid: Grid, *, fps: float, minima: ArrayLike = (), names: Sequence[str] = ("", ""), ax: Axes | None = None
 ) -> AxesImage:
     """Draw a distance grid, dark where the windows are alike, with its minima marked [KGP02, Fig. 3].
 
@@ -101,8 +96,7 @@ def web_image(
     Notebook: 16-match-webs
     """
     ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
-    marked = () if marks is None else np.argwhere(marks)
-    _centimetres(100 * np.asarray(grid), marked, (rate, 0.0), ax)
+    _centimetres(100 * np.asarray(grid), () if marks is None else np.argwhere(marks), (rate, 0.0), ax)
     ax.lines[-1].set(markersize=2, markeredgewidth=0)
     lines = [(np.asarray(path)[:, ::-1] + 0.5) / rate for path in paths]
     ax.add_collection(LineCollection(lines, colors=PATH, linewidths=2))
@@ -110,38 +104,32 @@ def web_image(
     return ax
 
 
-def warp_image(
-    grid: Grid,
-    path: ArrayLike,
-    *,
-    warp: Warp | None = None,
-    curve: Curve | None = None,
-    ax: Axes | None = None,
-) -> Axes:
+def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: Axes | None = None) -> Axes:
     """Draw the distances of two clips with the path of time through them.
 
     Parameters
     ----------
-    grid : √D, shape (n, m), metres; rows are the windows of the reference.
+    grid : √D, shape (n, m), metres, by the rate and the window of `Warp()`; rows are the windows of the
+        reference. The axes show the seconds in the middle of each window.
     path : its cells (row, column), shape (N, 2), drawn as dots.
-    warp : of the grid, `Warp()` by default; the axes show the seconds in the middle of each window.
     curve : from the reference's seconds to the other clip's, drawn where the path is.
     ax : axes; new ones by default.
 
     Examples
     --------
-    >>> grid, warp = np.array([[0.02, 0.1], [0.1, 0.03]]), Warp(rate=10, window=1)
-    >>> warp_image(grid, [(0, 0), (1, 1)], warp=warp).lines[0].get_xydata().round(9).tolist()
-    [[0.0, 0.0], [0.1, 0.1]]
+    >>> cells = warp_image(np.array([[0.02, 0.1], [0.1, 0.03]]), [(0, 0), (1, 1)]).lines[0]
+    >>> cells.get_xydata().round(3).tolist()  # a window of five frames, thirty a second
+    [[0.067, 0.067], [0.1, 0.1]]
 
     Notebook: 15-registration
     """
     ax = ax or plt.figure(figsize=(4.8, 4.4), layout="constrained").add_subplot()
-    fps, window, *_ = warp or Warp()
+    fps, window, *_ = Warp()
     half = (window / 2 - 1) / fps  # from the start of the first window to the edge of its cell, in its middle
     _centimetres(100 * np.asarray(grid), path, (fps, half), ax)
     ax.lines[-1].set_markersize(2.5)
-    if curve is not None and len(u := np.asarray(ax.lines[-1].get_ydata())):
+    if curve is not None:
+        u = np.asarray(ax.lines[-1].get_ydata())
         times = np.linspace(u[0], u[-1], 200)
         (line,) = ax.plot(curve(times), times, color="#FFFFFF", linewidth=2)
         line.set_path_effects([Stroke(linewidth=4, foreground="#000000"), Normal()])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import html
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -46,10 +46,8 @@ def show(drawn: Any, alt: str) -> Picture:  # noqa: ANN401 (whatever a plotting 
     if not alt.strip():
         raise MocapError("A picture needs a sentence for readers who do not see it: alt='...'.")
     figure = figure_of(drawn)
-    try:
-        return Picture(small_png(figure), alt)
-    finally:
-        plt.close(figure)
+    plt.close(figure)
+    return Picture(small_png(figure), alt)
 
 
 def stack(figures: Sequence[Figure], alt: str) -> Picture:
@@ -67,12 +65,11 @@ def stack(figures: Sequence[Figure], alt: str) -> Picture:
     >>> Image.open(io.BytesIO(picture.picture)).size
     (220, 330)
     """
-    parts = [Image.open(io.BytesIO(small_png(figure))).convert("RGB") for figure in figures]
-    whole = Image.new("RGB", (max(part.width for part in parts), sum(part.height for part in parts)), "white")
-    top = 0
-    for part in parts:
+    parts = [Image.open(io.BytesIO(small_png(figure))) for figure in figures]
+    tops = np.cumsum([0, *(part.height for part in parts)]).tolist()
+    whole = Image.new("RGB", (max(part.width for part in parts), tops[-1]), "white")
+    for part, top in zip(parts, tops, strict=False):
         whole.paste(part, (0, top))
-        top += part.height
     return Picture(few_colours(whole), alt)
 
 
@@ -112,29 +109,24 @@ def figure_of(drawn: Any) -> Figure:  # noqa: ANN401
     ------
     MocapError : where no figure holds them.
     """
-    for figure in _figures(drawn):
-        return figure
+    parts = [drawn]
+    while parts:
+        part = parts.pop(0)
+        if isinstance(part, list | tuple | np.ndarray):
+            parts[:0] = getattr(part, "flat", part)
+        elif isinstance(figure := getattr(part, "figure", None), Figure):
+            return figure
     raise MocapError(f"A picture must be given as a figure, or artists on one, not as {drawn!r:.99}.")
-
-
-def _figures(drawn: Any) -> Iterator[Figure]:  # noqa: ANN401
-    if isinstance(drawn, list | tuple | np.ndarray):
-        for part in getattr(drawn, "flat", drawn):
-            yield from _figures(part)
-    elif isinstance(figure := getattr(drawn, "figure", None), Figure):
-        yield figure
 
 
 def small_png(figure: Figure) -> bytes:
     """Draw a figure as a PNG of few colours."""
-    full = io.BytesIO()
-    figure.savefig(full, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
+    figure.savefig(full := io.BytesIO(), format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
     return few_colours(Image.open(full))
 
 
 def few_colours(picture: Image.Image) -> bytes:
     """Encode a picture as a PNG of few colours."""
-    small = io.BytesIO()
     few = picture.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
-    few.save(small, "png", optimize=True)
+    few.save(small := io.BytesIO(), "png", optimize=True)
     return small.getvalue()

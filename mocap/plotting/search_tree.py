@@ -6,7 +6,7 @@ To expand a walk is to lengthen it by every edge that leaves its last node.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from typing import NamedTuple
 
 import matplotlib.pyplot as plt
@@ -19,12 +19,9 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.errors import MocapError
 from mocap.plotting.style import CURVES, PATH, QUIET
-from mocap.synthesis.bounded_search import Problem, SearchEdge, State, branch_and_bound
-
-Watched = tuple[State, tuple[SearchEdge, ...]]  # a problem's state, and the walk that leads to it
+from mocap.synthesis.bounded_search import Branch, Problem, State, children
 
 MOST_BRANCHES = 20_000
-UNSEEN = "#CCCCCC"
 
 
 class SearchTree(NamedTuple):
@@ -33,26 +30,24 @@ class SearchTree(NamedTuple):
     Parameters
     ----------
     parent : shape (T,), the walk without its last edge; -1 for the empty walk.
-    edge : the last edge of each.
     state : the problem's state after each.
     frames, cost : shape (T,), how long each is, and its cost f.
     complete : shape (T,), whether the halting rule or the horizon ends it.
     known : shape (T,), after how many expansions the search has expanded it, or, for a complete walk, has
-        found it to be the best so far; T where it never does.
+        found it to be the best so far; infinite where it never does.
     """
 
     parent: Indices
-    edge: list[SearchEdge | None]
     state: list[State]
     frames: Indices
     cost: Array
     complete: Mask
-    known: Indices
+    known: Array
 
     @property
     def expanded(self) -> int:
         """How many walks the search expanded."""
-        return int(((self.known < len(self.known)) & ~self.complete).sum())
+        return int((np.isfinite(self.known) & ~self.complete).sum())
 
     def best(self, expanded: int) -> int:
         """Find the cheapest complete walk known after so many expansions; -1 before there is one."""
@@ -62,20 +57,12 @@ class SearchTree(NamedTuple):
     def cut(self, expanded: int) -> Mask:
         """Mark the walks that the bound has cut off after so many expansions."""
         best = self.best(expanded)
-        bound = self.cost[best] if best >= 0 else np.inf
-        return self.waiting(expanded) & (self.cost >= bound)
+        return self.waiting(expanded) & (self.cost >= (self.cost[best] if best >= 0 else np.inf))
 
     def waiting(self, expanded: int) -> Mask:
         """Mark the walks that are not known after so many expansions, but whose parents are."""
         met = self.known <= expanded
         return np.asarray(met[self.parent] & (self.parent >= 0) & ~met)
-
-    def line(self, walk: int) -> list[int]:
-        """List the walks from the empty one to this one, each the parent of the next."""
-        line = [walk]
-        while (walk := int(self.parent[walk])) >= 0:
-            line.append(walk)
-        return line[::-1]
 
 
 def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float = math.inf) -> SearchTree:
@@ -88,7 +75,6 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
     Raises
     ------
     MocapError : for more than 20 000 walks, too many for a picture.
-    NoWalk : as `branch_and_bound` does.
 
     Examples
     --------
@@ -102,66 +88,22 @@ def grow_tree(problem: Problem, node: Hashable, state: State, *, horizon: float 
 
     Notebook: 07-walks-and-search
     """
-    taken: list[tuple[SearchEdge, ...]] = []
-
-    def done(watched: Watched) -> bool:
-        taken.append(watched[1])  # the search asks this of every walk that it takes up and does not cut
-        return problem.done(watched[0])
-
-    def step(watched: Watched, edge: SearchEdge) -> tuple[float, Watched]:
-        cost, after = problem.step(watched[0], edge)
-        return cost, (after, (*watched[1], edge))
-
-    watching = Problem(problem.graph, step, done)
-    found = _every_walk(watching, node, (state, ()), horizon)
-    taken.clear()
-    branch_and_bound(watching, node, (state, ()), horizon=horizon)
-    parent, watched, frames, cost, complete = zip(*found, strict=True)
-    states, walks = zip(*watched, strict=True)
-    return SearchTree(
-        np.array(parent),
-        [walk[-1] if walk else None for walk in walks],
-        list(states),
-        np.array(frames),
-        np.array(cost, float),
-        np.array(complete),
-        _known(walks, taken, dict(zip(walks, complete, strict=True))),
-    )
-
-
-def _known(
-    walks: Sequence[tuple[SearchEdge, ...]],
-    taken: list[tuple[SearchEdge, ...]],
-    complete: dict[tuple[SearchEdge, ...], bool],
-) -> Indices:
-    """Say after how many expansions each walk is known, from the order in which the search took them up."""
-    known, expanded = {}, 0
-    for walk in taken:
-        expanded += not complete[walk]
-        known[walk] = expanded
-    return np.array([known.get(walk, len(walks)) for walk in walks])
-
-
-def _every_walk(
-    problem: Problem, node: Hashable, state: State, horizon: float
-) -> list[tuple[int, State, int, float, bool]]:
-    """List all walks without a bound, depth first, cheap ones first: parent, state, frames, f, complete."""
-    waiting: list[tuple[int, Hashable, State, int, float]] = [(-1, node, state, 0, 0.0)]
-    found: list[tuple[int, State, int, float, bool]] = []
-    while waiting:
-        parent, node, state, frames, cost = waiting.pop()
-        complete = problem.done(state) or frames >= horizon
-        found.append((parent, state, frames, cost, complete))
+    found: list[tuple[int, State, int, float, bool, float]] = []  # the columns of a tree
+    waiting, bound, expanded = [(-1, Branch(0.0, node, state))], math.inf, 0
+    while waiting:  # in the order of the search, which the bound does not change
+        parent, walk = waiting.pop()
+        complete = problem.done(walk.state) or walk.frames >= horizon
+        known = math.inf
+        if walk.cost < bound and (parent < 0 or math.isfinite(found[parent][-1])):  # the search takes it up
+            expanded += not complete
+            known, bound = expanded, walk.cost if complete else bound
+        found.append((parent, walk.state, walk.frames, walk.cost, complete, known))
         if len(found) > MOST_BRANCHES:
             raise MocapError(f"There are more than {MOST_BRANCHES} walks: look less far ahead.")
-        if complete:
-            continue
-        children = []
-        for start, end, key, more in problem.graph.out_edges(node, keys=True, data="frames"):
-            added, after = problem.step(state, (start, end, key))
-            children.append((len(found) - 1, end, after, frames + more, cost + added))
-        waiting += sorted(children, key=lambda child: child[-1], reverse=True)
-    return found
+        if not complete:
+            waiting += [(len(found) - 1, child) for child in children(problem, walk)]
+    parents, states, *rest = zip(*found, strict=True)
+    return SearchTree(np.array(parents), list(states), *map(np.array, rest))
 
 
 class TreePicture:
@@ -193,11 +135,18 @@ class TreePicture:
         self.tree = tree
         self.ax = ax or plt.figure(figsize=(9, 3.6), layout="constrained").add_subplot()
         self.places = _spread(tree) if places is None else np.asarray(places, float)
-        self.ax.add_collection(self._bundle(np.arange(1, len(tree.parent)), UNSEEN, 0.7, "never seen"))
-        self.expanded = self._bundle([], CURVES[0], 1.6, "expanded")
-        self.pending = self._bundle([], QUIET, 0.9)
-        self.cut = self._bundle([], CURVES[1], 0.9)
-        self.best = self._bundle([], PATH, 3.5, "best so far")
+        never, self.expanded, self.pending, self.cut, self.best = [
+            LineCollection([], colors=colour, linewidths=width, label=name, capstyle="round")
+            for colour, width, name in (
+                ("#CCCCCC", 0.7, "never seen"),
+                (CURVES[0], 1.6, "expanded"),
+                (QUIET, 0.9, None),
+                (CURVES[1], 0.9, None),
+                (PATH, 3.5, "best so far"),
+            )
+        ]
+        never.set_segments(self._lines(np.arange(1, len(tree.parent))))
+        self.ax.add_collection(never)
         (self.crosses,) = self.ax.plot([], [], "x", color=CURVES[1], markersize=4.5, label="cut by the bound")
         (self.rings,) = self.ax.plot([], [], "o", color=QUIET, mfc="white", markersize=4, label="waiting")
         for bundle in (self.pending, self.cut, self.expanded, self.best):
@@ -211,24 +160,22 @@ class TreePicture:
     def after(self, expanded: int | None = None) -> list[Artist]:
         """Show the search after so many expansions, by default all, and return the artists that moved."""
         tree, expanded = self.tree, self.tree.expanded if expanded is None else expanded
-        met, cut, best = tree.known <= expanded, tree.cut(expanded), tree.best(expanded)
+        cut, walk, line = tree.cut(expanded), tree.best(expanded), []
         pending = tree.waiting(expanded) & ~cut
-        self.expanded.set_segments(self._lines(np.flatnonzero(met & (tree.parent >= 0))))
+        while walk > 0:
+            line.append(walk)
+            walk = int(tree.parent[walk])
+        self.expanded.set_segments(self._lines(np.flatnonzero((tree.known <= expanded) & (tree.parent >= 0))))
         self.cut.set_segments(self._lines(np.flatnonzero(cut)))
         self.pending.set_segments(self._lines(np.flatnonzero(pending)))
-        self.best.set_segments(self._lines(tree.line(best)[1:] if best >= 0 else []))
+        self.best.set_segments(self._lines(np.array(line[::-1], int)))
         self.crosses.set_data(*self.places[cut].T)
         self.rings.set_data(*self.places[pending].T)
         return [self.pending, self.cut, self.expanded, self.best, self.crosses, self.rings]
 
-    def _lines(self, walks: ArrayLike) -> list[Array]:
+    def _lines(self, walks: Indices) -> list[Array]:
         """Give a line for the last edge of each of these walks: the places of its two ends."""
-        ends = np.asarray(walks, int)
-        return list(np.stack([self.places[self.tree.parent[ends]], self.places[ends]], axis=1))
-
-    def _bundle(self, walks: ArrayLike, colour: str, width: float, name: str | None = None) -> LineCollection:
-        lines = self._lines(walks)
-        return LineCollection(lines, colors=colour, linewidths=width, label=name, capstyle="round")
+        return list(np.stack([self.places[self.tree.parent[walks]], self.places[walks]], axis=1))
 
 
 def _spread(tree: SearchTree) -> Array:

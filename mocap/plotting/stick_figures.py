@@ -1,23 +1,124 @@
-"""Bodies drawn as lines on 3D axes."""
+"""Bodies drawn as lines on 3D axes with a ground, and where the camera looks.
+
+The world's (z, x, y) are matplotlib's (x, y, z): its third axis points up, ours is y.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
-from mpl_toolkits.mplot3d import Axes3D
+from mpl_toolkits.mplot3d import Axes3D, proj3d
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.plotting.axes import ground_around, to_picture
 from mocap.plotting.bodies import bones, head_joints
-from mocap.plotting.style import COLOURS, PATH, SOURCES, own_colour
+from mocap.plotting.style import COLOURS, FLOOR, PATH, SOURCES, own_colour
+
+TALL = 1.9  # metres above the ground that pictures show
+ZOOM = 1.55  # of the camera, where nothing has to be brought inside the picture
+
+
+def to_picture(points: ArrayLike) -> Array:
+    """Turn y-up world coordinates, shape (..., 3), into matplotlib's z-up ones, without mirroring.
+
+    Examples
+    --------
+    >>> to_picture([1, 2, 3])  # x to the left, y up, z ahead
+    array([3., 1., 2.])
+
+    Notebook: 03b-angles
+    """
+    return np.roll(np.asarray(points, float), 1, axis=-1)
+
+
+def ground_axes(
+    centre: ArrayLike = (0.0, 0.0), reach: float = 1.0, *, tall: float = TALL, ax: Axes3D | None = None
+) -> Axes3D:
+    """Set up a square of ground with lines every half metre.
+
+    Parameters
+    ----------
+    centre : its middle (x, z), metres.
+    reach : metres from there to each side.
+    tall : metres above the ground that are seen.
+    ax : 3D axes; by default they fill a new figure.
+
+    Examples
+    --------
+    >>> ax = ground_axes((0, 5), reach=2, ax=filled(Figure()))
+    >>> np.concatenate([ax.get_ylim(), ax.get_xlim()]).tolist()  # matplotlib's y is our x, its x our z
+    [-2.0, 2.0, 3.0, 7.0]
+
+    Notebook: 01-skeletons-and-clips
+    """
+    ax = ax or filled(plt.figure(figsize=(5, 5)))
+    ax.set_axis_off()
+    ax.computed_zorder = False  # the ground is drawn below the feet, wherever the camera stands
+    ax.view_init(elev=14, azim=-55)
+    ax.set_proj_type("persp", focal_length=0.6)
+    ax.set_box_aspect((2 * reach, 2 * reach, tall), zoom=ZOOM)
+    ax.set_zlim(0, tall)
+    ax.add_collection3d(Line3DCollection(np.zeros((1, 2, 3)), colors=FLOOR, linewidths=0.8, zorder=0))
+    look_at(ax, np.asarray(centre, float), reach)
+    return ax
+
+
+def ground_around(points: Array, ax: Axes3D | None = None) -> Axes3D:
+    """Set up ground that is wide and high enough for points, shape (..., 3), metres."""
+    low, high = (f(points.reshape(-1, 3), axis=0) for f in (np.min, np.max))
+    centre, wide = (low + high)[[0, 2]] / 2, (high - low)[[0, 2]]
+    ax = ground_axes(centre, max(1.2, *wide) / 2 + 0.3, tall=max(TALL, high[1]), ax=ax)
+    keep_inside(ax, points)
+    return ax
+
+
+def filled(figure: Figure) -> Axes3D:
+    """Add 3D axes that fill a whole figure."""
+    return figure.add_axes((0, 0, 1, 1), projection="3d")
+
+
+def look_at(ax: Axes3D, centre: Array, reach: float) -> None:
+    """Show the ground around a point (x, z); the first collection of `ax`, its lines, keeps to the world."""
+    x, z = centre
+    ax.set(xlim=(z - reach, z + reach), ylim=(x - reach, x + reach))
+    along, across = (np.arange(np.ceil((c - reach) * 2), np.floor((c + reach) * 2) + 1) / 2 for c in centre)
+    lines = [[(x0, 0, z - reach), (x0, 0, z + reach)] for x0 in along]
+    lines += [[(x - reach, 0, z0), (x + reach, 0, z0)] for z0 in across]
+    ax.collections[0].set_segments(to_picture(lines))
+
+
+def rims(discs: ArrayLike) -> Array:
+    """Outline discs on the ground, shape (N, 3), x, z and radius in metres: (N, 48, 3).
+
+    Examples
+    --------
+    >>> rims([[3, 4, 1]])[0, ::12].round(6).tolist()
+    [[3.0, 0.0, 5.0], [4.0, 0.0, 4.0], [3.0, 0.0, 3.0], [2.0, 0.0, 4.0]]
+    """
+    x, z, radius = np.reshape(np.asarray(discs, float), (-1, 3)).T[..., None]
+    angle = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+    across, along = x + radius * np.sin(angle), z + radius * np.cos(angle)
+    return np.stack([across, np.zeros_like(across), along], axis=-1)
+
+
+def keep_inside(ax: Axes3D, points: Array) -> None:
+    """Zoom out until all points, shape (..., 3), metres, are inside the picture; never zoom in."""
+    flat, zoom = to_picture(points).reshape(-1, 3), ZOOM
+    spans = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
+    for _ in range(3):  # in perspective, the first step is only nearly right
+        ax.apply_aspect()
+        across, up, _ = proj3d.proj_transform(*flat.T, ax.get_proj())
+        seen = ax.transAxes.inverted().transform(ax.transData.transform(np.stack([across, up], axis=-1)))
+        zoom /= max(1.0, 2 * float(np.abs(seen - 0.5).max()) / 0.92)
+        ax.set_box_aspect(spans, zoom=zoom)
 
 
 class StickFigure:
@@ -37,33 +138,40 @@ class StickFigure:
     >>> walk = datasets.sample("walk_straight")
     >>> body = StickFigure(walk.skeleton, ground_axes(ax=Figure().add_subplot(projection="3d")))
     >>> moved = body.pose(joint_positions(walk)[30])  # `explore` draws only these again
-    >>> len(moved)  # left, right, middle, head
-    4
+    >>> len(moved)  # the bones, and the head
+    2
 
     Notebook: 01-skeletons-and-clips
     """
 
     def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0, colour: str | None = None) -> None:
+        starts, ends, sides = bones(skeleton)
+        order = np.argsort([list(COLOURS).index(side) for side in sides], kind="stable")
+        self.ends, self.head = np.stack([starts, ends], axis=1)[order], head_joints(skeleton)
+        colours = [colour or COLOURS[side] for side in sides[order]]
+        nowhere = np.zeros((len(order), 2, 3))
+        self.bones = Line3DCollection(nowhere, colors=colours, linewidths=2.4, alpha=alpha, zorder=3)
+        ax.add_collection3d(self.bones)
+        dot = colour or COLOURS["middle"]
+        (self.dot,) = ax.plot([], [], [], "o", color=dot, markersize=11, alpha=alpha, zorder=3)
         self.figure = ax.figure
-        self.starts, self.ends, self.sides = bones(skeleton)
-        self.head = head_joints(skeleton)
-        look: dict[str, Any] = {"alpha": alpha, "zorder": 3}
-        self.bones = {
-            side: Line3DCollection(np.zeros((1, 2, 3)), colors=colour or own, linewidths=2.4, **look)
-            for side, own in COLOURS.items()
-        }
-        for part in self.bones.values():
-            ax.add_collection3d(part)
-        (self.dot,) = ax.plot([], [], [], "o", color=colour or COLOURS["middle"], markersize=11, **look)
 
     def pose(self, points: Array) -> list[Artist]:
         """Move to the joint positions `points`, shape (J, 3), metres, and return the artists that moved."""
-        segments = to_picture(np.stack([points[self.starts], points[self.ends]], axis=1))
-        for side, part in self.bones.items():
-            part.set_segments(segments[self.sides == side])
+        self.bones.set_segments(to_picture(points[self.ends]))
         if self.head:
             self.dot.set_data_3d(*to_picture(points[self.head].mean(axis=0))[:, None])
-        return [*self.bones.values(), self.dot]
+        return [self.bones, self.dot]
+
+
+def _draw_poses(
+    motion: Motion, points: Array, ax: Axes3D, alphas: Sequence[float], colour: str | None = None
+) -> list[StickFigure]:
+    """Draw a stick figure for each pose, shape (F, J, 3)."""
+    figures = [StickFigure(motion.skeleton, ax, alpha, colour) for alpha in alphas]
+    for figure, pose in zip(figures, points, strict=True):
+        figure.pose(pose)
+    return figures
 
 
 def stick_figure(
@@ -95,10 +203,7 @@ def stick_figure(
     ax = ax or ground_around(points)
     ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
     ghosts = [0.15 + 0.35 * k / len(shown) for k in range(len(shown) - 1)]
-    figures = [StickFigure(motion.skeleton, ax, alpha) for alpha in (*ghosts, 1.0)]
-    for figure, pose in zip(figures, points, strict=True):
-        figure.pose(pose)
-    return figures
+    return _draw_poses(motion, points, ax, [*ghosts, 1.0])
 
 
 def laid_over(
@@ -132,11 +237,8 @@ def laid_over(
     ax = ax or ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
     drawn = []
     for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
-        figures = [StickFigure(motion.skeleton, ax, 0.7, colour) for _ in points]
-        for figure, pose in zip(figures, points, strict=True):
-            figure.pose(pose)
+        drawn.append(_draw_poses(motion, points, ax, [0.7] * len(points), colour))
         ax.plot([], [], [], color=colour, linewidth=2.4, label=motion.name)
-        drawn.append(figures)
     ax.legend(loc="upper left", frameon=False)
     return drawn[0], drawn[1]
 

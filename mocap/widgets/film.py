@@ -23,8 +23,7 @@ from mocap._shared.progress import Progress
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError
-from mocap.plotting.axes import filled, ground_axes, look_at, rims, to_picture
-from mocap.plotting.stick_figures import StickFigure
+from mocap.plotting.stick_figures import StickFigure, filled, ground_axes, look_at, rims, to_picture
 from mocap.plotting.style import PATH, QUIET, own_colour
 from mocap.widgets.player import play
 

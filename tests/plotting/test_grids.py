@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.blending import Curve, Warp, register
+from mocap.blending import register
 from mocap.matching import distance_grid, point_cloud, time_path
 from mocap.methods.match_webs import minima_1d
 from mocap.plotting import boxes_image, distance_image, walk_rows, warp_image, web_image
@@ -45,12 +45,6 @@ def test_the_curve_lies_on_the_cells_of_the_path():
     assert (left, top) == pytest.approx((1.5 / 30, 1.5 / 30))
     assert (right, bottom) == pytest.approx(((grid.shape[1] + 1.5) / 30, (grid.shape[0] + 1.5) / 30))
     assert ax.images[0].get_array().max() == pytest.approx(100 * grid.max())
-
-
-@pytest.mark.parametrize("curve", [None, Curve(0.0, 1.0, np.array([-0.5, 0.5, 1.5]))])
-def test_a_grid_may_stand_without_path_or_curve(curve):
-    (cells,) = warp_image(np.ones((3, 4)), [], warp=Warp(rate=10.0, window=1), curve=curve).lines
-    assert not len(cells.get_xdata())
 
 
 def test_boxes_lie_over_the_costs_of_all_pairs():

@@ -1,78 +1,101 @@
-"""Bodies as lines: every bone is drawn, where the joints are."""
+"""Bodies on 3D axes: every bone where the joints are; the ground keeps to the world, nothing is cut off."""
 
 from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.colors import to_rgba
+from mpl_toolkits.mplot3d import proj3d
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.skeleton import Skeleton
 from mocap.plotting import stick_figures
-from mocap.plotting.axes import to_picture
-from mocap.plotting.stick_figures import film_strip
-from tests.plotting.test_axes import on_picture
-from tests.strategies import wave
+from mocap.plotting.stick_figures import film_strip, to_picture
+from mocap.plotting.style import COLOURS
+from tests.strategies import random_motion, seeds, wave
 
 
-def test_a_stick_figure_has_every_bone_where_the_joints_are():
-    motion = wave(30)
-    (figure,) = stick_figures.stick_figure(motion, 12)
-    (root, elbow, hand, side) = to_picture(joint_positions(motion)[12])
-    drawn = np.concatenate([part._segments3d for part in figure.bones.values()])
-    expected = {tuple(np.round([*a, *b], 9)) for a, b in ((root, elbow), (elbow, hand), (root, side))}
-    assert {tuple(np.round(segment.ravel(), 9)) for segment in np.asarray(drawn)} == expected
+def on_picture(ax, points):
+    """Give where points of the world are on the axes, from 0 to 1 each way."""
+    ax.figure.draw_without_rendering()
+    x, y, _ = proj3d.proj_transform(*to_picture(points).reshape(-1, 3).T, ax.get_proj())
+    return ax.transAxes.inverted().transform(ax.transData.transform(np.stack([x, y], -1)))
 
 
-def test_left_and_right_have_their_own_colours():
+def test_world_axes_are_not_mirrored():
+    x, y, z = to_picture(np.eye(3))
+    assert np.cross(x, y) == pytest.approx(z)
+    assert y.tolist() == [0, 0, 1]  # up is up
+
+
+def test_the_ground_stays_where_it_is_in_the_world():
+    ax = stick_figures.ground_axes((0.3, 7.1), 1.0)
+    stick_figures.look_at(ax, np.array([0.4, 6.8]), 1.0)
+    lines = np.asarray(ax.collections[0]._segments3d)
+    assert np.all(lines[..., 2] == 0)
+    constant = np.where(np.ptp(lines[..., 0], axis=1) == 0, lines[:, 0, 0], lines[:, 0, 1])
+    assert constant.tolist() == [-0.5, 0.0, 0.5, 1.0, 6.0, 6.5, 7.0, 7.5]
+
+
+@given(seeds, st.floats(0.2, 30), st.floats(-1000, 1000))
+@settings(max_examples=15)
+def test_poses_are_never_cut_off(seed, size, away):
+    motion = random_motion(seed)
+    motion = replace(motion, root_positions=np.abs(motion.root_positions) * size + [away, 0, -away])
+    points = joint_positions(motion)[[0, 2, 4]]
+    seen = on_picture(stick_figures.ground_around(points), points)
+    assert 0 <= seen.min() <= seen.max() <= 1
+
+
+def test_nothing_zooms_in_on_points_that_are_inside_already():
+    ax = stick_figures.ground_axes()
+    before = on_picture(ax, np.eye(3))
+    stick_figures.keep_inside(ax, np.array([[0.0, 0.9, 0.0]]))
+    assert on_picture(ax, np.eye(3)) == pytest.approx(before)
+
+
+def test_a_stick_figure_has_every_bone_where_the_joints_are_in_the_colour_of_its_side():
     names = ["hips", "lleg", "rleg", "lfoot", "rfoot", "head"]
     body = Skeleton(names, [-1, 0, 0, 1, 2, 0], [[0, 0, 0]] + [[x, -0.4, 0] for x in (0.1, -0.1, 0, 0.01, 0)])
     motion = replace(wave(5), skeleton=body, rotations=np.tile([1.0, 0, 0, 0], (5, 6, 1)), contacts={})
     (figure,) = stick_figures.stick_figure(motion, 2)
-    assert {side: len(part._segments3d) for side, part in figure.bones.items()} == {
-        "left": 1,
-        "right": 1,
-        "middle": 3,
+    at = to_picture(joint_positions(motion)[2])
+    expected = {
+        (*at[a], *at[b], side) for a, b, side in ((0, 1, "middle"), (0, 2, "middle"), (0, 5, "middle"))
     }
+    expected |= {(*at[1], *at[3], "left"), (*at[2], *at[4], "right")}
+    named = {to_rgba(colour): side for side, colour in COLOURS.items()}
+    colours = map(tuple, figure.bones.get_color())
+    drawn = zip(figure.bones._segments3d, colours, strict=True)
+    assert {(*np.ravel(bone), named[colour]) for bone, colour in drawn} == expected
     assert figure.dot.get_data_3d()[2] == pytest.approx(joint_positions(motion)[2, 5, 1])
 
 
 def test_earlier_poses_are_ghosts():
-    figures = stick_figures.stick_figure(wave(30), [0, 10, 20])
-    alphas = [figure.bones["middle"].get_alpha() for figure in figures]
-    assert alphas == sorted(alphas)
-    assert alphas[-1] == 1
+    alphas = [figure.bones.get_alpha() for figure in stick_figures.stick_figure(wave(30), [0, 10, 20])]
+    assert alphas == sorted(alphas) and alphas[-1] == 1
 
 
 def test_two_motions_laid_over_each_other_have_a_colour_each():
     first, second = wave(20, name="a"), wave(20, phase=1, name="b")
     figures = stick_figures.laid_over(first, second, every=5)
     for motion, drawn in zip((first, second), figures, strict=True):
-        tips = [figure.bones["middle"]._segments3d[-1][-1] for figure in drawn]
+        tips = [figure.bones._segments3d[-1][-1] for figure in drawn]
         assert np.asarray(tips) == pytest.approx(to_picture(joint_positions(motion)[::5, 3]))
-    colours = {tuple(figure.bones["middle"].get_color()[0]) for drawn in figures for figure in drawn}
-    assert len(colours) == 2
+    assert len({tuple(figure.bones.get_color()[0]) for drawn in figures for figure in drawn}) == 2
     legend = figures[0][0].dot.axes.get_legend()
     assert [text.get_text() for text in legend.get_texts()] == ["a", "b"]
-
-
-def test_high_poses_are_seen_whole():
-    tall = replace(wave(3), root_positions=wave(3).root_positions * 3)
-    (figure,) = stick_figures.stick_figure(tall)
-    seen = on_picture(figure.dot.axes, joint_positions(tall)[0])
-    assert 0 <= seen.min() <= seen.max() <= 1
 
 
 def test_a_strip_shows_first_and_last_pose_and_all_who_play():
     first, second = wave(50, name="a"), wave(20, name="b", phase=2)
     strip = film_strip([first, second], count=4)
-    assert len(strip.axes) == 4
-    assert [ax.get_title() for ax in strip.axes][::3] == ["0.00 s", "1.63 s"]
+    assert [ax.get_title() for ax in strip.axes][::3] == ["0.00 s", "1.63 s"] and len(strip.axes) == 4
     for motion, frame in ((first, 49), (second, 19)):
         seen = on_picture(strip.axes[-1], joint_positions(motion)[frame])
         assert 0 <= seen.min() <= seen.max() <= 1
     assert plt.get_fignums() == []
-
-
-def test_a_strip_of_one_frame_is_one_picture():
     assert len(film_strip([wave(1)]).axes) == 1

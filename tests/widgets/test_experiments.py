@@ -17,8 +17,7 @@ from PIL import Image
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError
-from mocap.plotting.axes import ground_axes
-from mocap.plotting.stick_figures import stick_figure
+from mocap.plotting.stick_figures import ground_axes, stick_figure
 from mocap.widgets import experiments, live
 from mocap.widgets.experiments import explore
 from tests.strategies import wave

@@ -6,17 +6,15 @@ in the file of its subject.
 
 Reading order (notebooks 00 to 09)
 ----------------------------------
-1. `two_clips`: a motion graph's nodes and edges on the timelines of two clips
+1. `small_graphs`: a motion graph's nodes and edges on two clips, and the homework's segments in rows
 2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
 3. `windows`: what a window is, what two windows have in common, their lower bound, and sums along diagonals
 4. `laying_clouds`: one cloud of points laid on another, from above
 5. `ground`: turns, headings, and one clip aligned with another, seen from above
-6. `seams`: frames of a transition, ways between two rotations, and a leg as a triangle
-7. `small_graphs`: the homework's segments in rows, and Tarjan's search with its low links
-8. `eight_node_search`: the walks that a search takes up on the eight-node graph, as a tree
-9. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
-10. `jolts`: what a blend adds to the velocities of its clips
-11. `pens`: arrows, words, discs and steps that several of them share
+6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
+7. `eight_nodes`: Tarjan's search with its low links, and the walks that branch and bound takes up
+8. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
+9. `pens`: arrows, words, discs and steps that several of them share
 
 References
 ----------
@@ -28,15 +26,20 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "two_clips": ["nodes_and_edges"],
+        "small_graphs": ["nodes_and_edges", "segments_in_rows"],
         "quaternions": ["double_cover", "half_turns", "turns_in_order"],
         "laying_clouds": ["laying_on", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],
-        "seams": ["blended_seam", "knee_triangle", "turning_paths"],
-        "small_graphs": ["EIGHT_PLACES", "segments_in_rows", "tarjan_states", "tarjan_step"],
-        "eight_node_search": ["edge_lengths", "search_events", "search_steps"],
+        "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
+        "eight_nodes": [
+            "EIGHT_PLACES",
+            "edge_lengths",
+            "search_events",
+            "search_steps",
+            "tarjan_states",
+            "tarjan_step",
+        ],
         "distances_to_paths": ["two_distances"],
-        "jolts": ["added_by_blend"],
     },
 )

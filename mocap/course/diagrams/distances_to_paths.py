@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
@@ -13,7 +12,6 @@ from mocap.plotting.style import ASKED, CURVES, PATH, QUIET
 
 MOMENTS = 9
 BEND = 0.8
-LENGTH, NEAREST = CURVES[:2]
 
 
 def two_distances(path: GroundPath, walk: GroundPath, *, step: int = MOMENTS - 1) -> Figure:
@@ -42,43 +40,31 @@ def two_distances(path: GroundPath, walk: GroundPath, *, step: int = MOMENTS - 1
     """
     figure = plt.figure(figsize=(8, 3.8), layout="constrained")
     ground, curves = figure.subplots(1, 2, width_ratios=(1, 1.3))
-    until = walk.length * step / (MOMENTS - 1)
     ground.plot(*path.points.T, color=ASKED, linewidth=7, label="path asked for")
     ground.plot(*walk.points.T, color=PATH, linewidth=3.5, label="walk")
-    moments = np.linspace(0, walk.length, MOMENTS)[: step + 1]
-    here, even, near = walk.at(moments), path.at(moments), nearest_points(path, walk.at(moments))
-    _threads(ground, here, near, colour=NEAREST)
-    _threads(ground, here, even, colour=LENGTH)
+    moments, along = np.linspace(0, walk.length, MOMENTS)[: step + 1], np.linspace(0, walk.length, 200)
+    here, fine = walk.at(moments), walk.at(along)
+    share, highest = np.linspace(0, 1, 15)[:, None, None], 0.0
+    for name, point, colour, above in (
+        ("at equal arc length (Eq. 9)", path.at, CURVES[0], 4.1),
+        ("to the nearest point", lambda s: nearest_points(path, walk.at(s)), CURVES[1], 4.0),
+    ):
+        thread = point(moments) - here  # bent, so that it is seen beside the path
+        bent = here + share * thread + BEND * share * (1 - share) * thread[:, ::-1] * [1, -1]
+        ground.plot(*np.moveaxis(bent, 2, 0), color=colour, linewidth=1.8, zorder=above)
+        ground.plot(*(here + thread).T, "o", color=colour, markersize=5, zorder=above)
+        apart = 100 * np.hypot(*(fine - point(along)).T)
+        seen, highest = along <= moments[-1] + 1e-9, max(highest, apart.max())
+        curves.plot(along[seen], apart[seen], color=colour, linewidth=2, label=name)
     ground.plot(*here.T, "o", color=PATH, markersize=7, markeredgecolor=ASKED, zorder=5)
     ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
     ground.xaxis.set_inverted(True)
     ground.legend(frameon=False, fontsize=8)
-    _curves(curves, path, walk, until)
+    curves.axvline(moments[-1], color=QUIET, linewidth=1)
+    curves.set(xlabel="metres walked", ylabel="distance (cm)", xlim=(0, walk.length))
+    curves.set_ylim(-0.04 * highest - 0.1, 1.35 * highest + 0.1)
+    curves.legend(frameon=False, fontsize=9, loc="upper left")
     return figure
-
-
-def _threads(ax: Axes, start: Array, end: Array, *, colour: str) -> None:
-    """Draw a thread from each start to its end, bent so that it is seen beside the path, with a dot there."""
-    share = np.linspace(0, 1, 15)[:, None, None]
-    aside = (end - start)[:, ::-1] * [1, -1]  # at right angles to the thread
-    threads = start + share * (end - start) + BEND * share * (1 - share) * aside
-    ax.plot(*np.moveaxis(threads, 2, 0), color=colour, linewidth=1.8, zorder=4)
-    ax.plot(*end.T, "o", color=colour, markersize=5, zorder=4)
-
-
-def _curves(ax: Axes, path: GroundPath, walk: GroundPath, until: float) -> None:
-    """Draw both distances over the metres walked so far."""
-    along = np.linspace(0, walk.length, 200)
-    here = walk.at(along)
-    ends = {"at equal arc length (Eq. 9)": path.at(along), "to the nearest point": nearest_points(path, here)}
-    highest = 100 * max(np.hypot(*(here - end).T).max() for end in ends.values())
-    seen = along <= until + 1e-9
-    for (name, end), colour in zip(ends.items(), (LENGTH, NEAREST), strict=True):
-        ax.plot(along[seen], 100 * np.hypot(*(here - end).T)[seen], color=colour, linewidth=2, label=name)
-    ax.axvline(until, color=QUIET, linewidth=1)
-    ax.set(xlabel="metres walked", ylabel="distance (cm)", xlim=(0, walk.length))
-    ax.set_ylim(-0.04 * highest - 0.1, 1.35 * highest + 0.1)
-    ax.legend(frameon=False, fontsize=9, loc="upper left")
 
 
 def nearest_points(path: GroundPath, points: Array) -> Array:

@@ -17,13 +17,12 @@ INK = COLOURS["middle"]
 START = 0.25  # radians from the first axis to the point before the turn
 
 
-Sheet = tuple[str, tuple[str, str], tuple[complex, complex]]
-SHEETS: tuple[Sheet, ...] = (
-    ("1. as in school", ("x", "y"), (1 + 0j, 1j)),
-    ("2. the sheet turned by a quarter", ("x", "y"), (1j, -1 + 0j)),
-    ("3. the ground from above", ("z", "x"), (1j, -1 + 0j)),
+SHEETS = (
+    ("1. as in school", "xy", 1 + 0j),
+    ("2. the sheet turned by a quarter", "xy", 1j),
+    ("3. the ground from above", "zx", 1j),
 )
-"""Planes with two axes: a title, the names of the axes, and where on the page they point."""
+"""Planes with two axes: a title, the names of the axes, and where on the page the first one points."""
 
 
 def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
@@ -45,35 +44,24 @@ def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
 
     Notebook: 03-transforms
     """
-    figure = Figure(figsize=(9, 3.7))
-    for number, sheet in enumerate(SHEETS[:step]):
+    figure, turn = Figure(figsize=(9, 3.7)), np.radians(angle)
+    for number, (title, (first, second), axis) in enumerate(SHEETS[:step]):
         ax = figure.add_axes((number / 3, 0.17, 1 / 3, 0.72))
-        _draw_sheet(ax, sheet, np.radians(angle))
+        for name, along in ((first, axis), (second, 1j * axis)):
+            arrow(ax, 0j, 1.25 * along, INK)
+            say(ax, 1.38 * along, name, fontsize=12)
+        trace(ax, 0.55 * np.exp(1j * np.linspace(START, START + turn, 30)) * axis, color=INK, linewidth=1)
+        say(ax, 0.7 * np.exp(1j * (START + turn / 2)) * axis, "θ", color=INK, fontsize=12)
+        for colour, way in ((QUIET, START), (CURVES[0], START + turn)):
+            point = np.exp(1j * way) * axis
+            trace(ax, np.array([0, point]), color=colour, linewidth=1.5)
+            trace(ax, point, marker="o", color=colour, markersize=8)
+        ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=title)
+        ax.title.set_fontsize(11)
+        ax.set_axis_off()
+        lines = f"{first}′ = {first} cos θ − {second} sin θ\n{second}′ = {first} sin θ + {second} cos θ"
+        ax.text(0.5, -0.02, lines, transform=ax.transAxes, ha="center", va="top", fontsize=11)
     return figure
-
-
-def _draw_sheet(ax: Axes, sheet: Sheet, angle: float) -> None:
-    """Draw a sheet's axes, a point, and where a turn leads it, with the formula below."""
-    title, names, axes = sheet
-    for name, axis in zip(names, axes, strict=True):
-        arrow(ax, 0j, 1.25 * axis, INK)
-        say(ax, 1.38 * axis, name, fontsize=12)
-    arc = 0.55 * np.exp(1j * np.linspace(START, START + angle, 30)) * axes[0]
-    trace(ax, arc, color=INK, linewidth=1)
-    say(ax, 0.7 * np.exp(1j * (START + angle / 2)) * axes[0], "θ", color=INK, fontsize=12)
-    for colour, turn in ((QUIET, START), (CURVES[0], START + angle)):
-        point = np.exp(1j * turn) * axes[0]
-        trace(ax, np.array([0, point]), color=colour, linewidth=1.5)
-        trace(ax, point, marker="o", color=colour, markersize=8)
-    ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=title)
-    ax.title.set_fontsize(11)
-    ax.set_axis_off()
-    first, second = names
-    lines = f"{first}′ = {first} cos θ − {second} sin θ\n{second}′ = {first} sin θ + {second} cos θ"
-    ax.text(0.5, -0.02, lines, transform=ax.transAxes, ha="center", va="top", fontsize=11)
-
-
-TURNED, MOVED = "turned about the origin", "moved over the ground"
 
 
 def alignment(
@@ -99,27 +87,29 @@ def alignment(
 
     Notebook: 03-transforms
     """
-    places, titles = [moving], ["1. as the clips are"]
-    turn = PlanarTransform(transform.angle, 0.0, 0.0), TURNED
-    shift = PlanarTransform(0.0, transform.x, transform.z), MOVED
-    for number, (part, name) in enumerate((shift, turn) if shift_first else (turn, shift), 2):
-        places.append(part.apply_motion(places[-1]))
-        titles.append(f"{number}. {name}")
+    turn = PlanarTransform(transform.angle, 0.0, 0.0), "turned about the origin"
+    shift = PlanarTransform(0.0, transform.x, transform.z), "moved over the ground"
+    parts = (shift, turn) if shift_first else (turn, shift)
+    places = [moving, parts[0][0].apply_motion(moving)]
+    places.append(parts[1][0].apply_motion(places[1]))
     corners = np.concatenate([m.root_positions[:, [0, 2]] for m in (target, *places)] + [np.zeros((1, 2))])
     low, high = corners.min(axis=0) - 0.8, corners.max(axis=0) + 0.8
     figure = Figure(figsize=(9, 3.4), layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
-    for number, ax in enumerate(panels):
-        if number >= step:
-            ax.remove()
-            continue
+    for ax in panels[step:]:
+        ax.remove()
+    names = ["as the clips are", *(name for _, name in parts)]
+    for number, (ax, name) in enumerate(zip(panels[:step], names, strict=False)):
         ax.set(xlim=(high[0], low[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)")
-        ax.set_title(titles[number], fontsize=11)
+        ax.set_title(f"{number + 1}. {name}", fontsize=11)
         _draw_walker(ax, target, SOURCES[0], at=-1)
         if number:
             _draw_walker(ax, places[number - 1], FLOOR, at=0)
-            ends = [complex(*m.root_positions[0, [0, 2]]) for m in places[number - 1 : number + 1]]
-            _draw_way(ax, *ends, turns=TURNED in titles[number])
+            start, end = (complex(*m.root_positions[0, [0, 2]]) for m in places[number - 1 : number + 1])
+            share = np.linspace(0, 1, 40)
+            around = start * np.exp(1j * np.angle(end / start) * share)
+            way = around if name == turn[1] else start + (end - start) * share
+            trace(ax, way, color=INK, linewidth=1, linestyle="--")
         _draw_walker(ax, places[number], SOURCES[1], at=0)
         ax.plot(0, 0, "+", color=INK, markersize=11)
     panels[0].set_ylabel("z (m)")
@@ -170,8 +160,7 @@ def two_ways_round(start: float = 170.0, end: float = -170.0) -> Figure:
     Notebook: 03b-angles
     """
     figure = Figure(figsize=(7, 3.7), layout="constrained")
-    short = (end - start + 180) % 360 - 180
-    ways = {"slerp": short, "mean of the angles": end - start}
+    ways = {"slerp": (end - start + 180) % 360 - 180, "mean of the angles": end - start}
     for (name, turn), ax, colour in zip(ways.items(), figure.subplots(1, 2), CURVES, strict=False):
         for share in np.linspace(0, 1, 11):
             _draw_heading(ax, np.radians(start + share * turn), INK if share in (0, 1) else colour)
@@ -223,14 +212,5 @@ def _draw_walker(ax: Axes, motion: Motion, colour: str, *, at: int) -> None:
     x, z = motion.root_positions[:, [0, 2]].T
     ax.plot(x, z, color=colour, linewidth=2, label=None if colour == FLOOR else motion.name)
     ax.plot(x[at], z[at], "o", color=colour, markersize=7)
-    facing = float(heading(motion.rotations[at, 0]))
-    here = complex(x[at], z[at])
-    arrow(ax, here, here + 0.8 * complex(np.sin(facing), np.cos(facing)), colour)
-
-
-def _draw_way(ax: Axes, start: complex, end: complex, *, turns: bool) -> None:
-    """Draw how a body's place moves: on an arc about the origin, or straight."""
-    share = np.linspace(0, 1, 40)
-    around = start * np.exp(1j * np.angle(end / start) * share)
-    line = around if turns else start + (end - start) * share
-    trace(ax, line, color=INK, linewidth=1, linestyle="--")
+    here, facing = complex(x[at], z[at]), float(heading(motion.rotations[at, 0]))
+    arrow(ax, here, here + 0.8j * np.exp(-1j * facing), colour)

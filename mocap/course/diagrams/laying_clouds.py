@@ -38,13 +38,10 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
     """
     require_step(step, len(STEPS))
     angle = align(*(point_cloud(motion).reshape(-1, 3) for motion in (first, second))).angle
-    centre = PlanarTransform(0.0, *_mean(first))
+    back = PlanarTransform(0.0, *_mean(first) * (step > 3))
     if step > 1:
-        first, second = _centred(first), _centred(second)
-    if step > 2:
-        second = PlanarTransform(angle, 0.0, 0.0).apply_motion(second)
-    if step > 3:
-        first, second = centre.apply_motion(first), centre.apply_motion(second)
+        turn = PlanarTransform(angle * (step > 2), 0.0, 0.0)
+        first, second = back.apply_motion(_centred(first)), (back @ turn).apply_motion(_centred(second))
     figure = Figure(figsize=(5.6, 5.2), layout="constrained")
     ax = figure.add_subplot()
     _from_above(ax, first, second)
@@ -72,16 +69,16 @@ def turning(first: Motion, second: Motion, *, degrees: float = 0.0) -> Figure:
     Notebook: 02-matching
     """
     first, second = _centred(first), _centred(second)
-    figure = Figure(figsize=(8.6, 4.2), layout="constrained")
-    ground, curve = figure.subplots(1, 2)
-    _from_above(ground, first, PlanarTransform(np.radians(degrees), 0.0, 0.0).apply_motion(second))
     clouds = [point_cloud(motion).reshape(-1, 3) for motion in (first, second)]
-    angles = np.append(np.arange(-180, degrees, 3), degrees)
 
     def left(angle: float) -> float:
         turned = PlanarTransform(np.radians(angle), 0.0, 0.0).apply_points(clouds[1])
         return 100 * float(np.sqrt(((clouds[0] - turned) ** 2).sum(-1).mean()))
 
+    figure = Figure(figsize=(8.6, 4.2), layout="constrained")
+    ground, curve = figure.subplots(1, 2)
+    _from_above(ground, first, PlanarTransform(np.radians(degrees), 0.0, 0.0).apply_motion(second))
+    angles = np.append(np.arange(-180, degrees, 3), degrees)
     curve.plot(angles, [left(angle) for angle in angles], color=CURVES[0])
     curve.plot([degrees], [left(degrees)], "o", color="#000000", markersize=8)
     highest = max(left(angle) for angle in range(-180, 181, 10))
@@ -107,18 +104,15 @@ def _from_above(ax: Axes, first: Motion, second: Motion) -> None:
     middle = len(first) // 2
     threads = np.stack([point_cloud(motion)[middle][:, [0, 2]] for motion in (first, second)])
     ax.plot(*threads.transpose(2, 0, 1), color=QUIET, linewidth=0.7, zorder=1)
-    for motion, colour in zip((first, second), SOURCES, strict=False):
-        places, ends = joint_positions(motion)[..., [0, 2]], bones(motion.skeleton)
+    clouds = [joint_positions(motion)[..., [0, 2]] for motion in (first, second)]
+    for motion, places, colour in zip((first, second), clouds, SOURCES, strict=False):
         ax.plot(places[..., 0], places[..., 1], color=colour, linewidth=0.8, alpha=0.35)
-        limbs = places[middle][np.stack([ends.starts, ends.ends])]
+        limbs = places[middle][np.stack(bones(motion.skeleton)[:2])]
         ax.plot(limbs[..., 0], limbs[..., 1], color=colour, linewidth=2.4)
         ax.plot(*_mean(motion)[:, None], "P", color=colour, markersize=12, markeredgecolor="white", zorder=4)
         ax.plot([], [], color=colour, linewidth=2.4, label=motion.name)
     ax.plot([], [], "P", color=QUIET, markersize=9, label="mean")
-    around = np.concatenate(
-        [joint_positions(motion)[..., [0, 2]].reshape(-1, 2) for motion in (first, second)]
-    )
-    low, high = around.min(axis=0), around.max(axis=0)
+    low, high = (f(np.concatenate(clouds), axis=(0, 1)) for f in (np.min, np.max))
     (x, z), reach = (low + high) / 2, max(0.5, *(high - low) / 2 + 0.1)
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.set(xlim=(x + reach, x - reach), ylim=(z - reach, z + reach))  # seen from above, x leads to the left

@@ -14,8 +14,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.course.diagrams.pens import arrow, say, trace
-from mocap.plotting.axes import ground_axes, to_picture
-from mocap.plotting.stick_figures import StickFigure
+from mocap.plotting.stick_figures import StickFigure, ground_axes, to_picture
 from mocap.plotting.style import COLOURS, CURVES, MARK, QUIET
 
 ALONG, ACROSS = 0.8, 0.8  # the two parts of the vector that `half_turns` turns
@@ -46,14 +45,14 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
 
     Notebook: 01-skeletons-and-clips
     """
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
     half = np.radians(angle) / 2
     across = ACROSS * np.exp(1j * half * np.arange(step + 1))
     along = ALONG * np.exp(1j * (np.pi / 2 + half * np.array([0, 1, 0])))[: step + 1]
-    for ax, points in ((left, across), (right, along)):
+    labels = ("x", "y"), ("w, the number in front", "z, along the axis")
+    for ax, points, part, (x, y) in zip(axes, (across, along), ("across", "along"), labels, strict=True):
         _draw_turning(ax, points)
-    left.set(title="the part across the axis", xlabel="x", ylabel="y")
-    right.set(title="the part along the axis", xlabel="w, the number in front", ylabel="z, along the axis")
+        ax.set(title=f"the part {part} the axis", xlabel=x, ylabel=y)
     vector = np.array([0, across[0].real, 0, ALONG])
     q = np.array([np.cos(half), 0, 0, np.sin(half)])
     shown = [vector, rotations.multiply(q, vector), rotations.rotate(q, vector[1:])]
@@ -65,11 +64,11 @@ def half_turns(step: int = 2, angle: float = 60) -> Figure:
 
 def _draw_turning(ax: Axes, points: Array) -> None:
     """Draw a part of v, and where q and then q̄ bring it: the last one solid, those before it pale."""
-    last = len(points) - 1
     for number, point in enumerate(points):
         same = [name for name, other in zip(NAMES, points, strict=False) if abs(other - point) < 1e-9]
-        colour = CURVES[0] if number == last else QUIET
-        arrow(ax, 0j, point, colour, 1.4 + (number == last), shrinkA=2)
+        last = number == len(points) - 1
+        colour = CURVES[0] if last else QUIET
+        arrow(ax, 0j, point, colour, 1.4 + last, shrinkA=2)
         say(ax, 1.2 * point, ", ".join(same), color=colour)
     for before, after, radius in zip(points, points[1:], (0.7, 0.4), strict=False):
         turn = np.angle(after / before)
@@ -78,7 +77,11 @@ def _draw_turning(ax: Axes, points: Array) -> None:
         say(ax, way[15] * (radius + 0.15) / radius, f"{np.degrees(turn):+.0f}°", fontsize=9)
     ax.axhline(0, color=QUIET, linewidth=0.6)
     ax.axvline(0, color=QUIET, linewidth=0.6)
-    ax.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
+    _square(ax, 1.2, 1.2)
+
+
+def _square(ax: Axes, wide: float, high: float) -> None:
+    ax.set(xlim=(-wide, wide), ylim=(-high, high), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 
 
 def double_cover(angle: float = 300, step: int = 2) -> Figure:
@@ -102,20 +105,18 @@ def double_cover(angle: float = 300, step: int = 2) -> Figure:
     Notebook: 01-skeletons-and-clips
     """
     figure, (dial, circle) = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
-    turn = angle % 360
+    half, turn = np.radians(angle / 2), angle % 360
     _draw_circle(dial, {"no turn": 90, "turned": 90 + angle})
-    half = angle / 2
-    points = {"1": 0.0, "q": half} | ({"−q": half + 180} if step else {})
-    _draw_circle(circle, points)
-    if step == 2:
-        for degrees in (turn, turn - 360):
-            long = abs(degrees) > 180
-            style = {"color": CURVES[long], "linestyle": "--" if long else "-"}
-            for ax, start, share in ((dial, 90, degrees), (circle, 0, degrees / 2)):
-                _draw_way(ax, start, share, 0.75 if degrees >= 0 else 0.6, style)
+    _draw_circle(circle, {"1": 0.0, "q": angle / 2} | ({"−q": angle / 2 + 180} if step else {}))
+    for degrees in (turn, turn - 360) if step == 2 else ():
+        long = abs(degrees) > 180
+        colour, radius = CURVES[long], 0.75 if degrees >= 0 else 0.6
+        for ax, start, share in ((dial, 90, degrees), (circle, 0, degrees / 2)):
+            way = radius * np.exp(1j * np.radians(start + np.linspace(0, share, 60)))
+            trace(ax, way, linewidth=2.4, color=colour, linestyle="--" if long else "-")
+            say(ax, way[30] * (radius - 0.22) / radius, f"{share:+.0f}°", color=colour)
     dial.set_title(f"the body: {angle:.0f}°")
-    w, along = np.cos(np.radians(half)), np.sin(np.radians(half))
-    circle.set_title(f"q = ({w:.2f}, {along:.2f} along the axis)")
+    circle.set_title(f"q = ({np.cos(half):.2f}, {np.sin(half):.2f} along the axis)")
     circle.set(xlabel="w", ylabel="along the axis")
     dial.set_axis_off()
     return figure
@@ -123,8 +124,7 @@ def double_cover(angle: float = 300, step: int = 2) -> Figure:
 
 def _draw_circle(ax: Axes, points: dict[str, float]) -> None:
     """Draw a circle with named points at angles in degrees."""
-    around = np.exp(1j * np.linspace(0, 2 * np.pi, 90))
-    trace(ax, around, color=QUIET, linewidth=0.8)
+    trace(ax, np.exp(1j * np.linspace(0, 2 * np.pi, 90)), color=QUIET, linewidth=0.8)
     for name, degrees in points.items():
         at = np.exp(1j * np.radians(degrees))
         trace(ax, np.array([0, at]), color=COLOURS["middle"], linewidth=1.2)
@@ -132,14 +132,7 @@ def _draw_circle(ax: Axes, points: dict[str, float]) -> None:
         beside = "left" if at.real > 0.5 else "right" if at.real < -0.5 else "center"
         above = 1.33 if name == "no turn" else 1.16  # a small turn must not hide it
         say(ax, 1.1 * at.real + 1j * above * at.imag, name, ha=beside)
-    ax.set(xlim=(-1.5, 1.5), ylim=(-1.4, 1.4), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
-
-
-def _draw_way(ax: Axes, start: float, degrees: float, radius: float, style: dict[str, str]) -> None:
-    """Draw the arc of a turn from an angle, degrees, and write how far it goes."""
-    way = radius * np.exp(1j * np.radians(start + np.linspace(0, degrees, 60)))
-    trace(ax, way, linewidth=2.4, **style)
-    say(ax, way[30] * (radius - 0.22) / radius, f"{degrees:+.0f}°", color=style["color"])
+    _square(ax, 1.5, 1.4)
 
 
 def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
@@ -163,29 +156,29 @@ def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
 
     Notebook: 01-skeletons-and-clips
     """
-    forwards, left = (rotations.from_rotvec(np.radians(turn)) for turn in ([90, 0, 0], [0, 90, 0]))
+    turns = {"forwards": [90, 0, 0], "to the left": [0, 90, 0]}
     figure = plt.figure(figsize=(7, 4.9))
-    for row, turns in enumerate(((forwards, left), (left, forwards))):
-        names = ("forwards", "to the left") if row == 0 else ("to the left", "forwards")
+    for row, names in enumerate((["forwards", "to the left"], ["to the left", "forwards"])):
         turn = rotations.IDENTITY
-        for shown in range(step + 1):
+        for shown, name in enumerate(["at rest", *names][: step + 1]):
+            if shown:
+                turn = rotations.multiply(rotations.from_rotvec(np.radians(turns[name])), turn)
             ax = figure.add_axes((shown / 3, 0.53 - 0.49 * row, 1 / 3, 0.42), projection="3d")
-            turn = rotations.multiply(turns[shown - 1], turn) if shown else turn
             _draw_body(ax, body, turn)
-            ax.set_title("at rest" if shown == 0 else f"{shown}. {names[shown - 1]}", y=1, fontsize=10)
+            ax.set_title(f"{shown}. {name}" if shown else name, y=1, fontsize=10)
     return figure
 
 
 def _draw_body(ax: Axes3D, body: Skeleton, turn: Array) -> None:
     """Draw a body with spread arms, turned about its root, and the axes of the world."""
-    turns = np.tile(rotations.IDENTITY, (1, len(body), 1))
+    pose = np.tile(rotations.IDENTITY, (1, len(body), 1))
     for joint, name in enumerate(body.names):
         if name.endswith("humerus"):
-            turns[0, joint] = rotations.from_rotvec([0, 0, 1.4 if body.side(joint) == "left" else -1.4])
-    turns[0, 0] = turn
+            pose[0, joint] = rotations.from_rotvec([0, 0, 1.4 if body.side(joint) == "left" else -1.4])
+    pose[0, 0] = turn
     ground_axes(reach=1.1, tall=1.9, ax=ax)
-    StickFigure(body, ax).pose(joint_positions(Motion(body, np.array([[0, 0.95, 0]]), turns, 1.0))[0])
-    for number, name in enumerate("xyz"):
-        tip = CORNER + 0.45 * np.eye(3)[number]
-        ax.plot(*to_picture(np.array([CORNER, tip])).T, color=COLOURS["middle"], linewidth=1, zorder=2)
-        ax.text(*to_picture(CORNER + 1.3 * (tip - CORNER)), name, color=COLOURS["middle"], fontsize=9)
+    StickFigure(body, ax).pose(joint_positions(Motion(body, np.array([[0, 0.95, 0]]), pose, 1.0))[0])
+    for name, axis in zip("xyz", 0.45 * np.eye(3), strict=True):
+        line = to_picture([CORNER, CORNER + axis, CORNER + 1.3 * axis])
+        ax.plot(*line[:2].T, color=COLOURS["middle"], linewidth=1, zorder=2)
+        ax.text(*line[2], name, color=COLOURS["middle"], fontsize=9)

@@ -1,6 +1,7 @@
-"""Where one clip passes into another: frames, weights, ways between two rotations, and a leg that reaches."""
+"""Where one clip passes into another: frames, weights, ways between two rotations, a leg, added jolts."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -8,11 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
+from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
-from mocap.body import rotations
-from mocap.plotting import CURVES, MARK, QUIET, SOURCES, to_picture
+from mocap.body import Motion, rotations
+from mocap.course.diagrams.pens import trace
+from mocap.plotting import COLOURS, CURVES, MARK, QUIET, SOURCES, to_picture
+from mocap.quality.seam_measures import blend_jolts, jumps
 
 AROUND = 4  # frames of each clip before the window and after it
 FIRST, SECOND, RESULT = 2.6, 1.3, 0.0  # the heights of the rows
@@ -38,37 +42,32 @@ def blended_seam(step: int = 4, window: int = 6) -> Figure:
     """
     figure = plt.figure(figsize=(9, 4.4), layout="constrained")
     rows, weights = figure.subplots(2, 1, height_ratios=[3, 1.3], sharex=True)
-    places = np.arange(-AROUND, window + AROUND)
+    places = range(-AROUND, window + AROUND)
     alpha = np.concatenate([np.ones(AROUND), cubic_weights(window), np.zeros(AROUND)])
-    for letter, height, colour in (("i", FIRST, SOURCES[0]), ("j", SECOND, SOURCES[1])):
-        for place in places:
-            _draw_frame(rows, int(place), height, {colour: 1.0}, _named(letter, int(place)))
-        _mark_window(rows, height, window)
-    if step >= 3:
-        _draw_result(rows, places, alpha, whole=step >= 4)
-        _mark_window(rows, RESULT, window)
-    names = ["clip A", "clip B,\naligned", "result"]
+    a, b = SOURCES[:2]
+    for place, share in zip(places, alpha.tolist(), strict=True):
+        inside = 0 <= place < window
+        for letter, height, colour in (("i", FIRST, a), ("j", SECOND, b)):
+            _draw_frame(rows, place, height, {colour: 1.0}, letter)
+            if inside and step >= 3:
+                rows.plot([place] * 2, [height - 0.12, RESULT + BOX], color=QUIET, lw=0.6, zorder=0)
+        if step >= (3 if inside else 4):
+            name = "mix" if inside else "i" if place < 0 else "j"
+            _draw_frame(rows, place, RESULT, {a: share, b: 1 - share}, name)
+    for height in (FIRST, SECOND, RESULT)[: 3 if step >= 3 else 2]:
+        corner, high = (-0.55, height - 0.12), BOX + 0.24
+        rows.add_patch(Rectangle(corner, window + 0.1, high, fill=False, edgecolor=MARK, lw=2.5))
     rows.set(xlim=(-AROUND - 0.7, window + AROUND - 0.3), ylim=(-0.4, FIRST + 1.4))
+    names = ["clip A", "clip B,\naligned", "result"]
     rows.set_yticks(np.array([FIRST, SECOND, RESULT]) + BOX / 2, names)
     rows.tick_params(length=0, labelbottom=False)
     rows.spines[:].set_visible(False)
     weights.set(ylabel="α, share of A", xlabel="frame p of the window", ylim=(-0.1, 1.1))
     if step >= 2:
         weights.plot(places, alpha, "o-", color=CURVES[0])
-        for place, share in zip(places[AROUND:-AROUND], alpha[AROUND:-AROUND], strict=True):
+        for place, share in enumerate(alpha[AROUND:-AROUND]):
             weights.annotate(f"{share:.2f}", (place, share), (7, 5), textcoords="offset points", fontsize=8)
     return figure
-
-
-def _named(letter: str, steps: int) -> str:
-    """Name a frame, some steps from frame i or j."""
-    return f"${letter}$" if steps == 0 else f"${letter}{steps:+d}$"
-
-
-def _mark_window(ax: Axes, height: float, window: int) -> None:
-    """Put a frame around the window of a row."""
-    corner, wide = (-0.55, height - 0.12), window + 0.1
-    ax.add_patch(Rectangle(corner, wide, BOX + 0.24, fill=False, edgecolor=MARK, lw=2.5))
 
 
 def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float], name: str) -> None:
@@ -77,19 +76,9 @@ def _draw_frame(ax: Axes, place: int, height: float, shares: Mapping[str, float]
     for colour, share in shares.items():
         ax.add_patch(Rectangle((place - BOX / 2, low), BOX, BOX * share, facecolor=colour, alpha=0.6))
         low += BOX * share
+    if name != "mix":
+        name = f"${name}{place:+d}$" if place else f"${name}$"  # some steps from frame i or j
     ax.text(place, height + BOX / 2, name, ha="center", va="center", fontsize=9)
-
-
-def _draw_result(ax: Axes, places: Indices, alpha: Array, *, whole: bool) -> None:
-    """Draw the frames of the result, in the window or all: A's colour up to its share, then B's."""
-    for place, share in zip(places.tolist(), alpha.tolist(), strict=True):
-        inside = 0 <= place < len(places) - 2 * AROUND
-        if inside or whole:
-            name = "mix" if inside else _named("i" if place < 0 else "j", place)
-            _draw_frame(ax, place, RESULT, {SOURCES[0]: share, SOURCES[1]: 1 - share}, name)
-        if inside:
-            for start in (FIRST, SECOND):
-                ax.plot([place, place], [start - 0.12, RESULT + BOX], color=QUIET, lw=0.6, zorder=0)
 
 
 def turning_paths(ways: Mapping[str, Array], share: float = 0.25) -> Figure:
@@ -151,41 +140,93 @@ def knee_triangle(step: int = 3, distance: float = 0.74) -> Figure:
     thigh, shank = 0.45, 0.41
     figure, ax = plt.subplots(figsize=(5.4, 4.4), layout="constrained")
     along = (thigh**2 + distance**2 - shank**2) / (2 * distance)  # from the hip to below the knee
-    across = np.sqrt(thigh**2 - along**2)
-    hip, ankle, knee = np.array([[0, 0.0], [0, -distance], [across, -along]])
-    if step >= 3:
-        for side in (0.4, -0.4, -1.0):
-            turned = np.array([hip, knee * [side, 1], ankle])
-            ax.plot(*turned.T, "o:", color=QUIET, lw=1.5)
-    ax.plot(*np.array([hip, knee, ankle]).T, "o-", color=CURVES[0], lw=4, ms=9)
-    ax.plot(*np.array([hip, ankle]).T, color=CURVES[1], lw=2, ls="--")
-    middle, shin = 0.5 * knee, (knee + ankle) / 2
-    for text, (x, y) in {
-        "hip": (-0.09, 0.03),
-        "ankle": (-0.13, -distance - 0.05),
-        "knee": (knee[0] + 0.03, knee[1]),
-        "thigh $u$": (middle[0] + 0.03, middle[1] + 0.03),
-        "shank $l$": (shin[0] + 0.03, shin[1] - 0.03),
+    hip, ankle, knee = 0j, -1j * distance, np.sqrt(thigh**2 - along**2) - 1j * along
+    for side in (0.4, -0.4, -1.0) if step >= 3 else ():
+        turned = np.array([hip, side * knee.real + 1j * knee.imag, ankle])
+        trace(ax, turned, marker="o", ls=":", color=QUIET, lw=1.5)
+    trace(ax, np.array([hip, knee, ankle]), marker="o", color=CURVES[0], lw=4, ms=9)
+    trace(ax, np.array([hip, ankle]), color=CURVES[1], lw=2, ls="--")
+    for text, at in {
+        "hip": -0.09 + 0.03j,
+        "ankle": ankle - 0.13 - 0.05j,
+        "knee": knee + 0.03,
+        "thigh $u$": knee / 2 + 0.03 + 0.03j,
+        "shank $l$": (knee + ankle) / 2 + 0.03 - 0.03j,
     }.items():
-        ax.text(x, y, text)
+        ax.text(at.real, at.imag, text)
     ax.text(-0.02, -distance / 2, "distance $d$", rotation=90, ha="right", va="center", color=CURVES[1])
     if step >= 2:
-        _angles(ax, knee, ankle)
+        _draw_angles(ax, knee, ankle)
     ax.set(aspect="equal", xlim=(-0.35, 0.55), ylim=(-distance - 0.1, 0.1))
     ax.set_axis_off()
     return figure
 
 
-def _angles(ax: Axes, knee: Array, ankle: Array) -> None:
+def _draw_angles(ax: Axes, knee: complex, ankle: complex) -> None:
     """Draw the thigh's continuation past the knee and name the angle at the hip and the knee's bend."""
-    onward = knee / np.linalg.norm(knee)
-    shank = (ankle - knee) / np.linalg.norm(ankle - knee)
-    ax.plot(*np.array([knee, knee + 0.22 * onward]).T, color=QUIET, ls="--", lw=1.5)
-    for corner, first, second in ((np.zeros(2), np.array([0, -1.0]), onward), (knee, onward, shank)):
-        share = np.linspace(0, 1, 30)[:, None]
-        fan = first + share * (second - first)
-        arc = corner + 0.12 * fan / np.linalg.norm(fan, axis=1, keepdims=True)
-        ax.plot(*arc.T, color="#333333", lw=1.5)
-    at_hip, bend = (np.degrees(np.arccos(x @ y)) for x, y in ((onward, [0, -1.0]), (onward, shank)))
+    onward = knee / abs(knee)
+    trace(ax, np.array([knee, knee + 0.22 * onward]), color=QUIET, ls="--", lw=1.5)
+    angles = np.angle([onward / -1j, (ankle - knee) / onward])
+    for corner, first, turn in ((0j, -1j, angles[0]), (knee, onward, angles[1])):
+        trace(ax, corner + 0.12 * first * np.exp(1j * np.linspace(0, turn, 30)), color="#333333", lw=1.5)
+    at_hip, bend = np.abs(np.degrees(angles))
     ax.text(0.02, -0.16, f"{at_hip:.0f}°", fontsize=9)
-    ax.text(knee[0] + 0.1, knee[1] - 0.12, f"bend {bend:.0f}°")
+    ax.text(knee.real + 0.1, knee.imag - 0.12, f"bend {bend:.0f}°")
+
+
+def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, and a step)
+    result: Motion, first: Motion, second: Motion, start: int, weights: ArrayLike, *, step: int = 4
+) -> Figure:
+    """Draw how a blend changes velocities, and which of the jolts are the blend's own.
+
+    Parameters
+    ----------
+    result, first, second, start, weights : as for `quality.blend_jolts`.
+    step : how much is drawn: 1 the root's velocities in both clips, 2 that in the blend too, 3 the jolts of
+        all three, 4 the jolt that the blend adds.
+
+    Returns
+    -------
+    A figure with the velocities above, the jolts below, and the window shaded in both.
+
+    Examples
+    --------
+    >>> from mocap.blending import cubic_weights, join
+    >>> from mocap.datasets.samples import sample
+    >>> walk = sample("walk_straight")[:80]
+    >>> figure = added_by_blend(join(walk, 20, walk, 20, 10), walk, walk, 20, cubic_weights(10), step=2)
+    >>> [len(ax.lines) for ax in figure.axes]
+    [3, 0]
+
+    Notebook: 09b-blend-window
+    """
+    window = len(np.asarray(weights))
+    above, below = (figure := Figure(figsize=(7.5, 5.2), layout="constrained")).subplots(2, 1, sharex=True)
+    travelled = first.root_positions[-1] - first.root_positions[0]
+    ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
+    tracks, jolts, colours = [], [], (*SOURCES[:2], COLOURS["middle"])
+    names = ("first clip", "second clip, aligned", "the blend")
+    for motion, name, colour in zip((first, second, result), names, colours, strict=True):
+        look: dict[str, Any] = {"color": colour, "linewidth": 1.3 if motion is result else 2.6}
+        tracks.append(np.diff(motion.root_positions, axis=0) @ ahead * motion.fps)
+        jolts.append(jumps(motion)[0])
+        if motion is not result or step >= 2:
+            above.plot((np.arange(len(motion) - 1) + 0.5) / motion.fps, tracks[-1], label=name, **look)
+        if step >= 3:  # at the ends there are none
+            times = np.arange(1, len(motion) - 1) / motion.fps
+            below.plot(times, jolts[-1][1:-1], label=name.removesuffix(", aligned"), **look)
+    low, wide = np.min(tracks), np.ptp(tracks)
+    above.set(ylabel="forward velocity of 'root' (m/s)", ylim=(low - 0.1, low + 1.35 * wide + 0.1))
+    below.set(xlabel="time (s)", ylabel="jolt, RMS over joints (m/s)", ylim=(0, 1.15 * np.max(jolts)))
+    if step >= 3:
+        below.axhline(0, color=QUIET, linewidth=0.8)
+    if step >= 4:
+        added = blend_jolts(result, first, second, start, weights).added
+        clock = (max(start - 1, 1) + np.arange(len(added))) / result.fps
+        below.fill_between(clock, added, color=MARK, zorder=1, label="added by the blend")
+    for ax in (above, below):
+        if ax is above or step >= 3:
+            ax.legend(frameon=False, loc="upper left", ncols=4, fontsize=9)
+        ax.axvspan(start / result.fps, (start + window) / result.fps, color=MARK, alpha=0.15, linewidth=0)
+        ax.set_xlim(0, (len(result) - 1) / result.fps)
+    return figure

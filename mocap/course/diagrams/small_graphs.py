@@ -1,7 +1,7 @@
-"""Small graphs, step by step: the homework's segments in rows, and Tarjan's search with its low links."""
+"""What a motion graph is: nodes and edges on two clips' timelines, and the homework's segments."""
 
-from collections.abc import Hashable, Mapping, Sequence
-from typing import Any, NamedTuple
+from itertools import pairwise
+from typing import Any
 
 import matplotlib.pyplot as plt
 import networkx as nx
@@ -12,10 +12,73 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from mocap._shared.arrays import Array
-from mocap.course.diagrams.pens import disc
-from mocap.plotting.graph_drawing import node_link
-from mocap.plotting.style import MARK, QUIET, SOURCES
+from mocap.course.diagrams.pens import arrow, say
+from mocap.plotting.style import COLOURS, MARK, PATH, QUIET, SOURCES
+
+LENGTHS = (6.0, 5.0)  # seconds
+LEAPS = ((0, 3.6, 1, 1.4), (1, 3.2, 0, 1.8), (0, 4.8, 0, 1.0))
+"""Transitions: which clip they leave, when, which clip they enter, when."""
+
+STEPS = (
+    "Two clips: each can only be played from its start to its end.",
+    "A match: in these two windows both clips do nearly the same.",
+    "A transition joins them. Where it leaves and enters, a node cuts the clip.",
+    "More matches: every piece of clip is an edge, every transition is an edge.",
+    "Pruned: the grey pieces lead to an end, or nothing leads to them.",
+    "A walk: any sequence of edges in which each begins where the last one ends.",
+)
+MATCH = ((0, 3.6, 0.32), (1, 1.07, -1.42))  # its windows: clip, from, height of the word
+WALK = ((-0.18, 1.0, 3.6), (-1.18, 1.4, 3.2), (-0.32, 1.8, 4.8), (-0.46, 1.0, 3.6))  # height, from, to
+
+
+def nodes_and_edges(step: int = 5) -> Figure:
+    """Draw how two clips become a motion graph, with as many of six steps as are asked for.
+
+    Parameters
+    ----------
+    step : 0 to 5: the clips, a match, its transition, all transitions, the pruned graph, a walk.
+
+    Returns
+    -------
+    The figure; its title says what the step is.
+
+    Examples
+    --------
+    >>> from mocap import plotting
+    >>> plotting.show(nodes_and_edges(step=2), alt="Two bars, and an arrow from a node to a node.")
+    Picture('Two bars, and an arrow from a node to a node.')
+
+    Notebook: 00-quickstart
+    """
+    figure, ax = plt.subplots(figsize=(7, 3), layout="constrained")
+    leaps = LEAPS[: (0, 0, 1, 3, 3, 3)[step]]
+    for clip, length in enumerate(LENGTHS):
+        nodes = {leaves for source, leaves, _, _ in leaps if source == clip}
+        nodes |= {enters for _, _, target, enters in leaps if target == clip}
+        times = sorted({0.0, length} | nodes)
+        for start, end in pairwise(times):
+            colour = SOURCES[clip] if step < 4 or 0 < start < end < length else "#DDDDDD"
+            ax.plot([start, end], [-clip] * 2, color=colour, linewidth=9, solid_capstyle="butt", zorder=1)
+        for time in times:
+            edge = COLOURS["middle"] if step < 4 or time in nodes else QUIET
+            ax.plot(time, -clip, "o", color="white", markeredgecolor=edge, markersize=9, zorder=4)
+    for clip, at, below in MATCH if step == 1 else ():
+        ax.plot([at, at + 0.33], [-clip] * 2, color=MARK, linewidth=17, solid_capstyle="butt", zorder=2)
+        ax.text(at + 0.16, below, "window", ha="center", color=COLOURS["middle"], fontsize=9)
+    for number, (lift, start, end) in enumerate(WALK if step == 5 else (), 1):
+        arrow(ax, start + 1j * lift, end + 1j * lift, PATH, 2.2, shrinkA=2, shrinkB=2)
+        say(ax, start - 0.12 + 1j * lift, str(number), fontsize=9)
+    for source, leaves, target, enters in leaps:
+        look = {"connectionstyle": f"arc3,rad={0.28 * (source == target)}", "shrinkA": 6, "shrinkB": 6}
+        colour = PATH if step == 5 else MARK
+        arrow(ax, leaves - 1j * source, enters - 1j * target, colour, **look).set_zorder(3)
+    ax.set_title(f"{step}. {STEPS[step]}", fontsize=10, loc="left")
+    ax.set(xlabel="time in the clip (s)", xlim=(-0.2, 6.2), ylim=(-1.75, 0.95))
+    ax.set_yticks([0, -1], ["clip A", "clip B"])
+    ax.tick_params(left=False)
+    ax.spines[["top", "right", "left"]].set_visible(False)
+    return figure
+
 
 BOX, GAP = 0.9, 0.42  # a box's width where segments are 1 apart; its height where rows are 2 apart
 
@@ -53,21 +116,16 @@ def segments_in_rows(graph: nx.DiGraph, names: list[str], *, step: int | None = 
         ax.add_patch(box)
         ax.text(x + BOX / 2, y, str(node), ha="center", va="center", fontsize=7, color="white", zorder=4)
     taken = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "transition" and step in (None, a)]
-    _draw_lines(ax, np.array([(at[a], at[b]) for a, b in taken], float).reshape(-1, 2, 2))
+    ends = np.array([(at[a], at[b]) for a, b in taken], float).reshape(-1, 2, 2)
+    down = np.sign(ends[:, 0, 1] - ends[:, 1, 1])[:, None]
+    ends += np.stack([down * [0, -GAP] + [BOX, 0], down * [0, GAP] + [0.1, 0]], axis=1)  # from edge to edge
+    few = len(ends) < 20
+    ax.add_collection(LineCollection(list(ends), colors=MARK, linewidths=1.8 if few else 0.7, zorder=0.5))
+    for sign, marker in ((1, "v"), (-1, "^")):
+        tips = ends[down[:, 0] == sign, 1]
+        ax.plot(*tips.T, marker, color=MARK, markersize=6 if few else 4, zorder=3)
     _frame(ax, names, max(x for x, _ in at.values()))
     return figure
-
-
-def _draw_lines(ax: Axes, ends: Array) -> None:
-    """Draw lines from the end of a box to the start of another, (N, 2, 2), from edge to edge."""
-    down = np.sign(ends[:, 0, 1] - ends[:, 1, 1])
-    leave = ends[:, 0] + np.stack([np.full(len(down), BOX), -GAP * down], axis=1)
-    enter = ends[:, 1] + np.stack([np.full(len(down), 0.1), GAP * down], axis=1)
-    few = len(ends) < 20
-    lines = list(np.stack([leave, enter], axis=1))
-    ax.add_collection(LineCollection(lines, colors=MARK, linewidths=1.8 if few else 0.7, zorder=0.5))
-    for sign, marker in ((1, "v"), (-1, "^")):
-        ax.plot(*enter[down == sign].T, marker, color=MARK, markersize=6 if few else 4, zorder=3)
 
 
 def _frame(ax: Axes, names: list[str], last: int) -> None:
@@ -77,155 +135,5 @@ def _frame(ax: Axes, names: list[str], last: int) -> None:
     ax.tick_params(left=False)
     match = Line2D([], [], color=MARK, marker="v", markersize=5, label="a match: may follow")
     dead = Rectangle((0, 0), 1, 1, facecolor=QUIET, edgecolor="black", linewidth=3, label="nothing follows")
-    ax.legend(
-        handles=[match, dead], ncols=2, loc="lower right", bbox_to_anchor=(1, 1), fontsize=8, frameon=False
-    )
-
-
-Node = Hashable
-
-EIGHT_PLACES: dict[Node, tuple[float, float]] = {
-    **{1: (0, 1), 2: (1, 2), 3: (1, 0), 4: (-0.2, -0.6)},
-    **{5: (3.6, 2.4), 6: (2.2, 2), 7: (3, 1), 8: (2.2, 0)},
-}
-"""Where the nodes of `graphs.notes_example` stand in the pictures of the course."""
-
-ON_STACK, UNSEEN = "#F3E9B8", "#FFFFFF"
-
-
-class SearchState(NamedTuple):
-    """What Tarjan's algorithm knows after a step.
-
-    message : what it has just done.
-    node : where it stands.
-    number, low : the index and the low link of each node that it has seen.
-    stack : the nodes seen whose component is not complete, the oldest first.
-    components : those that are complete, in this order.
-    """
-
-    message: str
-    node: Node
-    number: dict[Node, int]
-    low: dict[Node, int]
-    stack: list[Node]
-    components: list[set[Node]]
-
-
-def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState]:
-    """Run Tarjan's algorithm on a graph, and keep its state after each step.
-
-    Parameters
-    ----------
-    successors : for each node those that its edges lead to; the search takes them in this order.
-
-    Examples
-    --------
-    >>> states = tarjan_states({1: [2], 2: [1, 3], 3: []})
-    >>> states[-1].components
-    [{3}, {1, 2}]
-    >>> [state.message for state in states][:3]
-    ['enter 1', 'enter 2', '2 → 1 closes a cycle']
-
-    Notebook: 06-pruning
-    """
-    index, low = dict[Node, int](), dict[Node, int]()
-    stack: list[Node] = []
-    components: list[set[Node]] = []
-    states: list[SearchState] = []
-
-    def note(message: str, node: Node) -> None:
-        states.append(SearchState(message, node, dict(index), dict(low), list(stack), list(components)))
-
-    def visit(node: Node) -> None:
-        index[node] = low[node] = len(index)
-        stack.append(node)
-        note(f"enter {node}", node)
-        for child in successors[node]:
-            if child not in index:
-                visit(child)
-                low[node] = min(low[node], low[child])
-                note(f"back in {node} from {child}", node)
-            elif child in stack:
-                low[node] = min(low[node], index[child])
-                note(f"{node} → {child} closes a cycle", node)
-        if low[node] == index[node]:
-            at = stack.index(node)
-            components.append(set(stack[at:]))
-            del stack[at:]
-            note(f"{node} is the first of its component", node)
-
-    for node in successors:
-        if node not in index:
-            visit(node)
-    return states
-
-
-def tarjan_step(
-    graph: nx.MultiDiGraph, *, places: Mapping[Node, tuple[float, float]] = EIGHT_PLACES, step: int = 0
-) -> Figure:
-    """Draw Tarjan's algorithm on a small graph after some of its steps.
-
-    Beside each node stand its index and its low link; the stack stands on the right. The search begins at the
-    first node and takes successors in the order of their names.
-
-    Parameters
-    ----------
-    graph : the graph.
-    places : where to put the nodes; by default those of the eight-node example.
-    step : the number of steps, from 0 on; the last one where it is too large.
-
-    Examples
-    --------
-    >>> from mocap import graphs
-    >>> figure = tarjan_step(graphs.notes_example(), step=15)
-    >>> figure.axes[0].get_title()
-    'step 15: 8 → 3 closes a cycle'
-
-    Notebook: 06-pruning
-    """
-    states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
-    step = min(step, len(states) - 1)
-    state = states[step]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.5, 4.4), layout="constrained", width_ratios=(5, 1))
-    discs, _ = node_link(graph, places=places, ax=left)
-    done = {node: SOURCES[n] for n, part in enumerate(state.components) for node in part}
-    discs.set_facecolor([done.get(n, ON_STACK if n in state.stack else UNSEEN) for n in graph])
-    discs.set_linewidth([4 if node == state.node else 1 for node in graph])
-    for name, node in zip(left.texts, graph, strict=True):
-        name.set_color("white" if node in done else "black")
-    _write_numbers(left, state, places)
-    left.set_title(f"step {step}: {state.message}", fontsize=11)
-    left.margins(0.12)
-    _legend(left, len(state.components))
-    _draw_stack(right, state.stack, len(graph))
-    return figure
-
-
-def _write_numbers(ax: Axes, state: SearchState, places: Mapping[Node, tuple[float, float]]) -> None:
-    """Write the index and the low link beside each node that the search has seen."""
-    for node in state.number:
-        x, y = places[node]
-        numbers = ax.text(x + 0.2, y - 0.36, f"{state.number[node]} / {state.low[node]}", fontsize=9)
-        numbers.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
-
-
-def _legend(ax: Axes, components: int) -> None:
-    faces = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
-    faces |= {f"component {n + 1}, complete": SOURCES[n] for n in range(components)}
-    look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
-    discs = [disc(face, label=name, **look) for name, face in faces.items()]
-    discs.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
-    where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3}
-    words: dict[str, Any] = {"title": "beside a node: index / low link", "title_fontsize": 9, "fontsize": 8}
-    ax.legend(handles=discs, frameon=False, **where, **words)
-
-
-def _draw_stack(ax: Axes, stack: Sequence[Node], most: int) -> None:
-    """Draw the stack as boxes, the oldest node at the bottom."""
-    for at, node in enumerate(stack):
-        ax.barh(at, 1, height=0.9, color=ON_STACK, edgecolor="black", linewidth=0.8)
-        ax.text(0.5, at, str(node), ha="center", va="center", fontsize=10)
-    ax.set(xlim=(-0.3, 1.3), ylim=(-0.8, most), xticks=[], yticks=[])
-    ax.set_title("stack" if stack else "stack: empty", fontsize=10)
-    ax.spines[["top", "left", "right"]].set_visible(False)
-    ax.spines["bottom"].set_color(QUIET)
+    look: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1, 1), "fontsize": 8, "frameon": False}
+    ax.legend(handles=[match, dead], ncols=2, **look)

@@ -21,12 +21,10 @@ from mocap.body.planar import heading
 from mocap.course.diagrams.pens import require_step
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints, matching_clouds, point_cloud
-from mocap.plotting.axes import ground_axes, keep_inside, to_picture
-from mocap.plotting.stick_figures import StickFigure
+from mocap.plotting.stick_figures import StickFigure, ground_axes, keep_inside, to_picture
 from mocap.plotting.style import COLOURS, FLOOR, QUIET, SOURCES
 
-STYLES = "-", (0, (2, 1))  # of the first body, and of the second
-WINDOW_STEPS = ("one frame", "a window", "its joints", "the point cloud")
+DASHED: Any = (0, (2, 1))  # the lines of the second body
 
 
 def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
@@ -46,23 +44,21 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
 
     Notebook: 02-matching
     """
-    require_step(step, len(WINDOW_STEPS))
+    require_step(step, 4)
     points, cloud = joint_positions(motion), point_cloud(motion)
+    flat, middle = cloud.reshape(-1, 3), len(motion) // 2
     figure = Figure(figsize=(5.2, 4.8))
     above_and_below = np.concatenate([points, points * [1, 0, 1]])  # the shadow must fit as well
     ax = _beside(figure.add_axes((0, 0, 1, 0.92), projection="3d"), motion, above_and_below)
-    middle = len(motion) // 2
-    shown = range(len(motion)) if step in (2, 3) else [middle] if step == 1 else []
-    for frame in shown:
+    for frame in ([middle], range(len(motion)), range(len(motion)), [])[step - 1]:
         StickFigure(motion.skeleton, ax, 1.0 if frame == middle else 0.25).pose(points[frame])
     if step >= 3:
-        ax.plot(*to_picture(cloud.reshape(-1, 3)).T, ".", color=SOURCES[0], markersize=4, zorder=4)
+        ax.plot(*to_picture(flat).T, ".", color=SOURCES[0], markersize=4, zorder=4)
     if step == 4:
-        below = to_picture(cloud.reshape(-1, 3) * [1, 0, 1])
-        ax.plot(*below.T, ".", color=QUIET, markersize=1.5, zorder=1)
-    sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {cloud[..., 0].size} points"
-    counts = ("", f": {len(motion)} frames", ": a point on each", f": {sums}")
-    ax.set_title(WINDOW_STEPS[step - 1] + counts[step - 1], fontsize=11)
+        ax.plot(*to_picture(flat * [1, 0, 1]).T, ".", color=QUIET, markersize=1.5, zorder=1)
+    sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {len(flat)} points"
+    titles = "one frame", f"a window: {len(motion)} frames", "its joints: a point on each"
+    ax.set_title((*titles, f"the point cloud: {sums}")[step - 1], fontsize=11)
     return figure
 
 
@@ -85,33 +81,25 @@ def matched_windows(first: Motion, second: Motion) -> Figure:
     Notebook: 02b-distance-grids
     """
     clouds = matching_clouds(point_cloud(first), point_cloud(second))
-    gaps = 100 * np.sqrt(((clouds[0] - clouds[1]) ** 2).sum(-1))  # cm, (F, P)
-    points = [joint_positions(motion) for motion in (first, second)]
+    gaps = 100 * np.sqrt(((clouds[0] - clouds[1]) ** 2).sum(-1).mean(-1))  # cm, (F,)
+    points = np.stack([joint_positions(motion) for motion in (first, second)])
     figure = Figure(figsize=(8.4, 4.6))
     for panel, (frame, words) in enumerate([(0, "first frame"), (len(first) - 1, "last frame")]):
-        here = np.stack([places[frame] for places in points])
-        ax = _beside(
-            figure.add_axes((panel / 2, 0.06, 0.5, 0.86), projection="3d"), first[frame : frame + 1], here
-        )
+        here, ax = points[:, frame], figure.add_axes((panel / 2, 0.06, 0.5, 0.86), projection="3d")
+        _beside(ax, first[frame : frame + 1], here)
         threads = to_picture(here[:, distinct_joints(first.skeleton)].swapaxes(0, 1))
         ax.add_collection3d(Line3DCollection(threads, colors=QUIET, linewidths=1.0, zorder=2))
         StickFigure(first.skeleton, ax).pose(here[0])
         other = StickFigure(second.skeleton, ax, 0.75)
-        for part in other.bones.values():
-            part.set(linestyle=STYLES[1], linewidth=1.8)
+        other.bones.set(linestyle=DASHED, linewidth=1.8)
         other.pose(here[1])
-        ax.set_title(f"{words}: {np.sqrt((gaps[frame] ** 2).mean()):.1f} cm RMS", fontsize=11)
-    _sides_and_bodies(figure, [first.name, second.name])
-    return figure
-
-
-def _sides_and_bodies(figure: Figure, names: Sequence[str]) -> None:
-    """Say below the panels which line is whose."""
-    looks: list[tuple[str, dict[str, Any]]] = [(side, {"color": COLOURS[side]}) for side in ("left", "right")]
-    looks += [(name, {"color": COLOURS["middle"], "ls": ls}) for name, ls in zip(names, STYLES, strict=True)]
-    looks += [("joint to joint", {"color": QUIET, "lw": 1})]
-    keys = [Line2D([], [], label=label, **look) for label, look in looks]
+        ax.set_title(f"{words}: {gaps[frame]:.1f} cm RMS", fontsize=11)
+    looks: dict[str, dict[str, Any]] = {side: {"color": COLOURS[side]} for side in ("left", "right")}
+    looks |= {first.name: {"color": COLOURS["middle"]}, "joint to joint": {"color": QUIET, "lw": 1}}
+    keys = [Line2D([], [], label=label, **look) for label, look in looks.items()]
+    keys.insert(3, Line2D([], [], label=second.name, color=COLOURS["middle"], linestyle=DASHED))
     figure.legend(handles=keys, loc="lower center", ncols=5, frameon=False, fontsize=9)
+    return figure
 
 
 CIRCLE_STEPS = ("each from its own middle", "where a turn can move each point", "what no turn can remove")
@@ -138,34 +126,28 @@ def radius_gaps(first: Motion, second: Motion, joints: Sequence[str], *, step: i
     """
     require_step(step, len(CIRCLE_STEPS))
     figure = Figure(figsize=(5.6, 5.2), layout="constrained")
-    ax = figure.add_subplot()
-    places = [_from_middle(motion, joints) for motion in (first, second)]
-    radii = np.linalg.norm(places, axis=-1)
-    for motion, points, sizes, colour in zip((first, second), places, radii, SOURCES, strict=False):
-        ax.plot(*points.T, "o", color=colour, label=motion.name)
-        for radius in sizes if step > 1 else ():
+    ax, last, places = figure.add_subplot(), step == len(CIRCLE_STEPS), []
+    for motion, colour in zip((first, second), SOURCES, strict=False):
+        middle = point_cloud(motion).mean((0, 1))  # of all points of the window
+        frame = joint_positions(motion)[len(motion) // 2]
+        places.append((frame[[motion.skeleton.index(name) for name in joints]] - middle)[:, [2, 0]])
+        ax.plot(*places[-1].T, "o", color=colour, label=motion.name)
+        for radius in np.linalg.norm(places[-1], axis=-1) if step > 1 else ():
             ax.add_patch(Circle((0, 0), radius, fill=False, color=colour, linewidth=0.8))
-    for name, point, (inner, outer) in zip(joints, places[0], np.sort(radii.T, axis=1), strict=True):
+    radii = np.linalg.norm(places, axis=-1).T  # (P, 2)
+    for name, point, ends in zip(joints, places[0], np.sort(radii, axis=1), strict=True):
         ax.annotate(name, point, (4, 4), textcoords="offset points", fontsize=9)
-        if step == len(CIRCLE_STEPS):
+        if last:
             ray = point / max(np.linalg.norm(point), 1e-9)
-            ax.plot(*np.outer(ray, (inner, outer)), color=COLOURS["middle"], linewidth=4)
-    gaps = ", ".join(
-        f"{n} {100 * g:.0f} cm" for n, g in zip(joints, np.abs(np.diff(radii, axis=0))[0], strict=True)
-    )
-    ax.set_title(CIRCLE_STEPS[step - 1] + (f": {gaps}" if step == len(CIRCLE_STEPS) else ""), fontsize=11)
+            ax.plot(*np.outer(ray, ends), color=COLOURS["middle"], linewidth=4)
+    gaps = 100 * np.abs(np.diff(radii, axis=1)[:, 0])
+    told = ", ".join(f"{name} {gap:.0f} cm" for name, gap in zip(joints, gaps, strict=True))
+    ax.set_title(CIRCLE_STEPS[step - 1] + f": {told}" * last, fontsize=11)
     ax.plot(0, 0, "+", color=QUIET)
     limit = 1.15 * radii.max() + 0.01
     ax.set(aspect="equal", xlabel="z (m)", ylabel="x (m)", xlim=(-limit, limit), ylim=(-limit, limit))
     ax.legend(fontsize=9)
     return figure
-
-
-def _from_middle(motion: Motion, joints: Sequence[str]) -> Array:
-    """Give (z, x) of joints in the middle frame, from the middle of all points of the window."""
-    numbers = [motion.skeleton.index(name) for name in joints]
-    middle = point_cloud(motion).mean((0, 1))
-    return np.asarray((joint_positions(motion)[len(motion) // 2, numbers] - middle)[:, [2, 0]])
 
 
 def _beside(ax: Axes3D, motion: Motion, points: Array) -> Axes3D:
@@ -200,33 +182,26 @@ def diagonal_sums(products: ArrayLike, window: int, *, step: int) -> Figure:
     if min(rows, columns) < 1 or window < 1:
         raise MocapError(f"Windows of {window} frames do not fit into an array of shape {numbers.shape}.")
     require_step(step, window)
-    sums = sum(numbers[f : f + rows, f : f + columns] for f in range(step))
+    sums = np.sum([numbers[f : f + rows, f : f + columns] for f in range(step)], axis=0)
     figure = Figure(figsize=(8.4, 4.2), layout="constrained")
     frames, windows = figure.subplots(1, 2, width_ratios=(numbers.shape[1], columns))
-    _table(frames, numbers, np.eye(*numbers.shape) * (np.arange(len(numbers)) < step)[:, None])
-    frames.add_patch(_box((step - 1, step - 1), (rows, columns)))
-    frames.set(
-        xlabel="frame j", ylabel="frame i", title=f"products of frames; the copy shifted by {step - 1}"
-    )
-    _table(windows, np.asarray(sums), np.eye(rows, columns) * (np.arange(rows) < 1)[:, None])
-    windows.add_patch(_box((0, 0), (rows, columns)))
+    _table(frames, numbers, step, (rows, columns))
+    frames.set(xlabel="frame j", ylabel="frame i")
+    frames.set_title(f"products of frames; the copy shifted by {step - 1}")
+    _table(windows, sums, 1, (rows, columns))
     windows.set(xlabel="window j", ylabel="window i", title=f"{step} of {window} copies added up")
     return figure
 
 
-def _table(ax: Axes, numbers: Array, marked: Array) -> None:
-    """Write numbers into cells, those that are marked on a coloured ground."""
+def _table(ax: Axes, numbers: Array, step: int, part: tuple[int, int]) -> None:
+    """Write numbers into cells, the first of the diagonal coloured; frame a part from the last of these."""
     for (row, column), number in np.ndenumerate(numbers):
-        ground = SOURCES[4] if marked[row, column] else "#FFFFFF"
+        ground = SOURCES[4] if row == column < step else "#FFFFFF"
         ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=ground, edgecolor=FLOOR))
         ax.text(column, row, f"{number:g}", ha="center", va="center", fontsize=11)
+    look: dict[str, Any] = {"fill": False, "edgecolor": SOURCES[0], "linewidth": 2.5, "zorder": 3}
+    ax.add_patch(Rectangle((step - 1.5, step - 1.5), part[1], part[0], **look))
     ax.set(xlim=(-0.6, numbers.shape[1] - 0.4), ylim=(numbers.shape[0] - 0.4, -0.6), aspect="equal")
     ax.set(xticks=range(numbers.shape[1]), yticks=range(numbers.shape[0]))
     ax.tick_params(length=0)
     ax.spines[:].set_visible(False)
-
-
-def _box(corner: tuple[int, int], shape: tuple[int, int]) -> Rectangle:
-    """Frame the cells of an array's part that starts at a row and a column."""
-    at = corner[1] - 0.5, corner[0] - 0.5
-    return Rectangle(at, shape[1], shape[0], fill=False, edgecolor=SOURCES[0], linewidth=2.5, zorder=3)

@@ -90,7 +90,7 @@ def inspector(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Inspector(Embedded):
-    """What `inspector` returns; a notebook shows it live, as a picture of four panels, or as a sentence.
+    """What `inspector` returns; a notebook shows it live, as a picture of its panels, or as a sentence.
 
     Examples
     --------
@@ -111,10 +111,10 @@ class Inspector(Embedded):
         """Which windows are looked at, how far apart they are, and at which turn."""
         shot = self.shot
         first, second = shot.windows
-        apart = 100 * shot.distance(shot.angle)
+        apart = 100 * shot.distance
         frames = f"{shot.i} to {shot.i + shot.window - 1}"
         others = f"{shot.j} to {shot.j + shot.window - 1}"
-        turn = f" at θ = {np.degrees(shot.angle):.0f}°".replace("-", "−")
+        turn = f" at θ = {np.degrees(shot.fit.angle):.0f}°".replace("-", "−")
         turn = turn if "turn" in self.show else ", aligned"
         windows = f"Frames {frames} of {first.name} and {others} of {second.name}"
         return f"{windows}: RMS distance {apart:.1f} cm{turn}."
@@ -136,7 +136,7 @@ class Inspector(Embedded):
 
     @cached_property
     def picture(self) -> bytes:
-        """Four panels as a PNG, for places where no script runs."""
+        """Panels as a PNG, for places where no script runs."""
         return small_png(storyboard(self.shot, self.show))
 
 

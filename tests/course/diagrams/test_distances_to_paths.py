@@ -1,6 +1,5 @@
 """Behind a corner that it cuts, a walk is on the path again, but not at the point of equal arc length."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -13,7 +12,7 @@ SAVED = 6 - CUT.length
 
 
 def threads(ax):
-    """Give the bent threads: those to the nearest points, then those at equal arc length."""
+    """Give the bent threads: those at equal arc length, then those to the nearest points."""
     return [line for line in ax.lines if len(line.get_xdata()) == 15]
 
 
@@ -22,13 +21,12 @@ def test_a_thread_of_each_kind_at_every_moment_so_far(step):
     figure = two_distances(CORNER, CUT, step=step)
     ground, curves = figure.axes
     assert len(threads(ground)) == 2 * (step + 1)
-    even = threads(ground)[step + 1 :]
+    even = threads(ground)[: step + 1]
     for moment, line in enumerate(even):
         along = CUT.length * moment / 8
         ends = np.transpose(line.get_data())[[0, -1]]
         assert ends == pytest.approx(np.vstack([CUT.at([along]), CORNER.at([along])]), abs=1e-9)
     assert curves.lines[0].get_xdata().max() <= CUT.length * step / 8 + 1e-9
-    plt.close(figure)
 
 
 def test_behind_the_corner_one_distance_is_zero_and_the_other_what_was_saved():
@@ -39,7 +37,6 @@ def test_behind_the_corner_one_distance_is_zero_and_the_other_what_was_saved():
     assert near.get_ydata().max() == pytest.approx(100 * 1.5 * (1 - np.sqrt(0.5)), abs=1)
     labels = [text.get_text() for text in figure.axes[1].get_legend().get_texts()]
     assert labels == ["at equal arc length (Eq. 9)", "to the nearest point"]
-    plt.close(figure)
 
 
 def test_the_nearest_point_is_the_nearest():

@@ -12,7 +12,7 @@ def arrows(ax):
     return [complex(*text.xy) for text in ax.texts if getattr(text, "arrow_patch", None)]
 
 
-@pytest.mark.parametrize("angle", [-170, -60, 1, 60, 180])
+@pytest.mark.parametrize("angle", [-170, 60])
 def test_q_turns_by_a_half_and_q_bar_by_the_other_half_where_it_is_needed(angle):
     across, along = (arrows(ax) for ax in quaternions.half_turns(angle=angle).axes)
     half = np.exp(1j * np.radians(angle / 2))

@@ -1,23 +1,76 @@
-"""Small graphs, step by step: which boxes and lines, and what each step of Tarjan's search shows."""
+"""What nodes and edges are, and the homework's segments in rows, read back from the artists."""
+
+from itertools import pairwise
 
 import networkx as nx
-import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex
+from matplotlib.text import Annotation
 
-from mocap import graphs
-from mocap.course.diagrams.small_graphs import (
-    BOX,
-    EIGHT_PLACES,
-    ON_STACK,
-    UNSEEN,
-    segments_in_rows,
-    tarjan_states,
-    tarjan_step,
-)
+from mocap.course.diagrams import small_graphs
+from mocap.course.diagrams.small_graphs import BOX, segments_in_rows
 from mocap.graphs import Segment
-from mocap.plotting.style import SOURCES
+from mocap.plotting.style import MARK, PATH, QUIET, SOURCES
+
+
+def bars(ax):
+    return [line for line in ax.lines if line.get_linewidth() == 9]
+
+
+def nodes(ax):
+    return sorted(
+        (-line.get_ydata()[0], line.get_xdata()[0]) for line in ax.lines if line.get_marker() == "o"
+    )
+
+
+def arrows(ax, colour):
+    found = [text for text in ax.texts if isinstance(text, Annotation) and text.arrow_patch]
+    return [arrow for arrow in found if to_hex(arrow.arrow_patch.get_edgecolor()) == to_hex(colour)]
+
+
+def drawn(step):
+    return small_graphs.nodes_and_edges(step).axes[0]
+
+
+@pytest.mark.parametrize(("step", "leaps"), [(0, 0), (1, 0), (2, 1), (3, 3), (4, 3)])
+def test_each_transition_adds_an_arrow_and_two_nodes(step, leaps):
+    ax = drawn(step)
+    assert len(arrows(ax, MARK)) == leaps
+    assert len(nodes(ax)) == 4 + 2 * leaps
+    assert len(bars(ax)) == 2 + 2 * leaps  # each node within a clip cuts it
+
+
+def test_an_arrow_leads_from_a_node_to_a_node():
+    ax = drawn(3)
+    for arrow in arrows(ax, MARK):
+        for time, row in (arrow.xyann, arrow.xy):
+            assert (-row, time) in nodes(ax)
+
+
+def test_a_match_is_a_window_in_each_clip_of_which_one_ends_where_the_transition_enters():
+    windows = [line for line in drawn(1).lines if line.get_color() == MARK]
+    assert [line.get_ydata()[0] for line in windows] == [0, -1]
+    source, leaves, target, enters = small_graphs.LEAPS[0]
+    assert (source, target) == (0, 1)
+    assert windows[0].get_xdata()[0] == leaves
+    assert windows[1].get_xdata()[1] == pytest.approx(enters)
+
+
+def test_pruning_removes_what_no_transition_enters_or_leaves():
+    pale = {tuple(bar.get_xdata()) for bar in bars(drawn(4)) if bar.get_color() not in SOURCES}
+    assert pale == {(0.0, 1.0), (4.8, 6.0), (0.0, 1.4), (3.2, 5.0)}
+    ends = [line for line in drawn(4).lines if line.get_markeredgecolor() == QUIET]
+    assert len(ends) == 4
+
+
+def test_each_edge_of_the_walk_begins_where_the_one_before_ends():
+    ax = drawn(5)
+    assert len(arrows(ax, PATH)) == len(small_graphs.WALK) + len(small_graphs.LEAPS)
+    assert {"1", "2", "3", "4"} < {text.get_text() for text in ax.texts}
+    ends = [(leap[1], leap[3]) for leap in small_graphs.LEAPS]
+    for (_, _, end), (_, start, _) in pairwise(small_graphs.WALK):
+        assert (end, start) in ends
 
 
 @pytest.fixture
@@ -58,51 +111,3 @@ def test_a_transition_leaves_the_end_of_a_box_and_enters_the_start_of_another(se
 def test_one_segment_alone_shows_its_own_transitions(segments):
     assert len(lines(segments_in_rows(segments, ["a", "b"], step=4))) == 1
     assert lines(segments_in_rows(segments, ["a", "b"], step=1)) == []
-
-
-def faces(figure):
-    return {tuple(np.round(face[:3], 6)) for face in figure.axes[0].collections[0].get_facecolors()}
-
-
-def rgb(*colours):
-    return {tuple(np.round(to_rgb(colour), 6)) for colour in colours}
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_the_last_state_holds_the_strongly_connected_components(seed):
-    graph = nx.gnp_random_graph(9, 0.15, seed=seed, directed=True)
-    last = tarjan_states({node: list(graph[node]) for node in graph})[-1]
-    expected = set(map(frozenset, nx.strongly_connected_components(graph)))
-    assert set(map(frozenset, last.components)) == expected
-    assert last.stack == []
-
-
-def test_a_low_link_is_never_above_the_index_nor_below_what_the_stack_holds():
-    graph = graphs.notes_example()
-    for state in tarjan_states({node: sorted(graph.successors(node)) for node in graph}):
-        assert all(state.low[node] <= state.number[node] for node in state.number)
-        assert all(state.low[node] >= state.number[state.stack[0]] for node in state.stack)
-
-
-def test_the_picture_shows_numbers_stack_and_complete_components():
-    figure = tarjan_step(graphs.notes_example(), step=15)
-    left, right = figure.axes
-    assert left.get_title() == "step 15: 8 → 3 closes a cycle"
-    assert {"7 / 2", "6 / 6", "2 / 0"} <= {text.get_text() for text in left.texts}
-    assert [text.get_text() for text in right.texts] == ["1", "2", "3", "6", "7", "8"]
-    assert faces(figure) == rgb(ON_STACK, SOURCES[0], SOURCES[1])
-    (thick,) = np.flatnonzero(np.array(left.collections[0].get_linewidths()) > 2)
-    assert list(graphs.notes_example())[thick] == 8
-
-
-def test_at_first_nothing_else_is_seen_and_at_last_the_stack_is_empty():
-    assert faces(tarjan_step(graphs.notes_example())) == rgb(ON_STACK, UNSEEN)
-    last = tarjan_step(graphs.notes_example(), step=99)
-    assert last.axes[1].get_title() == "stack: empty"
-    assert faces(last) == rgb(*SOURCES[:3])
-    assert last.axes[0].get_title().startswith("step 20:")
-
-
-def test_each_node_of_the_example_has_a_place_of_its_own():
-    assert sorted(EIGHT_PLACES) == sorted(graphs.notes_example())
-    assert len(set(EIGHT_PLACES.values())) == 8
