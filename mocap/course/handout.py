@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course.notebooks import library, read, tagged
+from mocap.course.notebooks import library, notebooks_in, read, tagged
 from mocap.errors import MocapError
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
@@ -33,9 +33,7 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
-    if not files:
-        raise MocapError(f"The folder {notebooks} holds no notebooks.")
+    nbformat, files = library(), notebooks_in(notebooks)
     make_folder(out)
     for file in (*files, *(notebooks / page for page in PAGES)):
         if (out / file.name).exists():

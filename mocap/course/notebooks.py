@@ -63,6 +63,24 @@ def read(path: Path) -> Any:  # noqa: ANN401
         raise MocapError(f"{path}: is not a notebook.") from error
 
 
+def notebooks_in(folder: Path) -> list[Path]:
+    """List the notebooks of a folder.
+
+    Raises
+    ------
+    MocapError : if there are none.
+
+    Examples
+    --------
+    >>> notebooks_in(Path("nowhere"))
+    Traceback (most recent call last):
+    mocap.errors.MocapError: The folder nowhere holds no notebooks.
+    """
+    if files := sorted(folder.glob("*.ipynb")):
+        return files
+    raise MocapError(f"The folder {folder} holds no notebooks.")
+
+
 def tagged(notebook: Any, kind: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN401
     """Yield the NAME and the cell for each tag such as `exercise:NAME`.
 

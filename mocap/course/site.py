@@ -16,7 +16,7 @@ from typing import Any
 
 import mocap
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course.notebooks import execute, library, read
+from mocap.course.notebooks import execute, library, notebooks_in, read
 from mocap.errors import MocapError
 
 HERE = Path(__file__).parent
@@ -90,18 +90,15 @@ def build_site(
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    nbformat, files = library(), sorted(notebooks.glob("*.ipynb"))
-    if not files:
-        raise MocapError(f"The folder {notebooks} holds no notebooks.")
+    nbformat, files = library(), notebooks_in(notebooks)
     if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
         raise MocapError("The site needs Sphinx, MyST-NB and Furo: pip install 'mocap[site]'.")
     make_folder(out)
     with tempfile.TemporaryDirectory() as folder:
         titles = []
         for file in progress(files):
-            notebook = read(file)
-            titles.append(f"{page_title(file.stem, notebook)} <{file.stem}>")
-            fill_in(notebook, recorded_of(file, notebook) if moving else {})
+            title, notebook = prepared(file, moving=moving)
+            titles.append(f"{title} <{file.stem}>")
             _unpack_pictures(notebook, Path(folder), file.stem)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(_note(notebook), id="note"))
             write_text(Path(folder, file.name), nbformat.writes(notebook))
@@ -113,9 +110,11 @@ def build_site(
     return out / f"{files[0].stem}.html"
 
 
-def page_title(name: str, notebook: Any) -> str:  # noqa: ANN401
-    """Give a notebook's number and its heading."""
-    return f"{name.partition('-')[0]} {notebook.cells[0].source.splitlines()[0].lstrip('# ')}"
+def prepared(file: Path, *, moving: bool) -> tuple[str, Any]:
+    """Read a notebook for readers without Python; give its number with its heading, and the notebook."""
+    notebook = read(file)
+    fill_in(notebook, recorded_of(file, notebook) if moving else {})
+    return f"{file.name.partition('-')[0]} {notebook.cells[0].source.splitlines()[0].lstrip('# ')}", notebook
 
 
 def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401

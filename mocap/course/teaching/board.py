@@ -8,45 +8,41 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from PIL import Image, ImageDraw
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from PIL import Image, ImageDraw, ImageOps
 
 from mocap import datasets, graphs, matching, plotting
 from mocap._shared.atomic import make_folder, replacing
 from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
 from mocap.course import diagrams
-from mocap.course.teaching.films import fitted, font_of
+from mocap.course.teaching.films import SMOOTH, font_of
 
 WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
 COLOURS = 128  # of a file
 INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
-Steps = Iterator[Any]  # of figures
+SMALL = 620  # pixels of a drawing on the sheet of all
+Steps = Iterator[Figure]
+
+
+def _walks(frames: int) -> list[Motion]:
+    return [resample(datasets.sample(f"walk_curve_{number}"), FPS)[:frames] for number in (1, 2)]
 
 
 def _pair() -> tuple[Motion, Motion]:
     """Give two walks, of which frames 56 and 20 begin windows that match."""
-    first, second = (resample(datasets.sample(f"walk_curve_{number}"), FPS) for number in (1, 2))
-    return first[56 : 56 + WINDOW], second[20 : 20 + WINDOW]
-
-
-def _window() -> Steps:
-    return (diagrams.window_cloud(_pair()[0], step=step) for step in (1, 2, 3, 4))
-
-
-def _theta() -> Steps:
-    return (diagrams.laying_on(*_pair(), step=step) for step in (1, 2, 3, 4))
+    first, second = _walks(66)
+    return first[56:], second[20 : 20 + WINDOW]
 
 
 def _grid() -> Steps:
-    clips = [resample(datasets.sample(f"walk_curve_{number}"), FPS)[:180] for number in (1, 2)]
-    grid = matching.distance_grid(*clips, window=WINDOW)
+    grid = matching.distance_grid(*_walks(180), window=WINDOW)
     low = matching.local_minima(grid)
     costs = np.sqrt(grid[tuple(low.T)])
     for minima in (low[:0], low, low[costs < 0.04]):
@@ -54,9 +50,8 @@ def _grid() -> Steps:
 
 
 def _laid() -> Steps:
-    first, second = (resample(datasets.sample(f"walk_curve_{number}"), FPS)[:66] for number in (1, 2))
-    moving = second[20:]
-    yield diagrams.alignment(first, moving, lay_on(moving, first, len(first) - 1), step=3)
+    first, second = _walks(66)
+    yield diagrams.alignment(first, second[20:], lay_on(second[20:], first, len(first) - 1), step=3)
 
 
 def _ball() -> Steps:
@@ -71,18 +66,19 @@ def _path() -> Steps:
     return (diagrams.two_distances(corner, rounded, step=step) for step in (0, 3, 5, 8))
 
 
-def _tarjan() -> Steps:
-    draw = partial(diagrams.tarjan_step, graphs.notes_example(), places=diagrams.EIGHT_PLACES)
-    return (draw(step=step) for step in (0, 4, 9, 12, 15, 18))
+def _tarjan(step: int) -> Figure:
+    return diagrams.tarjan_step(graphs.notes_example(), places=diagrams.EIGHT_PLACES, step=step)
 
 
-def _search() -> Steps:
-    return (diagrams.search_steps(graphs.notes_example(), 6, 2, step=step) for step in (0, 2, 4, 7, 10, 13))
-
-
-BOARD: dict[str, tuple[str, Callable[[], Iterable[Any]]]] = {
-    "01-window": ("A window becomes a cloud of points", _window),
-    "02-theta": ("Four steps to the best turn and shift", _theta),
+BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
+    "01-window": (
+        "A window becomes a cloud of points",
+        lambda: (diagrams.window_cloud(_pair()[0], step=step) for step in (1, 2, 3, 4)),
+    ),
+    "02-theta": (
+        "Four steps to the best turn and shift",
+        lambda: (diagrams.laying_on(*_pair(), step=step) for step in (1, 2, 3, 4)),
+    ),
     "03-minima": ("A grid of distances, its minima, those below a threshold", _grid),
     "04-laid-on": ("One clip laid on the end of another: turn, then shift", _laid),
     "05-alpha": (
@@ -90,9 +86,12 @@ BOARD: dict[str, tuple[str, Callable[[], Iterable[Any]]]] = {
         lambda: map(diagrams.blended_seam, (1, 2, 3, 4)),
     ),
     "06-slerp": ("From one rotation to another on the ball", _ball),
-    "07-graph": ("Two clips become a graph", lambda: map(diagrams.nodes_and_edges, (0, 1, 2, 3, 4, 5))),
-    "08-tarjan": ("Tarjan's algorithm on eight nodes", _tarjan),
-    "09-search": ("Branch and bound on eight nodes", _search),
+    "07-graph": ("Two clips become a graph", lambda: map(diagrams.nodes_and_edges, range(6))),
+    "08-tarjan": ("Tarjan's algorithm on eight nodes", lambda: map(_tarjan, (0, 4, 9, 12, 15, 18))),
+    "09-search": (
+        "Branch and bound on eight nodes",
+        lambda: (diagrams.search_steps(graphs.notes_example(), 6, 2, step=s) for s in (0, 2, 4, 7, 10, 13)),
+    ),
     "10-path": ("Two distances from a path: at equal arc length, to the nearest point", _path),
     "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, (1, 2, 3))),
 }
@@ -111,18 +110,14 @@ def write_board(out: Path, progress: Progress = iter) -> list[Path]:
     The files, the sheet of all last.
     """
     make_folder(out)
-    files, small = [], []
-    for name in progress(list(BOARD)):
-        sheet = board_sheet(name)
-        files.append(_saved(sheet, out / f"{name}.png"))
-        sheet.thumbnail((620, 620))
-        small.append(sheet)
+    files = [_saved(board_sheet(name), out / f"{name}.png") for name in progress(list(BOARD))]
+    small = [ImageOps.contain(Image.open(file).convert("RGB"), (SMALL, SMALL), SMOOTH) for file in files]
     rows = [small[at : at + 3] for at in range(0, len(small), 3)]
-    highs = [max(sheet.height for sheet in row) + GAP for row in rows]
-    page = Image.new("RGB", (3 * (620 + GAP), sum(highs)), PAPER)
-    for row, top in zip(rows, np.cumsum([0, *highs]).tolist(), strict=False):
+    tops = np.cumsum([0, *(max(sheet.height for sheet in row) + GAP for row in rows)]).tolist()
+    page = Image.new("RGB", (3 * (SMALL + GAP), tops[-1]), PAPER)
+    for row, top in zip(rows, tops, strict=False):
         for column, sheet in enumerate(row):
-            page.paste(sheet, (column * (620 + GAP) + GAP // 2, top + GAP // 2))
+            page.paste(sheet, (column * (SMALL + GAP) + GAP // 2, top + GAP // 2))
     return [*files, _saved(page, out / "board.png")]
 
 
@@ -146,31 +141,21 @@ def board_sheet(name: str) -> Image.Image:
     """
     heading, steps = BOARD[name]
     figures = list(steps())
-    for figure in figures if len(figures) > 1 else []:
-        _unnumbered(figure)
-    room = PANEL if len(figures) > 1 else (2 * PANEL[0], PANEL[1])  # one figure that shows its steps itself
-    panels = [_panel(figure, heading, room) for figure in figures]
-    columns = min(len(panels), 2 if len(panels) == 4 else 3)
+    alone = len(figures) == 1  # one figure that shows its steps itself
+    room = ((1 + alone) * PANEL[0], PANEL[1])
+    columns = min(len(figures), 2 if len(figures) == 4 else 3)
     wide, high = room[0] + GAP, room[1] + GAP
-    page = Image.new("RGB", (columns * wide + GAP, -(-len(panels) // columns) * high + HEAD + GAP), PAPER)
+    page = Image.new("RGB", (columns * wide + GAP, -(-len(figures) // columns) * high + HEAD + GAP), PAPER)
     pen = ImageDraw.Draw(page)
     pen.text((GAP, 18), heading, INK, font_of(38, bold=True))
-    for number, panel in enumerate(panels):
+    for number, figure in enumerate(figures):
         x, y = GAP + number % columns * wide, HEAD + number // columns * high
-        page.paste(panel, (x + (room[0] - panel.width) // 2, y + (room[1] - panel.height) // 2))
-        if len(panels) > 1:
+        if not alone:  # the disc has the number with which the title begins
+            for text in figure.findobj(Text):
+                text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
+        picture = Image.open(io.BytesIO(plotting.show(figure, alt=heading).picture)).convert("RGB")
+        page.paste(ImageOps.pad(picture, room, SMOOTH, PAPER), (x, y))
+        if not alone:
             pen.ellipse([x, y, x + 48, y + 48], DISC)
             pen.text((x + 24, y + 24), str(number + 1), PAPER, font_of(28, bold=True), anchor="mm")
     return page
-
-
-def _unnumbered(figure: Any) -> None:  # noqa: ANN401
-    """Take off the number with which a step's title begins: the disc beside it has one."""
-    for text in figure.findobj(lambda artist: hasattr(artist, "set_text")):
-        text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
-
-
-def _panel(figure: Any, heading: str, room: tuple[int, int]) -> Image.Image:  # noqa: ANN401
-    """Turn a figure into a picture of the size of a step, and close it."""
-    picture = Image.open(io.BytesIO(plotting.show(figure, alt=heading).picture)).convert("RGB")
-    return fitted(picture, room)

@@ -4,13 +4,11 @@ A heading starts a slide. Of each paragraph the slide has the first sentence, an
 have all. Predictions, their answers, questions, pictures and players have slides of their own, exercises come
 last. Code is shown where it is short and shows the package's own or a function; else its output alone.
 
-Tags change this for a cell: `slide:skip` leaves it out, `slide:notes` keeps it for the speaker, `slide:full`
-shows its text in full, `slide:code` shows its code, `slide:own` gives it a slide of its own.
+Tags change this for a cell: `slide:skip` leaves it out, `slide:notes` keeps it for the speaker.
 """
 
 from __future__ import annotations
 
-import copy
 import re
 from dataclasses import dataclass, field
 from typing import Any
@@ -57,14 +55,14 @@ def deck_of(notebook: Any) -> list[Slide]:  # noqa: ANN401
     [('title', 'Walks'), ('text', 'Why?')]
     """
     made, exercises = [Slide("title", "Title")], dict[str, Slide]()
-    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    first = next((cell for cell in notebook.cells if cell.cell_type == "code"), None)
     for cell in notebook.cells:
         tags = cell.metadata.get("tags", [])
-        named = [tag for tag in tags if tag.startswith(("ask:", "exercise:", "solution:"))]
+        named = [tag.partition(":") for tag in tags if tag.startswith(("ask:", "exercise:", "solution:"))]
         if any(tag.startswith(("check:", "slide:skip")) for tag in tags):
             continue
         if named:
-            kind, _, name = named[0].partition(":")
+            kind, _, name = named[0]
             exercise = exercises.setdefault(name, Slide("exercise", name.replace("_", " ").capitalize()))
             if kind == "solution":
                 exercise.notes.append(cell.source)
@@ -74,16 +72,16 @@ def deck_of(notebook: Any) -> list[Slide]:  # noqa: ANN401
             made[-1].notes.append(cell.source)
         elif cell.cell_type == "markdown":
             _add_text(made, cell, tags)
-        elif cell.cell_type == "code":
-            _add_code(made, cell, tags, first=cell is code[0])
+        else:
+            _add_code(made, cell, tags, first=cell is first)
     return [*(slide for slide in made if slide.cells), *exercises.values()]
 
 
 def _add_text(made: list[Slide], cell: Any, tags: list[str]) -> None:  # noqa: ANN401
     """Put the blocks of a cell on slides, and its whole text into the notes of the first of them."""
-    own = next((tag for tag in tags if tag in ("prediction", "answer", "slide:own")), "")
-    if own or made[-1].kind in ("prediction", "answer"):
-        made.append(Slide(own.replace("slide:own", "") or "text", made[-1].heading))
+    own = next((tag for tag in tags if tag in ("prediction", "answer")), "text")
+    if own != "text" or made[-1].kind in ("prediction", "answer"):
+        made.append(Slide(own, made[-1].heading))
     for block in blocks(cell.source):
         if block.startswith("# "):
             made[-1].heading = block.lstrip("# ")
@@ -94,20 +92,21 @@ def _add_text(made: list[Slide], cell: Any, tags: list[str]) -> None:  # noqa: A
                 made.append(Slide("answer", made[-1].heading))
             for part in blocks(block.partition("</summary>")[2].removesuffix("</details>")):
                 _add_block(made, shortened(part, ROOM), part, cell)
+        elif block.startswith("**About "):  # the minutes of one who reads alone
+            made[-1].notes.append(block)
         else:
-            full = {"slide:full", "prediction"} & set(tags) or CAPTION.fullmatch(block)
+            full = "prediction" in tags or CAPTION.fullmatch(block)
             _add_block(made, block if full else shortened(block, ROOM), block, cell)
 
 
 def _add_block(made: list[Slide], shown: str, whole: str, cell: Any) -> None:  # noqa: ANN401
     from nbformat.v4 import new_markdown_cell
 
-    slide, lines = made[-1], sum(_height(line) for line in shown.splitlines() if line.strip()) + 0.5
-    if shown.startswith("**About "):  # the minutes of one who reads alone
-        slide.notes.append(whole)
-        return
-    below = slide.kind == "picture" and CAPTION.fullmatch(shown)
+    slide, lines = made[-1], 0.5
+    for line in filter(str.strip, shown.splitlines()):
+        lines += 2 if line.startswith("$$") else 8 if line.startswith("![") else -(-len(line) // WIDE)
     full = slide.cells and slide.lines + lines > LINES
+    below = slide.kind == "picture" and CAPTION.fullmatch(shown)
     if full or (slide.kind in ("picture", "question", "code") and not below):
         slide = Slide(slide.kind if slide.kind in ("prediction", "answer") else "text", slide.heading)
         made.append(slide)
@@ -117,46 +116,32 @@ def _add_block(made: list[Slide], shown: str, whole: str, cell: Any) -> None:  #
         slide.notes.append(whole)
 
 
-def _height(line: str) -> float:
-    if line.startswith("$$"):
-        return 2.0
-    return 8.0 if line.startswith("![") else -(-len(line) // WIDE)
-
-
 def _add_code(made: list[Slide], cell: Any, tags: list[str], *, first: bool) -> None:  # noqa: ANN401
     """Put code with what it prints below the text before it where there is room, then what it shows."""
     function = cell.source.lstrip().startswith("def ") and not DRAWING.search(cell.source)
     short = function and len(cell.source.splitlines()) <= CODE and not first
-    code = cell.source if short or any(tag.startswith(("source:", "slide:code")) for tag in tags) else ""
+    code = cell.source if short or any(tag.startswith("source:") for tag in tags) else ""
     printed = [_cut(output) for output in cell.outputs if output.output_type == "stream"]
     shown = [output for output in cell.outputs if {"image/png", "text/html"} & set(output.get("data", {}))]
     if code or (printed and not shown and not first):
         lines = sum(len(text.splitlines()) for text in (code, *(output.text for output in printed)))
         slide = made[-1]
-        if slide.kind != "text" or slide.lines + 0.8 * lines > LINES or not slide.cells:
-            slide = Slide("code", slide.heading)
-        if (
-            slide is made[-1] or lines >= FEW or made[-1].kind == "text"
-        ):  # else the text after it says it again
-            made += [slide] * (slide is not made[-1])
-            slide.cells.append(_changed(cell, source=code, outputs=printed))
-            slide.lines += 0.8 * lines
+        fits = slide.kind == "text" and slide.cells and slide.lines + 0.8 * lines <= LINES
+        if not fits and (lines >= FEW or slide.kind == "text"):  # else the text after it says it again
+            made.append(Slide("code", slide.heading))
+        if fits or slide is not made[-1]:
+            made[-1].cells.append(_changed(cell, source=code, outputs=printed))
+            made[-1].lines += 0.8 * lines
     for output in shown:
         question = 'class="mocap-question"' in output.data.get("text/html", "")
-        slide = _slide_for(made, "question" if question else "picture")
+        slide = made[-1]
+        bet = question and slide.kind == "prediction" and slide.lines <= 2 * FEW
+        if not question and slide.kind == "text" and slide.cells and slide.lines <= FEW:
+            slide.kind = "picture"  # a few lines before a picture stand above it
+        elif not bet:
+            slide = Slide("question" if question else "picture", slide.heading)
+            made.append(slide)
         slide.cells.append(_changed(cell, source="", outputs=[output]))
-
-
-def _slide_for(made: list[Slide], kind: str) -> Slide:
-    """Take the slide of a few lines before a picture or a bet for it, or a new one."""
-    slide = made[-1]
-    if kind == "question" and slide.kind == "prediction" and slide.lines <= 2 * FEW:
-        return slide
-    if kind == "picture" and slide.kind == "text" and slide.cells and slide.lines <= FEW:
-        slide.kind = kind
-        return slide
-    made.append(Slide(kind, slide.heading))
-    return made[-1]
 
 
 def _cut(output: Any) -> Any:  # noqa: ANN401
@@ -167,6 +152,4 @@ def _cut(output: Any) -> Any:  # noqa: ANN401
 
 def _changed(one: Any, **new: Any) -> Any:  # noqa: ANN401
     """Copy a cell or an output with other values."""
-    made = copy.copy(one)
-    made.update(new)
-    return made
+    return type(one)(one, **new)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import base64
 import html
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -51,14 +51,6 @@ class Scene:
         return self.longer * max(LOOK[self.kind], len(self.words) / SPEED + 0.5)
 
 
-@dataclass
-class _Section:
-    heading: str
-    words: str = ""  # the first sentences
-    before: str = ""  # the paragraph that came last
-    scenes: list[Scene] = field(default_factory=list)
-
-
 def script_of(notebook: Any, recorded: Mapping[str, Any]) -> list[Scene]:  # noqa: ANN401
     r"""Choose the scenes of a film of about three minutes.
 
@@ -81,10 +73,10 @@ def script_of(notebook: Any, recorded: Mapping[str, Any]) -> list[Scene]:  # noq
     scenes = list(_scenes(notebook, recorded))
     taken: set[int] = set()
     total = 0.0
-    for number in sorted(range(len(scenes)), key=lambda number: (scenes[number].counts, number)):
-        if total + scenes[number].seconds <= MIDDLE or scenes[number].counts == 0:
+    for number, scene in sorted(enumerate(scenes), key=lambda pair: pair[1].counts):
+        if total + scene.seconds <= MIDDLE or scene.counts == 0:
             taken.add(number)
-            total += scenes[number].seconds
+            total += scene.seconds
     chosen = [scenes[number] for number in sorted(taken)]
     shown = [scene for scene in chosen if scene.kind != "card"] or chosen  # to look at, as words are not
     looked = sum(scene.seconds for scene in shown)
@@ -94,13 +86,24 @@ def script_of(notebook: Any, recorded: Mapping[str, Any]) -> list[Scene]:  # noq
     return chosen
 
 
+@dataclass
+class _Section:
+    heading: str
+    words: str = ""  # the first sentences
+    before: str = ""  # the paragraph that came last
+    scenes: list[Scene] = field(default_factory=list)
+
+    def show(self, kind: str, words: str, counts: int, **shown: Any) -> None:  # noqa: ANN401
+        self.scenes.append(Scene(kind, self.heading, words, counts, **shown))
+
+
 def _scenes(notebook: Any, recorded: Mapping[str, Any]) -> Iterator[Scene]:  # noqa: ANN401
     """Yield what each section shows; one without a picture is a card of its words."""
     for number, section in enumerate(_sections(notebook, recorded)):
         if section.scenes:
             section.scenes[0].counts = min(section.scenes[0].counts, 2) if number else 0
         elif section.words:
-            yield Scene("card", section.heading, section.words, 0 if section.heading == LEARNT else 3)
+            section.show("card", section.words, 0 if section.heading == LEARNT else 3)
         yield from section.scenes
 
 
@@ -112,62 +115,54 @@ def _sections(notebook: Any, recorded: Mapping[str, Any]) -> list[_Section]:  # 
             continue
         if cell.cell_type == "markdown":
             hunted = "**Bug hunt" in cell.source  # what is shown after it is wrong on purpose
-            plain = "answer" not in tags and "prediction" not in tags
             for block in blocks(cell.source):
                 if block.startswith("#"):
                     made.append(_Section(spoken(block.lstrip("# "))))
-                else:
-                    _read(block, cell, made[-1], plain=plain)
+                elif block.startswith("![") and "attachment:" in block:
+                    data = cell.attachments[block.rpartition("attachment:")[2].rstrip(")")]["image/png"]
+                    made[-1].show("still", "", 1, pictures=[base64.b64decode(data)])
+                elif not {"answer", "prediction"} & {*tags} or made[-1].heading == LEARNT:
+                    _read(block, made[-1])
         elif not hunted:
-            made[-1].scenes += _shown(cell, made[-1], recorded)
+            _show(cell, made[-1], recorded)
     return [section for section in made if section.heading and section.heading not in SKIPPED]
 
 
-def _read(block: str, cell: Any, section: _Section, *, plain: bool) -> None:  # noqa: ANN401
-    """Take a picture or sentences from a block of text; no sentences from a prediction."""
-    if block.startswith("![") and "attachment:" in block:
-        name = block.rpartition("attachment:")[2].rstrip(")")
-        data = base64.b64decode(cell.attachments[name]["image/png"])
-        section.scenes.append(Scene("still", section.heading, "", 1, [data]))
-    elif section.heading == LEARNT:
+def _read(block: str, section: _Section) -> None:
+    """Take the first sentences of a block that are plain words, as many as can be read below a picture."""
+    if section.heading == LEARNT:
         lines = (spoken(line.lstrip("- ")) for line in shortened(block).splitlines())
         section.words = "\n".join(filter(None, [section.words, *lines]))
-    elif plain and not block.startswith(("<", "$$", "```", "|", "**")):
-        section.before = _caption(sentences(block.lstrip("-*0123456789. "))) or section.before
+    elif not block.startswith(("<", "$$", "```", "|", "**")):
+        section.before = _caption(block.lstrip("-*0123456789. ")) or section.before
         if not section.words:
             section.words = section.before
             for scene in section.scenes:  # a picture above the first sentence
                 scene.words = section.words
 
 
-def _caption(parts: Iterable[str]) -> str:
-    """Join the first sentences that are plain words, as many as can be read below a picture."""
+def _caption(text: str) -> str:
     words = ""
-    for part in parts:
-        said = spoken(part)
+    for said in map(spoken, sentences(text)):
         if not said.endswith(ENDS) or len(words) + len(said) > WORDS:  # others lead to a formula or a list
             break
         words = f"{words} {said}".strip()
     return words
 
 
-def _shown(cell: Any, section: _Section, recorded: Mapping[str, Any]) -> list[Scene]:  # noqa: ANN401
+def _show(cell: Any, section: _Section, recorded: Mapping[str, Any]) -> None:  # noqa: ANN401
     """Make a scene of each thing that a cell shows."""
-    made: list[Scene] = []
-    for output in cell.get("outputs", ()):
-        data = output.get("data", {})
-        page = data.get("text/html", "")
-        words = section.before if section.scenes else section.words
-        if any(scene.words == words for scene in section.scenes):  # its own sentence is better than one again
-            words = _caption(sentences(html.unescape("".join(ALT.findall(page)[:1])))) or words
-        figures = stored_figures(page)
-        if figures:
-            made.append(Scene("player", section.heading, words, 1, figures=figures))
+    known = list(section.scenes)
+    for data in (output.get("data", {}) for output in cell.get("outputs", ())):
+        page, words = data.get("text/html", ""), section.before if known else section.words
+        if any(scene.words == words for scene in known):  # its own sentence is better than one again
+            words = _caption(html.unescape("".join(ALT.findall(page)[:1]))) or words
+        if figures := stored_figures(page):
+            section.show("player", words, 1, figures=figures)
         elif STILL in page and cell.source in recorded:
             one = recorded[cell.source]
-            pictures = [base64.b64decode(picture) for picture in one["pictures"]]
             labels = [f"{one['name']}: {label}" for label in one["labels"]]
-            made.append(Scene("moving", section.heading, words, 1, pictures, labels))
+            pictures = [base64.b64decode(picture) for picture in one["pictures"]]
+            section.show("moving", words, 1, pictures=pictures, labels=labels)
         elif "image/png" in data:
-            made.append(Scene("still", section.heading, words, 4, [base64.b64decode(data["image/png"])]))
-    return made
+            section.show("still", words, 4, pictures=[base64.b64decode(data["image/png"])])

@@ -9,16 +9,26 @@ COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 KEPT = re.compile(r"`[^`]*`|\$[^$\n]+\$|\[[^\]]*\](?:\([^)]*\))?|\([^()]*\)")  # no sentence ends in these
 END = re.compile(r"(?:(?<=[^A-Z\s][.!?])|(?<=[.!?]\*)|(?<=[.!?]\*\*))\s+(?=[A-ZÀ-Þ*_`$\[\"“(\d\x00])")
 SHORT = re.compile(r"\b(?:e\.g|i\.e|Eqs?|Figs?|cf|vs|no|pp?)\.$")
-ITEM = re.compile(r"^[ \t]*(?:[-*]|\d+\.)[ \t]")
+ITEM = re.compile(r"^[ \t]*(?:[-*]|\d+\.)[ \t]", re.MULTILINE)
 LEAD = 45  # characters of words that lead a paragraph in, such as "Predict."
-HIDDEN = "\x00{}\x00"
-GREEK = {
-    **{
-        f"\\{name}": sign
-        for name, sign in zip(("alpha", "beta", "theta", "phi", "sigma"), "αβθφσ", strict=True)
-    },
-    **{r"\times": "×", r"\le": "≤", r"\ge": "≥", r"\cdot": "·", r"\pi": "π", r"\,": " ", r"\to": "→"},
-}
+GREEK = dict(zip((r"\alpha", r"\beta", r"\theta", r"\phi", r"\sigma", r"\pi"), "αβθφσπ", strict=True))
+GREEK |= {r"\times": "×", r"\le": "≤", r"\ge": "≥", r"\cdot": "·", r"\,": " ", r"\to": "→"}
+
+
+class _Kept(list[str]):
+    """Parts of a text that are hidden behind numbers, while the rest is split."""
+
+    def hide(self, pattern: re.Pattern[str], text: str, gap: str = "") -> str:
+        def number(found: re.Match[str]) -> str:
+            self.append(found[0])
+            return f"{gap}\x00{len(self) - 1}\x00{gap}"
+
+        return pattern.sub(number, text)
+
+    def show(self, text: str) -> str:
+        for _ in range(2):  # brackets in brackets
+            text = re.sub("\x00(\\d+)\x00", lambda number: self[int(number[1])], text)
+        return text
 
 
 def blocks(text: str) -> list[str]:
@@ -37,15 +47,9 @@ def blocks(text: str) -> list[str]:
     >>> blocks("## Why\n\nOne. Two.\n\n$$a$$\n\n<details>x\n\ny</details>")
     ['## Why', 'One. Two.', '$$a$$', '<details>x\n\ny</details>']
     """
-    kept: list[str] = []
-
-    def hide(found: re.Match[str]) -> str:
-        kept.append(found[0])
-        return f"\n\n{HIDDEN.format(len(kept) - 1)}\n\n"
-
-    parts = re.split(r"\n\s*\n|(?<=\n)(?=#)|(?<=^)(?=#)", FENCED.sub(hide, COMMENT.sub("", text)))
-    found = [part.strip() for part in parts if part.strip()]
-    return [re.sub("\x00(\\d+)\x00", lambda number: kept[int(number[1])], part) for part in found]
+    kept = _Kept()
+    parts = re.split(r"\n\s*\n|(?<=\n)(?=#)|(?<=^)(?=#)", kept.hide(FENCED, COMMENT.sub("", text), "\n\n"))
+    return [kept.show(part.strip()) for part in parts if part.strip()]
 
 
 def sentences(text: str) -> list[str]:
@@ -56,21 +60,13 @@ def sentences(text: str) -> list[str]:
     >>> sentences("It is 3.5 cm off (see Fig. 4. It is small). Why? Look at `a. B`.")
     ['It is 3.5 cm off (see Fig. 4. It is small).', 'Why?', 'Look at `a. B`.']
     """
-    kept: list[str] = []
-
-    def hide(found: re.Match[str]) -> str:
-        kept.append(found[0])
-        return HIDDEN.format(len(kept) - 1)
-
-    whole: list[str] = []
-    for part in END.split(KEPT.sub(hide, KEPT.sub(hide, " ".join(text.split())))):  # brackets in brackets
+    kept, whole = _Kept(), list[str]()
+    for part in END.split(kept.hide(KEPT, kept.hide(KEPT, " ".join(text.split())))):
         if whole and SHORT.search(whole[-1]):
             whole[-1] += f" {part}"
         else:
             whole.append(part)
-    for _ in range(2):
-        whole = [re.sub("\x00(\\d+)\x00", lambda number: kept[int(number[1])], part) for part in whole]
-    return whole
+    return [kept.show(part) for part in whole]
 
 
 def shortened(block: str, room: int = 0) -> str:
@@ -96,37 +92,23 @@ def shortened(block: str, room: int = 0) -> str:
         return block
     if not ITEM.match(block):
         return _first(block, room)
-    items: list[str] = []
-    for line in block.splitlines():
-        if ITEM.match(line):
-            items.append(line)
-        else:
-            items[-1] += f" {line.strip()}"
-    return "\n".join(_marked(item) for item in items)
-
-
-def _marked(item: str) -> str:
-    sign = ITEM.match(item)
-    assert sign
-    return sign[0] + _first(item[sign.end() :])
+    items = zip(ITEM.findall(block), ITEM.split(block)[1:], strict=True)
+    return "\n".join(sign + _first(item) for sign, item in items)
 
 
 def _first(text: str, room: int = 0) -> str:
     """Give the first sentence; words in bold or italics that lead it in do not count as one."""
-    found = sentences(text)
-    lead = found[0].startswith("*") and found[0].endswith("*") and len(found[0]) < LEAD
-    count = 1 + lead
-    while count < len(found) and len(" ".join(found[: count + 1])) <= room:
-        count += 1
-    return _closed(" ".join(found[:count]))
-
-
-def _closed(sentence: str) -> str:
-    """Close emphasis that the next sentence would have closed."""
-    for sign in ("**", "*"):
-        if len(re.findall(rf"(?<!\*){re.escape(sign)}(?!\*)", sentence)) % 2:
-            sentence += sign
-    return sentence
+    first, *others = sentences(text)
+    if first.startswith("*") and first.endswith("*") and len(first) < LEAD and others:
+        first += f" {others.pop(0)}"
+    for other in others:
+        if len(first) + 1 + len(other) > room:
+            break
+        first += f" {other}"
+    for sign in ("**", "*"):  # close emphasis that the next sentence would have closed
+        if len(re.findall(rf"(?<!\*){re.escape(sign)}(?!\*)", first)) % 2:
+            first += sign
+    return first
 
 
 def spoken(text: str) -> str:
@@ -139,10 +121,10 @@ def spoken(text: str) -> str:
     >>> spoken(r"It is $\\frac{1}{2}$.")
     ''
     """
-    for word, sign in sorted(GREEK.items(), key=lambda pair: -len(pair[0])):
-        text = text.replace(word, sign)
-    if re.search(r"\$[^$]*[\\^_{][^$]*\$|<", COMMENT.sub("", text)):
+    text = COMMENT.sub("", text)
+    for word in sorted(GREEK, key=len, reverse=True):
+        text = text.replace(word, GREEK[word])
+    if re.search(r"\$[^$]*[\\^_{][^$]*\$|<", text):
         return ""
-    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", COMMENT.sub("", text))
-    text = re.sub(r" ?\[\d+(?:, [^\]]*)?\]", "", text)
+    text = re.sub(r" ?\[\d+(?:, [^\]]*)?\]", "", re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text))
     return " ".join(re.sub(r"[*`$]|(?<!\w)_|_(?!\w)", "", text).split())

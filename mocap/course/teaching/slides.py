@@ -18,8 +18,8 @@ from typing import Any
 
 from mocap._shared.atomic import make_folder, write_text
 from mocap.course.formulas import to_mathml
-from mocap.course.notebooks import read
-from mocap.course.site import MOVING, fill_in, page_title, recorded_of
+from mocap.course.notebooks import notebooks_in
+from mocap.course.site import MOVING, prepared
 from mocap.course.teaching.deck import Slide, deck_of
 from mocap.errors import MocapError
 
@@ -30,18 +30,15 @@ MATH = re.compile(r"(<(pre|code)\b.*?</\2>)|\$\$(.+?)\$\$|\$([^$\n]+?)\$", re.DO
 ANCHOR = re.compile(r'<a class="anchor-link".*?</a>', re.DOTALL)
 
 
-def reveal() -> Path:
-    """Find the folder of reveal.js in the installed package that ships it.
-
-    Raises
-    ------
-    MocapError : if it is not installed, or not where it was in the versions that we know.
-    """
+def _copy_reveal(out: Path) -> None:
+    """Copy reveal.js out of the installed package that ships it."""
     found = find_spec("sphinx_revealjs")
-    folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else None
-    if folder is None or not all((folder / name).is_file() for name in NEEDED):
+    folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else Path()
+    if not all((folder / name).is_file() for name in NEEDED):
         raise MocapError("Slides need reveal.js, which sphinx-revealjs ships: pip install 'mocap[slides]'.")
-    return folder
+    for name in NEEDED:
+        make_folder((out / "reveal" / name).parent)
+        shutil.copyfile(folder / name, out / "reveal" / name)
 
 
 def build_slides(
@@ -74,24 +71,13 @@ def build_slides(
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    files = sorted(notebooks.glob("*.ipynb"))
-    if not files:
-        raise MocapError(f"The folder {notebooks} holds no notebooks.")
-    source = reveal()
-    make_folder(out)
-    for name in NEEDED:
-        make_folder((out / "reveal" / name).parent)
-        shutil.copyfile(source / name, out / "reveal" / name)
-    titles = {}
+    files, rows = notebooks_in(notebooks), []
+    _copy_reveal(out)
     for file in progress(files):
-        notebook = read(file)
-        titles[file.stem] = page_title(file.stem, notebook)
-        fill_in(notebook, recorded_of(file, notebook) if moving else {})
-        write_text(out / f"{file.stem}.html", page_of(titles[file.stem], notebook, {f.stem for f in files}))
-    rows = "\n".join(
-        f'<li><a href="{name}.html">{html.escape(said)}</a></li>' for name, said in titles.items()
-    )
-    write_text(out / "index.html", Template(LIST.read_text("utf-8")).substitute(rows=rows))
+        title, notebook = prepared(file, moving=moving)
+        write_text(out / f"{file.stem}.html", page_of(title, notebook, {f.stem for f in files}))
+        rows.append(f'<li><a href="{file.stem}.html">{html.escape(title)}</a></li>')
+    write_text(out / "index.html", Template(LIST.read_text("utf-8")).substitute(rows="\n".join(rows)))
     return out / "index.html"
 
 
@@ -109,14 +95,18 @@ def page_of(title: str, notebook: Any, names: Collection[str]) -> str:  # noqa: 
 
     sections, heading, count = [], "", 0
     for slide in deck_of(notebook):
-        count = count + 1 if slide.heading == heading else 1
-        heading = slide.heading
+        count, heading = count + 1 if slide.heading == heading else 1, slide.heading
+        body = to_html(slide.cells, notebook.metadata)
         notes = to_html([new_markdown_cell("\n\n".join(slide.notes))], notebook.metadata)
-        sections.append(_section(slide, count, to_html(slide.cells, notebook.metadata), notes))
-    body = LINK.sub(lambda link: _link(link, names), "\n".join(sections))
+        sections.append(_section(slide, count, body, notes))
+
+    def linked(found: re.Match[str]) -> str:  # to a page that is no slide only the words are left
+        known = found[1].removesuffix(".html") in names
+        return f'<a href="{found[1]}"{found[3]}>{found[4]}</a>' if known else found[4]
+
     parts = {
         "title": html.escape(title),
-        "slides": body,
+        "slides": LINK.sub(linked, "\n".join(sections)),
         "code": HtmlFormatter(style="friendly").get_style_defs(".highlight"),
         "moving": MOVING.read_text("utf-8"),
     }
@@ -127,21 +117,20 @@ def to_html(cells: Iterable[Any], metadata: Any) -> str:  # noqa: ANN401
     """Convert cells; formulas become MathML."""
     from nbformat.v4 import new_notebook
 
+    def formula(found: re.Match[str]) -> str:
+        return found[1] or to_mathml(html.unescape(found[3] or found[4]), block=bool(found[3]))
+
     made = ""
     for cell in cells:
-        body, _ = exporter().from_notebook_node(new_notebook(cells=[cell], metadata=metadata))
+        body, _ = _exporter().from_notebook_node(new_notebook(cells=[cell], metadata=metadata))
         if cell.cell_type == "markdown":
-            body = MATH.sub(_formula, ANCHOR.sub("", body))
+            body = MATH.sub(formula, ANCHOR.sub("", body))
         made += re.sub(r' id="cell-id=[^"]*"', "", body)
     return re.sub(r'(href="(?!https?:)[^"]*)\.(?:ipynb|md)\b', r"\1.html", made)
 
 
-def _formula(found: re.Match[str]) -> str:
-    return found[1] or to_mathml(html.unescape(found[3] or found[4]), block=bool(found[3]))
-
-
 @cache
-def exporter() -> Any:  # noqa: ANN401
+def _exporter() -> Any:  # noqa: ANN401
     """Give what converts cells to HTML, or say what to install."""
     try:
         from nbconvert import HTMLExporter
@@ -152,17 +141,10 @@ def exporter() -> Any:  # noqa: ANN401
 
 def _section(slide: Slide, count: int, body: str, notes: str) -> str:
     """Write a slide; pictures and questions name the section that they stand in small letters."""
-    again = f" <small>{count}</small>" if count > 1 else ""
     level = 1 if slide.kind == "title" else 2
     word = {"prediction": "Predict", "answer": "Answer", "exercise": "Exercise"}.get(slide.kind)
     label = f'<span class="kind">{word}</span> ' if word else ""
+    again = f" <small>{count}</small>" if count > 1 else ""
     heading = f"<h{level}>{label}{html.escape(slide.heading)}{again}</h{level}>"
     aside = f'<aside class="notes">{notes}</aside>' if re.sub(r"<[^>]*>|\s", "", notes) else ""
     return f'<section class="{slide.kind}">{heading}\n<div class="inner">{body}</div>{aside}</section>'
-
-
-def _link(found: re.Match[str], names: Collection[str]) -> str:
-    """Keep links to other decks, and the words of links to pages that are no slides."""
-    if found[1].removesuffix(".html") in names:
-        return f'<a href="{found[1]}"{found[3]}>{found[4]}</a>'
-    return found[4]

@@ -81,4 +81,4 @@ def test_a_package_without_the_files_is_not_taken(monkeypatch, tmp_path):
 
     monkeypatch.setattr(slides, "find_spec", lambda name: Found)
     with pytest.raises(MocapError, match="sphinx-revealjs"):
-        slides.reveal()
+        slides.build_slides(stored(), tmp_path / "out")
