@@ -10,10 +10,9 @@ import io
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.text import Text
 from PIL import Image, ImageDraw, ImageOps
 
 from mocap import datasets, graphs, matching, plotting
@@ -28,7 +27,7 @@ PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, t
 COLOURS = 128  # of a file
 INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
 SMALL = 620  # pixels of a drawing on the sheet of all
-Steps = Iterator[Figure]
+Steps = Iterator[Any]  # of figures
 
 
 def _walks(frames: int) -> list[Motion]:
@@ -66,7 +65,7 @@ def _path() -> Steps:
     return (diagrams.two_distances(corner, rounded, step=step) for step in (0, 3, 5, 8))
 
 
-def _tarjan(step: int) -> Figure:
+def _tarjan(step: int) -> Any:  # noqa: ANN401
     return diagrams.tarjan_step(graphs.notes_example(), places=diagrams.EIGHT_PLACES, step=step)
 
 
@@ -151,7 +150,7 @@ def board_sheet(name: str) -> Image.Image:
     for number, figure in enumerate(figures):
         x, y = GAP + number % columns * wide, HEAD + number // columns * high
         if not alone:  # the disc has the number with which the title begins
-            for text in figure.findobj(Text):
+            for text in figure.findobj(lambda artist: hasattr(artist, "set_text")):
                 text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
         picture = Image.open(io.BytesIO(plotting.show(figure, alt=heading).picture)).convert("RGB")
         page.paste(ImageOps.pad(picture, room, SMOOTH, PAPER), (x, y))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
-from matplotlib.font_manager import FontProperties, findfont
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont, ImageOps
 
@@ -138,5 +138,7 @@ def _wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str
 @cache
 def font_of(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
     """Give the font of Matplotlib's pictures, which has Greek letters."""
-    wanted = FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal")
-    return ImageFont.truetype(findfont(wanted), size)
+    found = find_spec("matplotlib")
+    assert found and found.origin
+    fonts = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
+    return ImageFont.truetype(str(fonts / f"DejaVuSans{'-Bold' if bold else ''}.ttf"), size)
