@@ -37,6 +37,7 @@ SLOWEST = 10
 # Of the swinging speed. Where even the slowest tenth is faster, nothing stands: a jog on a cart at 3 m/s
 # has no plants with 0.2, and some with 0.3.
 STANDING_AT_MOST = 0.2
+STILL = 1e-7  # m/s: rounding of numbers in files
 
 # Of the foot's length. With 0.5, plants of runs slide by up to 4.4 cm before the clean-up instead of 3.1
 # (95 % of them). With 0.125 a foot stands for only 45 % of a walk.
@@ -121,7 +122,8 @@ def _slower_speeds(positions: Array, span: int, fps: float) -> Array:
     """Measure the slower of the mean speeds over the span before and the span after each frame, (F, N)."""
     speed = np.linalg.norm(positions[span:] - positions[:-span], axis=-1) * fps / span
     beyond = np.full((span, positions.shape[1]), np.inf)
-    return np.asarray(np.minimum(np.concatenate([speed, beyond]), np.concatenate([beyond, speed])))
+    slower = np.minimum(np.concatenate([speed, beyond]), np.concatenate([beyond, speed]))
+    return np.where(slower < STILL, 0.0, slower)
 
 
 def _low_enough(heights: Array, speeds: Array, length: float) -> Array:
