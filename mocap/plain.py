@@ -111,6 +111,11 @@ def local_minima(grid: Array, below: float) -> list[tuple[int, int]]:
     return [(i, j) for i, j in low if grid[i, j] == around[i : i + 3, j : j + 3].min()]
 
 
+def undo(turn: complex, move: complex) -> Lay:
+    """Give the turn and the move that lay back what these lay."""
+    return 1 / turn, -move / turn
+
+
 def find_transitions(clips: Sequence[Motion]) -> Found:
     """List where a walk may leave a clip and enter one, and how the second clip is laid on the first."""
     points = [windows(clip) for clip in clips]
@@ -123,7 +128,7 @@ def find_transitions(clips: Sequence[Motion]) -> Found:
                 cost = float(window_distance(points[a][i], points[b][j]))
                 turn, move = map(complex, align(points[a][i], points[b][j]))
                 found.append((a, i, b, j, cost, (turn, move)))
-                found.append((b, j, a, i, cost, (1 / turn, -move / turn)))
+                found.append((b, j, a, i, cost, undo(turn, move)))
     return sorted(found, key=lambda transition: transition[:4])
 
 
@@ -245,6 +250,11 @@ def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]
     return walk
 
 
+def product(first: Lay, then: Lay) -> Lay:
+    """Give the turn and the move of p ↦ first(then(p))."""
+    return first[0] * then[0], first[0] * then[1] + first[1]
+
+
 def to_motion(
     clips: Sequence[Motion],
     graph: nx.MultiDiGraph,
@@ -257,7 +267,7 @@ def to_motion(
     for start, end, key in walk:
         (a, i), (b, j), edge = start, end, graph.edges[start, end, key]
         piece = lay(clips[a], slice(i, i + edge["frames"]), turn, move)
-        turn, move = turn * edge["lay"][0], turn * edge["lay"][1] + move
+        turn, move = product((turn, move), edge["lay"])
         if edge["kind"] == "transition":
             piece = blend(piece, lay(clips[b], slice(j - K, j), turn, move))
         pieces.append(piece)
@@ -312,6 +322,12 @@ class Walk(NamedTuple):
     before: Walk | None = None  # the walk without its last edge
 
 
+def lay_on(track: Ground, line: Ground) -> Lay:
+    """Lay the start of a track on the start of a line, so that both lead the same way."""
+    turn = np.exp(1j * np.angle((line[-1] - line[0]) / (track[-1] - track[0])))
+    return turn, line[0] - turn * track[0]
+
+
 class Search:
     """All walks advance along a line together, layer by layer; the best of each layer go on [KGP02, 5.1]."""
 
@@ -337,18 +353,16 @@ class Search:
     def lengthen(self, walk: Walk, edge: Edge) -> Walk:
         """Let a walk take one more edge."""
         cost, along = self.price(walk, self.tracks[edge])
-        turn, move = self.graph.edges[edge]["lay"]
         cost += SEAM * (self.graph.edges[edge]["kind"] == "transition")
-        turn, move = walk.turn * turn, walk.turn * move + walk.move
+        turn, move = product((walk.turn, walk.move), self.graph.edges[edge]["lay"])
         return self.look_ahead(Walk(walk.cost + cost, 0, along, edge[1], turn, move, edge, walk))
 
     def starts(self) -> list[Walk]:
         """Start at each node from which the root goes somewhere: at the line's start, and along it."""
-        walks, way = [], self.line[:31][-1] - self.line[0]
+        walks = []
         for node, track in self.ahead.items():
             if len(track) == LOOK and abs(track[-1] - track[0]) > 0.3:
-                turn = np.exp(1j * np.angle(way / (track[-1] - track[0])))
-                walks.append(self.look_ahead(Walk(0, 0, 0, node, turn, self.line[0] - turn * track[0])))
+                walks.append(self.look_ahead(Walk(0, 0, 0, node, *lay_on(track, self.line[:31]))))
         return walks
 
     def best_of(self, walks: list[Walk]) -> list[Walk]:

@@ -8,12 +8,13 @@ from operator import index
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from mocap._shared.arrays import Array, Indices, Mask
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import slots, whose
-from mocap.course.lab.own.building import tools, window_distances
+from mocap.course.lab.places import squared_distances
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge, edge_table
 from mocap.graphs.motion_graph import MotionGraph
@@ -122,7 +123,8 @@ def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indice
     if sums.yours and window <= min(len(first), len(second)):
         points = distinct_joints(first.skeleton)
         clouds = [joint_positions(clip)[:, points] for clip in (first, second)]
-        grid = window_distances(clouds[0], clouds[1], window, tools())
+        windows = [sliding_window_view(cloud, window, 0).transpose(0, 3, 1, 2) for cloud in clouds]
+        grid = squared_distances(*(part.reshape(len(part), -1, 3) for part in windows), window, sums)
     else:
         grid = np.asarray(distance_grid(first, second, window=window), float)
     found = np.array(inner(grid, np.inf) if inner.yours else [], int).reshape(-1, 2)

@@ -9,7 +9,6 @@ for each of some thousand calls would hide the page.
 from __future__ import annotations
 
 import io
-import time
 from collections.abc import Callable
 from contextlib import redirect_stdout
 from typing import Any
@@ -20,7 +19,7 @@ from mocap._shared.limits import Overdue, time_limit
 from mocap.course.check import Check
 
 SECONDS = 30.0  # of one call; what the course asks for takes a thousandth of it
-SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,), "short_way": (4,)}
+SHAPES: dict[str, tuple[int, ...]] = {"climb": (3,), "edge_cost": (2,), "hamilton": (4,)}
 """The answers of functions that are called thousands of times; others are compared with the package's."""
 
 
@@ -56,7 +55,6 @@ class Slot:
     written : what the student wrote last, right or wrong: this is what a check judges.
     kept : whether the file beside the notebooks holds it.
     stopped : why the package's stands in again, or "".
-    calls, seconds : how often it was called, and for how long altogether.
 
     Examples
     --------
@@ -73,7 +71,6 @@ class Slot:
         self.own: Callable[..., Any] | None = None
         self.written: Callable[..., Any] = check.truth
         self.kept, self.stopped, self._prints = False, "", False
-        self.calls, self.seconds = 0, 0.0
 
     def adopt(self, own: Callable[..., Any] | None, *, kept: bool) -> None:
         """Put a function that has passed its check here, or take it away."""
@@ -89,11 +86,7 @@ class Slot:
 
     def __call__(self, *arguments: Any) -> Any:  # noqa: ANN401 (as the exercise asks)
         """Give the student's answer, or the package's where there is none or it will not do."""
-        begun = time.perf_counter()
-        self.calls += 1
-        given = self._guarded(arguments) if self.yours else self.stand_in(*arguments)
-        self.seconds += time.perf_counter() - begun
-        return given
+        return self._guarded(arguments) if self.yours else self.stand_in(*arguments)
 
     def _guarded(self, arguments: tuple[Any, ...]) -> Any:  # noqa: ANN401
         try:

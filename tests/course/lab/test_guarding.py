@@ -131,5 +131,3 @@ def test_other_functions_are_compared_with_the_packages_answer(capsys):
     place = slot("move_points", lambda points, angle, x, z: points[0])
     assert place(np.ones((2, 3)), 0.5, 1.0, 2.0).shape == (2, 3)
     assert "gave an answer of the shape (3,)" in capsys.readouterr().out
-    assert place.calls == 1
-    assert place.seconds > 0

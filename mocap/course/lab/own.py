@@ -1,0 +1,246 @@
+"""A motion graph of one's own: `mocap.plain` by the functions of notebooks 01 to 08, and walks on it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import networkx as nx
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mocap import plain
+from mocap.body.ground_path import GroundPath
+from mocap.body.motion import Motion, require_alike
+from mocap.course.lab.adopting import whose
+from mocap.course.lab.places import NAMES, Tools, packages, pages_of
+from mocap.course.lab.places import tools as tools
+from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.graphs import build, prune
+from mocap.plain import Edge, Ground, Walk
+from mocap.plotting import Picture, bodies_along, stack
+from mocap.steering import follow_path
+from mocap.synthesis import seams
+
+WINDOW, BELOW = 10, 0.05  # of the transitions: frames, and metres
+WIDTH, SEAM = 60, 0.05  # walks that go on from a layer, and the price of a seam in m²
+LEAST = 0.1  # metres per second: the least progress
+PLACE, TURN = 0.1, 0.1  # metres and radians: walks that agree so far stand alike
+AHEAD = 1.5  # seconds that a choice looks ahead: with less, no turn is seen
+
+
+class OwnGraph(NamedTuple):
+    """A graph: its clips, the window of its transitions, and its nodes and edges as in `mocap.plain`."""
+
+    clips: tuple[Motion, ...]
+    window: int
+    graph: nx.MultiDiGraph
+
+
+class OwnWalk(NamedTuple):
+    """A walk: its edges, and how the first one's clip is placed, p ↦ turn · p + move."""
+
+    edges: list[Edge]
+    turn: complex = 1
+    move: complex = 0
+
+
+def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools) -> OwnGraph:
+    """Build a motion graph of clips, and keep the component that plays most frames.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate.
+    window, threshold : of the transitions: frames, and metres.
+    by : whose functions work.
+
+    Raises
+    ------
+    SkeletonMismatch, MocapError : for no clips, clips that differ in skeleton or rate or are shorter than the
+        window, and where there is no loop: the threshold is too low.
+
+    Notebook: 08b-steering
+    """
+    require_alike(clips)
+    if not 2 <= window <= min(map(len, clips), default=0):
+        raise MocapError(f"A graph takes one clip or more, and a window up to the shortest, got {window}.")
+    pages = pages_of(by, window, threshold)
+    kept = pages.prune(pages.cut_and_join(clips, pages.find_transitions(clips)))
+    if len(kept) < 2:
+        raise MocapError(f"No walk goes on for ever with transitions below {threshold} m: allow more.")
+    return OwnGraph(tuple(clips), window, kept)
+
+
+def _search(graph: OwnGraph, path: GroundPath, by: Tools) -> Any:  # noqa: ANN401 (of the copied pages)
+    """Prepare the search of `mocap.plain`: by `edge_cost`, `lengthen` and `survivors`."""
+    pages, least = pages_of(by, graph.window), LEAST / graph.clips[0].fps
+    roots = [
+        SimpleNamespace(root_positions=clip.root_positions, rotations=clip.rotations[:, :1])
+        for clip in graph.clips
+    ]
+    search = pages.Search(roots, graph.graph, plain.points_along(path.points))
+    before = {(clip, frame): search.roots[clip][max(frame - 1, 0)] for clip, frame in graph.graph}
+    search.tracks = {edge: np.append(before[edge[0]], track) for edge, track in search.tracks.items()}
+    numbers = {node: number for number, node in enumerate(graph.graph)}
+
+    def price(walk: Walk, ahead: Ground) -> tuple[float, float]:
+        placed = walk.turn * np.append(before[walk.node], ahead) + walk.move
+        cost, along = by.edge_cost(np.stack([placed.imag, placed.real], 1), path.at, walk.along, least)
+        return cost, along
+
+    def lengthen(walk: Walk, edge: Edge) -> Walk:
+        data, track = graph.graph.edges[edge], search.tracks[edge]
+        edges = [(edge[1], track, *data["lay"], SEAM * (data["kind"] == "transition"))]
+        stands = walk.turn, walk.move, walk.along, walk.cost
+        ((_, *laid, along, cost),) = by.lengthen(stands, edges, path.at, least)
+        return search.look_ahead(Walk(cost, 0, along, edge[1], *laid, edge, walk))
+
+    def best_of(walks: list[Walk]) -> list[Walk]:
+        stand = []
+        for walk in walks:
+            here = walk.turn * search.ahead[walk.node][0] + walk.move
+            cell = here.real / PLACE, here.imag / PLACE, np.angle(walk.turn) / TURN
+            stand.append([numbers[walk.node], *map(round, cell)])
+        costs = np.array([walk.cost + walk.expected for walk in walks])
+        return [walks[number] for number in by.survivors(np.array(stand), costs, WIDTH)]
+
+    search.price, search.lengthen, search.best_of = price, lengthen, best_of
+    return search
+
+
+def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools) -> OwnWalk:
+    """Find a walk along a path: all walks advance together, layer by layer, as in notebook 08 [KGP02, Eq. 9].
+
+    Parameters
+    ----------
+    graph : from `build_own`.
+    path : corners on the ground (x, z), shape (N, 2), metres.
+    by : whose functions work.
+
+    Raises
+    ------
+    NoWalk : where no walk reaches the end of the path.
+    """
+    line = GroundPath(np.asarray(path, float))
+    *_, (_, best) = _search(graph, line, by).layers()
+    if best is None:
+        raise NoWalk(f"No walk of this graph reaches the end of a path of {line.length:.1f} m.")
+    edges, walk = [], best
+    while walk.before:
+        edges.append(walk.edge)
+        walk = walk.before
+    return OwnWalk(edges[::-1], walk.turn, walk.move)
+
+
+def steer_own(
+    graph: OwnGraph, command: Callable[[float], tuple[float, float]], seconds: float, by: Tools
+) -> OwnWalk:
+    """Walk for some seconds, and choose at each node the edge that fits the command of that moment.
+
+    Parameters
+    ----------
+    graph : from `build_own`.
+    command : from the time in seconds to a heading in radians (0 is +z, π/2 is +x) and a speed, metres per
+        second.
+    seconds : how long to walk.
+    by : whose functions work.
+
+    Notebook: 08b-steering
+    """
+    fps = graph.clips[0].fps
+    soon, pages = round(AHEAD * fps), pages_of(by, graph.window)
+    search = _search(graph, GroundPath([[0, 0], [0, 1]]), by)
+    node, lay, edges, frames = min(graph.graph), (1 + 0j, 0j), [], 0
+    while frames < seconds * fps:
+        ways, tracks = list(graph.graph.out_edges(node, keys=True)), []
+        for way in ways:
+            (clip, frame), (turn, move) = way[1], graph.graph.edges[way]["lay"]
+            there = turn * search.roots[clip][frame : frame + soon] + move
+            tracks.append(np.concatenate([search.tracks[way], there])[: soon + 1])
+        edges.append(ways[int(by.next_edge(lay[0], tracks, *command(frames / fps), fps))])
+        frames += len(search.tracks[edges[-1]]) - 1
+        node, lay = edges[-1][1], pages.product(lay, graph.graph.edges[edges[-1]]["lay"])
+    return OwnWalk(edges)
+
+
+def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools) -> Motion:
+    """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6].
+
+    Notebook: 08b-steering
+    """
+    poses = pages_of(by, graph.window).to_motion(graph.clips, graph.graph, *walk)
+    return Motion(graph.clips[0].skeleton, *poses, graph.clips[0].fps, "my walk")
+
+
+@dataclass(frozen=True)
+class Beside(Picture):
+    """A picture of two walks along one path: one's own, and that of `steering.follow_path`.
+
+    Parameters
+    ----------
+    motion : the walk of the functions in their places; `mocap.save` writes it as BVH.
+    apart : the largest distance of its root from that of the same steps by the package's functions, metres;
+        infinite where these do not play the same number of frames.
+    """
+
+    motion: Motion
+    apart: float
+
+
+def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
+    """Walk along a path by the functions of the exercises, and by the package: windows of 10 frames, 5 cm.
+
+    Parameters
+    ----------
+    clips : motions of one skeleton and one frame rate, some hundred frames in all: one's own code is slow.
+    path : corners on the ground (x, z), shape (N, 2), metres, as from a canvas.
+
+    Returns
+    -------
+    Both walks, which the last line of a cell shows; whose functions ran, and how near the walks are, is
+    printed.
+
+    Raises
+    ------
+    NoWalk, MocapError : as for `build_own` and `follow_own`.
+
+    Notebook: 08-path-synthesis
+    """
+    line, ours = GroundPath(np.asarray(path, float)), tools()
+    motion, at = _own_walk(clips, line, ours)
+    mine = any(slot.yours for slot in vars(ours).values())
+    same = _own_walk(clips, line, packages())[0] if mine else motion
+    apart = np.inf
+    if len(motion) == len(same):
+        apart = float(np.linalg.norm(motion.root_positions - same.root_positions, axis=1).max())
+    graph = prune(build(clips, window=WINDOW, threshold=BELOW))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # what is printed says how far it is off
+        followed = follow_path(graph, line)
+    theirs = followed.motion(), [seam.frame for seam in seams(graph, followed.walk)]
+    print(f"{whose(*NAMES[:-1])}.")
+    figures = []
+    for name, (walked, marks) in {"my walk": (motion, at), "the package's walk": theirs}.items():
+        ground = walked.root_positions[:, None, [0, 2]]
+        off = 100 * np.linalg.norm(ground - line.resampled(0.02).points, axis=-1).min(axis=1)
+        print(f"{name + ':':19} {len(walked) / walked.fps:.1f} s long, {len(marks)} seams, ", end="")
+        print(f"{off.mean():.1f} cm off on average, {off.max():.0f} cm at worst")
+        figures.append(bodies_along(walked, seams=marks, path=line.points))
+        figures[-1].suptitle(name, fontsize=11)
+    far = f"{100 * apart:.1f} cm" if np.isfinite(apart) else "another walk"
+    print(f"My walk, and the same steps by the package's functions alone: {far} apart at most.")
+    alt = "Bodies walk along a black path, above in my walk, below in the package's."
+    return Beside(stack(figures, alt).picture, alt, motion, apart)
+
+
+def _own_walk(clips: Sequence[Motion], path: GroundPath, by: Tools) -> tuple[Motion, list[int]]:
+    """Walk by some functions; give the motion, and the frames of its seams."""
+    graph = build_own(clips, WINDOW, BELOW, by)
+    walk = follow_own(graph, path.points, by)
+    edges = [graph.graph.edges[edge] for edge in walk.edges]
+    starts = np.cumsum([0, *(edge["frames"] for edge in edges)])
+    at = [int(start) for start, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
+    return play_own(graph, walk, by), at

@@ -1,0 +1,186 @@
+"""The functions of `mocap.plain`, made of those that students write in notebooks 01 to 08.
+
+The functions of `mocap.plain` are the exercises of the course, in their order, and they call each other by
+name. So a copy of these pages whose names are the exercises' functions is a program made of them: the
+student's functions where they passed their checks, else the package's. Nothing here is quick.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any
+
+import networkx as nx
+import numpy as np
+
+from mocap import plain
+from mocap._shared.arrays import Array
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
+from mocap.course.checks import all_checks
+from mocap.course.lab.adopting import slots
+from mocap.plain import Found, Ground, Lay
+
+NAMES = (
+    *("climb", "window_sums", "inner_minima", "best_angle", "best_shift", "undo", "choice_points"),
+    *("successors_of", "tarjan", "component_to_keep", "lay_on", "edge_cost", "lengthen", "survivors"),
+    *("product_of", "hamilton", "move_points", "quintic", "mix", "next_edge"),
+)
+"""The exercises in the order in which a motion graph needs them."""
+
+Tools = SimpleNamespace  # a function for each of `NAMES`, as `tools.climb`
+
+
+def tools() -> Tools:
+    """Take the student's functions, where they passed their checks, and the package's for the rest.
+
+    Notebook: 08b-steering
+    """
+    return Tools(**{slot.name: slot for slot in slots(*NAMES)})
+
+
+def packages() -> Tools:
+    """Take the package's functions alone.
+
+    Examples
+    --------
+    >>> packages().quintic(4).round(3).tolist()
+    [0.896, 0.5, 0.104, 0.0]
+    """
+    return Tools(**{name: all_checks()[name].truth for name in NAMES})
+
+
+def pages_of(by: Tools, window: int, below: float = 0.0) -> Any:  # noqa: ANN401 (a module)
+    """Copy `mocap.plain`, with functions of exercises in the places of its own."""
+    spec = importlib.util.find_spec("mocap.plain")
+    assert spec is not None and spec.loader is not None
+    pages = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(pages)
+    places = Places(by, window)
+    own = {name: getattr(places, name) for name in vars(Places) if name[0] != "_"}
+    vars(pages).update(own, K=window, BELOW=below)
+    return pages
+
+
+class Places:
+    """Functions of `mocap.plain` by name, each made of an exercise's; arguments and results are plain's.
+
+    The exercises move by (angle, x, z), and plain by (turn, move).
+    """
+
+    def __init__(self, by: Tools, window: int) -> None:
+        self._by, self._window = by, window
+
+    def joint_positions(self, clip: Motion) -> Array:
+        """Let each joint climb to the root."""
+        joints, frames = range(len(clip.skeleton)), zip(clip.root_positions, clip.rotations, strict=True)
+        climb = self._by.climb
+        return np.array(
+            [[at + climb(clip.skeleton, turns, joint) for joint in joints] for at, turns in frames]
+        )
+
+    def distance_grid(self, a: Array, b: Array) -> Array:
+        """Compare all windows by sums along diagonals."""
+        return np.sqrt(squared_distances(a, b, self._window, self._by.window_sums))
+
+    def local_minima(self, grid: Array, below: float) -> list[tuple[int, int]]:
+        """Find the minima inside of a grid."""
+        return [(int(i), int(j)) for i, j in self._by.inner_minima(grid, below)]
+
+    def align(self, p: Array, q: Array) -> Lay:
+        """Find the best angle, then the best shift."""
+        angle = float(self._by.best_angle(p, q))
+        return _to_lay(angle, *map(float, self._by.best_shift(p, q, angle)))
+
+    def undo(self, turn: complex, move: complex) -> Lay:
+        """Undo a transform."""
+        return _to_lay(*self._by.undo(*_to_angle(turn, move)))
+
+    def product(self, first: Lay, then: Lay) -> Lay:
+        """Multiply two transforms."""
+        return _to_lay(*self._by.product_of(np.array([_to_angle(*first), _to_angle(*then)])))
+
+    def lay(self, clip: Motion, frames: slice, turn: complex, move: complex) -> tuple[Array, Array]:
+        """Move the root, and turn it about the vertical."""
+        angle, x, z = _to_angle(turn, move)
+        about_y = np.array([np.cos(angle / 2), 0, np.sin(angle / 2), 0])
+        turns = clip.rotations[frames].copy()
+        turns[:, 0] = [self._by.hamilton(about_y, turn) for turn in turns[:, 0]]
+        return np.asarray(self._by.move_points(clip.root_positions[frames], angle, x, z)), turns
+
+    def cubic_weights(self) -> Array:
+        """Weigh by the polynomial of degree five."""
+        return np.asarray(self._by.quintic(self._window))
+
+    def blend(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Mix two windows, as motions of any body."""
+        count = one[1].shape[1]
+        body = Skeleton(list(map(str, range(count))), np.arange(-1, count - 1), np.zeros((count, 3)))
+        first, second = (Motion(body, *poses, plain.FPS) for poses in (one, other))
+        roots, turns = self._by.mix(first, second, self.cubic_weights())
+        return np.asarray(roots), np.asarray(turns)
+
+    def cut_and_join(self, clips: Sequence[Motion], transitions: Found) -> nx.MultiDiGraph:
+        """Cut at the choice points, and join by what follows each."""
+        points = []
+        for clip, motion in enumerate(clips):
+            leaves = [leave for a, leave, *_ in transitions if a == clip]
+            enters = [enter for _, _, b, enter, *_ in transitions if b == clip]
+            points.append(self._by.choice_points(len(motion), leaves, enters, self._window))
+        following = self._by.successors_of(points, [found[:4] for found in transitions], self._window)
+        graph = nx.MultiDiGraph(following=following)
+        graph.add_nodes_from(sorted(following))
+        for clip, frames in enumerate(points):
+            for start, end in pairwise(frames):
+                graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, lay=(1, 0))
+        for a, i, b, j, cost, lay in transitions:
+            enters = {"kind": "transition", "frames": self._window, "cost": cost, "lay": lay}
+            graph.add_edge((a, i), (b, j + self._window), **enters)
+        return graph
+
+    def components(self, graph: nx.MultiDiGraph) -> Any:  # noqa: ANN401
+        """Find the components as Tarjan does."""
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), 4 * len(graph) + 1000))
+        return self._by.tarjan(graph.graph["following"])
+
+    def prune(self, graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
+        """Keep one component."""
+        clips = [edge for edge in graph.edges(data="kind") if edge[2] == "clip"]
+        played = [(start, end, end[1] - start[1]) for start, end, _ in clips]
+        return graph.subgraph(self._by.component_to_keep(self.components(graph), played)).copy()
+
+    def lay_on(self, track: Ground, line: Ground) -> Lay:
+        """Lay the start of a track on the start of a line."""
+        placed = [(float(np.angle(way[-1] - way[0])), way[0].imag, way[0].real) for way in (track, line)]
+        return _to_lay(*self._by.lay_on(*placed))
+
+
+def squared_distances(a: Array, b: Array, window: int, window_sums: Callable[[Array, int], Array]) -> Array:
+    """Measure D between all windows of two clips, shapes (N, n, 3) and (M, n, 3): shape (N, M), m².
+
+    With points on the ground as complex numbers g = z + ix, and means over a window's points,
+    D = S + S' - 2 mean(y y') - 2 |mean(g ḡ') - mean(g) mean(ḡ')|: the grid of notebook 02b.
+    """
+    origin, points = a.mean(axis=(0, 1)) * [1, 0, 1], a.shape[1]  # numbers near 0 lose no digits
+    pair = a - origin, b - origin
+    means = [plain.ground(windows).mean(1) for windows in pair]
+    sizes = [(w**2).sum(-1).mean(-1) - abs(mean) ** 2 for w, mean in zip(pair, means, strict=True)]
+    firsts = [np.split(windows, window, axis=1) for windows in pair]  # of each window, frame by frame
+    frames = [np.concatenate([of[0], *(late[-1:] for late in of[1:])]) for of in firsts]  # each frame once
+    products = plain.ground(frames[0]) @ plain.ground(frames[1]).conj().T
+    both = window_sums(products.real, window) + 1j * window_sums(products.imag, window)
+    turned = np.abs(both / points - means[0][:, None] * means[1].conj())
+    level = window_sums(frames[0][..., 1] @ frames[1][..., 1].T, window) / points
+    return np.asarray(np.maximum(sizes[0][:, None] + sizes[1] - 2 * level - 2 * turned, 0))
+
+
+def _to_lay(angle: float, x: float, z: float) -> Lay:
+    return np.exp(1j * angle), np.complex128(complex(z, x))
+
+
+def _to_angle(turn: complex, move: complex) -> tuple[float, float, float]:
+    return float(np.angle(turn)), move.imag, move.real

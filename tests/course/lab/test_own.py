@@ -1,0 +1,234 @@
+"""A motion graph of one's own: with the package's functions it is the package's, and with students', too."""
+
+from itertools import pairwise
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import mocap
+from mocap import body, datasets, graphs, matching, synthesis
+from mocap.blending.weights import cubic_weights
+from mocap.course import checks, lab
+from mocap.course.lab import own
+from mocap.course.lab.places import NAMES, packages, pages_of, squared_distances
+from mocap.errors import MocapError, NoWalk
+from tests.course.lab.conftest import new_kernel
+from tests.course.lab.students import solutions, written, wrong
+
+WINDOW, BELOW = own.WINDOW, own.BELOW
+CURVE = body.s_curve(2).points
+PATH = body.arcs((0, 0), heading=0.0, pieces=[(2.0, 1.0), (2.0, -1.0)])
+
+
+def replaced(some, **by):
+    return SimpleNamespace(**vars(some) | by)
+
+
+@pytest.fixture(scope="module")
+def clips():
+    names = "walk_straight", "walk_circle"
+    straight, circle = (mocap.resample(datasets.sample(name), 30) for name in names)
+    return [straight[:100], circle[350:650]]
+
+
+@pytest.fixture(scope="module")
+def by():
+    return packages()
+
+
+@pytest.fixture(scope="module")
+def graph(clips, by):
+    return own.build_own(clips, WINDOW, BELOW, by)
+
+
+@pytest.fixture(scope="module")
+def theirs(clips, by):
+    """The package's graph with the transitions of one's own: those on the borders of grids are missing."""
+    found = {match[:4] for match in pages_of(by, WINDOW, BELOW).find_transitions(clips)}
+    every = matching.find_transitions(clips, window=WINDOW, below=BELOW)
+    assert len(found) < len(every)
+    for t in every:
+        if tuple(t)[:4] not in found:
+            ends = [len(clips[clip]) - WINDOW for clip in (t.source, t.target)]
+            assert t.leave in (0, ends[0]) or t.enter in (0, ends[1])
+    kept = [t for t in every if tuple(t)[:4] in found]
+    assert len(kept) == len(found)
+    return graphs.prune(graphs.from_transitions(clips, kept, window=WINDOW))
+
+
+def test_the_grid_is_the_packages_wherever_the_clips_lie(clips, by):
+    points = [pages_of(by, WINDOW).windows(clip) for clip in clips]
+    theirs = matching.distance_grid(*clips, window=WINDOW)
+    assert np.allclose(squared_distances(*points, WINDOW, by.window_sums), theirs, atol=1e-12)
+    moved = [clip + np.array([300.0, 0, -200.0]) for clip in points]
+    assert np.allclose(squared_distances(*moved, WINDOW, by.window_sums), theirs, atol=1e-9)
+
+
+def test_nodes_edges_and_transforms_are_the_packages(graph, theirs):
+    ours, package = (
+        {edge[:3]: edge[3] for edge in g.edges(keys=True, data=True)} for g in (graph.graph, theirs.graph)
+    )
+    assert {*graph.graph} == {*theirs.graph}
+    assert sorted((*edge[:2], data["kind"], data["frames"]) for edge, data in ours.items()) == sorted(
+        (*edge[:2], data["kind"], data["frames"]) for edge, data in package.items()
+    )
+    for (start, end, _), data in ours.items():
+        if data["kind"] == "transition":
+            cost, laid = next(
+                (other["cost"], other["transform"])
+                for other in theirs.graph.get_edge_data(start, end).values()
+                if other["kind"] == "transition"
+            )
+            assert data["cost"] == pytest.approx(cost, abs=1e-9)
+            assert np.allclose(data["lay"], [laid.turn, laid.move], atol=1e-9)
+
+
+def test_with_the_same_weights_the_walk_is_the_packages_motion_and_stays_on_its_path(graph, theirs, by):
+    walk = own.follow_own(graph, PATH.points, by)
+    keys = []
+    for start, end, key in walk.edges:
+        kind, between = graph.graph.edges[start, end, key]["kind"], theirs.graph.get_edge_data(start, end)
+        keys.append((start, end, next(key for key, data in between.items() if data["kind"] == kind)))
+    place = body.PlanarTransform.from_complex(walk.turn, walk.move)
+    package = synthesis.to_motion(theirs, keys, place=place)
+    ours = own.play_own(graph, walk, replaced(by, quintic=cubic_weights))
+    assert np.allclose(ours.root_positions, package.root_positions, atol=1e-9)
+    assert np.abs((ours.rotations * package.rotations).sum(-1)).min() > 1 - 1e-12
+    quintic = own.play_own(graph, walk, by)  # the exercise's weights: other poses within the windows alone
+    assert 1e-4 < np.abs(quintic.root_positions - package.root_positions).max() < 0.02
+    off = np.linalg.norm(quintic.root_positions[:, None, [0, 2]] - PATH.points, axis=-1).min(axis=1)
+    assert off.mean() < 0.06
+    assert off.max() < 0.2
+
+
+def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_would_lead(graph, by):
+    asked = []
+
+    def last(turn, tracks, heading, speed, fps):
+        asked.append((turn, len(tracks), tracks[0][0], heading))
+        return len(tracks) - 1
+
+    command = {True: (0.5, 1.0), False: (-0.5, 1.0)}
+    walk = own.steer_own(graph, lambda second: command[second < 1], 2.0, replaced(by, next_edge=last))
+    edges = [graph.graph.edges[edge] for edge in walk.edges]
+    assert all(there[0] == here[1] for here, there in pairwise(walk.edges))
+    assert [list(graph.graph.out_edges(edge[0], keys=True))[-1] for edge in walk.edges] == walk.edges
+    assert {asked[0][3], asked[-1][3]} == {0.5, -0.5}
+    assert asked[-1][0] == pytest.approx(np.prod([edge["lay"][0] for edge in edges[:-1]]))
+    assert 60 <= sum(edge["frames"] for edge in edges) < 90
+
+
+@pytest.mark.exhaustive
+def test_commands_are_obeyed_better_than_by_chance(by):
+    straight, circle = (
+        mocap.resample(datasets.sample(f"walk_{name}"), 30) for name in ("straight", "circle")
+    )
+    graph = own.build_own([straight, circle[350:750]], WINDOW, BELOW, by)
+    rng = np.random.default_rng(0)
+    chance = replaced(by, next_edge=lambda turn, tracks, *command: rng.integers(len(tracks)))
+
+    def off(heading, tools):
+        walk = own.steer_own(graph, lambda second: (heading, 1.2), 12.0, tools)
+        ground = own.play_own(graph, walk, by).root_positions[:, [2, 0]] @ [1, 1j]
+        steps = np.diff(ground[120:360:15])  # from four seconds after the command on
+        return np.abs(np.angle(steps / np.exp(1j * heading))).mean()
+
+    headings = [-3.0, -1.5, 0.0, 1.5, 3.0]
+    obeyed, random = (np.mean([off(heading, tools) for heading in headings]) for tools in (by, chance))
+    assert obeyed < np.radians(30)
+    assert obeyed < random / 3
+
+
+def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
+    with pytest.raises(MocapError, match=r"below 0.001 m: allow more\.$"):
+        own.build_own([clips[0][:40]], WINDOW, 0.001, by)
+    for some, window in (([], WINDOW), ([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
+        with pytest.raises(MocapError, match=f"a window up to the shortest, got {window}"):
+            own.build_own(some, window, 0.05, by)
+    with pytest.raises(MocapError, match="resample one first"):
+        own.build_own([clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
+    nowhere = graph._replace(graph=graph.graph.copy())
+    nowhere.graph.remove_edges_from(list(graph.graph.edges))
+    with pytest.raises(NoWalk, match=r"No walk of this graph reaches the end of a path of 3\.0 m"):
+        own.follow_own(nowhere, [[0, 0], [0, 3]], by)
+
+
+# Three students walk a path: one has solved all, one every second exercise, one is wrong everywhere.
+
+
+@pytest.fixture(scope="module")
+def circle():
+    return [mocap.resample(datasets.sample("walk_circle"), 30)[450:590]]
+
+
+@pytest.fixture(scope="module")
+def stand_in(circle):
+    return own.walk_beside(circle, CURVE)
+
+
+def hand_in(names, right):
+    """Adopt what a student wrote, in the order of the course; each uses those before it."""
+    for name in names:
+        others = {other: lab.mine(other) for other in (*NAMES, "short_way")}
+        lab.mine(written(name, None, others) if right(name) else wrong(name))
+
+
+@pytest.mark.parametrize("solved", [NAMES, NAMES[::2], ()])
+def test_what_is_solved_runs_and_the_package_stands_in_for_the_rest(
+    solved, circle, stand_in, capsys, fresh, tmp_path
+):
+    hand_in(NAMES, solved.__contains__)
+    new_kernel()  # the file is enough
+    capsys.readouterr()
+    beside = own.walk_beside(circle, CURVE)
+    said = capsys.readouterr().out
+    assert "from here on" not in said
+    mine = ", ".join(name for name in NAMES[:-1] if name in solved)
+    assert (f"{mine}: yours" in said) == bool(solved)
+    assert (": the package's.\n" in said) == (len(solved) < len(NAMES))
+    assert "alone: 0.0 cm apart at most.\n" in said
+    assert "my walk:            2." in said
+    assert beside.apart < 1e-9
+    assert np.allclose(beside.motion.root_positions, stand_in.motion.root_positions, atol=1e-9)
+    assert fresh.exists() == bool(solved)
+    if solved == NAMES:
+        assert 120 <= sum(bool(line.strip()) for line in fresh.read_text().splitlines()) <= 260
+        mocap.save(beside.motion, tmp_path / "mine.bvh")
+        assert len(mocap.load(tmp_path / "mine.bvh")) == len(beside.motion)
+
+
+def test_a_function_that_passes_and_then_fails_on_a_real_clip_is_replaced(circle, stand_in, capsys):
+    source = """
+def best_angle(points, others):
+    if len(points) > 200:
+        raise ValueError("too many")
+    x, _, z = (points - points.mean(axis=0)).T
+    other_x, _, other_z = (others - others.mean(axis=0)).T
+    return np.arctan2((x * other_z - other_x * z).sum(), (x * other_x + z * other_z).sum())
+"""
+    lab.mine(written("best_angle", source))
+    beside = own.walk_beside(circle, CURVE)
+    said = capsys.readouterr().out
+    assert "best_angle: yours raised ValueError: too many; the package's stands in from here on.\n" in said
+    assert np.array_equal(beside.motion.root_positions, stand_in.motion.root_positions)
+
+
+def test_walks_of_other_lengths_are_no_number_of_centimetres_apart(circle, stand_in, capsys, monkeypatch):
+    lab.mine(written("quintic"))
+    walks = iter([(stand_in.motion, []), (stand_in.motion[1:], [])])
+    monkeypatch.setattr(own, "_own_walk", lambda *_: next(walks))
+    assert own.walk_beside(circle, CURVE).apart == np.inf
+    assert "another walk apart" in capsys.readouterr().out
+
+
+def test_every_exercise_of_01_to_08_can_be_kept_and_comes_back_in_a_new_kernel(capsys, fresh):
+    names = [name for name in solutions() if name in checks.all_checks()]
+    others = {name: lab.mine(name) for name in (*NAMES, "short_way")}
+    for name in names:
+        assert lab.mine(written(name, None, others)).kept, name
+    new_kernel()
+    capsys.readouterr()
+    assert all(lab.mine(name).yours for name in names)
+    assert capsys.readouterr().out.count(": yours, kept in my_graph.py.\n") == len(names)
+    assert len(names) > 40
