@@ -8,15 +8,19 @@ from mocap.course.site import PAGES, build_site
 from tests.browser.conftest import run_notebook, wait_until, watched_page
 
 START = """
-from mocap.course.lab.kept_bets import asked_before, summed_up
-from mocap.course.lab.quizzes import asked
-from mocap.course.lab.reading import Bet, Choice, Number, Order
+from mocap.course.lab.asking import asked, asked_before, summed_up
 
-share = Bet("Share of the walks", "100 * died", unit="%", low=0, high=100)
-more = Bet("How many turn?", "twice", choices=["as many", "twice"])
-off = Bet("Off the path", "3.25", unit="cm", step=0.1)
+share = {"ask": "Share of the walks", "came_out": "100 * died", "unit": "%", "low": 0, "high": 100}
+more = {"ask": "How many turn?", "came_out": "twice", "choices": ["as many", "twice"]}
+off = {"ask": "Off the path", "came_out": "3.25", "unit": "cm", "step": 0.1}
 died = 0.6
-high = Number("How high?", 12, 0.5, "Higher.", "Lower.", "So it is.", "cm", [[0.12, "In cm."]])
+because = {"because": "So it is."}
+which = because | {"kind": "choice", "question": "Which?", "right": "the *right* one"}
+which |= {"wrong": {"another": "Look at its name."}, "because": "As it says."}
+high = because | {"kind": "number", "question": "How high?", "answer": 12, "tolerance": 0.5, "unit": "cm"}
+high |= {"too_low": "Higher.", "too_high": "Lower.", "slips": [[0.12, "In cm."]]}
+order = {"kind": "order", "question": "In order?", "steps": ["one", "two", "three"], "because": "Yes."}
+order |= {"hints": ["1 or 2?", "2 or 3?"]}
 """
 ANSWER = "<details><summary>Answer</summary>\n\n{}\n\n</details>"
 CELLS = [
@@ -28,9 +32,9 @@ CELLS = [
     ANSWER.format("No bet guards this one."),
     "asked_before({'99-off': off}, {})",
     ANSWER.format("A little."),
-    "asked('99-c', Choice('Which?', 'the *right* one', {'another': 'Look at its name.'}, 'As it says.'), {})",
+    "asked('99-c', which, {})",
     "asked('99-n', high, {})",
-    "asked('99-o', Order('In order?', ['one', 'two', 'three'], ['1 or 2?', '2 or 3?'], 'Yes.'), {})",
+    "asked('99-o', order, {})",
     "summed_up({'99-share': share, '99-more': more, '99-off': off}, {'died': died})",
 ]
 

@@ -8,19 +8,16 @@ Reading order (notebooks 00 to 19)
  4. `plain_source`: a function's source with its imports and helpers
  5. `places`: a copy of `mocap.plain` in which these functions have the places of its own
  6. `own`: a motion graph made of these functions alone, from clips to a walk along a path
- 7. `reading`: the questions of a notebook, as its file has them
- 8. `computed`: numbers in them that the notebook computes
- 9. `page`: what a question shows in a browser, and where no script runs
-10. `quizzes`: a question with an answer and hints
-11. `kept_bets`: what a reader thought before the answer, and what came out
-12. `packing`: clips as small blocks of bytes
-13. `choices`: which two windows are looked at, and what lies around them
-14. `scenes`: all that a page needs
-15. `showing`: the widget, its picture and its sentence
-16. `sensitivity`: d′ of a person, and of a class, with confidence intervals
-17. `pairs`: films with a seam, and controls without one from the same clips at the same phase
-18. `blind_tests`: the test in a notebook or on a page
-19. `class_answers`: the files that a class saves, as one curve
+ 7. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
+ 8. `page`: what a question shows in a browser, and where no script runs
+ 9. `asking`: quizzes with hints, and bets: what a reader thought before the answer, and what came out
+10. `choices`: which two windows are looked at, and what lies around them
+11. `scenes`: all that a page needs, as small blocks of bytes
+12. `showing`: the widget, its picture and its sentence
+13. `sensitivity`: d′ of a person, and of a class, with confidence intervals
+14. `pairs`: films with a seam, and controls without one from the same clips at the same phase
+15. `blind_tests`: the test in a notebook or on a page
+16. `class_answers`: the files that a class saves, as one curve
 
 References
 ----------
@@ -39,10 +36,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submodules=["own"],
     submod_attrs={
-        "showing": ["Inspector", "inspector"],
+        "showing": ["inspector"],
         "adopting": ["mine", "whose"],
-        "quizzes": ["quiz"],
-        "kept_bets": ["bet", "bets"],
+        "asking": ["bet", "bets", "quiz"],
         "blind_tests": ["blind_test"],
         "class_answers": ["class_curve", "read_answers"],
         "sensitivity": ["d_prime"],

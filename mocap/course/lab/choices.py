@@ -24,6 +24,7 @@ from mocap.matching.point_clouds import distinct_joints
 from mocap.synthesis.walks import seams
 
 SECONDS = 0.7  # of clip that are shown before and after a window
+CELLS = 20  # of a distance grid on each side of a transition, which a page measures itself
 EACH, MOST = 4, 100  # transitions of a graph that can be pointed at: the cheapest from each clip to each clip
 MINIMA = 40  # of a grid that are marked: the lowest
 LONGEST = 6_000  # frames that a page holds; with more it would be slow to open
@@ -48,9 +49,6 @@ class Pick(NamedTuple):
     frame: int = -1
 
 
-CELLS = 20  # of a distance grid on each side of a transition, which a page measures itself
-
-
 class Choices(NamedTuple):
     """All that can be pointed at, and what is looked at first."""
 
@@ -67,8 +65,7 @@ class Choices(NamedTuple):
 
     def needed(self, clip: int) -> Mask:
         """Mark the frames of a clip that a page may show: of a graph, those near its transitions."""
-        frames = np.full(len(self.clips[clip]), self.grid is not None)
-        fps = self.clips[clip].fps
+        frames, fps = np.full(len(self.clips[clip]), self.grid is not None), self.clips[clip].fps
         margin = CELLS * max(1, round(fps / 30)) + around(fps)
         for pick in self.transitions:
             for number, start in ((pick.first, pick.i), (pick.second, pick.j)):
@@ -106,12 +103,22 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     (0, 10, 1, 20)
     """
     require_alike(clips)
-    _require_short(len(clips[0]) + len(clips[-1]))
     first, second = clips[0], clips[-1]
+    _require_short(len(first) + len(second))
     grid, places, by = _measured(first, second, window)
     lowest = places[np.argsort(grid[*places.T], kind="stable")][:MINIMA]
     minima = tuple((int(i), int(j)) for i, j in lowest)
-    i, j = minima[0] if at is None else _cell(at, grid.shape)
+    try:
+        i, j = minima[0] if at is None else map(index, at)
+    except (TypeError, ValueError):
+        raise MocapError(
+            f"Two windows are chosen by their first frames, at=(i, j), not by {at!r:.80}."
+        ) from None
+    rows, columns = grid.shape
+    if not (0 <= i < rows and 0 <= j < columns):
+        raise MocapError(
+            f"Windows start at frames 0 to {rows - 1} and 0 to {columns - 1}, not at {i} and {j}."
+        )
     frames = around(first.fps)
     return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima, by=by)
 
@@ -127,7 +134,7 @@ def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indice
         grid = squared_distances(*(part.reshape(len(part), -1, 3) for part in windows), window, sums)
     else:
         grid = np.asarray(distance_grid(first, second, window=window), float)
-    found = np.array(inner(grid, np.inf) if inner.yours else [], int).reshape(-1, 2)
+    found = np.array(list(inner(grid, np.inf)) if inner.yours else [], int).reshape(-1, 2)
     by = whose(*names) if sums.yours or inner.yours else ""
     return grid, found if len(found) else local_minima(grid), by
 
@@ -136,21 +143,6 @@ def _require_short(frames: int) -> None:
     """Raise for more frames than a page holds."""
     if frames > LONGEST:
         raise MocapError(f"The inspector holds {LONGEST} frames of clips, not {frames}: give shorter pieces.")
-
-
-def _cell(at: Any, shape: tuple[int, ...]) -> tuple[int, int]:  # noqa: ANN401
-    """Take a cell of the grid, or say which there are."""
-    try:
-        i, j = map(index, at)
-    except (TypeError, ValueError):
-        raise MocapError(
-            f"Two windows are chosen by their first frames, at=(i, j), not by {at!r:.80}."
-        ) from None
-    if not (0 <= i < shape[0] and 0 <= j < shape[1]):
-        raise MocapError(
-            f"Windows start at frames 0 to {shape[0] - 1} and 0 to {shape[1] - 1}, not at {i} and {j}."
-        )
-    return i, j
 
 
 def of_graph(graph: MotionGraph, at: Any) -> Choices:  # noqa: ANN401
@@ -173,45 +165,30 @@ def of_graph(graph: MotionGraph, at: Any) -> Choices:  # noqa: ANN401
     edges.sort(key=lambda edge: graph.graph.edges[edge]["cost"])
     if not edges:
         raise MocapError("This graph has no transitions to inspect.")
-    chosen = edges[0] if at is None else _edge(at, edges)
-    return _with(graph, _few(edges, chosen), chosen)
-
-
-def _few(edges: Sequence[Edge], chosen: Edge) -> list[Edge]:
-    """Take the cheapest from each clip to each clip, of edges in the order of cost, and the chosen one."""
-    seen: Counter[tuple[int, int]] = Counter()
-    few = []
+    named = edges if at is None else [e for e in edges if isinstance(at, tuple) and at in (e, e[:2], *e[:2])]
+    if not named:
+        raise MocapError(f"No transition of this graph is {at!r:.60}, or leaves or enters there.")
+    few, seen = [], Counter[tuple[int, int]]()
     for edge in edges:
         pair = edge[0][0], edge[1][0]
         seen[pair] += 1
-        if seen[pair] <= EACH or edge == chosen:
+        if edge == named[0] or (seen[pair] <= EACH and len(few) < MOST):
             few.append(edge)
-    return [edge for n, edge in enumerate(few) if n < MOST or edge == chosen]
+    return _offered(graph, few, named[0])
 
 
-def _with(graph: MotionGraph, shown: Sequence[Edge], chosen: Edge) -> Choices:
-    """Offer these transitions of a graph."""
+def _offered(graph: MotionGraph, shown: Sequence[Edge], chosen: Edge) -> Choices:
+    """Offer these transitions of a graph; one enters its clip at the frame after its window."""
     frames = around(graph.fps)
-    picks = tuple(_pick(edge, graph, n)._replace(before=frames, after=frames) for n, edge in enumerate(shown))
+    picks = tuple(
+        Pick(source, leave, target, enter - graph.window, frames, frames, number)
+        for number, ((source, leave), (target, enter), _) in enumerate(shown)
+    )
     costs = tuple(float(graph.graph.edges[edge]["cost"]) for edge in shown)
     pick = picks[shown.index(chosen)]
     choices = Choices(graph.clips, graph.window, pick, graph=graph, transitions=picks, costs=costs)
     _require_short(sum(int(choices.needed(clip).sum()) for clip in range(len(graph.clips))))
     return choices
-
-
-def _pick(edge: Edge, graph: MotionGraph, number: int) -> Pick:
-    """Name the windows of a transition: it enters its clip at the frame after its window."""
-    (source, leave), (target, enter), _ = edge
-    return Pick(source, leave, target, enter - graph.window, 0, 0, number)
-
-
-def _edge(at: Any, edges: Sequence[Edge]) -> Edge:  # noqa: ANN401
-    """Find an edge; or, for a node, the cheapest transition that leaves or enters there."""
-    for edge in edges if isinstance(at, tuple) else []:
-        if at in (edge, edge[:2], edge[0], edge[1]):
-            return edge
-    raise MocapError(f"No transition of this graph is {at!r:.60}, or leaves or enters there.")
 
 
 def of_walk(graph: MotionGraph, walk: Sequence[Edge], at: Any) -> Choices:  # noqa: ANN401
@@ -239,17 +216,18 @@ def of_walk(graph: MotionGraph, walk: Sequence[Edge], at: Any) -> Choices:  # no
     if not isinstance(at, int | np.integer) or not 0 <= at < len(found):
         raise MocapError(f"This walk has seams 0 to {len(found) - 1}, not {at!r:.60}.")
     taken = [edge for edge in walk if graph.graph.edges[edge]["kind"] == "transition"]
+    edges = list(dict.fromkeys(taken))
+    whole, most = _offered(graph, edges, taken[at]), around(graph.fps)
     starts = [seam.frame for seam in found]
-    stops = [start + graph.window for start in starts]
-    end = int(edge_table(graph, walk).frames.sum())
+    stops = [0, *(start + graph.window for start in starts)]
+    following = [*starts[1:], int(edge_table(graph, walk).frames.sum())]
     picks = tuple(
-        _pick(edge, graph, -1)._replace(
+        whole.transitions[edges.index(edge)]._replace(
             seam=n,
             frame=start,
-            before=min(around(graph.fps), start - (stops[n - 1] if n else 0)),
-            after=min(around(graph.fps), (starts[n + 1] if n + 1 < len(starts) else end) - stops[n]),
+            before=min(most, start - stops[n]),
+            after=min(most, following[n] - stops[n + 1]),
         )
         for n, (edge, start) in enumerate(zip(taken, starts, strict=True))
     )
-    whole = _with(graph, list(dict.fromkeys(taken)), taken[at])
-    return whole._replace(pick=picks[at]._replace(number=whole.pick.number), seams=picks)
+    return whole._replace(pick=picks[at], seams=picks)

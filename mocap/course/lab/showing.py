@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from mocap import plotting
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.course.lab.choices import EACH, MOST, Choices, of_clips, of_graph, of_walk
-from mocap.course.lab.scenes import TABS, scene
+from mocap.course.lab.scenes import scene
 from mocap.errors import MocapError
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
@@ -24,6 +24,7 @@ from mocap.steering.followed import Followed
 from mocap.synthesis.walk_to_motion import to_motion
 from mocap.widgets.embedding import SHARED, TOUCH, Embedded
 
+TABS = ("windows", "turn", "weights", "seam")  # in the order in which the course meets them
 PARTS = ("", "_maths", "_maps", "_stage", "_views", "_page")
 OWN = [Path(__file__).with_name(f"inspector{part}.js") for part in PARTS]
 NOWHERE = np.empty((0, 2))
@@ -78,14 +79,12 @@ def inspector(
         return Inspector(choices, tabs, found.track, found.path.points)
     if isinstance(found, MotionGraph):
         if not walk:
-            return Inspector(of_graph(found, at), tabs, NOWHERE, NOWHERE)
-        track = to_motion(found, walk).root_positions[:, [0, 2]]
-        return Inspector(of_walk(found, walk, at), tabs, track, NOWHERE)
+            return Inspector(of_graph(found, at), tabs)
+        return Inspector(of_walk(found, walk, at), tabs, to_motion(found, walk).root_positions[:, [0, 2]])
     clips = [clip for clip in what if isinstance(clip, Motion)]
     if not 0 < len(clips) == len(what) <= 2 or walk:
         raise MocapError("An inspector takes one or two clips, a graph, or what follow_path found.")
-    frames = round(clips[0].fps / 3) if window is None else window
-    return Inspector(of_clips(clips, frames, at), tabs, NOWHERE, NOWHERE)
+    return Inspector(of_clips(clips, round(clips[0].fps / 3) if window is None else window, at), tabs)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -102,32 +101,26 @@ class Inspector(Embedded):
 
     choices: Choices
     show: tuple[str, ...]
-    track: Array
-    asked: Array
+    track: Array = field(default_factory=lambda: NOWHERE)
+    asked: Array = field(default_factory=lambda: NOWHERE)
     scripts = (*SHARED, TOUCH, *OWN)
 
     @cached_property
     def alt(self) -> str:
         """Which windows are looked at, how far apart they are, and at which turn."""
-        shot = self.shot
-        first, second = shot.windows
-        apart = 100 * shot.distance
-        frames = f"{shot.i} to {shot.i + shot.window - 1}"
-        others = f"{shot.j} to {shot.j + shot.window - 1}"
+        shot, (first, second) = self.shot, self.shot.windows
+        frames, others = (f"{start} to {start + shot.window - 1}" for start in (shot.i, shot.j))
         turn = f" at θ = {np.degrees(shot.fit.angle):.0f}°".replace("-", "−")
-        turn = turn if "turn" in self.show else ", aligned"
-        windows = f"Frames {frames} of {first.name} and {others} of {second.name}"
-        return f"{windows}: RMS distance {apart:.1f} cm{turn}."
+        apart = f"RMS distance {100 * shot.distance:.1f} cm{turn if 'turn' in self.show else ', aligned'}"
+        return f"Frames {frames} of {first.name} and {others} of {second.name}: {apart}."
 
     @cached_property
     def shot(self) -> Shot:
         """The two windows that the picture shows."""
-        clips, pick = self.choices.clips, self.choices.pick
+        clips, window, pick, *_ = self.choices
         first, second = clips[pick.first], clips[pick.second]
-        after = min(pick.after, len(second) - pick.j - self.choices.window)
-        return Shot(
-            first, pick.i, second, pick.j, self.choices.window, pick.before, after, partial(draw_where, self)
-        )
+        after = min(pick.after, len(second) - pick.j - window)
+        return Shot(first, pick.i, second, pick.j, window, pick.before, after, partial(draw_where, self))
 
     @cached_property
     def scene(self) -> dict[str, Any]:
@@ -164,10 +157,8 @@ def _draw_walk(shown: Inspector, ax: Any) -> None:  # noqa: ANN401
     ax.plot(*asked.T, color=plotting.ASKED, linewidth=5, alpha=0.6)
     ax.plot(*track.T, color=plotting.PATH, linewidth=2)
     for seam in shown.choices.seams:
-        large = seam.seam == shown.choices.pick.seam
-        edge = "black" if large else "white"
-        ax.plot(
-            *track[seam.frame], "D", color=plotting.MARK, markersize=11 if large else 6, markeredgecolor=edge
-        )
+        chosen = seam.seam == shown.choices.pick.seam
+        look = {"markersize": 11 if chosen else 6, "markeredgecolor": "black" if chosen else "white"}
+        ax.plot(*track[seam.frame], "D", color=plotting.MARK, **look)
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.invert_xaxis()

@@ -4,18 +4,16 @@ import ast
 import base64
 import json
 import re
+import tomllib
 from types import SimpleNamespace
-from typing import get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
 
 from mocap.course import lab
-from mocap.course.lab.computed import computed, filled
-from mocap.course.lab.kept_bets import asked_before, summed_up
+from mocap.course.lab.asking import BET, asked, asked_before, summed_up
 from mocap.course.lab.page import to_html, to_text
-from mocap.course.lab.quizzes import asked
-from mocap.course.lab.reading import TEXTS, Choice, Number, Order, file_of, read_questions
+from mocap.course.lab.questions import TEXTS, computed, filled, read_questions
 from mocap.errors import MocapError
 from tests.course.stored_notebooks import FOLDER, every_notebook, read
 from tests.course.test_prose import PER, UNUSUAL
@@ -63,10 +61,9 @@ holds = "limit > 3"
 """
 
 
-def questions(tmp_path, text=GOOD):
-    file = tmp_path / "99-test.toml"
-    file.write_text(text)
-    return read_questions(file)
+QUIZZES, BETS = tomllib.loads(GOOD).values()
+STEPS = {"kind": "order", "question": "?", "steps": ["a", "b", "c"], "hints": ["x", "y"], "because": "so"}
+YES = {"kind": "choice", "question": "?", "right": "yes", "wrong": {"no": "x", "never": "y"}, "because": "so"}
 
 
 def data(shown):
@@ -81,8 +78,8 @@ def seen(shown):
 # What they show
 
 
-def test_a_choice_shows_its_choices_and_hides_which_is_right(tmp_path):
-    shown = asked("99-more", questions(tmp_path).quizzes["more"], {"limit": 4.2})
+def test_a_choice_shows_its_choices_and_hides_which_is_right():
+    shown = asked("99-more", QUIZZES["more"], {"limit": 4.2})
     spec = data(shown)
     choices = re.findall(r"^[a-z]\) (.*)$", shown.text, re.MULTILINE)
     assert sorted(choices) == ["at times", "no", "yes"]
@@ -96,20 +93,15 @@ def test_a_choice_shows_its_choices_and_hides_which_is_right(tmp_path):
     assert shown._repr_mimebundle_() == {"text/html": shown.html, "text/plain": shown.text}
 
 
-@pytest.mark.parametrize("place", [1, 2, 3])
-def test_the_right_choice_stands_where_it_is_asked_to(place):
-    quiz = Choice("?", "yes", {"no": "x", "never": "y"}, "so", place=place)
-    assert data(asked("99-more", quiz, {}))["hints"].index("") == place - 1
-
-
-def test_the_right_choices_do_not_stand_all_at_one_place():
-    quiz = Choice("?", "yes", {"no": "x", "never": "y"}, "so")
-    places = [data(asked(f"99-{number}", quiz, {}))["hints"].index("") for number in range(30)]
+def test_the_right_choice_stands_where_it_is_asked_to_and_else_not_always_at_one_place():
+    for place in (1, 2, 3):
+        assert data(asked("99-more", YES | {"place": place}, {}))["hints"].index("") == place - 1
+    places = [data(asked(f"99-{number}", YES, {}))["hints"].index("") for number in range(30)]
     assert set(places) == {0, 1, 2}
 
 
-def test_a_number_is_computed_with_the_names_of_the_notebook(tmp_path):
-    shown = asked("99-height", questions(tmp_path).quizzes["height"], {"limit": 1 / 3})
+def test_a_number_is_computed_with_the_names_of_the_notebook():
+    shown = asked("99-height", QUIZZES["height"], {"limit": 1 / 3})
     spec = data(shown)
     assert spec["answer"] == 0.666667  # to six digits, the same on every machine
     assert spec["slips"] == [[0.333333, "Twice that."], [1, "No."]]
@@ -118,18 +110,17 @@ def test_a_number_is_computed_with_the_names_of_the_notebook(tmp_path):
 
 
 def test_steps_are_mixed_the_same_way_each_time_and_never_in_order():
-    quiz = Order("?", ["a", "b", "c"], ["x", "y"], "so")
     for key in map(str, range(20)):
-        shown = asked(key, quiz, {})
+        shown = asked(key, STEPS, {})
         spec = data(shown)
-        assert spec == data(asked(key, quiz, {}))
+        assert spec == data(asked(key, STEPS, {}))
         assert sorted(spec["order"]) == [0, 1, 2]
         assert spec["order"] != [0, 1, 2]
-        assert shown.text.splitlines()[1:] == [f"- {quiz.steps[number]}" for number in spec["order"]]
+        assert shown.text.splitlines()[1:] == [f"- {STEPS['steps'][number]}" for number in spec["order"]]
 
 
-def test_a_bet_asks_and_the_summary_says_what_came_out(tmp_path):
-    bets = {f"99-{name}": bet for name, bet in questions(tmp_path).bets.items()}
+def test_a_bet_asks_and_the_summary_says_what_came_out():
+    bets = {f"99-{name}": bet for name, bet in BETS.items()}
     shown = asked_before(bets, {})
     assert shown.text == "Share: ______ %\nWhich? this / that"
     assert [one["key"] for one in data(shown)["bets"]] == ["99-share", "99-which"]
@@ -141,17 +132,16 @@ def test_a_bet_asks_and_the_summary_says_what_came_out(tmp_path):
         summed_up(bets, {"limit": 2})
 
 
-def test_what_needs_captured_clips_is_left_open_without_them(tmp_path):
-    bets = questions(tmp_path).bets
-    bets = {"99-share": bets["share"]._replace(real=True)}
+def test_what_needs_captured_clips_is_left_open_without_them():
+    bets = {"99-share": BETS["share"] | {"real": True}}
     assert summed_up(bets, {}).text == "Share: "
     assert data(summed_up(bets, {}))["rows"][0]["value"] is None
     with pytest.raises(MocapError, match="Bet 99-share: '100 / limit' fails with ZeroDivisionError"):
         summed_up(bets, {"limit": 0})
 
 
-def test_an_answer_that_is_no_longer_right_is_an_error(tmp_path):
-    quiz = questions(tmp_path).quizzes["more"]._replace(holds="limit > 3")
+def test_an_answer_that_is_no_longer_right_is_an_error():
+    quiz = QUIZZES["more"] | {"holds": "limit > 3"}
     assert asked("99-more", quiz, {"limit": np.float64(4)})
     for names, said in [({"limit": 2}, "no longer right"), ({}, "name 'limit' is not defined")]:
         with pytest.raises(MocapError, match=said):
@@ -167,33 +157,16 @@ def test_marks_of_text():
     assert computed("x", {"x": np.float32(2)}) == 2
 
 
-# Data that are not whole
-
-
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        ('kind = "choice"', 'kind = "essay"'),
-        ('right = "yes"\n', ""),
-        ('ask = "Share"', 'ask = "Share"\nanswer = 3'),
-        ("[bet.which]", "[bet.share]"),
-        ("[quiz.more]", "[quiz.more"),
-    ],
-)
-def test_what_is_not_whole_is_said_in_a_sentence(old, new, tmp_path):
-    assert GOOD.count(old) == 1
-    with pytest.raises(MocapError, match=r"^99-test\.toml: .{4,180}$"):
-        questions(tmp_path, GOOD.replace(old, new))
+# What is not there
 
 
 @pytest.mark.parametrize(
     ("call", "said"),
     [
-        (lambda: lab.quiz("09-none"), "No quiz 'none' in 09-discussion.toml."),
+        (lambda: lab.quiz("09-none"), "No quiz 'none' for notebook 09."),
         (lambda: lab.quiz("none"), "There are no questions for a notebook 'none'."),
         (lambda: lab.quiz("*-none"), r"There are no questions for a notebook '\*'."),
-        (lambda: lab.bet("09-none"), "No bet 'none' in 09-discussion.toml."),
-        (lambda: lab.bet(), "A bet needs a key"),
+        (lambda: lab.bet("09-none"), "No bet 'none' for notebook 09."),
         (lambda: lab.bets("99"), "There are no questions for a notebook '99'."),
         (lambda: lab.bets("09"), "Bet 09-transitions-per-step: .* fails with NameError"),
     ],
@@ -213,57 +186,96 @@ def test_names_are_those_of_the_caller():
 # All files, and the notebooks
 
 
-def faults(one):  # noqa: C901 (a rule after the other)
+NUMBER, TEXT = (int, float, str), str
+FIELDS = {  # the types of what each kind has, and of what it may have
+    "choice": (
+        {"question": TEXT, "right": TEXT, "wrong": dict, "because": TEXT},
+        {"holds": TEXT, "place": int},
+    ),
+    "number": (
+        {
+            "question": TEXT,
+            "answer": NUMBER,
+            "tolerance": (int, float),
+            "too_low": TEXT,
+            "too_high": TEXT,
+            "because": TEXT,
+        },
+        {"unit": TEXT, "slips": list},
+    ),
+    "order": ({"question": TEXT, "steps": list, "hints": list, "because": TEXT}, {}),
+    "bet": (
+        {"ask": TEXT, "came_out": NUMBER},
+        {"low": (int, float), "high": (int, float), "step": (int, float), "holds": TEXT, "unit": TEXT}
+        | {"choices": list, "real": bool},
+    ),
+}
+
+
+def faults(one):
     """Say what is wrong with a question: no hint for a wrong answer, no answer, the same choice twice."""
-    for field, types in get_type_hints(type(one)).items():
-        allowed = [
-            kind.__origin__ if hasattr(kind, "__origin__") else kind for kind in get_args(types) or [types]
-        ]
-        allowed = [get_origin(types)] if get_origin(types) in (list, dict) else allowed
-        value = getattr(one, field)
-        if type(value) not in [*allowed, *[int] * (float in allowed)] or (value == "" and field != "unit"):
-            yield f"{field} cannot be {value!r}"
-    texts, different = [], []
-    if isinstance(one, Choice):
-        texts, different = [*one.wrong, *one.wrong.values()], [one.right, *one.wrong]
-        if not one.wrong or not 0 <= one.place <= 1 + len(one.wrong):
-            yield "it needs a wrong choice, and a place among the choices"
-    elif isinstance(one, Number):
-        texts = [hint for _, hint in one.slips]
-        if not one.tolerance > 0 or any(type(number) not in (int, float, str) for number, _ in one.slips):
-            yield "its tolerance is above 0, and a slip is a number and its hint"
-    elif isinstance(one, Order):
-        texts, different = [*one.steps, *one.hints], one.steps
-        if len(one.steps) < 3 or len(one.hints) != len(one.steps) - 1:
-            yield "it needs at least 3 steps, and a hint for each two that follow each other"
+    kind = one.get("kind", "bet")
+    must, may = FIELDS[kind]
+    given = one.keys() - {"kind"}
+    if must.keys() - given or given - must.keys() - may.keys():
+        yield f"it lacks {must.keys() - given}, or should not have {given - must.keys() - may.keys()}"
+    for field in given & {*must, *may}:
+        if not isinstance(one[field], (must | may)[field]) or (one[field] == "" and field != "unit"):
+            yield f"{field} cannot be {one[field]!r}"
+    if kind == "choice":
+        texts, different = [*one["wrong"], *one["wrong"].values()], [one["right"], *one["wrong"]]
+        whole = one["wrong"] and 0 <= one.get("place", 0) <= 1 + len(one["wrong"])
+    elif kind == "number":
+        texts, different = [hint for _, hint in one.get("slips", [])], []
+        whole = one["tolerance"] > 0 and all(isinstance(number, NUMBER) for number, _ in one.get("slips", []))
+    elif kind == "order":
+        texts, different = [*one["steps"], *one["hints"]], one["steps"]
+        whole = len(one["steps"]) >= 3 and len(one["hints"]) == len(one["steps"]) - 1
     else:
-        texts = different = one.choices
-        if one.choices and (len(one.choices) < 2 or one.came_out not in one.choices):
-            yield "it needs at least 2 choices, of which one came out"
-        if not one.step > 0 or (one.low is None) != (one.high is None) or (one.high or 1) <= (one.low or 0):
-            yield "a slider goes from low to high, in steps above 0"
+        bet = BET | one
+        texts = different = bet["choices"]
+        whole = not different or (len(different) >= 2 and one["came_out"] in different)
+        whole &= bet["step"] > 0 and (bet["low"] is None) == (bet["high"] is None)
+        whole &= (bet["high"] or 1) > (bet["low"] or 0)
+    if not whole:
+        yield "it has no right answer, or too few wrong ones, hints or places"
     if not all(isinstance(text, str) and text.strip() for text in texts) or len({*different}) < len(
         different
     ):
         yield "something is empty, or there twice"
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
-def test_a_file_is_whole_and_belongs_to_a_notebook(file):
-    found = read_questions(file)
-    assert found.quizzes or found.bets
-    for name, one in {**found.quizzes, **found.bets}.items():
-        assert list(faults(one)) == [], name
-    assert (FOLDER / f"{file.stem}.ipynb").exists()
-    assert file_of(file.stem.partition("-")[0]) == file
-    assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words
+def test_what_is_not_whole_is_found():
+    for kind, one in (("quiz", QUIZZES), ("bet", BETS)):
+        for name, table in one.items():
+            assert list(faults(table)) == [], (kind, name)
+    for broken in (
+        YES | {"wrong": {}},
+        YES | {"place": 4},
+        YES | {"more": 1},
+        YES | {"because": " "} | {"right": "no"},
+        QUIZZES["height"] | {"tolerance": 0},
+        STEPS | {"hints": ["x"]},
+        STEPS | {"steps": ["a", "b", "b"]},
+        BETS["which"] | {"came_out": "these"},
+        BETS["share"] | {"high": -1},
+    ):
+        assert list(faults(broken)), broken
 
 
-def test_the_right_choice_is_not_the_longest_more_often_than_by_chance():
-    quizzes = [quiz for file in FILES for quiz in read_questions(file).quizzes.values()]
-    choices = [quiz for quiz in quizzes if isinstance(quiz, Choice)]
-    longest = sum(len(quiz.right) > max(map(len, quiz.wrong)) for quiz in choices)
-    assert longest < sum(1 / (1 + len(quiz.wrong)) for quiz in choices)
+def test_each_file_is_whole_and_belongs_to_a_notebook():
+    choices = []
+    for file in FILES:
+        found = read_questions(file.stem.partition("-")[0])
+        assert found == {"quiz": {}, "bet": {}} | tomllib.loads(file.read_text("utf-8"))
+        assert found.keys() == {"quiz", "bet"}
+        for name, one in {**found["quiz"], **found["bet"]}.items():
+            assert list(faults(one)) == [], (file.stem, name)
+        assert (FOLDER / f"{file.stem}.ipynb").exists()
+        assert re.findall(rf"(?i)\b(?:{UNUSUAL}|{PER})\b", file.read_text("utf-8")) == []  # plain words
+        choices += [quiz for quiz in found["quiz"].values() if quiz["kind"] == "choice"]
+    longest = sum(len(quiz["right"]) > max(map(len, quiz["wrong"])) for quiz in choices)
+    assert longest < sum(1 / (1 + len(quiz["wrong"])) for quiz in choices)  # not more often than by chance
 
 
 def calls(source):
@@ -278,12 +290,13 @@ def test_a_notebook_asks_five_to_eight_quizzes_and_a_bet_for_each_of_its_file(na
     cells = read(name).cells
     code = [cell for cell in cells if cell.cell_type == "code"]
     found = [pair for cell in code for pair in calls(cell.source)]
-    number, all_of_it = name.partition("-")[0], read_questions(TEXTS / f"{name}.toml")
+    number = name.partition("-")[0]
+    all_of_it = read_questions(number)
     quizzes = [key for kind, key in found if kind == "quiz"]
     assert 5 <= len(quizzes) <= 8
-    assert sorted(quizzes) == sorted(f"{number}-{key}" for key in all_of_it.quizzes)
+    assert sorted(quizzes) == sorted(f"{number}-{key}" for key in all_of_it["quiz"])
     assert sorted(key for kind, key in found if kind == "bet") == sorted(
-        f"{number}-{key}" for key in all_of_it.bets
+        f"{number}-{key}" for key in all_of_it["bet"]
     )
     assert [*calls(code[-1].source)] == [("bets", number)]  # when all else has run
     for cell, after in zip(cells, [*cells[1:], SimpleNamespace(source="")], strict=True):

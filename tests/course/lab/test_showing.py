@@ -12,8 +12,7 @@ from PIL import Image
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import resample
 from mocap.course.lab.choices import LONGEST
-from mocap.course.lab.scenes import TABS
-from mocap.course.lab.showing import Inspector, inspector
+from mocap.course.lab.showing import TABS, Inspector, inspector
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph

@@ -9,10 +9,14 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.course.lab.packing import STEP, packed_clip, packed_skeleton, plants
+from mocap.course.lab.scenes import STEP, packed_clip, packed_skeleton
 from mocap.datasets.samples import sample
 
 WALK = resample(sample("walk_curve_1"), 30)[:90]
+
+
+def plants(motion):
+    return packed_clip(motion, 0, np.ones(len(motion), bool))[0]["plants"]
 
 
 def unpacked(motion, about, block):

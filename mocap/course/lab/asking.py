@@ -1,0 +1,216 @@
+"""Quizzes, which mark themselves, and bets: what a reader thought before the answer, and what came out.
+
+The browser keeps bets in its local storage, under the key of each; so they outlive the kernel, and need none.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Mapping
+from html import unescape
+from typing import Any
+from zlib import crc32
+
+from mocap.course.lab.page import BLANK, Shown, listed, shown, to_html, to_text
+from mocap.course.lab.questions import (
+    Names,
+    filled,
+    names_of_cell,
+    question,
+    read_questions,
+    require,
+    rounded,
+)
+from mocap.errors import MocapError
+
+HEADS = {"choice": "Quiz: choose one", "number": "Quiz: a number", "order": "Quiz: put in order"}
+COLUMNS = ("", "you thought", "came out", "off by")
+BET = {
+    "choices": [],
+    "unit": "",
+    "low": None,
+    "high": None,
+    "step": 1.0,
+    "real": False,
+}  # where it says nothing
+
+Bets = Mapping[str, dict[str, Any]]
+
+
+def quiz(key: str) -> Shown:
+    """Ask a question that marks itself in the page.
+
+    Parameters
+    ----------
+    key : the number of the notebook and the name of the quiz in its file of questions, such as
+        `05-more-edges`. Expressions in the question are computed with the names of the caller.
+
+    Returns
+    -------
+    What a notebook shows as the last line of a cell: the question, and its choices. The answer is in the page
+    as data only.
+
+    Raises
+    ------
+    MocapError : for an unknown key, an expression that fails, and an answer that is no longer right.
+
+    Examples
+    --------
+    >>> quiz("09-no-such")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: No quiz 'no-such' for notebook 09.
+
+    Notebooks: 00-quickstart to 19-group-graphs
+    """
+    return asked(key, question("quiz", key), names_of_cell())
+
+
+def asked(key: str, quiz: dict[str, Any], names: Names) -> Shown:
+    """Show a quiz, with the numbers that a notebook computes."""
+    try:
+        quiz = filled(quiz, names)
+        require(quiz, names)
+        items, spec = _number(quiz, names) if quiz["kind"] == "number" else _mixed(key, quiz)
+    except MocapError as error:
+        raise MocapError(f"Quiz {key}: {error}") from error
+    spec |= {"because": to_html(quiz["because"])}
+    lettered = quiz["kind"] == "choice"
+    inside = f'<p class="asked">{to_html(quiz["question"])}</p>\n'
+    inside += listed(map(to_html, items), "ol" if lettered else "ul")
+    marks = "abcdefghij" if lettered else "-" * len(items)
+    text = [f"{mark}{')' * lettered} {to_text(item)}" for mark, item in zip(marks, items, strict=False)]
+    return shown(HEADS[quiz["kind"]], inside, spec, [to_text(quiz["question"]), *text])
+
+
+def _number(quiz: dict[str, Any], names: Names) -> tuple[list[str], dict[str, Any]]:
+    """Give what is listed below the question, and the script's data."""
+    spec = {
+        "kind": "number",
+        "answer": rounded(quiz["answer"], names),
+        "tolerance": quiz["tolerance"],
+        "slips": [[rounded(number, names), to_html(hint)] for number, hint in quiz.get("slips", [])],
+        **{"low": to_html(quiz["too_low"]), "high": to_html(quiz["too_high"]), "unit": quiz.get("unit", "")},
+    }
+    return [f"{BLANK} {spec['unit']}".rstrip()], spec
+
+
+def _mixed(key: str, quiz: dict[str, Any]) -> tuple[list[str], dict[str, Any]]:
+    """Mix choices or steps, the same way each time."""
+    if quiz["kind"] == "choice":
+        place = quiz.get("place", 0) - 1
+        place = crc32(key.encode()) % (1 + len(quiz["wrong"])) if place < 0 else place
+        choices, hints = list(quiz["wrong"]), [to_html(hint) for hint in quiz["wrong"].values()]
+        choices.insert(place, quiz["right"])
+        hints.insert(place, "")
+        return choices, {"kind": "choice", "hints": hints}
+    right = list(range(len(quiz["steps"])))
+    mixed, draw = right.copy(), random.Random(key)
+    while mixed == right:
+        draw.shuffle(mixed)
+    spec = {"kind": "order", "order": mixed, "hints": [to_html(hint) for hint in quiz["hints"]]}
+    return [quiz["steps"][number] for number in mixed], spec
+
+
+def bet(*keys: str) -> Shown:
+    """Ask what the reader thinks; the answer folded below stays closed until that is entered.
+
+    Parameters
+    ----------
+    keys : one or more bets of one question, each by the number of the notebook and the name of the bet in its
+        file of questions, such as `09-walks-that-die`.
+
+    Returns
+    -------
+    What a notebook shows as the last line of a cell. The next `<details>` of the page is the answer.
+
+    Raises
+    ------
+    MocapError : for an unknown key.
+
+    Examples
+    --------
+    >>> bet("09-no-such")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: No bet 'no-such' for notebook 09.
+
+    Notebooks: 00-quickstart to 19-group-graphs
+    """
+    return asked_before({key: question("bet", key) for key in keys}, names_of_cell())
+
+
+def asked_before(bets: Bets, names: Names) -> Shown:
+    """Show bets, with their controls."""
+    specs, lines = [], []
+    for key, table in bets.items():
+        bet = BET | table
+        ask, choices = filled(bet["ask"], names), filled(bet["choices"], names)
+        blank = " / ".join(choices) or f"{BLANK} {bet['unit']}".rstrip()
+        lines.append(f"{_led(ask)} {blank}")
+        spec = {"key": key, "choices": list(map(to_text, choices)), "ask": to_html(ask)}
+        specs.append(spec | {name: bet[name] for name in ("unit", "low", "high", "step")})
+    inside = listed(map(to_html, lines))
+    return shown("Your bet", inside, {"kind": "bets", "bets": specs}, map(to_text, lines))
+
+
+def bets(notebook: str) -> Shown:
+    """Show what the reader thought, and what came out.
+
+    Parameters
+    ----------
+    notebook : its number, such as `09`. What came out is computed with the names of the caller, so this
+        is the last cell of a notebook.
+
+    Returns
+    -------
+    What a notebook shows as the last line of a cell: a table.
+
+    Raises
+    ------
+    MocapError : for a notebook without questions, an expression that fails, and an answer that is no longer
+        right.
+
+    Examples
+    --------
+    >>> bets("99")
+    Traceback (most recent call last):
+    mocap.errors.MocapError: There are no questions for a notebook '99'.
+
+    Notebooks: 00-quickstart to 19-group-graphs
+    """
+    found = read_questions(notebook)["bet"]
+    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, names_of_cell())
+
+
+def summed_up(bets: Bets, names: Names) -> Shown:
+    """Show what came out of bets, as a table."""
+    rows = [_came_out(key, BET | bet, names) for key, bet in bets.items()]
+    head = "".join(f"<th>{column}</th>" for column in COLUMNS)
+    body = "".join(
+        f'<tr><th scope="row">{row["ask"]}</th><td>–</td><td>{to_html(row["written"])}</td><td>–</td></tr>'
+        for row in rows
+    )
+    inside = f'<table class="table"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    text = [f"{_led(unescape(re.sub(r'<[^>]*>', '', row['ask'])))} {row['written']}" for row in rows]
+    return shown("What you thought, and what came out", inside, {"kind": "summary", "rows": rows}, text)
+
+
+def _came_out(key: str, bet: dict[str, Any], names: Names) -> dict[str, Any]:
+    row: dict[str, Any] = {"key": key, "unit": bet["unit"], "step": bet["step"]}
+    try:
+        row["ask"] = to_html(filled(bet["ask"], names))
+        require(bet, names)
+        if bet["choices"]:
+            return row | {"value": None, "written": to_text(filled(bet["came_out"], names))}
+        value = rounded(bet["came_out"], names)
+    except MocapError as error:
+        if bet["real"] and isinstance(error.__cause__, NameError):
+            return row | {"ask": to_html(bet["ask"]), "value": None, "written": ""}
+        raise MocapError(f"Bet {key}: {error}") from error
+    decimals = len(f"{bet['step']:g}".partition(".")[2])
+    return row | {"value": value, "written": f"{value:.{decimals}f} {bet['unit']}".rstrip()}
+
+
+def _led(ask: str) -> str:
+    """Write what is asked as it leads to what follows; a question needs no colon."""
+    return ask if ask.endswith("?") else f"{ask}:"
