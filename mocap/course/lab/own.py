@@ -75,19 +75,24 @@ def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools)
 
 
 def _search(graph: OwnGraph, path: GroundPath, by: Tools) -> Any:  # noqa: ANN401 (of the copied pages)
-    """Prepare the search of `mocap.plain`: by `edge_cost`, `lengthen` and `survivors`."""
-    pages, least = pages_of(by, graph.window), LEAST / graph.clips[0].fps
+    """Prepare the search of `mocap.plain`, with the frame before each track."""
     roots = [
         SimpleNamespace(root_positions=clip.root_positions, rotations=clip.rotations[:, :1])
         for clip in graph.clips
     ]
-    search = pages.Search(roots, graph.graph, plain.points_along(path.points))
-    before = {(clip, frame): search.roots[clip][max(frame - 1, 0)] for clip, frame in graph.graph}
-    search.tracks = {edge: np.append(before[edge[0]], track) for edge, track in search.tracks.items()}
+    search = pages_of(by, graph.window).Search(roots, graph.graph, plain.points_along(path.points))
+    search.before = {(clip, frame): search.roots[clip][max(frame - 1, 0)] for clip, frame in graph.graph}
+    search.tracks = {edge: np.append(search.before[edge[0]], way) for edge, way in search.tracks.items()}
+    return search
+
+
+def _place_exercises(search: Any, graph: OwnGraph, path: GroundPath, by: Tools) -> None:  # noqa: ANN401
+    """Let `edge_cost` look ahead, `lengthen` lengthen, and `survivors` go on."""
+    least = LEAST / graph.clips[0].fps
     numbers = {node: number for number, node in enumerate(graph.graph)}
 
     def price(walk: Walk, ahead: Ground) -> tuple[float, float]:
-        placed = walk.turn * np.append(before[walk.node], ahead) + walk.move
+        placed = walk.turn * np.append(search.before[walk.node], ahead) + walk.move
         cost, along = by.edge_cost(np.stack([placed.imag, placed.real], 1), path.at, walk.along, least)
         return cost, along
 
@@ -108,7 +113,6 @@ def _search(graph: OwnGraph, path: GroundPath, by: Tools) -> Any:  # noqa: ANN40
         return [walks[number] for number in by.survivors(np.array(stand), costs, WIDTH)]
 
     search.price, search.lengthen, search.best_of = price, lengthen, best_of
-    return search
 
 
 def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools) -> OwnWalk:
@@ -125,7 +129,9 @@ def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools) -> OwnWalk:
     NoWalk : where no walk reaches the end of the path.
     """
     line = GroundPath(np.asarray(path, float))
-    *_, (_, best) = _search(graph, line, by).layers()
+    search = _search(graph, line, by)
+    _place_exercises(search, graph, line, by)
+    *_, (_, best) = search.layers()
     if best is None:
         raise NoWalk(f"No walk of this graph reaches the end of a path of {line.length:.1f} m.")
     edges, walk = [], best
