@@ -46,11 +46,12 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
 
 def course_sheets(folder: Path) -> list[Sheet]:
     """Read what each notebook of the course asks for."""
-    notebooks = {file.stem: read(file) for file in sorted(folder.glob("*.ipynb"))}
-    return [
-        Sheet(stem, tuple(name for name, _ in tagged(notebook, "exercise")), _traits(notebook))
-        for stem, notebook in notebooks.items()
-    ]
+    sheets = []
+    for file in sorted(folder.glob("*.ipynb")):
+        notebook = read(file)
+        names = tuple(name for name, _ in tagged(notebook, "exercise"))
+        sheets.append(Sheet(file.stem, names, _traits(notebook)))
+    return sheets
 
 
 def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: ANN401
@@ -69,11 +70,10 @@ def sheet_of(notebook: Any, sheets: Iterable[Sheet]) -> Sheet | None:  # noqa: A
 
 
 def _traits(notebook: Any) -> frozenset[str]:  # noqa: ANN401
-    tags = (str(tag) for cell in notebook.cells for tag in cell.metadata.get("tags", ()))
-    sources = [cell.source.strip() for cell in notebook.cells]
+    tags = {str(tag) for cell in notebook.cells for tag in cell.metadata.get("tags", ())}
+    sources = {cell.source.strip() for cell in notebook.cells}
     functions = re.findall(r"^def \w+", "\n".join(sources), re.MULTILINE)
-    long = (text for text in sources if len(text) > 20)
-    return frozenset((*(tag for tag in tags if ":" in tag), *long, *functions))
+    return frozenset(functions) | {tag for tag in tags if ":" in tag} | {s for s in sources if len(s) > 20}
 
 
 def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = str) -> list[int]:

@@ -8,7 +8,6 @@ ends all. On Linux it adopts the orphans among its descendants, so that none can
 from __future__ import annotations
 
 import ctypes
-import itertools
 import os
 import resource
 import select
@@ -73,30 +72,25 @@ def cut_off() -> None:
 
 
 def _be_student(channel: int, offline: bool) -> None:
-    """Take the limits, and serve the marker; never return."""
+    """Take the limits, print nowhere, get no new rights, and serve the marker; never return."""
     os.setpgid(0, 0)
     try:
         if offline:
             cut_off()
-        _limit()
+        _prctl(DIE_WITH_PARENT, signal.SIGKILL)
+        _prctl(NO_NEW_RIGHTS, 1)
+        nothing = os.open(os.devnull, os.O_RDWR)
+        for standard in (0, 1, 2):
+            os.dup2(nothing, standard)
+        for name, limit in LIMITS.items():
+            with suppress(OSError, ValueError):  # not every system has all of them
+                resource.setrlimit(getattr(resource, name), (limit, limit))
         from mocap.course.marking.student import serve
 
         with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
             serve(requests, replies)
     finally:
         os._exit(0)
-
-
-def _limit() -> None:
-    """Print nowhere, get no new rights, and take no more than the limits."""
-    _prctl(DIE_WITH_PARENT, signal.SIGKILL)
-    _prctl(NO_NEW_RIGHTS, 1)
-    nothing = os.open(os.devnull, os.O_RDWR)
-    for standard in (0, 1, 2):  # what is printed goes nowhere
-        os.dup2(nothing, standard)
-    for name, limit in LIMITS.items():
-        with suppress(OSError, ValueError):  # not every system has all of them
-            resource.setrlimit(getattr(resource, name), (limit, limit))
 
 
 def _watch(student: int) -> str:
@@ -138,11 +132,11 @@ def _descendants() -> dict[int, int]:
 
 def _sizes() -> list[int]:
     """Return the bytes on disk of the files in this folder and those in it, up to the most there may be."""
-    files = (f"{place}/{name}" for place, _, names in os.walk(".") for name in names)
-    sizes = []
-    for file in itertools.islice(files, MOST):
-        with suppress(OSError):  # it is gone
-            sizes.append(512 * os.lstat(file).st_blocks)
+    sizes: list[int] = []
+    for place, _, names in os.walk("."):
+        for name in names[: MOST - len(sizes)]:
+            with suppress(OSError):  # it is gone
+                sizes.append(512 * os.lstat(f"{place}/{name}").st_blocks)
     return sizes
 
 

@@ -82,30 +82,31 @@ def mark(folder: Path, progress: Callable[[Iterable[Any]], Iterable[Any]] = iter
     Traceback (most recent call last):
     mocap.errors.MocapError: The folder nowhere holds no notebooks.
     """
-    handed, seed = _read_all(folder), int(np.random.default_rng().integers(2**32))
-    marked: list[Mark] = []
+    library()
+    files = [file for file in sorted(folder.rglob("*.ipynb")) if ".ipynb_checkpoints" not in file.parts]
+    if not files:
+        raise MocapError(f"The folder {folder} holds no notebooks.")
+    sheets, marked = course_sheets(stored()), list[Mark]()
+    handed = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
+    seed = int(np.random.default_rng().integers(2**32))
     with fonts() as known:
         for one in progress(handed):
             marks = list(_marks(one, seed, known))
             yield from marks
             marked += marks
-    yield from _not_handed_in(handed, marked)
-
-
-def _read_all(folder: Path) -> list[_Handed]:
-    library()
-    files = [file for file in sorted(folder.rglob("*.ipynb")) if ".ipynb_checkpoints" not in file.parts]
-    if not files:
-        raise MocapError(f"The folder {folder} holds no notebooks.")
-    sheets = course_sheets(stored())
-    return [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
+    asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
+    for student in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
+        done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{student}/")}
+        for name in asked:
+            if name not in done:
+                yield Mark(f"{student}/", name, False, f"✗ {name}: not handed in.")
 
 
 def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
     wrong = f"{path}: is not a notebook."
     try:
         if not file.is_file() or file.stat().st_size > LARGEST:
-            raise MocapError(f"{file}: is no file, or one of more than {LARGEST >> 20} MB.")
+            raise MocapError(f"{path}: is no file, or one of more than {LARGEST >> 20} MB.")
         notebook = read(file)
         return _Handed(path, code_cells(notebook), sheet_of(notebook, sheets), "")
     except MocapError as error:
@@ -117,12 +118,11 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
 
 def _marks(one: _Handed, seed: int, known: Path) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
-    tags = [name for cell in one.cells for name in cell.exercises]
     asked = one.sheet.exercises if one.sheet else ()
-    names = [*dict.fromkeys((*asked, *tags))]
-    strange = [f" The course does not know the tag `{name}`." for name in names if name not in all_checks()]
-    also = "".join(strange[:1])
-    names = [name for name in names if name in all_checks()]
+    names = [*dict.fromkeys((*asked, *(name for cell in one.cells for name in cell.exercises)))]
+    strange = [name for name in names if name not in all_checks()]
+    also = f" The course does not know the tag `{strange[0]}`." if strange else ""
+    names = [name for name in names if name not in strange]
     if not names:
         yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
     for name, verdict in _judge_all(one.cells, names, seed, known).items():
@@ -174,13 +174,3 @@ def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401
     for number, changed in reply["changed"]:
         np.copyto(arguments[number], unpack(changed))
     return unpack(reply["given"])
-
-
-def _not_handed_in(handed: Iterable[_Handed], marked: Sequence[Mark]) -> Iterator[Mark]:
-    """Mark, for everybody with a folder, what others handed in and they did not."""
-    asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
-    for student in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
-        done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{student}/")}
-        for name in asked:
-            if name not in done:
-                yield Mark(f"{student}/", name, False, f"✗ {name}: not handed in.")

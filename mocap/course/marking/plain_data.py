@@ -13,16 +13,6 @@ from typing import Any
 import numpy as np
 
 PLAIN = re.compile(r"[|<>=][biufc]\d{1,2}")  # the types of arrays that are numbers
-READERS: dict[str, Callable[..., Any]] = {
-    "...": lambda: ...,
-    "complex": complex,
-    "other": lambda kind: Other(kind),
-    "array": lambda *parts: _unpack_array(*parts),
-    "dict": lambda items: {unpack(key): unpack(item) for key, item in items},
-    "list": lambda items: list(map(unpack, items)),
-    "tuple": lambda items: tuple(map(unpack, items)),
-    "set": lambda items: set(map(unpack, items)),
-}
 
 
 class Other:
@@ -51,25 +41,20 @@ def pack(value: Any) -> Any:  # noqa: ANN401
     """
     if value is None or isinstance(value, (bool, int, float, str)):
         return value
-    if isinstance(value, complex):
-        return ["complex", value.real, value.imag]
-    if isinstance(value, np.longdouble):
-        return float(value)
-    if isinstance(value, np.generic):
-        return pack(value.item())
-    if hasattr(value, "__array__"):
-        return _pack_array(np.asarray(value))
+    if isinstance(value, np.generic) and not isinstance(value, complex):
+        return float(value) if isinstance(value, np.longdouble) else pack(value.item())
+    if hasattr(value, "__array__") and not isinstance(value, complex):
+        array = np.asarray(value)
+        if not PLAIN.fullmatch(array.dtype.str):
+            return pack(array.tolist())
+        text = base64.b64encode(np.ascontiguousarray(array).tobytes()).decode()
+        return ["array", array.dtype.str, array.shape, text]
     return _pack_group(value)
 
 
-def _pack_array(array: Any) -> Any:  # noqa: ANN401
-    if not PLAIN.fullmatch(array.dtype.str):
-        return pack(array.tolist())
-    text = base64.b64encode(np.ascontiguousarray(array).tobytes()).decode()
-    return ["array", array.dtype.str, array.shape, text]
-
-
 def _pack_group(value: Any) -> Any:  # noqa: ANN401
+    if isinstance(value, complex):
+        return ["complex", value.real, value.imag]
     if isinstance(value, Mapping):
         return ["dict", [[pack(key), pack(item)] for key, item in value.items()]]
     for kind, group in (("tuple", tuple), ("set", Set), ("list", Sequence)):
@@ -96,7 +81,19 @@ def unpack(packed: Any) -> Any:  # noqa: ANN401
     return READERS[kind](*parts)
 
 
-def _unpack_array(kind: str, shape: list[int], text: str) -> Any:  # noqa: ANN401
+def _array(kind: str, shape: list[int], text: str) -> Any:  # noqa: ANN401
     if not PLAIN.fullmatch(kind):
         raise ValueError(f"an array of {kind}")
     return np.frombuffer(base64.b64decode(text), kind).reshape(shape).copy()
+
+
+READERS: dict[str, Callable[..., Any]] = {
+    "...": lambda: ...,
+    "complex": complex,
+    "other": Other,
+    "array": _array,
+    "dict": lambda items: {unpack(key): unpack(item) for key, item in items},
+    "list": lambda items: list(map(unpack, items)),
+    "tuple": lambda items: tuple(map(unpack, items)),
+    "set": lambda items: set(map(unpack, items)),
+}

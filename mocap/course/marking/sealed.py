@@ -71,7 +71,12 @@ class Sealed:
             self.channel.sendall(pickle.dumps((method, *arguments)))
             while b"\n" not in self.read:
                 self._wait()
-                self._add(self.channel.recv(1 << 16))
+                more = self.channel.recv(1 << 16)
+                self.read += more
+                if not more:
+                    raise OSError
+                if len(self.read) > REPLY:
+                    raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
             line, _, self.read = self.read.partition(b"\n")
             return json.loads(line)
         except TimeoutError:
@@ -87,13 +92,6 @@ class Sealed:
             raise TimeoutError
         self.channel.settimeout(left)
 
-    def _add(self, more: bytes) -> None:
-        self.read += more
-        if not more:
-            raise OSError
-        if len(self.read) > REPLY:
-            raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
-
 
 @cache
 def offline() -> bool:
@@ -104,10 +102,9 @@ def offline() -> bool:
     >>> offline() in (True, False)
     True
     """
-    path = {"PYTHONPATH": os.pathsep.join(_python_path())}
-    return not subprocess.run(
-        [*KEEPER, "cut_off"], env=os.environ | path, check=False, capture_output=True
-    ).returncode
+    environment = os.environ | {"PYTHONPATH": _python_path()}
+    tried = subprocess.run([*KEEPER, "cut_off"], env=environment, check=False, capture_output=True)
+    return tried.returncode == 0
 
 
 @contextmanager
@@ -177,12 +174,13 @@ def _home(fonts: Path | None) -> Iterator[tuple[str, Mapping[str, str]]]:
         config = shutil.copytree(fonts, Path(folder, "fonts")) if fonts else Path(folder)
         places = {"HOME": folder, "TMPDIR": folder, "MPLCONFIGDIR": str(config)}
         kept = {name: os.environ[name] for name in KEPT if name in os.environ}
-        yield folder, {**kept, **FIXED, **places, "PYTHONPATH": os.pathsep.join(_python_path())}
+        yield folder, {**kept, **FIXED, **places, "PYTHONPATH": _python_path()}
     finally:  # not by shutil.rmtree, which gives up on folders in folders in folders
         subprocess.run(["rm", "-rf", folder], check=False, stderr=subprocess.DEVNULL)
 
 
-def _python_path() -> list[str]:
-    """Return where Python finds this package, and what the marker's own Python was given."""
-    given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    return [str(Path(mocap.__file__).parents[1]), *(str(Path(place).resolve()) for place in given if place)]
+def _python_path() -> str:
+    """Say where Python finds this package, and what the marker's own Python was given."""
+    given = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
+    places = (Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in given))
+    return os.pathsep.join(map(str, places))

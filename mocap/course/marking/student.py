@@ -59,28 +59,24 @@ class Student:
 
     def _run(self, number: int) -> None:
         self.ran.add(number)
-        run: Callable[[str], Any] = self.shell.run_cell
-        done = run(self.cells[number].source)
-        error = done.error_before_exec or done.error_in_exec
-        if error:
+        done = self.shell.run_cell(self.cells[number].source)
+        if error := done.error_before_exec or done.error_in_exec:
             self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
 
     def call(self, name: str, arguments: tuple[Any, ...]) -> dict[str, Any]:
         """Call a function, and return its answer, and which arrays it changed."""
-        function = self.shell.user_ns.get(name, _missing)
-        stands_in = getattr(function, "stand_in", None)  # the package's, in a place of `lab.mine`
-        function = getattr(function, "written", function)
-        if function is stands_in:
+        place = self.shell.user_ns.get(name)
+        function = getattr(place, "written", place)
+        if function is getattr(place, "stand_in", None):  # the package's, in a place of `lab.mine`
             function = _missing
         before = copy.deepcopy(arguments)
         try:
             given = pack(function(*arguments))
         except BaseException as error:  # a student's function may raise anything
             return {"raised": type(error).__name__, "said": f"{error}{_place(error, function)}"}
-        pairs = enumerate(zip(before, arguments, strict=True))
         changed = [
             [number, pack(new)]
-            for number, (old, new) in pairs
+            for number, (old, new) in enumerate(zip(before, arguments, strict=True))
             if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True)
         ]
         return {"given": given, "changed": changed}

@@ -23,10 +23,8 @@ def to_csv(marks: Iterable[Mark]) -> str:
     handed in,exercise,right,said
     '=ada/02.ipynb,align,1,✓ align: right on 40 random inputs.
     """
-    rows: list[list[str | int]] = [
-        [mark.handed_in, mark.exercise, int(mark.right), mark.said] for mark in marks
-    ]
-    return _text([["handed in", "exercise", "right", "said"], *rows])
+    rows = [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks]
+    return _text([("handed in", "exercise", "right", "said"), *rows])
 
 
 def to_table(marks: Iterable[Mark]) -> str:

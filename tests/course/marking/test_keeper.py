@@ -11,7 +11,6 @@ import mocap.course.marking
 from mocap.cli.course import NETWORK
 from mocap.cli.main import main
 from mocap.course.marking import keeper, sealed
-from tests.course.marking import students
 
 CALL = "import socket\nwith socket.create_connection(('127.0.0.1', {}), 5): pass"
 needs_namespaces = pytest.mark.skipif(
@@ -44,19 +43,12 @@ def is_called(server):
 
 
 @needs_namespaces
-def test_a_notebook_cannot_call_a_server(server):
-    error, reply = first_cell(CALL.format(server.getsockname()[1]))
+def test_a_notebook_cannot_call_a_server_is_who_it_was_and_writes_in_its_home(server):
+    who = "import os, pathlib\n(pathlib.Path.home() / 'mine').write_text('')\nassert os.getuid() == "
+    error, reply = first_cell(f"{who}{os.getuid()}\n{CALL.format(server.getsockname()[1])}")
     assert "OSError: [Errno 101]" in error
     assert reply["given"] == 4
     assert not is_called(server)
-
-
-@needs_namespaces
-def test_it_is_who_it_was_and_writes_in_its_home():
-    source = (
-        "import os, pathlib\n(pathlib.Path.home() / 'mine').write_text('')\nraise ValueError(os.getuid())"
-    )
-    assert first_cell(source)[0] == f"ValueError: {os.getuid()}"
 
 
 def test_without_namespaces_it_can_and_the_marker_says_so(server, monkeypatch, tmp_path, capsys):
@@ -66,15 +58,6 @@ def test_without_namespaces_it_can_and_the_marker_says_so(server, monkeypatch, t
     assert is_called(server)
     assert main(["course", "mark", str(tmp_path), "-o", str(tmp_path / "marks.csv")]) == 2
     assert capsys.readouterr().err.startswith(NETWORK[False])
-
-
-@needs_namespaces
-def test_the_marker_says_that_there_is_no_network(tmp_path, capsys):
-    students.hand_in(students.HONEST, tmp_path / "in" / "ada" / "n.ipynb")
-    assert main(["course", "mark", str(tmp_path / "in"), "-o", str(tmp_path / "marks.csv")]) == 0
-    said = capsys.readouterr()
-    assert said.err.startswith(NETWORK[True])
-    assert "3 of 3 are right" in said.out
 
 
 def test_where_it_is_not_linux_it_is_an_error(monkeypatch):

@@ -1,6 +1,7 @@
 """Eleven dishonest and five unlucky students, and what the marker says of them."""
 
 import csv
+import io
 import os
 import resource
 import signal
@@ -8,12 +9,14 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import redirect_stderr, suppress
 from pathlib import Path
 
 import pytest
 
+from mocap.cli.course import NETWORK
 from mocap.cli.main import main
-from mocap.course.marking import mark, marks
+from mocap.course.marking import mark, marks, sealed
 from mocap.errors import MocapError
 from tests.course.marking.students import (
     DISHONEST,
@@ -29,6 +32,13 @@ from tests.course.marking.students import (
 
 SECRET = "correct horse battery staple"
 EXERCISES = ("speed", "cheapest", "dead_ends")
+UNLUCKY_MARKS = {
+    "prints without end": "011",
+    "fills the memory": "011",
+    "ends Python": "011",
+    "has helpers, tests and a cell on top": "111",
+    "lost cells and tags": "101",
+}
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="marking needs Linux or macOS")
 
 
@@ -41,15 +51,11 @@ def said(path):
 
 
 def sleepers():
-    lines = [file for file in Path("/proc").glob("[0-9]*/cmdline") if file.exists()]
-    return [file for file in lines if f"\0{SLEEP}\0".encode() in _bytes(file)]
-
-
-def _bytes(file):
-    try:
-        return file.read_bytes()
-    except OSError:
-        return b""
+    found = []
+    for file in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):  # it has ended
+            found += [file] * (f"\0{SLEEP}\0".encode() in file.read_bytes())
+    return found
 
 
 @pytest.fixture(scope="module")
@@ -67,20 +73,22 @@ def marked(home, tmp_path_factory):
     (path / "handed-in" / "yan").mkdir()
     (path / "handed-in" / "yan" / "broken.ipynb").write_text("{")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(marks, "SECONDS", 12)
+        patch.setattr(marks, "SECONDS", 6)
         patch.setenv("HOME", str(home))
         patch.setenv("TOKEN", SECRET)
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        assert main(["course", "mark", str(path / "handed-in"), "-o", str(path / "marks.csv")]) == 0
+        with redirect_stderr(io.StringIO()) as said:
+            assert main(["course", "mark", str(path / "handed-in"), "-o", str(path / "marks.csv")]) == 0
+        assert said.getvalue().startswith(NETWORK[sealed.offline()])
         assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # kilobytes
     return path
 
 
-@pytest.mark.parametrize("student", DISHONEST)
-def test_a_dishonest_student_gets_marks_only_for_what_is_right(student, marked):
-    name = f"'{student}" if student.startswith("=") else student
-    right = [said(marked)[name, exercise]["right"] for exercise in EXERCISES]
-    assert right == (["0", "1", "0"] if student == "patches the check" else ["0", "1", "1"])
+def test_students_get_marks_only_for_what_is_right(marked):
+    wanted = dict.fromkeys(DISHONEST, "011") | UNLUCKY_MARKS | {"patches the check": "010", "zoe": "111"}
+    for student, right in wanted.items():
+        name = f"'{student}" if student.startswith("=") else student
+        assert "".join(said(marked)[name, exercise]["right"] for exercise in EXERCISES) == right, student
 
 
 @pytest.mark.parametrize(
@@ -92,7 +100,7 @@ def test_a_dishonest_student_gets_marks_only_for_what_is_right(student, marked):
         ("lists and plants files", "speed", "speed: your function raises ValueError: [] (in"),
         ("starts many processes", "speed", "✗ speed: starts more than 16 processes"),
         ("kills what started it", "speed", "✗ speed: ends Python itself"),
-        ("prints without end", "speed", "✗ speed: stopped after 12 s"),
+        ("prints without end", "speed", "✗ speed: stopped after 6 s"),
         ("fills the memory", "speed", "your function raises MemoryError"),
         ("ends Python", "speed", "✗ speed: ends Python itself"),
         (
@@ -108,21 +116,6 @@ def test_the_reason_is_said(student, exercise, says, marked):
     if student == "starts many processes" and not LINUX:
         pytest.skip("only Linux counts a student's processes")
     assert says in said(marked)[student, exercise]["said"]
-
-
-@pytest.mark.parametrize(
-    ("student", "right"),
-    [
-        ("prints without end", "011"),
-        ("fills the memory", "011"),
-        ("ends Python", "011"),
-        ("has helpers, tests and a cell on top", "111"),
-        ("lost cells and tags", "101"),
-        ("zoe", "111"),
-    ],
-)
-def test_an_unlucky_student_gets_marks_for_all_that_is_right(student, right, marked):
-    assert "".join(said(marked)[student, exercise]["right"] for exercise in EXERCISES) == right
 
 
 def test_no_secret_gets_into_the_marks_and_no_file_onto_the_disk(home, marked):
@@ -162,28 +155,37 @@ def test_an_empty_folder_and_one_without_exercises(tmp_path):
 
 
 def test_an_endless_first_cell_is_said_of_each_exercise(tmp_path, monkeypatch):
-    monkeypatch.setattr(marks, "STARTING", 5)
+    monkeypatch.setattr(marks, "STARTING", 1)
     hand_in([("", "while True: pass"), *HONEST[1:]], tmp_path / "ada" / "00.ipynb")
-    assert [one.said for one in mark(tmp_path)] == [f"✗ {name}: stopped after 5 s." for name in EXERCISES]
+    assert [one.said for one in mark(tmp_path)] == [f"✗ {name}: stopped after 1 s." for name in EXERCISES]
 
 
-@pytest.mark.parametrize(
-    "answer", ["10**400", "'x' * 2_000_000", "float('nan')", "[[1], [2, 3]]", "object()"]
-)
-def test_no_answer_stops_the_marker(answer, tmp_path):
-    hand_in([START, ("exercise:speed", f"def speed(positions, fps): return {answer}")], tmp_path / "00.ipynb")
-    assert not any(one.right for one in mark(tmp_path))
+def test_no_answer_stops_the_marker(tmp_path):
+    """One too large for a float, one too long, of rows of different lengths, no number, and no plain data."""
+    heads = (SPEED[1], HONEST[2][1], HONEST[3][1])
+    for name, answers in {
+        "a": ("10**400", "'x' * 2_000_000", "[[1], [2, 3]]"),
+        "b": ("float('nan')", "object()", "len"),
+    }.items():
+        cells = [
+            (f"exercise:{exercise}", f"{head.splitlines()[0]}\n    return {answer}")
+            for exercise, head, answer in zip(EXERCISES, heads, answers, strict=True)
+        ]
+        hand_in([START, *cells], tmp_path / f"{name}.ipynb")
+    found = list(mark(tmp_path))
+    assert len(found) == 6 and not any(one.right for one in found)
 
 
 @pytest.mark.parametrize(
     ("times", "size", "says"),
     [
-        (20, 45_000_000, "writes 2000 files, or"),
+        (2100, 1, "writes 2000 files, or"),
+        pytest.param(20, 45_000_000, "writes 2000 files, or", marks=pytest.mark.sweep),
         (1, 60_000_000, "✗ speed: its cells raise OSError: [Errno 27] File too large"),
     ],
 )
 def test_no_notebook_fills_the_disk(times, size, says, tmp_path):
-    write = f"for n in range({times}): open(f'{{n}}', 'wb').write(b'x' * {size})\nimport time\ntime.sleep(1)"
+    write = f"for n in range({times}): open(f'{{n}}', 'wb').write(b'x' * {size})\nimport time\ntime.sleep(60)"
     hand_in([START, ("exercise:speed", write)], tmp_path / "00.ipynb")
     assert says in next(mark(tmp_path)).said
 
@@ -197,6 +199,7 @@ def test_junk_on_the_channel_is_no_answer(tmp_path):
     assert found["cheapest"].right
 
 
+@pytest.mark.sweep
 def test_folders_in_folders_leave_nothing_behind(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     deep = "import os\nfor _ in range(1500):\n    os.mkdir('d')\n    os.chdir('d')"
