@@ -1,8 +1,8 @@
 """Steering: walks that follow a wish: along a path, through waypoints, to a pose, in a crowd, by commands.
 
 A walk that is searched for: the path objective says what is asked for and what each deviation costs, a
-layered search finds the walk with the lowest cost, and `follow_path` joins the two; `waypoints` and `crowd`
-call it. A new kind of wish is a field of `Wishes`, with its price in `Settings` and its cost in
+layered search finds the walk with the lowest cost, and `follow_path` joins the two; `waypoints_and_crowds`
+calls it. A new kind of wish is a field of `Wishes`, with its price in `Settings` and its cost in
 `PathSearch.hop_costs`.
 
 A character that is commanded: all fit one protocol, `Character`; its `step` takes a heading and a speed and
@@ -16,22 +16,19 @@ Reading order (notebooks 08, 12, 17, 18)
  3. `path_search`: what walks along a path cost, and which of them go on
  4. `followed`: what was found along a path, and how well it follows the path
  5. `path_following`: find a walk along a path
- 6. `own_turning`: how walks turn by themselves, and what it costs to turn them further
- 7. `bent_following`: any line with any walk: a walk laid on its path
- 8. `paper_search`: the same as in 5 by the paper's branch and bound
- 9. `waypoints`: places, labels and times to pass
-10. `crowd`: many characters that keep apart
-11. `moments`: a pose at a place, and the frames of a graph that look like it
-12. `two_sided_search`: walks from the start and from the end that meet half-way
-13. `end_bending`: a walk bent and stretched so that it ends where it must
-14. `held_ends`: the last differences faded out, and feet that stand where the poses put them
-15. `in_betweens`: from one pose to another, at its place and in time: 11 to 14 in one function
-16. `characters`: the protocol, the pose that a step gives, and how frames are placed
-17. `graph_control`: a character on a motion graph, and how it looks ahead
-18. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-19. `steered_motion`: steer a character by a list of headings, and measure how soon it obeys
-20. `pursuit`: lead a character along a path
-21. `judged_control`: one protocol for all characters
+ 6. `bent_following`: any line with any walk: a walk that turns little beyond its clips, laid on its path
+ 7. `paper_search`: the same as in 5 by the paper's branch and bound
+ 8. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
+ 9. `moments`: a pose at a place, and the frames of a graph that look like it
+10. `two_sided_search`: walks from the start and from the end that meet half-way
+11. `end_bending`: a walk bent and stretched so that it ends where it must
+12. `held_ends`: the last differences faded out, and feet that stand where the poses put them
+13. `in_betweens`: from one pose to another, at its place and in time: 9 to 12 in one function
+14. `characters`: the protocol, the pose that a step gives, and how soon a steered character obeys
+15. `graph_control`: a character on a motion graph, and how it looks ahead
+16. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+17. `pursuit`: lead a character along a path
+18. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -50,15 +47,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "path_following": ["follow_path"],
         "bent_following": ["BentWalk"],
         "paper_search": ["follow_as_2002"],
-        "waypoints": ["Waypoint", "through_waypoints"],
-        "crowd": ["walk_crowd"],
+        "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
         "end_bending": ["Limits"],
         "in_betweens": ["in_between"],
         "moments": ["Moment"],
-        "characters": ["Character", "Pose"],
+        "characters": ["Character", "Pose", "measure_delay", "steer"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
-        "steered_motion": ["measure_delay", "steer"],
         "pursuit": ["pursue"],
         "judged_control": ["command_headings", "judge_control"],
     },

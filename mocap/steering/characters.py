@@ -7,16 +7,21 @@ elsewhere, `place_frames` puts them on the ground.
 steered, seen and measured as those before it.
 """
 
-from collections.abc import Mapping
+import time
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from mocap._shared.arrays import Array
-from mocap.body.planar import PlanarTransform
+from mocap._shared.arrays import Array, Indices, Mask
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, on_ground
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
+
+LONGEST = 8.0  # seconds; a turn that takes longer counts as that long
+OBEYS = np.radians(20)  # between the way of the last third of a second and the heading, at most
 
 
 class Pose(NamedTuple):
@@ -87,3 +92,167 @@ def place_frames(place: PlanarTransform, roots: Array, turns: Array) -> tuple[Ar
     turned = turns.copy()
     turned[..., 0, :] = place.apply_orientations(turned[..., 0, :])
     return place.apply_points(roots), turned
+
+
+class Steered(NamedTuple):
+    """A steered motion, F frames, and what the character did in each.
+
+    `blending` (F,) says whether a transition was under way, `frames_left` (F,) how many frames the character
+    still had to play before its next choice.
+    """
+
+    motion: Motion
+    blending: Mask
+    frames_left: Indices
+
+    def delay(self, heading: float, frame: int) -> Array:
+        """Split the delay of a command: seconds of waiting, of transitions and of clip until it is obeyed.
+
+        Parameters
+        ----------
+        heading, frame : the direction asked for, radians, and the frame of the command, from 1/3 s on.
+
+        Returns
+        -------
+        Three numbers; nan where the command is not obeyed, as `measure_delay` defines it.
+        """
+        fps, track = self.motion.fps, on_ground(self.motion.root_positions) * np.exp(-1j * heading)
+        back = round(fps / 3)
+        obeys = np.abs(np.angle(track[frame:] - track[frame - back : -back])) < OBEYS
+        if not obeys.any():
+            return np.full(3, np.nan)
+        took = int(obeys.argmax()) + 1
+        wait = min(int(self.frames_left[frame]), took)
+        blends = int(self.blending[frame + wait : frame + took].sum())
+        return np.array([wait, blends, took - wait - blends]) / fps
+
+
+def steer(character: Character, headings: Sequence[float], speed: float = 1.1) -> Steered:
+    """Steer a character by one heading per frame, and record what it does.
+
+    Parameters
+    ----------
+    character : any controller; it walks on from where it is.
+    headings : shape (F,), radians; 0 is +z, π/2 is +x.
+    speed : metres per second.
+
+    Raises
+    ------
+    MocapError : for no headings.
+
+    Examples
+    --------
+    Two seconds ahead, then to the left:
+
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.steering import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> steered = steer(Controller(graph), [0.0] * 60 + [np.pi / 2] * 60)
+    >>> len(steered.motion), steered.blending.shape
+    (120, (120,))
+
+    Notebook: 08b-steering
+    """
+    if not len(headings):
+        raise MocapError("To steer takes one heading per frame, got none.")
+    poses, left = [], []
+    for heading in headings:
+        left.append(character.frames_left)
+        poses.append(character.step(float(heading), speed))
+    return Steered(as_motion(character, poses), np.array([pose.blending for pose in poses]), np.array(left))
+
+
+def as_motion(character: Character, poses: Sequence[Pose], name: str = "steered") -> Motion:
+    """Put the poses of a character in a row; marks that all of them have become contacts.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.steering import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> character = Controller(graphs.prune(graphs.build(clips, window=10, threshold=0.04)))
+    >>> walked = as_motion(character, [character.step(0.0, 1.0) for _ in range(9)])
+    >>> walked, sorted(walked.contacts)
+    (Motion('steered', 9 frames at 30 Hz, 38 joints), ['lfoot', 'ltoes', 'rfoot', 'rtoes'])
+    """
+    marks = [mark for mark in poses[0].contacts if all(mark in pose.contacts for pose in poses)]
+    return Motion(
+        character.skeleton,
+        np.array([pose.root_position for pose in poses]),
+        np.array([pose.rotations for pose in poses]),
+        character.fps,
+        name,
+        contacts={mark: np.array([pose.contacts[mark] for pose in poses]) for mark in marks},
+    )
+
+
+class Delay(NamedTuple):
+    """The delay until a character obeys, and the CPU time per step.
+
+    `mean` and `slowest` (95 %) are delays in seconds; `step` (mean) and `worst` are CPU times in ms. Two mean
+    parts of the delay are `waiting`, until the character can make its next choice, and `blending`, in
+    transitions after it. The rest is spent in clips that turn. `never` is the number of
+    turns that took longer than 8 s.
+    """
+
+    mean: float
+    slowest: float
+    step: float
+    worst: float
+    waiting: float
+    blending: float
+    never: int
+
+
+def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, seed: int = 0) -> Delay:
+    """Command a character to turn by 30 to 120 degrees many times, and measure how soon it obeys.
+
+    It obeys when its direction over the last third of a second is within 20 degrees of the command. A turn
+    that takes longer than 8 s counts as 8 s. The next command comes as soon as this one is obeyed.
+
+    Parameters
+    ----------
+    character : any controller, just made; it has walked on when this returns.
+    turns : the number of turns.
+    speed : metres per second.
+    seed : of the random turns.
+
+    Raises
+    ------
+    MocapError : for less than one turn.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> from mocap.steering import Controller
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> 0 < measure_delay(Controller(graph), turns=1).mean <= 8
+    True
+
+    Notebook: 08b-steering
+    """
+    if turns < 1:
+        raise MocapError(f"A delay is measured on one turn or more, got turns={turns}.")
+    random, fps = np.random.default_rng(seed), character.fps
+    heading, back = 0.0, round(fps / 3)
+    track, costs, delays, never = [0j] * back, [], [], 0
+    for _ in range(turns):
+        heading += random.choice([-1, 1]) * random.uniform(np.pi / 6, 2 * np.pi / 3)
+        wait, frames, blends, obeys = character.frames_left, 0, 0, False
+        while not obeys and frames < round(LONGEST * fps):
+            start = time.thread_time()
+            pose = character.step(heading, speed)
+            costs.append(time.thread_time() - start)
+            track.append(complex(on_ground(pose.root_position)))
+            blends += pose.blending and frames >= wait
+            way = (track[-1] - track[-1 - back]) * np.exp(-1j * heading)
+            obeys, frames = frames >= back and abs(np.angle(way)) < OBEYS, frames + 1
+        delays.append((frames, min(wait, frames), blends))
+        never += not obeys
+    took, waited, blended = np.transpose(delays) / fps
+    # The first step looks ahead from the start without any frame to do so before; games do it while loading.
+    cost = 1e3 * np.array(costs[1:])
+    means = [float(some.mean()) for some in (took, cost, waited, blended)]
+    return Delay(means[0], float(np.percentile(took, 95)), means[1], float(cost.max()), *means[2:], never)

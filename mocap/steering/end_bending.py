@@ -11,7 +11,7 @@ At both ends φ̇ = 0 and σ = 1, so that the walk starts and ends as fast as be
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +23,6 @@ from mocap.body.motion import Motion
 from mocap.body.planar import on_ground
 from mocap.editing.displacements import spline_basis
 from mocap.editing.retiming import at_frames
-from mocap.errors import MocapError
 
 # What changes cost: times the squared radians per second of the turning that is added, and times the squared
 # logarithm by which steps are lengthened or time is stretched; times seconds each.
@@ -35,20 +34,15 @@ FEWEST, MOST = 10, 40  # spans between knots; three at each end are held level
 RISE = 0.15  # the share of a walk over which its time comes to the new pace, at each end
 
 
-@dataclass(frozen=True)
-class Limits:
+class Limits(NamedTuple):
     """By how much a walk may be changed to arrive.
 
     Parameters
     ----------
     turn : radians per second that are added to its own turning.
+    pose : metres by which joints are moved where its ends fade into the poses, the root mean square.
     steps : times which its steps are longer, or shorter; 1.25 allows 0.8 to 1.25.
     pace : times which it is played faster, or slower.
-    pose : metres by which joints are moved where its ends fade into the poses, the root mean square.
-
-    Raises
-    ------
-    MocapError : for a turn or a pose that is not above 0, and steps or a pace below 1.
 
     Examples
     --------
@@ -57,15 +51,9 @@ class Limits:
     """
 
     turn: float = float(np.radians(60))
+    pose: float = 0.1
     steps: float = 1.25
     pace: float = 1.25
-    pose: float = 0.1
-
-    def __post_init__(self) -> None:
-        for name, least in (("turn", 0.0), ("pose", 0.0), ("steps", 1.0), ("pace", 1.0)):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value >= least and value > 0):
-                raise MocapError(f"The limit '{name}' must be finite and at least {least:g}, got {value}.")
 
 
 class Arrived(NamedTuple):

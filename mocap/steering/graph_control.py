@@ -19,14 +19,14 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.planar import PlanarTransform, on_ground
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.steering.characters import Pose, place_frames, require_command
 
 SEAM = 0.1  # m²/s, as all costs here
 LABEL = 4.0  # m²/s per second
-LONGEST, WIDEST = 60.0, 10_000  # seconds to look ahead, walks that stay in each round
+AHEAD, WIDTH = 3.0, 64  # seconds to look ahead, walks that stay in each round
 
 
 class WalksAhead(NamedTuple):
@@ -45,13 +45,11 @@ class LookAhead:
     Parameters
     ----------
     graph : the compiled graph.
-    seconds : to look ahead.
-    width : walks that stay in each round.
     """
 
-    def __init__(self, graph: CompiledGraph, seconds: float, width: int) -> None:
+    def __init__(self, graph: CompiledGraph) -> None:
         hops, bears = graph.hops, graph.labels.bears
-        self.graph, self.horizon, self.width = graph, seconds * graph.fps, width
+        self.graph = graph
         # The root's way on the ground over each hop (H,), in the coordinates of the clip that it leaves.
         leaves = np.repeat(np.arange(len(graph.nodes)), np.diff(hops.first))
         end = graph.turn[hops.last] * graph.at[graph.target[hops.last]] + graph.move[hops.last]
@@ -72,10 +70,10 @@ class LookAhead:
 
         Returns
         -------
-        The `width` walks with the lowest cost per frame, the best first; None where no walk can be longer.
+        The `WIDTH` walks with the lowest cost per frame, the best first; None where no walk can be longer.
         """
         graph, hops = self.graph, self.graph.hops
-        short = walks.frames < self.horizon
+        short = walks.frames < AHEAD * self.graph.fps
         of, hop = hops.leaving(walks.node[short])
         if not len(hop):
             return None
@@ -92,7 +90,7 @@ class LookAhead:
             walks.cost[of] + cost,
         )
         walks = WalksAhead(*(np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True)))
-        best = np.argsort(walks.cost / walks.frames)[: self.width]
+        best = np.argsort(walks.cost / walks.frames)[:WIDTH]
         return WalksAhead(*(values[best] for values in walks))
 
 
@@ -110,13 +108,10 @@ class Controller:
     ----------
     graph : pruned, so that a walk never ends.
     start : the first node; by default the first of the graph.
-    ahead : seconds to look ahead.
-    width : walks that stay in each round.
 
     Raises
     ------
     NoWalk : for a start that is not in the graph, and where the graph comes to an end.
-    MocapError : for less than a frame or more than a minute to look ahead, and a width outside 1 to 10 000.
 
     Examples
     --------
@@ -127,22 +122,10 @@ class Controller:
     (38, 4)
     """
 
-    def __init__(
-        self,
-        graph: MotionGraph | CompiledGraph,
-        *,
-        start: Node | None = None,
-        ahead: float = 3.0,
-        width: int = 64,
-    ) -> None:
+    def __init__(self, graph: MotionGraph | CompiledGraph, *, start: Node | None = None) -> None:
         self.graph = compile_graph(graph)
-        if not (1 / self.graph.fps <= ahead <= LONGEST and 1 <= width <= WIDEST):
-            raise MocapError(
-                f"A character looks ahead from a frame to {LONGEST:g} s, and keeps 1 to {WIDEST} walks; "
-                f"got {ahead} s and {width}."
-            )
         self.skeleton, self.fps = self.graph.source.clips[0].skeleton, self.graph.fps
-        self.ahead = LookAhead(self.graph, ahead, width)
+        self.ahead = LookAhead(self.graph)
         self.edges: list[int] = []  # of the hop under way, still to be played; the first one is being played
         self.frame = 0  # of the first edge
         self.turn, self.move = 1 + 0j, 0j  # place its clip: p ↦ turn · p + move
@@ -188,17 +171,15 @@ class Controller:
         return int(self.graph.frames[self.edges].sum()) - self.frame * bool(self.edges)
 
     def feet(self) -> Points:
-        """Give where ankles and balls are on the ground in the last pose, left before right, shape (4,).
+        """Give where ankles and balls are on the ground in the last pose, left before right, (4,).
 
         In a transition the feet of both clips are blended as the root is; those of the blended pose are some
         millimetres from there.
 
         Raises
         ------
-        MocapError : before the first step, and for legs that cannot be found.
+        MocapError : for legs that cannot be found.
         """
-        if not self.frame:
-            raise MocapError("Feet are those of the last pose: take a step first.")
         (clip, frame), (other, then), alpha = self._played()
         edge = self.edges[0]
         laid = self.graph.turn[edge] * self._feet[other][then] + self.graph.move[edge]

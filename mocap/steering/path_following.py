@@ -1,6 +1,5 @@
 """Find a walk along a path on the ground [KGP02, 5.1]."""
 
-import time
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -109,18 +108,13 @@ def follow_path(
 
 def _best_of(search: Callable[[Settings], Followed], settings: Settings) -> Followed:
     """Search; while `excess` is above 1, search again with a wider beam and another price of a seam."""
-    begun = time.monotonic()
     best = last = search(settings)
     for again in range(1, settings.tries):
         if best.excess <= 1 or last.found.stopped:
             return best
         seam = settings.seam * (AGAIN if best.seams_per_second > best.most_seams else 1 / AGAIN)
-        left = settings.seconds - (time.monotonic() - begun)
         wider = round((1 + again / 2) * (settings.width or 0))
-        try:
-            last = search(replace(settings, seam=seam, width=wider, seconds=left))
-        except NoWalk:  # the time was over before the first step
-            return best
+        last = search(replace(settings, seam=seam, width=wider))
         best = min(best, last, key=lambda walk: (walk.progress < 1, walk.excess))
     return best
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
-from mocap.steering.own_turning import OwnTurning
 
 SPACING = 0.02  # metres between the points of a route, at most
 
@@ -76,7 +76,6 @@ class Settings:
     alike : walks at one node, in one cell of so many metres and so many radians, stand alike.
     rescue : the largest expected cost of a walk that is about to leave the path, m².
     tries : the largest number of searches; 1 for one search with this width and these prices.
-    seconds : time to search; after it the best walk so far is taken.
     progress : wraps the layers, to show a bar.
 
     Examples
@@ -100,12 +99,25 @@ class Settings:
     alike: float = 0.1
     rescue: float = 1.5
     tries: int = 3
-    seconds: float = np.inf
     progress: Progress = iter
 
     def width_on(self, route: Route) -> int:
         """Give the width, or its default for a route."""
         return self.width or (50 if route.bare else 100)
+
+
+class OwnTurning(NamedTuple):
+    """How the T frames of all edges of a graph turn and move on along their own path, without its sway.
+
+    `turn` (T,): radians in each frame; `step` (T,): metres in each frame; `ground` (T,): where the path is in
+    the coordinates of the clip that the edge leaves; `going` (N,): the heading of the path at each node,
+    radians, in the coordinates of its clip.
+    """
+
+    turn: Array
+    step: Array
+    ground: Points
+    going: Array
 
 
 @dataclass(frozen=True, eq=False)

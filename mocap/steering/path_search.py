@@ -7,7 +7,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import NamedTuple
 
 import numpy as np
@@ -44,18 +43,17 @@ class Found(NamedTuple):
 def find_walk(graph: CompiledGraph, route: Route, starts: States, settings: Settings) -> Found:
     """Find the best walk from one of the starts to the end of a route.
 
-    After Ctrl-C, or when the time is over, it is the best so far.
+    After Ctrl-C it is the best so far.
 
     Raises
     ------
-    NoWalk : where every walk ends before the route does, or the time is over before the first step.
+    NoWalk : where every walk ends before the route does, or the search before its first step.
     """
-    search, deadline = PathSearch(graph, route, starts, settings), time.monotonic() + settings.seconds
+    search = PathSearch(graph, route, starts, settings)
     try:
         for layer in settings.progress(range(int(route.length / LAYER) + 1)):
             for _ in search.rounds(layer):
-                if time.monotonic() > deadline:
-                    return search.found("out of time")
+                pass
     except KeyboardInterrupt:
         return search.found("interrupted")
     return search.found("")
@@ -192,11 +190,11 @@ class PathSearch(LayeredSearch):
         if not self.arrived and not stopped:
             reached = max(float(states.along.max()) for states in self.history)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
+        if not self.arrived and len(self.history) < 2:
+            raise NoWalk(f"The search was {stopped} before its first step.")
         last = States.join(self.arrived or self.history[-1:])
         walk = self.trace(last, int(last.cost.argmin()))
         hops = walk.hop[1:]
-        if not len(hops):
-            raise NoWalk(f"The search was {stopped} before its first step.")
         along, edges = self.frames_along(hops, walk.along[:-1])[2], self.graph.hops.edges(hops)
         turn, move, cost = complex(walk.turn[0]), complex(walk.move[0]), float(walk.cost[-1])
         return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)

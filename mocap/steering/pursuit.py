@@ -13,8 +13,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.errors import MocapError
-from mocap.steering.characters import Character, Pose
-from mocap.steering.steered_motion import as_motion
+from mocap.steering.characters import Character, Pose, as_motion
 
 NEAR = 1.5  # metres around where it was last, in which the nearest point of a path is looked for
 AIM = 0.1  # metres of a path that tell in which direction it starts

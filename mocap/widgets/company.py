@@ -12,8 +12,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.steering.characters import Character, Pose
-from mocap.steering.steered_motion import as_motion
+from mocap.steering.characters import Character, Pose, as_motion
 from mocap.widgets.command_clocks import CommandClock
 from mocap.widgets.packing import drawn
 

@@ -18,8 +18,7 @@ import numpy as np
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, shortened
 from mocap.plotting.style import COLOURS, own_colour
-from mocap.steering.characters import Character
-from mocap.steering.steered_motion import as_motion
+from mocap.steering.characters import Character, as_motion
 from mocap.widgets.company import Company, Order
 from mocap.widgets.embedding import PAGE, PICTURE, SCENE, TOUCH
 from mocap.widgets.live import Live, display_live, widget

@@ -131,11 +131,6 @@ def test_labels_and_times_are_kept_on_the_line():
     assert abs(arrival - 14) < 1.0
 
 
-def test_a_search_that_is_stopped_says_so():
-    followed = quietly(walking(), SOME["sine"], settings=Settings(seconds=0.05))
-    assert followed.report().endswith("the best so far") or followed.progress > 0.97
-
-
 def test_bad_input():
     with pytest.raises(MocapError, match="got bend=-1"):
         follow_path(walking(), circle(2.0), bend=-1.0)

@@ -7,9 +7,9 @@ import pytest
 
 from mocap.body.ground_path import GroundPath
 from mocap.errors import MocapError, MocapWarning
-from mocap.steering.crowd import walk_crowd
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings
+from mocap.steering.waypoints_and_crowds import walk_crowd
 from tests.bundled import walking
 
 GRAPH = walking()

@@ -159,8 +159,6 @@ def test_nonsense_is_refused():
     for rate in (-0.1, np.nan, np.inf):
         with pytest.raises(MocapError, match="finite rate from 0 on, got"):
             FootTurner(Controller(BUNDLED), rate)
-    with pytest.raises(MocapError, match="take a step first"):
-        Controller(BUNDLED).feet()
 
 
 def test_a_controller_knows_where_its_feet_are():

@@ -1,7 +1,5 @@
 """The search along a path: as good as trying everything where nothing is cut, and honest when stopped."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -103,31 +101,19 @@ def test_a_search_is_driven_from_outside_a_round_at_a_time():
     assert np.array_equal(GRAPH.target[GRAPH.hops.last[walk.hop[1:]]], walk.node[1:])
 
 
-def test_out_of_time_it_gives_the_best_so_far_and_says_so(monkeypatch):
-    with monkeypatch.context() as slow:  # a clock that goes on by a second whenever it is asked
-        slow.setattr(path_search, "time", SimpleNamespace(monotonic=iter(range(10**6)).__next__))
-        followed = follow_path(GRAPH, s_curve(200), settings=Settings(seconds=90))
-    assert followed.found.stopped == "out of time"
-    assert 0 < followed.progress < 1
-    assert followed.report().endswith("out of time: the best so far")
-    with pytest.raises(NoWalk, match="out of time before its first step"):
-        follow_path(GRAPH, s_curve(), settings=Settings(seconds=-1))
-
-
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-def test_an_interruption_gives_the_best_walk_so_far(monkeypatch):
-    rounds, expand = iter(range(40)), PathSearch.expand
+def test_an_interruption_gives_the_best_walk_so_far():
+    def interrupted(layers):
+        yield from layers[:40]
+        raise KeyboardInterrupt
 
-    def interrupted(*args):
-        if next(rounds, None) is None:
-            raise KeyboardInterrupt
-        return expand(*args)
-
-    monkeypatch.setattr(PathSearch, "expand", interrupted)
-    followed = follow_path(GRAPH, s_curve())
+    followed = follow_path(GRAPH, s_curve(), settings=Settings(progress=interrupted))
     assert followed.found.stopped == "interrupted"
+    assert followed.report().endswith("interrupted: the best so far")
     assert 0.05 < followed.progress < 0.9
     assert followed.off.mean() < 0.1
+    with pytest.raises(NoWalk, match="interrupted before its first step"):
+        follow_path(GRAPH, s_curve(), settings=Settings(progress=lambda layers: interrupted(layers[:0])))
 
 
 def test_a_graph_that_ends_is_told():

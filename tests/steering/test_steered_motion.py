@@ -5,9 +5,8 @@ import pytest
 
 from mocap.datasets.samples import SKELETON
 from mocap.errors import MocapError
-from mocap.steering.characters import Pose
+from mocap.steering.characters import Pose, measure_delay, steer
 from mocap.steering.graph_control import Controller
-from mocap.steering.steered_motion import measure_delay, steer
 from tests.bundled import walking
 
 GRAPH = walking()

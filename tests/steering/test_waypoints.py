@@ -6,7 +6,7 @@ import pytest
 
 from mocap.editing.bending import LIMIT
 from mocap.errors import MocapError
-from mocap.steering.waypoints import Waypoint, through_waypoints
+from mocap.steering.waypoints_and_crowds import Waypoint, through_waypoints
 from tests.bundled import sneaking, walking
 from tests.steering.test_bent_following import straight_walker
 

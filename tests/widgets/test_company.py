@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning
-from mocap.steering.steered_motion import as_motion
+from mocap.steering.characters import as_motion
 from mocap.widgets.company import Company, Order
 from tests.widgets.steerable import Dot
 

@@ -1,20 +1,18 @@
-"""Crowds: many characters of one graph, each on its own path, that keep apart [KGP02, 5.3].
+"""What following paths is used for: walks through waypoints, and crowds [KGP02, 5.3].
 
-This serves a few characters whose paths are given and cross. A group that stays together and must find its
+A crowd is a few characters whose paths are given and cross. A group that stays together and must find its
 way among obstacles is planned by `groups`.
 """
 
 import warnings
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from dataclasses import replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.body.ground_path import GroundPath
+from mocap.body.ground_path import GroundPath, spline
 from mocap.errors import MocapError, MocapWarning
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.motion_graph import MotionGraph
@@ -23,6 +21,102 @@ from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 
 WAITS = (0.0, 1.0, 2.0, 4.0)  # seconds, tried in this order
+
+
+class Waypoint(NamedTuple):
+    """A place (x, z) in metres, the label of the motion from there on, and the time to be there.
+
+    The label "" stands for any motion, None for any time.
+
+    Examples
+    --------
+    >>> Waypoint(0.0, 4.0, "sneak", seconds=5.0)
+    Waypoint(x=0.0, z=4.0, label='sneak', seconds=5.0)
+
+    Notebook: 08b-steering
+    """
+
+    x: float
+    z: float
+    label: str = ""
+    seconds: float | None = None
+
+
+class Arrival(NamedTuple):
+    """How a waypoint was met: metres `off`, the time, and how many seconds `late` (nan without a time)."""
+
+    off: float
+    seconds: float
+    late: float
+
+
+class WaypointWalk(NamedTuple):
+    """A walk through waypoints, and how each of them was met."""
+
+    followed: Followed
+    arrivals: list[Arrival]
+
+
+def through_waypoints(
+    graph: MotionGraph | CompiledGraph,
+    waypoints: Sequence[Waypoint],
+    *,
+    settings: Settings | None = None,
+    bend: float = 0.0,
+) -> WaypointWalk:
+    """Find a walk through waypoints, with their labels and at their times [KGP02, 5.3].
+
+    The path between them is a spline. Where the clips are too slow or too fast for a time, the walk comes as
+    near to it as it can, and `arrivals` gives the delay.
+
+    Parameters
+    ----------
+    graph : pruned.
+    waypoints : two or more; times count from the start of the motion.
+    settings, bend : as for `steering.follow_path`; `Settings.late` is the price of a delay.
+
+    Raises
+    ------
+    NoWalk, MocapError : as for `steering.follow_path`, and for a later waypoint at 0 s.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> found = through_waypoints(graph, [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0)])
+    >>> [bool(arrival.off < 0.3) for arrival in found.arrivals]
+    [True, True]
+
+    Notebook: 08b-steering
+    """
+    points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
+    path = spline(points)
+    placed = list(zip(_places_along(path, points), waypoints, strict=True))
+    labels = [(along, point.label) for along, point in placed]
+    times = [(along, point.seconds) for along, point in placed if point.seconds is not None]
+    if times and waypoints[0].seconds is None:
+        times.insert(0, (0.0, 0.0))
+    if any(seconds == 0 for along, seconds in times if along > 0):
+        raise MocapError("Only the first waypoint can be asked for at 0 s.")
+    followed = follow_path(graph, path, Wishes(labels=labels, times=times), settings=settings, bend=bend)
+    arrivals = []
+    for along, point in placed:
+        frame = min(int(np.searchsorted(followed.along, along)), len(followed.along) - 1)
+        off, seconds = float(np.hypot(*(followed.track[frame] - point[:2]))), frame / followed.graph.fps
+        arrivals.append(Arrival(off, seconds, np.nan if point.seconds is None else seconds - point.seconds))
+    return WaypointWalk(followed, arrivals)
+
+
+def _places_along(path: GroundPath, points: Array) -> list[float]:
+    """Find the metres along the path at which it passes each waypoint, in their order."""
+    found, first = [0], 0
+    for point in points[1:-1]:
+        off = np.hypot(*(path.points[first:] - point).T)
+        near = np.flatnonzero(off < off.min() + 0.02)[0]  # the first pass of several
+        first += int(near)
+        found.append(first)
+    return [*path.along[found].tolist(), path.length]
 
 
 class Crowd(NamedTuple):
@@ -42,11 +136,10 @@ def walk_crowd(
     *,
     apart: float = 0.8,
     settings: Settings | None = None,
-    pool: Executor | None = None,
 ) -> Crowd:
     """Find a walk along each path, so that the characters keep apart [KGP02, 5.3].
 
-    First each walk is found as if alone; these searches run in parallel in a `pool`. Then the characters are
+    First each walk is found as if alone; then the characters are
     visited in order. One that comes too near to an earlier one searches again, with a price on each frame too
     near. Where this does not help, it also waits before it starts. So the first gives way to nobody, and the
     others give way to those before them.
@@ -57,7 +150,6 @@ def walk_crowd(
     paths : one per character.
     apart : the least distance between the roots of any two, metres.
     settings : as for `steering.follow_path`.
-    pool : a `concurrent.futures.ProcessPoolExecutor` for many characters; by default one after the other.
 
     Raises
     ------
@@ -83,7 +175,7 @@ def walk_crowd(
     if not (np.isfinite(apart) and apart > 0):
         raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
     compiled, settings = compile_graph(graph), settings or Settings(width=100)
-    walks = list((pool.map if pool else map)(partial(follow_path, compiled, settings=settings), paths))
+    walks = [follow_path(compiled, path, settings=settings) for path in paths]
     waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]
     for one, path in enumerate(paths):
         if _nearest(tracks[one], tracks[:one]) < apart:
