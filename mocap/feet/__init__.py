@@ -5,14 +5,12 @@ the legs so that the foot stays there. The files below follow the steps of the p
 
 Reading order (notebook 04)
 ---------------------------
-1. `footplants`: when does a foot stand?
-2. `footprints`: where did it stand?
-3. `leg_track`: one leg over a clip: its joints, and how far its knee lets it reach
-4. `ankle_targets`: where ankles must be, and how they come there and leave (steps 1, 2 and 5)
-5. `root_height`: how far the root rises or falls (step 3)
-6. `leg_ik`: bring an ankle to another place (step 4)
-7. `knee_smoothing`: no knee jolts more than it did
-8. `footskate`: the five steps in one function
+1. `footplants`: when does a foot stand, and where?
+2. `leg_track`: one leg over a clip: how far its knee lets it reach, and its ankle elsewhere (step 4)
+3. `ankle_targets`: where ankles must be, and how they come there and leave (steps 1, 2 and 5)
+4. `root_height`: how far the root rises or falls (step 3)
+5. `knee_smoothing`: no knee jolts more than it did
+6. `footskate`: the five steps in one function
 
 How the constants were set
 --------------------------
@@ -34,8 +32,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "footplants": ["mark_plants", "runs"],
-        "footprints": ["find_footprints", "standing_tracks"],
+        "footplants": ["find_footprints", "mark_plants", "runs", "standing_tracks"],
         "ankle_targets": ["place_plants"],
         "footskate": ["clean_up"],
     },

@@ -4,7 +4,8 @@ Step 5 is taken with step 2, as one curve that bends least, instead of by fades.
 the foot may turn about it, so that the ankle need not follow.
 """
 
-from typing import NamedTuple, Protocol
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -34,40 +35,25 @@ class FootTarget(NamedTuple):
     planted: Mask
 
 
-class HeldJoints(Protocol):
-    """Where P joints are held: what a clean-up asks of pins, such as `editing.Pins`, which it need not know.
-
-    `joints` are P indices; `low` and `high`, (F, P, 3), metres, are the same where a joint is held.
-    """
-
-    @property
-    def joints(self) -> tuple[int, ...]:
-        """The joints' indices."""
-
-    @property
-    def low(self) -> Array:
-        """Where each is at least."""
-
-    @property
-    def high(self) -> Array:
-        """Where each is at most."""
-
-
-def foot_target(track: LegTrack, marks: Mask, pins: HeldJoints | None = None) -> FootTarget:
+def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> FootTarget:
     """Place a foot's plants, and carry its ankle from one to the next [KSG02, step 2].
 
     Parameters
     ----------
     track : the leg in F frames.
     marks : shape (2, F): when its ankle and its ball stand.
-    pins : where its plants shall be, if not where they are on average.
+    held : where joints shall stand, as for `clean_up`, if not where they are on average.
     """
     ankle, ball, fps = track.ankle, track.ball, track.motion.fps
     flat, down = marks
     length = float(track.leg.lengths(track.motion.skeleton)[2])
     places = place_plants((ankle, ball), (flat, down), length)
-    if pins is not None:
-        _hold(places, marks, track, pins)
+    for place, own, joint in zip(places, marks, track.leg[2:], strict=True):
+        for start, stop in runs(own) if joint in held else ():
+            known = np.flatnonzero(np.isfinite(held[joint][start:stop, 0])) + start
+            if known.size:  # a plant that is held for a part of its time stands where the nearest frame does
+                nearest = np.abs(np.arange(start, stop)[:, None] - known).argmin(axis=1)
+                place[start:stop] = held[joint][known[nearest]]
     places = _pull_in(places, marks, track)
     # Where only the ball stands, the foot's length holds the ankle. It stays as near as that allows to its
     # own way from plant to plant: a foot that turns a little is seen less than a leg that stretches.
@@ -120,22 +106,6 @@ def place_plants(joints: tuple[Array, Array], marks: tuple[Mask, Mask], length: 
             place = places[1 - kind, start] + length * away / np.linalg.norm(away)
         places[kind, start:stop], placed[kind, start:stop] = place, True
     return places
-
-
-def _hold(places: Array, marks: Mask, track: LegTrack, pins: HeldJoints) -> None:
-    """Put the places (2, F, 3) of plants that are held to where they are held.
-
-    A plant that is held for a part of its time is at the nearest frame's place for the rest.
-    """
-    for kind, joint in enumerate((track.leg.ankle, track.leg.ball)):
-        if joint not in pins.joints:
-            continue
-        column = pins.joints.index(joint)
-        held = (pins.low[:, column] == pins.high[:, column]).all(axis=-1)
-        for start, stop in runs(marks[kind]):
-            if (known := np.flatnonzero(held[start:stop]) + start).size:
-                nearest = np.abs(np.arange(start, stop)[:, None] - known).argmin(axis=1)
-                places[kind, start:stop] = pins.low[known[nearest], column]
 
 
 def _pull_in(places: Array, marks: Mask, track: LegTrack) -> Array:

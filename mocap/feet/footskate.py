@@ -20,15 +20,14 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from mocap._shared.arrays import Array, Mask, runs
-from mocap.body.kinematics import GlobalPoses, forward_kinematics
+from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.feet.ankle_targets import FootTarget, HeldJoints, foot_target
+from mocap.feet.ankle_targets import FootTarget, foot_target
 from mocap.feet.footplants import least_frames, settle
 from mocap.feet.knee_smoothing import smooth_knees
-from mocap.feet.leg_ik import pose_leg
-from mocap.feet.leg_track import ROUNDING, UP, LegTrack
+from mocap.feet.leg_track import ROUNDING, UP, LegTrack, pose_leg, track_leg
 from mocap.feet.root_height import MOST, root_rise
 
 # Share of its bound by which a knee may still jolt when it is smoothed. Half or twice as much changes
@@ -44,7 +43,9 @@ class Excess(NamedTuple):
     amount: Array
 
 
-def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoints | None = None) -> Motion:
+def clean_up(
+    motion: Motion, legs: Sequence[Leg] | None = None, *, held: Mapping[int, Array] | None = None
+) -> Motion:
     """Make planted feet stand still, at the cost of small changes to the legs and to the root's height.
 
     In the paper: [KSG02, all steps].
@@ -53,8 +54,8 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoi
     ----------
     motion : its `contacts` say when the legs' ankles and balls stand; `feet.mark_plants` finds them.
     legs : found by name by default.
-    pins : where plants shall be, such as `editing.Pins`: a planted ankle or ball that is held there on all
-        axes stands at that place; all others, and all without pins, where they stand on average.
+    held : for some ankles and balls where they shall stand, shape (F, 3), metres, nan where that is left
+        open. All other plants are where they stand on average.
 
     Returns
     -------
@@ -64,7 +65,7 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoi
 
     Raises
     ------
-    MocapError : for legs that cannot be found, marks that are missing, and pins of other frames.
+    MocapError : for legs that cannot be found, and marks that are missing.
 
     Warns
     -----
@@ -84,14 +85,12 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoi
     Notebook: 04b-feet
     """
     legs = legs_of(motion.skeleton, legs)
-    if pins is not None and len(pins.low) != len(motion):
-        raise MocapError(f"'{motion.name}' has {len(motion)} frames, its pins have {len(pins.low)}.")
     marks = asked = settled_marks(motion, legs)
     poses = forward_kinematics(motion)
-    tracks = [LegTrack(motion, leg, poses) for leg in legs]
+    tracks = [track_leg(motion, leg, poses) for leg in legs]
     while True:
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
-        targets = [foot_target(track, own, pins) for track, own in zip(tracks, marks, strict=True)]
+        targets = [foot_target(track, own, held or {}) for track, own in zip(tracks, marks, strict=True)]
         # Step 3: the root rises or falls.
         rise = root_rise(tracks, targets)
         targets, rise, excesses = _within_bounds(tracks, targets, rise)
@@ -102,13 +101,15 @@ def clean_up(motion: Motion, legs: Sequence[Leg] | None = None, *, pins: HeldJoi
     contacts = _by_name(tracks, marks)
     _warn_of_plants_let_go(motion, _by_name(tracks, asked), contacts)
     # Step 4: the legs bend.
-    poses = GlobalPoses(poses.positions + rise[:, None, None] * UP, poses.matrices)
-    pose = motion.rotations.copy()
-    for leg, target in zip(legs, targets, strict=True):
-        track = LegTrack(motion, leg, poses)
-        pose[:, leg[:3]] = pose_leg(track, _within_reach(track, target), target.turn)
-    roots = motion.root_positions + rise[:, None] * UP
-    return replace(motion, root_positions=roots, rotations=pose, contacts={**motion.contacts, **contacts})
+    pose, up = motion.rotations.copy(), rise[:, None] * UP
+    for track, target in zip(tracks, targets, strict=True):
+        wanted = target.ankle - track.hip - up
+        # A foot in the air comes as near as the leg reaches; a planted one's target is within reach.
+        share = np.minimum(track.reach / np.linalg.norm(wanted, axis=-1), 1.0)
+        wanted *= np.where(target.planted, 1.0, share)[:, None]
+        pose[:, track.leg[:3]] = pose_leg(track, wanted, target.turn)
+    roots, contacts = motion.root_positions + up, {**motion.contacts, **contacts}
+    return replace(motion, root_positions=roots, rotations=pose, contacts=contacts)
 
 
 def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
@@ -137,21 +138,15 @@ def _within_bounds(
     Returns the targets and the root's rise, (F,) metres, and the excesses.
     """
     every, targets = slice(None), list(targets)
-    excesses = [Excess(every, np.abs(rise) - MOST), *_beyond_reach(tracks, targets, rise)]
+    excesses = [Excess(every, np.abs(rise) - MOST)]
+    for number, (track, target) in enumerate(zip(tracks, targets, strict=True)):
+        wanted = target.ankle - track.hip - rise[:, None] * UP
+        lack = np.linalg.norm(wanted, axis=-1) - track.reach - ROUNDING
+        excesses.append(Excess(slice(number, number + 1), np.where(target.planted, lack, -1.0)))
     if not any((excess.amount > 0).any() for excess in excesses):
         targets, rise, jolts = smooth_knees(tracks, targets, rise)
         excesses = [Excess(every, np.abs(rise) - MOST), Excess(every, jolts - JOLT)]
     return targets, rise, [excess for excess in excesses if (excess.amount > 0).any()]
-
-
-def _beyond_reach(tracks: Sequence[LegTrack], targets: Sequence[FootTarget], rise: Array) -> list[Excess]:
-    """Measure for each leg by how much it is too short where it is planted, metres."""
-    excesses = []
-    for number, (track, target) in enumerate(zip(tracks, targets, strict=True)):
-        wanted = target.ankle - track.hip - rise[:, None] * UP
-        lack = np.linalg.norm(wanted, axis=-1) - track.hinge.reach - ROUNDING
-        excesses.append(Excess(slice(number, number + 1), np.where(target.planted, lack, -1.0)))
-    return excesses
 
 
 def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
@@ -186,20 +181,11 @@ def _warn_of_plants_let_go(motion: Motion, asked: Mapping[str, Mask], held: Mapp
     names = [name for name in motion.contacts if name in asked]
     gone = [f"{name} {a}-{b - 1}" for name in names for a, b in runs(asked[name] & ~held[name])]
     if gone:
-        name = shortened(motion.name, 40)
-        fit = [n for n in range(1, 5) if n == 1 or len(", ".join(gone[:n])) <= 71 - len(name)]
-        more = len(gone) - fit[-1]
+        more = f" and {len(gone) - 2} more" if len(gone) > 2 else ""
         warnings.warn(
-            f"'{name}': to hold these plants would move the root by more than {100 * MOST:.0f} cm, "
-            f"stretch a leg or jolt a knee, so they are let go: {', '.join(gone[: fit[-1]])}"
-            + (f" and {more} more." if more > 0 else "."),
+            f"'{shortened(motion.name, 30)}': to hold these plants would move the root by more than "
+            f"{100 * MOST:.0f} cm, stretch a leg or jolt a knee, so they are let go: "
+            f"{', '.join(gone[:2])}{more}.",
             MocapWarning,
             stacklevel=3,
         )
-
-
-def _within_reach(track: LegTrack, target: FootTarget) -> Array:
-    """Move the targets of a foot in the air to within its leg's reach; a planted foot's are reached."""
-    apart = target.ankle - track.hip
-    share = np.minimum(track.hinge.reach / np.linalg.norm(apart, axis=-1), 1.0)
-    return np.asarray(track.hip + np.where(target.planted, 1.0, share)[:, None] * apart)

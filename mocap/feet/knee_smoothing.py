@@ -12,8 +12,7 @@ from scipy import sparse
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.feet.ankle_targets import FootTarget
-from mocap.feet.leg_ik import bend_and_swing
-from mocap.feet.leg_track import UP, LegTrack
+from mocap.feet.leg_track import UP, LegTrack, bend_and_swing
 
 # Percent of a clip's own frames: what all but one in a thousand stay below is no jolt. With 99 captured
 # walks lose 2 % of their planted frames; with 100 their knees accelerate by 3 % more (99.9 % of the
@@ -63,7 +62,12 @@ def smooth_knees(
         return list(targets), rise, np.zeros(len(rise))
     legs = list(zip(tracks, targets, strict=True))
     free = np.array([np.ones(len(rise), bool), *(~target.planted for target in targets)])  # (1 + L, F)
-    ceiling, bound = _ceiling(legs), _bound(tracks)
+    # How far the root may rise for planted feet to be reached, and how large each second difference may be.
+    ceiling = np.min(
+        [np.where(t.planted, leg.highest(t.ankle, leg.reach), np.inf) for leg, t in legs], axis=0
+    )
+    own = np.linalg.norm(np.diff([track.knee for track in tracks], 2, axis=1), axis=-1)  # (L, F - 2)
+    bound = np.maximum(np.percentile(own, USUAL, method="lower"), own) + LOST_IN_POSES
     change = np.zeros(free.shape)  # of the root's rise, and of the way that each ankle goes to its hip
     for left in reversed(range(PASSES)):
         risen, shifts = rise + change[0], change[1:]
@@ -93,22 +97,7 @@ def _knee(track: LegTrack, target: FootTarget, rise: Array, shift: Array) -> Arr
     """Find the knee, (F, 3), when the root has risen and the ankle's target is shifted."""
     hip = track.hip + rise[:, None] * UP
     swing = bend_and_swing(track, _ankle(track, target, shift) - hip)[1]
-    return np.asarray(hip + rotations.rotate(swing, track.bones[0]))
-
-
-def _ceiling(legs: Sequence[tuple[LegTrack, FootTarget]]) -> Array:
-    """Find how far the root may rise at most, (F,), metres, for planted feet to be reached."""
-    highest = [
-        np.where(target.planted, track.highest(target.ankle, track.hinge.reach), np.inf)
-        for track, target in legs
-    ]
-    return np.asarray(np.min(highest, axis=0))
-
-
-def _bound(tracks: Sequence[LegTrack]) -> Array:
-    """Measure how large each knee's second differences may be, shape (L, F - 2), metres."""
-    own = np.linalg.norm(np.diff([track.knee for track in tracks], 2, axis=1), axis=-1)
-    return np.asarray(np.maximum(np.percentile(own, USUAL, method="lower"), own) + LOST_IN_POSES)
+    return np.asarray(hip + rotations.rotate(swing, track.knee - track.hip))
 
 
 def _solve_changes(knees: Array, slopes: Array, excess: Array, change: Array) -> Array:

@@ -48,7 +48,7 @@ def root_rise(tracks: Sequence[LegTrack], targets: Sequence[FootTarget]) -> Arra
         apart = track.hip - target.ankle
         distance = np.linalg.norm(apart, axis=-1)
         upright = apart[:, 1] / distance
-        stiffness = 1 / (np.sin(track.hinge.straight) ** 2 + np.sin(STRAIGHT) ** 2)
+        stiffness = 1 / (np.sin(track.straight) ** 2 + np.sin(STRAIGHT) ** 2)
         above += stiffness * upright * (track.distance - distance)
         below += stiffness * upright**2
         limit = np.minimum(limit, track.highest(target.ankle, track.limit))

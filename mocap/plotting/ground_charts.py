@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Points
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
-from mocap.feet.footprints import Footprint
+from mocap.feet.footplants import Footprint
 from mocap.plotting.picture import figure_of
 from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, SOURCES
 

@@ -12,7 +12,6 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import legs_of
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement, difference, displaced
-from mocap.editing.pins import Pins
 from mocap.editing.retiming import at_frames
 from mocap.errors import MocapWarning
 from mocap.feet.footplants import least_frames
@@ -48,11 +47,10 @@ def stand(motion: Motion) -> Motion:
     names = [motion.skeleton.names[joint] for joint in columns]
     own = dict(zip(names, marks.reshape(-1, len(motion)), strict=True))
     also = {name: own[name] | np.isfinite(known[:, n, 0]) for n, name in enumerate(names)}
-    free = np.isnan(known)
-    pins = Pins(tuple(columns), np.where(free, -np.inf, known), np.where(free, np.inf, known))
+    where = dict(zip(columns, np.swapaxes(known, 0, 1), strict=True))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # which would also list the frames that are held here
-        found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, pins=pins)
+        found = clean_up(replace(motion, contacts={**motion.contacts, **also}), legs, held=where)
     contacts = {name: mark & own.get(name, mark) for name, mark in found.contacts.items()}
     return replace(found, contacts=contacts)
 

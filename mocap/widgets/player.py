@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array, Indices, runs
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.feet.footprints import find_footprints
+from mocap.feet.footplants import find_footprints
 from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import small_png
 from mocap.plotting.stick_figures import film_strip

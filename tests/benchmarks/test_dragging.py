@@ -16,7 +16,7 @@ import pytest
 from mocap.body.motion import resample
 from mocap.datasets import samples
 from mocap.editing.path_editing import on_path, ride_of
-from mocap.feet.footprints import standing_tracks
+from mocap.feet.footplants import standing_tracks
 from mocap.feet.footskate import clean_up
 from mocap.widgets.dragging import handles
 from mocap.widgets.experiments import explore

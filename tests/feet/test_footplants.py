@@ -1,6 +1,7 @@
 """Plants are found where they are: against the bundled clips' true ones, and by what is known of walking."""
 
 from dataclasses import replace
+from itertools import groupby
 
 import numpy as np
 import pytest
@@ -8,13 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap._shared.arrays import runs
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
-from mocap.body.planar import PlanarTransform
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError
-from mocap.feet.footplants import hysteresis, mark_plants, settle
+from mocap.feet.footplants import find_footprints, hysteresis, mark_plants, settle, standing_tracks
 from mocap.files.load_save import load
-from tests.strategies import random_motion, seeds
+from tests.strategies import random_motion, seeds, wave
 
 JOINTS = ("lfoot", "ltoes", "rfoot", "rtoes")
 masks = st.lists(st.booleans(), min_size=1, max_size=80).map(lambda marks: np.array(marks, bool))
@@ -27,16 +28,10 @@ def f1(found, truth):
 
 
 @pytest.mark.parametrize("name", SAMPLES)
-@pytest.mark.parametrize("fps", [120.0, 30.0])
+@pytest.mark.parametrize("fps", [pytest.param(120.0, marks=pytest.mark.sweep), 30.0])
 def test_the_plants_of_the_bundled_clips_are_found(name, fps):
     clip = resample(sample(name), fps)
     assert f1(mark_plants(replace(clip, contacts={})), clip) > 0.97
-
-
-def test_plants_do_not_depend_on_where_and_which_way():
-    clip = sample("sneak")
-    moved = PlanarTransform(2.0, 300.0, -700.0).apply_motion(clip)
-    assert f1(mark_plants(moved), mark_plants(clip)) > 0.97
 
 
 def test_noise_of_half_a_millimetre_does_not_hide_the_plants():
@@ -65,11 +60,11 @@ def test_feet_that_are_never_slow_have_no_plants():
 
 
 def stance(clip):
-    """Give the shares of the time in which a foot stands, both stand, none stands; and plants per second."""
+    """Give the shares of the time in which a foot stands, and none stands; and plants per second."""
     marks = mark_plants(clip).contacts
     left, right = (marks[side + "foot"] | marks[side + "toes"] for side in "lr")
     plants = (len(runs(left)) + len(runs(right))) / clip.duration
-    return (left.mean() + right.mean()) / 2, (left & right).mean(), (~left & ~right).mean(), plants
+    return (left.mean() + right.mean()) / 2, (~left & ~right).mean(), plants
 
 
 @pytest.mark.parametrize(
@@ -82,20 +77,10 @@ def stance(clip):
 )
 def test_people_stand_as_people_do(real_data, trials, stands, flight, steps):
     for trial in trials:
-        stood, _, none, plants = stance(load(real_data / "cmu" / "16" / f"{trial}.amc"))
+        stood, none, plants = stance(load(real_data / "cmu" / "16" / f"{trial}.amc"))
         assert stands[0] < stood < stands[1]
         assert flight[0] <= none < flight[1]
         assert steps[0] < plants < steps[1]
-
-
-def test_slow_walkers_stand_on_both_feet_for_longer(real_data):
-    slow, brisk, run = (
-        stance(load(real_data / name)[:2000])[1]
-        for name in ("hw3/walk_fwd_circle.AMC", "cmu/16/16_21.amc", "cmu/16/16_35.amc")
-    )
-    assert 0.1 < slow < 0.25
-    assert brisk < 0.05
-    assert run == 0
 
 
 @given(masks, st.integers(1, 8))
@@ -127,20 +112,34 @@ def test_hysteresis_is_what_a_loop_over_the_runs_finds(values, seed):
     )
 
 
-@given(st.lists(st.floats(0, 4), min_size=1, max_size=50), masks)
-def test_hysteresis_lies_between_its_thresholds(values, allowed):
-    values, allowed = np.array(values), np.resize(allowed, len(values))
-    marks = hysteresis(values, allowed, 1.0, 2.0)
-    assert not np.any(marks & ~(allowed & (values < 2)))
-    assert np.all(marks[allowed & (values < 1)])
-
-
 def test_too_short_a_clip_and_legs_without_names_are_errors():
     with pytest.raises(MocapError, match="more than 12 frames; 'jog' has 12"):
         mark_plants(sample("jog")[:12])
+    assert len(mark_plants(sample("jog")[:13])) == 13
     with pytest.raises(MocapError, match="No legs found"):
         mark_plants(random_motion(0, frames=40))
 
 
-def test_the_shortest_clip_that_can_be_marked_is_a_frame_longer_than_the_longest_that_cannot():
-    assert len(mark_plants(sample("jog")[:13])) == 13
+@given(st.lists(st.booleans(), min_size=1, max_size=40))
+def test_each_run_of_contact_is_one_print(down):
+    motion = replace(wave(len(down)), contacts={"hand": down})
+    stretches = [key for key, _ in groupby(down)]
+    prints = find_footprints(motion)
+    assert len(prints) == sum(stretches)
+    covered = np.zeros(len(down), bool)
+    for step in prints:
+        covered[step.start : step.end] = True
+        x, _, z = joint_positions(motion)[step.start : step.end, 2].mean(axis=0)
+        assert (step.x, step.z) == pytest.approx((x, z))
+    assert covered.tolist() == down
+    assert find_footprints(replace(motion, contacts={})) == []
+
+
+def test_tracks_have_gaps_where_no_joint_stands():
+    motion = replace(wave(4), contacts={"hand": [1, 1, 0, 1], "root": [0, 0, 0, 0]})
+    tracks = standing_tracks(motion)
+    hand = joint_positions(motion)[:, motion.skeleton.index("hand")][:, [0, 2]]
+    assert tracks[[0, 1, 3]] == pytest.approx(hand[[0, 1, 3]])
+    assert np.isnan(tracks[[2, 4, 5, 6, 7, 8, 9]]).all()
+    assert len(tracks) == 10
+    assert standing_tracks(replace(wave(5), contacts={})).shape == (0, 2)

@@ -9,12 +9,11 @@ from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet.ankle_targets import FootTarget
 from mocap.feet.knee_smoothing import LOST_IN_POSES, NEAR, QUIET, USUAL, _solve_changes, smooth_knees
-from mocap.feet.leg_ik import bend_and_swing
-from mocap.feet.leg_track import UP, LegTrack
+from mocap.feet.leg_track import UP, bend_and_swing, track_leg
 
 WALK = sample("walk_straight")[200:500]
 POSES = forward_kinematics(WALK)
-TRACKS = [LegTrack(WALK, leg, POSES) for leg in find_legs(WALK.skeleton)]
+TRACKS = [track_leg(WALK, leg, POSES) for leg in find_legs(WALK.skeleton)]
 FREE = np.arange(len(WALK)) >= 150
 NOTHING = np.zeros((len(WALK), 3))
 
@@ -48,7 +47,7 @@ def test_a_root_that_starts_is_smoothed_and_changed_only_around(frame):
 
 def test_two_frames_cannot_jolt():
     poses = forward_kinematics(WALK[:2])
-    tracks = [LegTrack(WALK[:2], track.leg, poses) for track in TRACKS]
+    tracks = [track_leg(WALK[:2], track.leg, poses) for track in TRACKS]
     still = [FootTarget(track.ankle, NOTHING[:2], FREE[:2]) for track in tracks]
     _, rise, jolts = smooth_knees(tracks, still, np.array([0.0, 0.01]))
     assert rise.tolist() == [0.0, 0.01]
@@ -74,7 +73,7 @@ def test_changes_solve_the_least_squares():
 
 def knee_of(track, target, rise):
     hip = track.hip + rise[:, None] * UP
-    return hip + rotations.rotate(bend_and_swing(track, target.ankle - hip)[1], track.bones[0])
+    return hip + rotations.rotate(bend_and_swing(track, target.ankle - hip)[1], track.knee - track.hip)
 
 
 def test_the_worst_knee_counts():

@@ -1,48 +1,44 @@
-"""A leg's hinge says how far it reaches, and how far its root may rise."""
+"""A hinge says how far a leg reaches; an ankle comes to its target, and without one nothing changes."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mocap.body import rotations
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
-from mocap.feet.leg_track import BENT, UP, LegTrack
+from mocap.feet.leg_track import BENT, UP, pose_leg, track_leg
+from tests.strategies import seeds
 
 CLIP = sample("walk_straight")[300:420]
 LEFT = find_legs(CLIP.skeleton)[0]
-TRACK = LegTrack(CLIP, LEFT, forward_kinematics(CLIP))
-
-
-def test_the_names_and_bones_are_the_skeleton_s():
-    assert TRACK.names == ["lfemur", "ltibia", "lfoot", "ltoes"]
-    lengths = LEFT.lengths(CLIP.skeleton)
-    for bone, length in zip((*TRACK.bones, TRACK.ball - TRACK.ankle), lengths, strict=True):
-        assert np.linalg.norm(bone, axis=-1) == pytest.approx(np.full(len(CLIP), length))
+POSES = forward_kinematics(CLIP)
+TRACK = track_leg(CLIP, LEFT, POSES)
+ANKLE, HIP = TRACK.ankle, TRACK.hip
 
 
 def test_the_hinge_says_how_far_a_leg_reaches():
-    hinge = TRACK.hinge
     thigh, shank, _ = LEFT.lengths(CLIP.skeleton)
-    assert hinge.reach == pytest.approx(np.full(len(CLIP), thigh + shank))
-    assert hinge.turn(TRACK.distance) == pytest.approx(0, abs=1e-6)
-    assert np.all(hinge.straight < 0)  # to stretch a bent knee is to turn it back
+    assert TRACK.reach == pytest.approx(np.full(len(CLIP), thigh + shank))
+    assert TRACK.turn(TRACK.distance) == pytest.approx(0, abs=1e-6)
+    assert np.all(TRACK.straight < 0)  # to stretch a bent knee is to turn it back
 
 
 def test_no_knee_becomes_straighter_than_eight_degrees_or_than_it_is():
     thigh, shank, _ = LEFT.lengths(CLIP.skeleton)
     bent = np.sqrt(thigh**2 + shank**2 + 2 * thigh * shank * np.cos(BENT))
     assert pytest.approx(np.maximum(TRACK.distance, bent)) == TRACK.limit
-    assert np.all(TRACK.hinge.limit(TRACK.hinge.reach) == TRACK.hinge.reach)
 
 
 def test_a_root_as_high_as_it_may_be_stretches_the_leg_to_its_length():
-    highest = TRACK.highest(TRACK.ankle, TRACK.hinge.reach)
+    highest = TRACK.highest(TRACK.ankle, TRACK.reach)
     risen = TRACK.hip + highest[:, None] * UP
-    assert np.linalg.norm(risen - TRACK.ankle, axis=-1) == pytest.approx(TRACK.hinge.reach)
+    assert np.linalg.norm(risen - TRACK.ankle, axis=-1) == pytest.approx(TRACK.reach)
     assert np.all(highest >= -1e-9)
 
 
@@ -51,4 +47,54 @@ def test_a_knee_that_never_bends_hides_its_hinge():
     straight[:, LEFT.knee] = rotations.IDENTITY
     stiff = replace(CLIP, rotations=straight)
     with pytest.raises(MocapError, match="'ltibia' is straight in every frame"):
-        _ = LegTrack(stiff, LEFT, forward_kinematics(stiff)).hinge
+        track_leg(stiff, LEFT, forward_kinematics(stiff))
+
+
+def posed(ankle, turn):
+    """Return the positions and matrices of the clip with its left leg posed anew."""
+    pose = CLIP.rotations.copy()
+    pose[:, LEFT[:3]] = pose_leg(TRACK, ankle - HIP, turn)
+    return forward_kinematics(replace(CLIP, rotations=pose))
+
+
+@given(seeds, st.floats(0, 0.15))
+def test_the_ankle_comes_to_its_target_and_the_foot_turns_as_asked(seed, far):
+    random = np.random.default_rng(seed)
+    target = ANKLE + far * random.uniform(-1, 1, (len(CLIP), 3)) * [1, 0, 1] + [0, 0.1, 0]
+    stretch = np.linalg.norm(target - HIP, axis=-1) / TRACK.reach
+    target = HIP + (target - HIP) / np.maximum(1, 1.001 * stretch)[:, None]  # within reach
+    turn = random.normal(size=(len(CLIP), 3)) * 0.3
+    after = posed(target, turn)
+    assert after.positions[:, LEFT.ankle] == pytest.approx(target, abs=1e-9)
+    wanted = rotations.multiply(
+        rotations.from_rotvec(turn), rotations.from_matrix(POSES.matrices[:, LEFT.ankle])
+    )
+    got = rotations.from_matrix(after.matrices[:, LEFT.ankle])
+    assert rotations.angle_between(got, wanted) == pytest.approx(0, abs=1e-6)
+    # A hinge stays one: seen from the thigh, the knee's axis is where it was.
+    axis = np.einsum(
+        "fji,fj->fi",
+        after.matrices[:, LEFT.hip],
+        np.cross(
+            after.positions[:, LEFT.knee] - after.positions[:, LEFT.hip],
+            after.positions[:, LEFT.ankle] - after.positions[:, LEFT.knee],
+        ),
+    )
+    assert axis / np.linalg.norm(axis, axis=-1, keepdims=True) == pytest.approx(
+        np.tile([1.0, 0, 0], (len(CLIP), 1)), abs=1e-6
+    )
+
+
+def test_with_the_ankle_at_its_target_nothing_changes_and_else_the_other_leg_and_the_trunk_stay():
+    same = pose_leg(TRACK, ANKLE - HIP, np.zeros((len(CLIP), 3)))
+    assert same == pytest.approx(CLIP.rotations[:, LEFT[:3]], abs=1e-9)
+    after = posed(ANKLE + np.array([0, 0.05, 0]), np.zeros((len(CLIP), 3)))
+    others = [j for j in range(len(CLIP.skeleton)) if not CLIP.skeleton.names[j].startswith(("lf", "lt"))]
+    assert after.positions[:, others] == pytest.approx(POSES.positions[:, others])
+
+
+def test_a_target_out_of_reach_names_frame_and_distance():
+    target = ANKLE.copy()
+    target[7] = HIP[7] + [0, -1.0, 0]
+    with pytest.raises(MocapError, match="frame 7: 'lfoot' would have to be 14 cm out of its leg's reach"):
+        pose_leg(TRACK, target - HIP, np.zeros((len(CLIP), 3)))

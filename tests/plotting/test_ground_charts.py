@@ -5,7 +5,7 @@ import pytest
 from matplotlib.patches import Circle
 
 from mocap.blending import mix, register
-from mocap.feet.footprints import find_footprints
+from mocap.feet.footplants import find_footprints
 from mocap.plotting import asked_and_walked, draw_group_plan, footprints, ground_tracks, path_from_above
 from mocap.plotting.style import SOURCES
 from tests.blending.registered import HALF, walks
