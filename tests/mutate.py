@@ -33,7 +33,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 MODULES = {
     "matching": "point_clouds distance_grids minima pair_search transitions",
-    "blending": "weights interpolation joining inertialization",
+    "blending": "weights joining",
     "body": "planar rotations",
     "graphs": "components pruning compiled_graph edge_tables motion_graph",
     "synthesis": "bounded_search",

@@ -6,17 +6,14 @@ which of their frames belong together, and how they lie on one another there.
 
 Reading order (notebooks 04, 15)
 --------------------------------
- 1. `weights`: how much of the first motion each frame holds
- 2. `interpolation`: two motions into one, frame by frame
- 3. `joining`: lay a clip on another, and pass from one into the other by a blend
- 4. `inertialization`: a cut whose offset dies away
- 5. `matched_stretches`: many pairs to try blends on
- 6. `timewarps`: smooth curves over time whose slope stays within bounds
- 7. `contact_matches`: which plants of several clips are one and the same
- 8. `registering`: which frames of clips belong together, and how they lie on one another
- 9. `clocks`: where on the common clock each frame of a blend is
-10. `mixing`: registered clips blended by weights, constant or moving
-11. `crossfades`: from one clip into another, for as long as one likes
+1. `weights`: how much of the first motion each frame holds
+2. `joining`: two motions into one; from clip into clip by a blend, or a cut whose offset dies away
+3. `matched_stretches`: many pairs to try blends on
+4. `timewarps`: smooth curves over time whose slope stays within bounds
+5. `contact_matches`: which plants of several clips are one and the same
+6. `registering`: which frames of clips belong together, and how they lie on one another
+7. `clocks`: where on the common clock each frame of a blend is
+8. `mixing`: registered clips blended by weights, constant or moving; from one into another at leisure
 
 References
 ----------
@@ -33,15 +30,12 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "weights": ["cubic_weights", "linear_weights", "quintic_weights", "sine_weights", "window_steps"],
-        "interpolation": ["blend"],
-        "joining": ["join", "lay_window_on"],
-        "inertialization": ["inertialize"],
+        "joining": ["blend", "inertialize", "join", "lay_window_on"],
         "matched_stretches": ["draw_stretches"],
         "timewarps": ["Curve", "fit_curve"],
         "contact_matches": ["match_contacts", "plants_on_clock"],
         "registering": ["Registration", "Warp", "register"],
         "clocks": ["clock_speed", "frame_times"],
-        "mixing": ["Course", "ground_course", "mix"],
-        "crossfades": ["crossfade"],
+        "mixing": ["Course", "crossfade", "ground_course", "mix"],
     },
 )

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.blending.registering import Registration
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError
 
 Weights = ArrayLike | Callable[[float, float], ArrayLike]
 """Weights of C clips, which add up to one; or a function of u and t that gives them."""
@@ -71,10 +71,7 @@ def checked(weights: ArrayLike, count: int) -> Array:
     >>> checked([1.1, -0.1], 2)
     array([ 1.1, -0.1])
     """
-    try:
-        w = np.asarray(weights, float)
-    except (TypeError, ValueError):
-        raise MocapError(f"Weights are numbers, got {shortened(repr(weights))}.") from None
+    w = np.asarray(weights, float)
     if w.shape != (count,) or not np.isfinite(w).all() or abs(w.sum() - 1) > 1e-6:
         shown = w.tolist() if w.size <= 6 else f"an array of shape {w.shape} with the sum {w.sum():g}"
         raise MocapError(f"A blend of {count} clips needs {count} weights that add up to 1, got {shown}.")

@@ -1,6 +1,6 @@
 """Which plants of several clips are one and the same, and when a blend of the clips has this plant."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -30,14 +30,6 @@ class SharedPlant(NamedTuple):
     joint: str
     starts: Array
     stops: Array
-
-
-class _Plant(NamedTuple):
-    """A plant on the common clock: its start and stop in seconds, and whose it is."""
-
-    start: float
-    stop: float
-    clip: int
 
 
 def match_contacts(
@@ -73,11 +65,39 @@ def match_contacts(
     joints = [joint for joint in clips[0].contacts if all(joint in clip.contacts for clip in clips)]
     matches = []
     for joint in joints:
-        for group in _groups(_plants(joint, clips, times, span)):
-            for parts in _split(group, len(clips)):
-                starts, stops = [own[0].start for own in parts], [own[-1].stop for own in parts]
-                matches.append(SharedPlant(joint, frozen(starts, np.float64), frozen(stops, np.float64)))
+        plants = [
+            (start, stop, number)
+            for number, (clip, curve) in enumerate(zip(clips, times, strict=True))
+            for start, stop in _within(plants_on_clock(clip, curve)[joint].tolist(), *span)
+        ]
+        for group in _groups(sorted(plants)):
+            of_clips = [[(a, b) for a, b, clip in group if clip == number] for number in range(len(clips))]
+            most = max(of_clips, key=len)
+            pauses = [(before[1] + after[0]) / 2 for before, after in pairwise(most)]
+            for low, high in pairwise([-np.inf, *pauses, np.inf]):
+                parts = [_within(own, low, high) for own in of_clips]
+                if all(parts):
+                    starts, stops = [own[0][0] for own in parts], [own[-1][1] for own in parts]
+                    matches.append(SharedPlant(joint, frozen(starts, np.float64), frozen(stops, np.float64)))
     return tuple(matches)
+
+
+def _within(plants: Iterable[Sequence[float]], low: float, high: float) -> list[tuple[float, float]]:
+    """Cut away what lies before `low` and after `high`, and leave out what is then too short."""
+    parts = [(max(start, low), min(stop, high)) for start, stop in plants]
+    return [(start, stop) for start, stop in parts if stop - start >= SHORTEST]
+
+
+def _groups(plants: Sequence[tuple[float, float, int]]) -> list[list[tuple[float, float, int]]]:
+    """Collect plants (start, stop, clip) that hang together: each starts before one before it stops."""
+    groups: list[list[tuple[float, float, int]]] = []
+    reach = -np.inf
+    for plant in plants:
+        if plant[0] >= reach:
+            groups.append([])
+        groups[-1].append(plant)
+        reach = max(reach, plant[1])
+    return groups
 
 
 def plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
@@ -102,43 +122,3 @@ def plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
     Notebook: 15-registration
     """
     return {joint: times.inverse(runs(marks) / clip.fps) for joint, marks in clip.contacts.items()}
-
-
-def _plants(
-    joint: str, clips: Sequence[Motion], times: Sequence[Curve], span: tuple[float, float]
-) -> list[_Plant]:
-    """List the plants of all clips on the common clock, by their starts."""
-    plants = [
-        _Plant(float(start), float(stop), number)
-        for number, (clip, curve) in enumerate(zip(clips, times, strict=True))
-        for start, stop in plants_on_clock(clip, curve)[joint]
-    ]
-    return sorted(_within(plants, *span))
-
-
-def _within(plants: Sequence[_Plant], low: float, high: float) -> list[_Plant]:
-    """Cut away what lies before `low` and after `high`, and leave out what is then too short."""
-    parts = [_Plant(max(plant.start, low), min(plant.stop, high), plant.clip) for plant in plants]
-    return [part for part in parts if part.stop - part.start >= SHORTEST]
-
-
-def _groups(plants: Sequence[_Plant]) -> list[list[_Plant]]:
-    """Collect plants that hang together: each starts before one of those before it stops."""
-    groups: list[list[_Plant]] = []
-    reach = -np.inf
-    for plant in plants:
-        if plant.start >= reach:
-            groups.append([])
-        groups[-1].append(plant)
-        reach = max(reach, plant.stop)
-    return groups
-
-
-def _split(group: Sequence[_Plant], count: int) -> list[list[list[_Plant]]]:
-    """Give the matches of a group: in each, the plants of every clip."""
-    of_clips = [[plant for plant in group if plant.clip == clip] for clip in range(count)]
-    most = max(of_clips, key=len)
-    cuts = [(before.stop + after.start) / 2 for before, after in pairwise(most)]
-    ends = zip([-np.inf, *cuts], [*cuts, np.inf], strict=True)
-    matches = [[_within(own, low, high) for own in of_clips] for low, high in ends]
-    return [parts for parts in matches if all(parts)]

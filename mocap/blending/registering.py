@@ -12,7 +12,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Indices, Points, frozen
+from mocap._shared.arrays import Array, Points, frozen
 from mocap.blending.contact_matches import SharedPlant, match_contacts
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.body.motion import Motion, require_alike
@@ -119,8 +119,8 @@ def register(
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, fewer than two clips, a reference that is
-        none of them, clips of which one is longer than the slope allows, a slack below 0 or as long as a
-        clip, settings that make no sense, and clips that have less than a window in common.
+        none of them, clips of which one is longer than the slope allows, settings that make no sense, and
+        clips that have less than a window in common.
 
     Warns
     -----
@@ -167,12 +167,9 @@ def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) 
         raise MocapError(f"The reference is one of the clips 0 to {len(clips) - 1}, got {reference}.")
     if not (np.isfinite(warp.rate) and warp.rate > 0):
         raise MocapError(f"A rate must be above 0, got {warp.rate}.")
+    if not 0 <= slack < np.inf:
+        raise MocapError(f"Slack is 0 s or more, got {slack} s.")
     shortest = min(clips, key=len)
-    if not 0 <= slack < shortest.duration:
-        raise MocapError(
-            f"Slack is 0 s or more, and less than each clip lasts ('{shortest.name}': "
-            f"{shortest.duration:.2f} s), got {slack} s."
-        )
     step = max(round(clips[0].fps / warp.rate), 1)
     check_window(warp.window, -(-len(shortest) // step), f"'{shortest.name}', at {warp.rate:g} Hz,")
     return step
@@ -186,20 +183,16 @@ def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: i
     u, own = (path.T + half) / rate
     fastest = warp.slope + 1.0
     times = fit_curve(u, own, spacing=warp.spacing, least=1 / fastest, most=fastest)
-    angles = fit_curve(u, _path_angles(ours, theirs, path, warp.window), spacing=warp.spacing)
-    # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
-    beyond = 0.0 if slack else (half + 1) / rate
-    return times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path)
-
-
-def _path_angles(ours: Array, theirs: Array, path: Indices, window: int) -> Array:
-    """Give the angle that lays each window on its partner along a path, without jumps of whole turns."""
-    frames = np.arange(window)
+    frames = np.arange(warp.window)
     a, b = (
         points[cells[:, None] + frames].reshape(len(path), -1, 3)
         for points, cells in zip((ours, theirs), path.T, strict=True)
     )
-    return np.unwrap(np.asarray(align(a, b).angle))
+    # The angle that lays each window on its partner, without jumps of whole turns.
+    angles = fit_curve(u, np.unwrap(np.asarray(align(a, b).angle)), spacing=warp.spacing)
+    # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
+    beyond = 0.0 if slack else (half + 1) / rate
+    return times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path)
 
 
 def _identity(clip: Motion) -> _Pair:
@@ -218,14 +211,18 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
 
 
 def _warn(clips: Sequence[Motion], reference: int, costs: Sequence[float], span: tuple[float, float]) -> None:
-    worst, said = int(np.argmax(costs)), []
-    if costs[worst] > UNLIKE:
-        said.append(
-            f"'{clips[reference].name}' and '{clips[worst].name}' may not be the same kind of motion: "
-            f"{100 * costs[worst]:.0f} cm along the path."
-        )
+    worst = int(np.argmax(costs))
     shortest, common = min(clip.duration for clip in clips), span[1] - span[0]
-    if common < shortest / 2:
-        said.append(f"The clips have only {common:.2f} s in common; the shortest one lasts {shortest:.2f} s.")
-    for sentence in said:
-        warnings.warn(sentence, MocapWarning, stacklevel=3)
+    for wrong, sentence in (
+        (
+            costs[worst] > UNLIKE,
+            f"'{clips[reference].name}' and '{clips[worst].name}' may not be the same kind of motion: "
+            f"{100 * costs[worst]:.0f} cm along the path.",
+        ),
+        (
+            common < shortest / 2,
+            f"The clips have only {common:.2f} s in common; the shortest one lasts {shortest:.2f} s.",
+        ),
+    ):
+        if wrong:
+            warnings.warn(sentence, MocapWarning, stacklevel=3)

@@ -97,8 +97,8 @@ def fit_curve(
 
     Raises
     ------
-    MocapError : for a spacing that is not above 0, bounds that leave no slope, no points, and points that are
-        not finite or not as many as the times.
+    MocapError : for a spacing that is not above 0, no points, and points that are not finite or not as many
+        as the times.
 
     Examples
     --------
@@ -109,7 +109,16 @@ def fit_curve(
     Notebook: 15-registration
     """
     u, y = np.asarray(times, float), np.asarray(values, float)
-    _check(u, y, spacing, (least, most))
+    if not (np.isfinite(spacing) and spacing > 0):
+        raise MocapError(f"Knots need a spacing above 0 s, got {spacing}.")
+    if (
+        u.ndim != 1
+        or u.shape != y.shape
+        or not u.size
+        or not np.isfinite([u, y]).all()
+        or (np.diff(u) < 0).any()
+    ):
+        raise MocapError("A curve needs finite values at as many finite times, which never fall.")
     count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
     step = (u[-1] - u[0]) / count if u[-1] > u[0] else spacing
     empty = Curve(float(u[0]), float(step), np.zeros(count + 2))
@@ -127,14 +136,3 @@ def fit_curve(
 def _basis(t: Array) -> Array:
     """Give the weights of the three control points of a knot step, shape (..., 3)."""
     return np.stack([(1 - t) ** 2 / 2, 0.5 + t - t**2, t**2 / 2], axis=-1)
-
-
-def _check(times: Array, values: Array, spacing: float, slopes: tuple[float, float]) -> None:
-    if not (np.isfinite(spacing) and spacing > 0):
-        raise MocapError(f"Knots need a spacing above 0 s, got {spacing}.")
-    if not slopes[0] < slopes[1]:
-        raise MocapError(f"No slope lies between {slopes[0]:g} and {slopes[1]:g}.")
-    if times.ndim != 1 or times.shape != values.shape or not times.size:
-        raise MocapError(f"A curve needs as many times as values, got shapes {times.shape}, {values.shape}.")
-    if not (np.isfinite(times).all() and np.isfinite(values).all()) or np.any(np.diff(times) < 0):
-        raise MocapError("A curve needs finite values at finite times that never fall.")

@@ -16,8 +16,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from mocap.blending.inertialization import inertialize
-from mocap.blending.joining import join
+from mocap.blending.joining import inertialize, join
 from mocap.body import rotations
 from mocap.body.motion import Motion, resample
 from mocap.body.planar import PlanarTransform, heading, lay_on

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocap._shared.arrays import Array
-from mocap.blending.interpolation import blend
+from mocap.blending.joining import blend
 from mocap.blending.weights import sine_weights
 from mocap.body.motion import Motion, concatenate, require_alike
 from mocap.body.planar import IDENTITY, lay_on

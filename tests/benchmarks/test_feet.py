@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 from walking import generate_walk
 
-from mocap.blending.inertialization import inertialize
-from mocap.blending.interpolation import blend
-from mocap.blending.joining import join
+from mocap.blending.joining import blend, inertialize, join
 from mocap.datasets.samples import sample
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up

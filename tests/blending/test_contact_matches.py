@@ -57,11 +57,6 @@ def test_plants_end_with_the_span_and_slivers_do_not_count():
     assert matched(standing((0.2, 0.21)), standing((0.2, 0.21))) == []
 
 
-def test_clips_without_marks_have_no_matches():
-    bare = Motion(BODY, np.zeros((9, 3)), np.tile([1.0, 0, 0, 0], (9, 2, 1)), FPS)
-    assert match_contacts([bare, bare], [SAME, SAME], SPAN) == ()
-
-
 @pytest.mark.parametrize("pair", [((0.8, 0), (1.4, 0)), ((1.1, -120), (1.1, 120))])
 def test_feet_hardly_slide_in_matched_plants(pair):
     registration = register([walks()[which] for which in pair])

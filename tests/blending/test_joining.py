@@ -1,4 +1,4 @@
-"""Both ways from clip into clip: own frames around a smooth passage; and what only a join does."""
+"""Own frames around a smooth passage, by a join and by a cut; what a blend keeps; how an offset fades."""
 
 from dataclasses import replace
 
@@ -7,15 +7,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.blending.inertialization import inertialize
-from mocap.blending.interpolation import blend
-from mocap.blending.joining import join, lay_window_on, splice
+from mocap.blending.joining import blend, inertialize, join, lay_window_on
 from mocap.blending.weights import linear_weights
+from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
+from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
-from tests.strategies import planar, random_motion, wave
+from tests.strategies import planar, random_motion, seeds, wave
 
 A, B = wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)
 GRIDS = {window: distance_grid(A, B, window=window) for window in (1, 8)}
@@ -107,11 +108,101 @@ def test_the_windows_agree_as_well_as_the_distance_grid_says(window, i, j, trans
     assert (gaps**2).sum(-1).mean() == pytest.approx(GRIDS[window][i, j], abs=1e-9)
 
 
-@pytest.mark.parametrize(("i", "j"), [(0, 0), (1, 1), (3, 89), (120, 90), (0, 90)])
-def test_spliced_frames_stand_in_a_row(i, j):
-    middle = A[5:7]
-    spliced = splice(A, i, middle, B, j)
-    for field in ("root_positions", "rotations"):
-        parts = getattr(A, field)[:i], getattr(middle, field), getattr(B, field)[j:]
-        assert np.array_equal(getattr(spliced, field), np.concatenate(parts))
-    assert spliced.name == "a to b"
+def pair(seed):
+    a = random_motion(seed)
+    return a, random_motion(seed + 1, skeleton=a.skeleton)
+
+
+@given(seeds)
+def test_the_ends_are_the_motions_themselves(seed):
+    a, b = pair(seed)
+    for weight, source in ((1.0, a), (0.0, b)):
+        mixed = blend(a, b, np.full(5, weight))
+        assert mixed.root_positions == pytest.approx(source.root_positions)
+        assert rotations.angle_between(mixed.rotations, source.rotations) == pytest.approx(0, abs=1e-6)
+
+
+@given(seeds, planar)
+def test_moving_then_blending_is_blending_then_moving(seed, transform):
+    a, b = pair(seed)
+    weights = np.linspace(1, 0, 5)
+    first = blend(transform.apply_motion(a), transform.apply_motion(b), weights)
+    last = transform.apply_motion(blend(a, b, weights))
+    assert first.root_positions == pytest.approx(last.root_positions, abs=1e-9)
+    assert rotations.angle_between(first.rotations, last.rotations) == pytest.approx(0, abs=1e-6)
+
+
+def test_marks_come_from_the_larger_weight():
+    a, b = pair(3)
+    a = replace(a, contacts={"joint5": True}, labels={"walk": True})
+    b = replace(b, contacts={"joint5": False}, labels={"run": True})
+    mixed = blend(a, b, [1.0, 0.6, 0.5, 0.4, 0.0])
+    assert mixed.contacts["joint5"].tolist() == [True, True, True, False, False]
+    assert mixed.labels["walk"].tolist() == [True, True, True, False, False]
+    assert mixed.labels["run"].tolist() == [False, False, False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("weights", "message"),
+    [
+        ([0.5] * 4, r"got 5, 5, \(4,\)"),
+        ([0.5] * 4 + [1.001], r"lie in \[0, 1\]"),
+        ([0.5] * 4 + [-0.001], r"lie in \[0, 1\]"),
+        ([np.nan] * 5, r"lie in \[0, 1\]"),
+    ],
+)
+def test_weights_must_fit(weights, message):
+    with pytest.raises(MocapError, match=message):
+        blend(*pair(0), weights)
+
+
+def test_the_offset_dies_away_by_the_quintic():
+    laid = lay_window_on(A, 60, B, 20, 16)
+    gap = A.root_positions[59:62] - laid.root_positions[19:22]
+    x, v = gap[1], (gap[2] - gap[0]) / 2
+    # Six coefficients from six equations: place and speed at u = 0; at u = 1 all zero, up to the jerk.
+    falling = [np.polynomial.Polynomial.basis(n) for n in range(6)]
+    at = [[p.deriv(order)(1.0) for p in falling] for order in range(4)]
+    coefficients = np.linalg.solve(
+        np.array([np.eye(6)[0], np.eye(6)[1], *at]), [x, 16 * v, *np.zeros((4, 3))]
+    )
+    wanted = (np.arange(16)[:, None] / 16) ** np.arange(6) @ coefficients
+    offset = inertialize(A, 60, B, 20, 16).root_positions[60:76] - laid.root_positions[20:36]
+    assert offset == pytest.approx(wanted, abs=1e-9)
+
+
+@given(seeds, st.integers(1, 5))
+def test_any_two_poses_can_be_cut_without_a_spin(seed, window):
+    a = random_motion(seed, frames=10)
+    b = random_motion(seed + 1, frames=10, skeleton=a.skeleton)
+    cut = inertialize(a, 3, b, 2, window)
+    assert cut.root_positions[3] == pytest.approx(a.root_positions[3], abs=1e-9)
+    assert rotations.angle_between(cut.rotations[3], a.rotations[3]) == pytest.approx(0, abs=1e-6)
+
+
+AXES = np.array([[1, 0, 0], [0.6, 0, 0.8]])  # about which the knee and the foot turn
+
+
+def leg(angles):
+    """A leg whose knee and foot turn by these angles (F, 2), radians."""
+    bones = Skeleton(["hip", "knee", "foot"], [-1, 0, 1], [[0, 0, 0], [0, -1, 0], [0, -1, 0]])
+    turns = np.zeros((len(angles), 3, 3))
+    turns[:, 1:] = angles[..., None] * AXES
+    return Motion(bones, np.zeros((len(angles), 3)), rotations.from_rotvec(turns), 30.0)
+
+
+@pytest.mark.parametrize(("i", "j", "before"), [(4, 3, 1), (1, 1, 1), (0, 3, 0), (4, 0, 0), (0, 0, 0)])
+@pytest.mark.parametrize("gap", [0.5, -0.5, np.pi - 0.05, np.pi + 0.05, 5.0])
+def test_the_turn_of_a_joint_fades_by_the_quintic_from_its_angle_and_speed(i, j, before, gap):
+    """The speed is measured from the frame before the cut, where both clips have one, to that after it."""
+    window, time = 6, np.arange(20.0)[:, None]
+    a = np.array([gap, 0.3]) + [0.1, 0.2] * (time - i) + 0.005 * (time - i) ** 2
+    b = [0.02, -0.01] * (time - j) ** 2
+    offset = (np.array([gap, 0.3]) + np.pi) % (2 * np.pi) - np.pi  # the short way round
+    speed = ((a[i + 1] - b[j + 1]) - (a[i - before] - b[j - before])) / (before + 1)
+    u = np.arange(window)[:, None] / window
+    fading = (1 - u) ** 4 * (offset + (4 * offset + speed * window) * u)
+    cut = inertialize(leg(a), i, leg(b), j, window)
+    wanted = leg(np.concatenate([a[:i], b[j : j + window] + fading, b[j + window :]]))
+    gaps = rotations.angle_between(cut.rotations[:, 1:], wanted.rotations[:, 1:])
+    assert gaps == pytest.approx(0, abs=1e-6)

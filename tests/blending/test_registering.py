@@ -7,18 +7,15 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.blending.mixing import mix
 from mocap.blending.registering import Registration, Warp, register
-from mocap.blending.timewarps import Curve, fit_curve
+from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion, resample
-from mocap.body.planar import PlanarTransform, on_ground
+from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import sample
 from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import align, point_cloud
-from mocap.matching.time_paths import path_mean, time_path
 from tests.blending.registered import at_times, captured, strike_errors, walks
+from tests.conftest import SWEEP
 
 WALKS = ["16_15", "16_31", "16_47", "16_58", "16_21", "16_22", "16_11", "16_13", "16_17", "16_19"]
 
@@ -46,15 +43,10 @@ def recovery(clip, amount):
 
 
 @pytest.mark.parametrize(("amount", "ms", "degrees"), [(0.3, 15, 1.2), (0.6, 25, 3)])
-def test_a_known_warp_comes_back(amount, ms, degrees):
-    late, off = recovery(walks()[1.1, 0], amount)
-    assert late <= ms and off <= degrees
-
-
-@pytest.mark.parametrize(("amount", "ms", "degrees"), [(0.3, 15, 1.2), (0.6, 25, 3)])
-def test_a_known_warp_of_a_captured_walk_comes_back(real_data, amount, ms, degrees):
-    late, off = recovery(captured(real_data, "16_15"), amount)
-    assert late <= ms and off <= degrees
+def test_a_known_warp_comes_back(real_data, amount, ms, degrees):
+    for clip in (walks()[1.1, 0], captured(real_data, "16_15")):
+        late, off = recovery(clip, amount)
+        assert late <= ms and off <= degrees
 
 
 def test_a_clip_and_itself_turned_and_moved_are_registered_exactly():
@@ -88,8 +80,8 @@ def quietly(*clips, **settings):
 def test_strikes_of_generated_walks_fall_on_strikes():
     """72 ordered pairs of nine walks; the strikes are exact by construction."""
     clips = list(walks().values())
-    errors = all_errors(clips, quietly)
-    assert len(errors) > 400
+    errors = all_errors(clips if SWEEP else clips[1::2], quietly)
+    assert len(errors) > (400 if SWEEP else 60)
     assert np.median(errors) <= 20 and np.percentile(errors, 90) <= 60 and errors.max() <= 100
     even = all_errors(clips[::4], evenly)
     corners = all_errors(clips[::4], lambda a, b: quietly(a, b, slack=0))
@@ -110,15 +102,6 @@ def test_strikes_of_captured_walks_fall_on_strikes(real_data):
     assert np.mean(corners > 100) >= 0.15
 
 
-def test_there_and_back_is_where_one_was():
-    gaps = []
-    for a, b in itertools.islice(itertools.combinations(walks().values(), 2), 0, None, 3):
-        there, back = register([a, b]), register([b, a])
-        u = np.linspace(there.span[0] + 0.1, there.span[1] - 0.1, 100)
-        gaps.append(np.abs(back.times[1](there.times[1](u)) - u).max())
-    assert np.median(gaps) <= 0.04 and max(gaps) <= 0.08
-
-
 def test_the_reference_may_be_any_clip():
     clips = [walks()[speed, 0] for speed in (0.8, 1.1, 1.4)]
     for reference in range(3):
@@ -131,7 +114,7 @@ def test_the_reference_may_be_any_clip():
             assert curve(registration.span).max() <= clip.duration + 1e-9
 
 
-@pytest.mark.parametrize("fps", [24.0, 60.0, 100.0])
+@pytest.mark.parametrize("fps", [24.0, 100.0])
 def test_clips_of_any_rate_are_compared_at_about_30_hz(fps):
     clips = [resample(walks()[speed, 0], fps) for speed in (0.8, 1.4)]
     ours, base = register(clips), register([walks()[0.8, 0], walks()[1.4, 0]])
@@ -145,13 +128,6 @@ def test_the_parts_are_what_the_span_covers():
         assert part.duration == pytest.approx(seconds, abs=1 / 120)
 
 
-def test_values_are_frozen():
-    registration = register([walks()[0.8, 0], walks()[1.4, 0]])
-    for array in (registration.costs, registration.durations, *registration.centres):
-        assert not array.flags.writeable
-    assert not registration.times[1].coefficients.flags.writeable
-
-
 def test_angles_run_on_over_whole_turns():
     """A walk of one and a half circles each way: the angle between them goes through three whole turns."""
     clip = sample("walk_circle")
@@ -163,49 +139,6 @@ def test_angles_run_on_over_whole_turns():
     angles = registration.angles[1](u)
     assert np.abs(np.diff(angles)).max() < 0.2
     assert np.ptp(angles) > 2 * np.pi
-
-
-def test_alignment_by_three_splines_about_the_origin_depends_on_where_a_clip_was_captured():
-    """(θ, x₀, z₀), each fitted by itself: far from the origin a small error of θ throws the root off."""
-    a, b = walks()[1.1, -120], walks()[1.1, 120]
-    errors = []
-    for there in (b, PlanarTransform(2.0, 100.0, -50.0).apply_motion(b)):
-        ours, theirs = point_cloud(a[::4]), point_cloud(there[::4])
-        path = time_path(np.sqrt(distance_grid(ours, theirs, window=5)), slack=36)
-        frames = np.arange(5)
-        best = align(
-            ours[path[:, :1] + frames].reshape(len(path), -1, 3),
-            theirs[path[:, 1:] + frames].reshape(len(path), -1, 3),
-        )
-        u = (path[:, 0] + 2) / 30
-        angle, x, z = (fit_curve(u, v, spacing=0.3)(u) for v in (np.unwrap(best.angle), best.x, best.z))
-        root = on_ground(there[::4].root_positions[path[:, 1] + 2])
-        registration = register([a, there])
-        centred = np.exp(1j * registration.angles[1](u)) * (root - registration.centre(1, u))
-        centred += registration.centre(0, u)
-        errors.append(np.abs(np.exp(1j * angle) * root + z + 1j * x - centred).max())
-    assert errors[0] < 0.02 and errors[1] > 0.2
-
-
-def test_the_arc_tangent_of_a_quotient_leaves_half_of_all_clips_facing_backwards():
-    """Eq. 2 needs both signs. Patched by ±π where neighbours differ, the angles still start wrong."""
-    clip = walks()[1.1, 120]
-    points, backwards = point_cloud(clip[::4])[:60], []
-    for turn in np.linspace(-3, 3, 40):
-        right = align(points, PlanarTransform(turn, 1.0, 2.0).apply_points(points)).angle
-        patched = np.unwrap(np.arctan(np.tan(right)), period=np.pi)
-        backwards.append(np.abs(np.angle(np.exp(1j * (patched - right)))).min() > 3)
-        assert np.abs(np.angle(np.exp(1j * (right + turn)))).max() < 1e-9
-    assert 0.4 <= np.mean(backwards) <= 0.6
-
-
-def test_a_path_of_cells_stands_still_where_a_curve_does_not():
-    """1 / S′, the paper's clock, is infinite on the path's own straight runs."""
-    registration = register([walks()[0.8, 0], walks()[1.4, 0]])
-    grid = np.sqrt(distance_grid(*(point_cloud(clip[::4]) for clip in registration.clips), window=5))
-    steps = np.diff(time_path(grid, slack=36), axis=0)
-    assert np.any(steps[:, 1] == 0)
-    assert registration.times[1].slope(np.linspace(*registration.span, 200)).min() >= 1 / 3 - 1e-9
 
 
 def test_without_a_limit_the_pace_nearly_stops():
@@ -243,6 +176,8 @@ def shifted(frames):
 def test_clips_with_little_in_common_are_named():
     with pytest.warns(MocapWarning, match=r"only 0.\d\d s in common; the shortest one lasts 2.49 s"):
         register(shifted(120))
+    with pytest.raises(MocapError, match="less than one window in common"):
+        register(shifted(140))
 
 
 def dot(frames, fps=30.0, name="dot"):
@@ -254,15 +189,12 @@ def dot(frames, fps=30.0, name="dot"):
 @pytest.mark.parametrize(
     ("clips", "settings", "error", "message"),
     [
-        ([], {}, MocapError, "two clips or more, got 0"),
         ([dot(60)], {}, MocapError, "two clips or more, got 1"),
         ([dot(60), dot(60, 60.0)], {}, MocapError, "runs at 30 Hz"),
         ([dot(60), sample("jog")], {}, SkeletonMismatch, "dot"),
         ([dot(60), dot(60)], {"reference": 2}, MocapError, "clips 0 to 1, got 2"),
-        ([dot(60), dot(60)], {"reference": 0.5}, MocapError, "clips 0 to 1, got 0.5"),
         ([dot(60), dot(60)], {"slack": -0.1}, MocapError, "got -0.1 s"),
         ([dot(60), dot(60)], {"slack": np.nan}, MocapError, "got nan s"),
-        ([dot(60), dot(31)], {"slack": 1.2}, MocapError, r"each clip lasts \('dot': 1.00 s\), got 1.2 s"),
         ([dot(60), dot(60)], {"warp": Warp(rate=0)}, MocapError, "rate must be above 0, got 0"),
         ([dot(60), dot(60)], {"warp": Warp(window=0)}, MocapError, "at least one frame, got 0"),
         (
@@ -280,14 +212,3 @@ def test_what_cannot_be_registered_is_refused(clips, settings, error, message):
     with pytest.raises(error, match=message) as raised:
         register(clips, **settings)
     assert len(str(raised.value)) <= 200 or error is SkeletonMismatch
-
-
-def test_clips_that_hardly_meet_are_refused():
-    with pytest.raises(MocapError, match="less than one window in common"):
-        register(shifted(140))
-
-
-def test_still_bodies_make_a_blend():
-    registration = register([dot(60), dot(50)])
-    assert mix(registration, [0.5, 0.5]).root_positions.tolist()[0] == [0, 0, 0]
-    assert path_mean(np.zeros((3, 3)), time_path(np.zeros((3, 3)))) == 0

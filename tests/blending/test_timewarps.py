@@ -1,7 +1,5 @@
 """Curves against SciPy's splines, and fits within bounds against all that might fit better."""
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,10 +8,6 @@ from scipy.interpolate import BSpline
 
 from mocap.blending.timewarps import Curve, fit_curve
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import point_cloud
-from mocap.matching.time_paths import time_path
-from tests.blending.registered import walks
 from tests.strategies import seeds
 
 
@@ -47,18 +41,6 @@ def test_the_inverse_undoes_an_increasing_curve(seed):
     np.testing.assert_allclose(curve.inverse(curve(times)), times, atol=1e-10)
 
 
-def test_the_basis_at_a_knot_and_midway():
-    for number, values in enumerate([(0.5, 0.125, 0), (0.5, 0.75, 0.5), (0, 0.125, 0.5)]):
-        curve = Curve(0.0, 1.0, np.eye(3)[number])
-        np.testing.assert_allclose(curve([0.0, 0.5, 1.0]), values)
-
-
-def test_a_fit_within_slopes_of_a_third_to_three():
-    curve = fit_curve(range(5), [0, 0, 0, 3, 4], spacing=1.0, least=1 / 3, most=3)
-    np.testing.assert_allclose(curve(range(5)), [-0.3167, 0.0167, 0.6, 2.5167, 4.1833], atol=1e-4)
-    np.testing.assert_allclose(curve.slope(range(5)), [0.3333, 0.3333, 0.8333, 3, 0.3333], atol=1e-4)
-
-
 @given(seeds, st.floats(0.05, 2))
 def test_slopes_stay_within_bounds_and_no_curve_within_them_fits_better(seed, spacing):
     rng = np.random.default_rng(seed)
@@ -85,17 +67,6 @@ def test_without_bounds_a_fit_is_that_of_least_squares(seed):
     np.testing.assert_allclose(curve.coefficients, np.linalg.lstsq(matrix, values)[0], atol=1e-8)
 
 
-def test_free_fits_run_backwards_where_bounded_ones_do_not():
-    backwards = []
-    for a, b in itertools.islice(itertools.permutations(walks().values(), 2), 0, None, 6):
-        grid = np.sqrt(distance_grid(point_cloud(a[::4]), point_cloud(b[::4]), window=5))
-        u, own = time_path(grid, slack=36).T / 30
-        times = np.linspace(u[0], u[-1], 300)
-        backwards.append(fit_curve(u, own, spacing=0.06).slope(times).min() <= 0)
-        assert fit_curve(u, own, spacing=0.06, least=1 / 3, most=3).slope(times).min() >= 1 / 3 - 1e-9
-    assert np.mean(backwards) >= 0.3
-
-
 def test_one_moment_and_many_points_at_it_make_a_curve():
     for least in (-np.inf, 0.5):
         curve = fit_curve([2.0, 2.0], [1.0, 3.0], spacing=0.3, least=least)
@@ -107,11 +78,10 @@ def test_one_moment_and_many_points_at_it_make_a_curve():
     [
         ([0, 1], [0, 1], {"spacing": 0}, "spacing above 0 s, got 0"),
         ([0, 1], [0, 1], {"spacing": np.nan}, "spacing above 0 s, got nan"),
-        ([0, 1], [0, 1], {"spacing": 1, "least": 2, "most": 1}, "No slope lies between 2 and 1"),
-        ([0, 1], [0], {"spacing": 1}, r"got shapes \(2,\), \(1,\)"),
-        ([], [], {"spacing": 1}, "as many times as values"),
-        ([0, np.nan], [0, 1], {"spacing": 1}, "finite values at finite times"),
-        ([1, 0], [0, 1], {"spacing": 1}, "times that never fall"),
+        ([0, 1], [0], {"spacing": 1}, "finite values at as many finite times"),
+        ([], [], {"spacing": 1}, "finite values at as many finite times"),
+        ([0, np.nan], [0, 1], {"spacing": 1}, "finite values at as many finite times"),
+        ([1, 0], [0, 1], {"spacing": 1}, "which never fall"),
     ],
 )
 def test_what_has_no_curve_is_refused(times, values, settings, message):

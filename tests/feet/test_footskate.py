@@ -10,8 +10,7 @@ from scipy.ndimage import maximum_filter1d
 from walking import generate
 
 from mocap._shared.arrays import runs
-from mocap.blending.inertialization import inertialize
-from mocap.blending.joining import join
+from mocap.blending.joining import inertialize, join
 from mocap.body import rotations
 from mocap.body.ground_path import figure_eight, s_curve
 from mocap.body.kinematics import joint_positions

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.blending.interpolation import blend
+from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions

@@ -5,7 +5,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap._shared.easing import quintic_step
 from mocap.blending import weights
-from mocap.blending.interpolation import blend
+from mocap.blending.joining import blend
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton

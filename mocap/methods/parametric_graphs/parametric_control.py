@@ -6,7 +6,7 @@ import networkx as nx
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.blending.interpolation import blend
+from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion, concatenate
 from mocap.body.planar import PlanarTransform
