@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from itertools import takewhile
 from math import comb
 from pathlib import Path
 from xml.etree import ElementTree
@@ -12,16 +13,12 @@ from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.errors import FormatError, MocapError, shortened
 from mocap.files.number_tables import load_rows
-from mocap.files.text import LARGEST, read_text, to_numbers
+from mocap.files.text import read_text, to_numbers
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 BETWEEN = " ,\t\n"  # what parts numbers, besides their signs
+WORD = re.compile(rf"{NUMBER.pattern}|[^{BETWEEN}]")
 TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}  # numbers
-_NEXT = rf"(?>{NUMBER.pattern})[{BETWEEN}]*+"  # a whole number, and what parts it from the next
-ARC = re.compile(rf"[{BETWEEN}]*+({_NEXT * 3})([01])[{BETWEEN}]*+([01])[{BETWEEN}]*+({_NEXT * 2})")
-TOKEN = re.compile(rf"{NUMBER.pattern}|[^{BETWEEN}]")
-LENGTH = re.compile(rf"[{BETWEEN}]*+({NUMBER.pattern})(%|[a-z]*)[{BETWEEN}]*+")
-PIXELS = {"": 1, "px": 1, "in": 96, "cm": 96 / 2.54, "mm": 96 / 25.4, "pt": 96 / 72, "pc": 16}  # in a unit
 MOST = 500_000  # points, each of a millimetre in half a kilometre
 T = np.linspace(0, 1, 33)[1:]  # a curve becomes 32 straight pieces
 CURVES = {n: np.stack([comb(n, k) * (1 - T) ** (n - k) * T**k for k in range(n + 1)], axis=1) for n in (2, 3)}
@@ -35,8 +32,8 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
 
     A `.csv` file has a point in each line, x and z, separated by commas, semicolons or blanks; a first line
     that names the columns is skipped. Of an `.svg` picture the first `path`, `polyline`, `polygon` or `line`
-    that is shown is taken, with its `transform` and those of the groups around it; a length in mm, cm, in or
-    pt counts in pixels, 96 to the inch. The picture is the ground seen from above: right is -x, top is +z.
+    that is shown is taken, with its `transform` and those of the groups around it. The picture is the ground
+    seen from above: right is -x, top is +z.
 
     Parameters
     ----------
@@ -68,13 +65,11 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
         raise MocapError(f"scale must be a number above 0, got {scale}.")
     match path.suffix.lower():
         case ".csv":
-            return _on_ground(path, (scale or 1.0) * load_rows(path))
+            points = (scale or 1.0) * load_rows(path)
         case ".svg":
-            return _on_ground(path, 0.0 - (scale or 0.01) * _read_svg(path))  # no -0.0
-    raise MocapError(f"Cannot read a path from {path}: give a .csv or .svg file.")
-
-
-def _on_ground(path: Path, points: Array) -> GroundPath:
+            points = 0.0 - (scale or 0.01) * _read_svg(path)  # no -0.0
+        case _:
+            raise MocapError(f"Cannot read a path from {path}: give a .csv or .svg file.")
     if len(points) < 2:
         raise FormatError(path, None, "a line through two points or more", f"{len(points)}")
     try:
@@ -94,18 +89,15 @@ def _read_svg(path: Path) -> Array:
     while waiting:
         element, matrix = waiting.pop()
         kind = element.tag.rpartition("}")[2]
-        if kind in UNDRAWN or _hidden(element):
+        style = "".join(element.get("style", "").split())
+        hidden = element.get("display") == "none" or "display:none" in style.split(";")
+        if kind in UNDRAWN or hidden:
             continue
         matrix = _transformed(path, matrix, element.get("transform", ""))
         if kind in DRAWN:
-            return np.asarray(_corners(path, kind, element, root) @ matrix[:2, :2].T + matrix[:2, 2])
+            return np.asarray(_corners(path, kind, element) @ matrix[:2, :2].T + matrix[:2, 2])
         waiting += [(child, matrix) for child in reversed(element)]
     raise FormatError(path, None, "a path, polyline, polygon or line", "none")
-
-
-def _hidden(element: ElementTree.Element) -> bool:
-    style = "".join(element.get("style", "").split())
-    return element.get("display") == "none" or "display:none" in style.split(";")
 
 
 def _transformed(path: Path, matrix: Array, text: str) -> Array:
@@ -126,10 +118,6 @@ def _transformed(path: Path, matrix: Array, text: str) -> Array:
                 c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
                 x, y = about or (0, 0)
                 rows = [[c, -s, x - c * x + s * y], [s, c, y - s * x - c * y]]
-            case "skewX", [angle]:
-                rows = [[1, np.tan(np.radians(angle)), 0], [0, 1, 0]]
-            case "skewY", [angle]:
-                rows = [[1, 0, 0], [np.tan(np.radians(angle)), 1, 0]]
             case _:
                 raise FormatError(path, None, "a transform", f"'{step.strip(BETWEEN)})'")
         matrix = matrix @ [*rows, [0, 0, 1]]
@@ -144,34 +132,17 @@ def _numbers(path: Path, text: str, expected: str) -> Array:
     return to_numbers(path, None, words, expected, len(words))
 
 
-def _corners(path: Path, kind: str, element: ElementTree.Element, root: ElementTree.Element) -> Array:
+def _corners(path: Path, kind: str, element: ElementTree.Element) -> Array:
     """List the points (n, 2) of one line drawn."""
     if kind == "path":
         return _outline(path, element.get("d", ""))
-    if kind == "line":
-        ends = [_length(path, element.get(name, "0"), name, root) for name in ("x1", "y1", "x2", "y2")]
-        return np.reshape(ends, (2, 2))
-    numbers = _numbers(path, element.get("points", ""), f"numbers for a {kind}")
-    if len(numbers) % 2:
+    ends = " ".join(element.get(name, "0") for name in ("x1", "y1", "x2", "y2"))
+    text = ends if kind == "line" else element.get("points", "")
+    numbers = _numbers(path, text, f"numbers for a {kind}")
+    if len(numbers) % 2 or (kind == "line" and len(numbers) != 4):
         raise FormatError(path, None, f"x and y for each point of a {kind}", f"{len(numbers)} numbers")
     points = numbers.reshape(-1, 2)
     return np.vstack([points, points[:1]]) if kind == "polygon" else points
-
-
-def _length(path: Path, text: str, name: str, root: ElementTree.Element) -> float:
-    """Read a length with its unit, in pixels; a share is one of the picture's width or height."""
-    found = LENGTH.fullmatch(text)
-    if found is None or found[2] not in (*PIXELS, "%"):
-        raise FormatError(path, None, f"a length for '{name}', such as 20 or 5mm", f"'{text}'")
-    number = to_numbers(path, None, [found[1]], f"a length for '{name}'", 1)[0]
-    if found[2] != "%":
-        return float(number * PIXELS[found[2]])
-    box = _numbers(path, root.get("viewBox", ""), "numbers of a viewBox")
-    if len(box) != 4:
-        raise FormatError(
-            path, None, f"a viewBox of 4 numbers, as '{name}' is {shortened(text, 20)}", f"{len(box)}"
-        )
-    return float(number / 100 * box[2 if name.startswith("x") else 3])
 
 
 def _outline(path: Path, text: str) -> Array:
@@ -183,7 +154,11 @@ def _outline(path: Path, text: str) -> Array:
         kind, base = letter.upper(), here if letter.islower() else 0j
         if len(points) > MOST:
             raise FormatError(path, None, f"a line of {MOST:,} points at most", "more")
-        end = _end(kind, (here, base, start), numbers)
+        if kind in "HV":
+            across, along = (base.real + numbers[0], here.imag), (here.real, base.imag + numbers[0])
+            end = complex(*(across if kind == "H" else along))
+        else:
+            end = start if kind == "Z" else base + complex(*numbers[-2:])
         if kind == "M":
             if len(points) > 1:
                 break  # a second stroke
@@ -203,60 +178,24 @@ def _outline(path: Path, text: str) -> Array:
     return np.array(points).view(float).reshape(-1, 2)
 
 
-def _end(kind: str, pens: tuple[complex, complex, complex], numbers: list[float]) -> complex:
-    """Say where a command ends; `pens` are where the pen is, what the numbers count from, and its start."""
-    here, base, start = pens
-    match kind:
-        case "H":
-            return complex(base.real + numbers[0], here.imag)
-        case "V":
-            return complex(here.real, base.imag + numbers[0])
-        case "Z":
-            return start
-    return base + complex(*numbers[-2:])
-
-
 def _commands(path: Path, text: str) -> Iterator[tuple[str, list[float]]]:
     """Split a path's `d` into commands with as many numbers as each takes; repeated ones need no letter."""
-    words = TOKEN.findall(re.sub(r"[Aa][^A-DF-Za-df-z]*", _parted, text))
+    words, letter, at = WORD.findall(text), "", 0
     if words[:1] not in (["M"], ["m"]):
         raise FormatError(path, None, "a path that starts with 'M'", f"'{text[:99]}'")
-    places = [place for place, word in enumerate(words) if word.isalpha()]
-    for place, after in zip(places, [*places[1:], len(words)], strict=True):
-        letter = words[place]
-        if letter.upper() not in TAKES:
-            raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{letter}'")
-        numbers = _read(path, letter, words[place + 1 : after])
+    while at < len(words):
+        if words[at].isalpha() or letter in "zZ":
+            letter, at = words[at], at + 1
+            if letter.upper() not in TAKES:
+                raise FormatError(path, None, f"the commands {' '.join(TAKES)}", f"'{shortened(letter, 40)}'")
         count = TAKES[letter.upper()]
-        for start in range(0, max(1, len(numbers)), max(1, count)):
-            yield letter, numbers[start : start + count]
-            letter = {"M": "L", "m": "l"}.get(letter, letter)
-
-
-def _read(path: Path, letter: str, words: list[str]) -> list[float]:
-    """Read the numbers of a command, for one time or several."""
-    count = TAKES[letter.upper()]
-    try:
-        numbers = [float(word) for word in words]
-    except ValueError:
-        numbers = []
-    if not all(abs(number) < LARGEST for number in numbers) or (words and not numbers):
-        to_numbers(path, None, words, f"numbers for '{letter}'", len(words))  # which raises
-    if (len(numbers) % count or not numbers) if count else numbers:
-        raise FormatError(path, None, f"{count} numbers for '{letter}'", f"{len(numbers)}")
-    if count == 7 and not set(numbers[3::7] + numbers[4::7]) <= {0, 1}:
-        raise FormatError(path, None, f"flags 0 or 1 for '{letter}'", f"'{' '.join(words[:7])}'")
-    return numbers
-
-
-def _parted(found: re.Match[str]) -> str:
-    """Put blanks around the flags of an arc, which may stand without anything between, such as 01."""
-    arguments, parts = found[0], [found[0][0]]
-    at = 1
-    while arc := ARC.match(arguments, at):
-        parts += arc.groups()
-        at = arc.end()
-    return " ".join([*parts, arguments[at:]])
+        found = list(takewhile(lambda word: not word.isalpha(), words[at : at + count]))
+        numbers = to_numbers(path, None, found, f"{count} numbers for '{letter}'", count)
+        if count == 7 and not set(numbers[3:5]) <= {0, 1}:
+            raise FormatError(path, None, f"flags 0 or 1 for '{letter}'", f"'{' '.join(found)}'")
+        at += count
+        yield letter, numbers.tolist()
+        letter = {"M": "L", "m": "l"}.get(letter, letter)
 
 
 def _arc(here: complex, numbers: list[float], end: complex) -> list[complex]:
