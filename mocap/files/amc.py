@@ -6,6 +6,7 @@ columns of words can be read at once. Any other file is read line by line, which
 """
 
 from collections.abc import Collection, Mapping
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import FormatError
-from mocap.files.text import LARGEST, lines, read_text, to_numbers
+from mocap.files.text import lines, quick_numbers, read_text, to_numbers
 
 Dofs = Mapping[str, Collection[str]]
 
@@ -52,18 +53,12 @@ def read_frames(path: str | Path, dofs: Dofs, needed: Collection[str]) -> Frames
     numbers = _read_columns(text.split("\n", start)[-1], counts) if usual else None
     if numbers is None:
         numbers = _read_lines(path, text, dofs, needed)
-    return Frames(keywords, numbers, _rate(path, text))
-
-
-def _rate(path: str | Path, text: str) -> float | None:
-    """Read the frame rate from the first line, if that is "# fps <number>"."""
-    words = text.partition("\n")[0].split()
-    if words[:2] != ["#", "fps"] or len(words) != 3:
-        return None
-    fps = float(to_numbers(path, 1, words[2:], "frames per second, above 0", 1)[0])
-    if fps <= 0:
-        raise FormatError(path, 1, "frames per second, above 0", words[2])
-    return fps
+    fps, words = None, text.partition("\n")[0].split()
+    if words[:2] == ["#", "fps"] and len(words) == 3:  # as `save` writes it
+        fps = float(to_numbers(path, 1, words[2:], "frames per second, above 0", 1)[0])
+        if fps <= 0:
+            raise FormatError(path, 1, "frames per second, above 0", words[2])
+    return Frames(keywords, numbers, fps)
 
 
 def first_frame(path: str | Path) -> dict[str, int]:
@@ -112,14 +107,12 @@ def _read_columns(text: str, counts: Mapping[str, int]) -> dict[str, Array] | No
     for place, word in enumerate(pattern):
         if word is not None and words[place::width] != [word] * frames:
             return None
-    places = [place for place, word in enumerate(pattern) if word is None]
-    try:
-        numbers = np.array([np.array(words[place::width], float) for place in places])
-    except ValueError:
+    columns = [words[place::width] for place, word in enumerate(pattern) if word is None]
+    numbers = quick_numbers(list(chain.from_iterable(columns)))
+    if numbers is None or not all(map(str.isdecimal, columns[0])):
         return None
-    if not (all(map(str.isdecimal, words[::width])) and np.all(np.diff(numbers[0]) == 1)):
-        return None
-    if not np.all(np.abs(numbers) < LARGEST):
+    numbers = numbers.reshape(len(columns), frames)
+    if np.any(np.diff(numbers[0]) != 1):
         return None
     blocks = np.split(numbers[1:].T, np.cumsum(list(counts.values()))[:-1], axis=1)
     return dict(zip(counts, blocks, strict=True))
@@ -127,39 +120,32 @@ def _read_columns(text: str, counts: Mapping[str, int]) -> dict[str, Array] | No
 
 def _read_lines(path: str | Path, text: str, dofs: Dofs, needed: Collection[str]) -> dict[str, Array]:
     """Read any file line by line, and raise at the first line that is wrong."""
-    frames: list[dict[str, list[float]]] = []
+    frames: list[dict[str, Array]] = []
     line = number = 0
-    for line, words in lines(text):
-        if len(words) == 1 and words[0].isdecimal() and len(words[0]) < 10:
+    for line, (name, *words) in lines(text):
+        complete = f" after {len(frames) - 1} complete frames"
+        if not words and name.isdecimal() and len(name) < 10:
             if frames:
                 _check_frame(path, line, frames, needed)
-                if int(words[0]) != number + 1:
-                    raise FormatError(path, line, f"frame {number + 1}", f"frame {words[0]}")
-            number = int(words[0])
+                if int(name) != number + 1:
+                    raise FormatError(path, line, f"frame {number + 1}", f"frame {name}")
+            number = int(name)
             frames.append({})
         elif frames:
-            frames[-1][words[0]] = _bone(path, (line, words), frames, dofs)
-        elif not words[0].startswith(":"):
-            raise FormatError(path, line, "the number of the first frame", f"'{' '.join(words)}'")
+            if name not in dofs or name in frames[-1]:
+                raise FormatError(path, line, "another bone of the skeleton", f"'{name}'{complete}")
+            expected = f"{len(dofs[name])} numbers for '{name}' ({' '.join(dofs[name])}){complete}"
+            frames[-1][name] = to_numbers(path, line, words, expected, len(dofs[name]))
+        elif not name.startswith(":"):
+            raise FormatError(path, line, "the number of the first frame", f"'{' '.join([name, *words])}'")
     if not frames:
         raise FormatError(path, None, "frames", "none")
     _check_frame(path, line, frames, needed)
     return {name: np.array([frame[name] for frame in frames]) for name in needed}
 
 
-def _bone(
-    path: str | Path, line: tuple[int, list[str]], frames: list[dict[str, list[float]]], dofs: Dofs
-) -> list[float]:
-    number, (name, *words) = line
-    complete = f" after {len(frames) - 1} complete frames"
-    if name not in dofs or name in frames[-1]:
-        raise FormatError(path, number, "another bone of the skeleton", f"'{name}'{complete}")
-    expected = f"{len(dofs[name])} numbers for '{name}' ({' '.join(dofs[name])}){complete}"
-    return [float(value) for value in to_numbers(path, number, words, expected, len(dofs[name]))]
-
-
 def _check_frame(
-    path: str | Path, line: int, frames: list[dict[str, list[float]]], needed: Collection[str]
+    path: str | Path, line: int, frames: list[dict[str, Array]], needed: Collection[str]
 ) -> None:
     if missing := [name for name in needed if name not in frames[-1]]:
         got = f"the end of the frame after {len(frames) - 1} complete frames"

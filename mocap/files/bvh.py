@@ -13,7 +13,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from decimal import Decimal
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,21 +25,13 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError, MocapWarning, shortened
 from mocap.files.bvh_hierarchy import POSITIONS, ROTATIONS, Joint, read_hierarchy, write_hierarchy
 from mocap.files.rigid_bones import STRETCH, fit
-from mocap.files.text import LARGEST, check_room, read_text, rounded, to_numbers, wrong_number
+from mocap.files.text import check_room, quick_numbers, read_text, rounded, to_numbers
 
 STILL = 1e-5  # metres that a fixed joint may move in its parent's frame: rounding of printed numbers
 SHORTEST, LONGEST = 1e-5, 10.0  # seconds a frame may last
 TIMES = re.compile(
     r"\s*Frames[ \t]*:[ \t]*(\S+)[ \t]*\n\s*Frame[ \t]+Time[ \t]*:[ \t]*(\S+)[ \t]*(?:\n|\Z)", re.IGNORECASE
 )
-
-
-class Channels(NamedTuple):
-    """The contents of a BVH file: its joints, the numbers of all channels (F, channels), the frame rate."""
-
-    joints: list[Joint]
-    values: Array
-    fps: float
 
 
 def read(
@@ -87,15 +78,27 @@ def bone_stretch(path: str | Path, *, scale: float = 0.01) -> dict[str, float]:
 
 def _read_poses(path: str | Path, scale: float, fps: float | None) -> tuple[list[Joint], Array, Array, float]:
     """Read joints, their places below their parents (F, J, 3), metres, rotations (F, J, 4), and the rate."""
-    joints, values, rate = read_channels(path, fps=fps)
-    places, local = _poses(joints, values)
+    joints, blocks, rate = _channels(path, fps=fps)
+    frames = len(blocks[0])
+    places = np.tile(np.array([joint.offset for joint in joints]), (frames, 1, 1))
+    local = np.tile(rotations.IDENTITY, (frames, len(joints), 1))
+    for index, (joint, block) in enumerate(zip(joints, blocks, strict=True)):
+        for channel, numbers in zip(joint.channels, block.T, strict=True):
+            if channel in POSITIONS:
+                places[:, index, POSITIONS.index(channel)] = numbers
+        if order := _turns(joint):
+            local[:, index] = euler.from_euler(order.upper(), np.radians(block[:, _turning(joint)]))
     if [joint.parent for joint in joints].count(0) == 1 and _moves(places[:, 1], scale):
-        joints, places, local = _without_reference(joints, places, local)
+        # The only child takes the root's place: p = p_root + R_root p_child, R = R_root R_child.
+        places[:, 1] = places[:, 0] + rotations.rotate(local[:, 0], places[:, 1])
+        local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
+        joints = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
+        places, local = places[:, 1:], local[:, 1:]
     return joints, scale * places, local, rate
 
 
-def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
-    """Read the contents of a BVH file; `fps` replaces its frame time."""
+def _channels(path: str | Path, *, fps: float | None = None) -> tuple[list[Joint], list[Array], float]:
+    """Read the joints, each one's numbers (F, channels), and the frame rate, which `fps` replaces."""
     text = read_text(path)
     start = re.search(r"^[ \t]*MOTION[ \t]*$", text, re.MULTILINE | re.IGNORECASE)
     if start is None:
@@ -106,56 +109,33 @@ def read_channels(path: str | Path, *, fps: float | None = None) -> Channels:
         line = text.count("\n", 0, start.end()) + 2
         got = f"'{' '.join(text[start.end() :][:200].split()[:4])}'"
         raise FormatError(path, line, "'Frames: <count>' and 'Frame Time: <seconds>'", got)
-    channels = [f"the {name} of '{joint.name}'" for joint in joints for name in joint.channels]
-    values = _values(path, text, times, channels)
+    counts = [len(joint.channels) for joint in joints]
+    values = _values(path, text, times, sum(counts))
     check_room(path, len(values) * len(joints), values.size)
-    return Channels(joints, values, fps or _rate(path, text, times))
+    return joints, np.split(values, np.cumsum(counts)[:-1], axis=1), fps or _rate(path, text, times)
 
 
 def read_angles(path: str | Path) -> dict[str, Array]:
     """Give each joint's angles, shape (F, rotation channels), in degrees, as they are in the file."""
-    joints, values, _ = read_channels(path, fps=1.0)
-    found, column = {}, 0
-    for joint in joints:
-        turns = [column + place for place, name in enumerate(joint.channels) if name in ROTATIONS]
-        found[joint.name] = values[:, turns]
-        column += len(joint.channels)
-    return found
+    joints, blocks, _ = _channels(path, fps=1.0)
+    return {joint.name: block[:, _turning(joint)] for joint, block in zip(joints, blocks, strict=True)}
 
 
-def _values(path: str | Path, text: str, times: re.Match[str], channels: list[str]) -> Array:
+def _values(path: str | Path, text: str, times: re.Match[str], width: int) -> Array:
     """Read the frames (F, channels); `times` is the match with their count."""
-    width = len(channels)
     line = text.count("\n", 0, times.start(1)) + 1
     count = to_numbers(path, line, [times[1]], "a number of frames", 1)[0]
     if count < 1 or width == 0:
         raise FormatError(path, line, "one frame or more", f"{times[1]}, of {width} channels")
     words = text[times.end() :].split()
-    if len(words) == count * width:
-        try:
-            values = np.array(words, float)
-        except ValueError:
-            values = np.array([np.nan])
-        if np.all(np.abs(values) < LARGEST):
-            return values.reshape(-1, width)
-    found = _check_rows(path, text, times.end(), channels, len(words) == count * width)
+    if len(words) == count * width and (values := quick_numbers(words)) is not None:
+        return values.reshape(-1, width)
+    found = 0  # complete frames before the line that is wrong
+    for number, row in enumerate(text[times.end() :].split("\n"), text.count("\n", 0, times.end()) + 1):
+        if words := row.split():
+            to_numbers(path, number, words, f"{width} numbers after {found} complete frames", width)
+            found += 1
     raise FormatError(path, line, f"'Frames: {found}', as many as follow", f"'Frames: {times[1]}'")
-
-
-def _check_rows(path: str | Path, text: str, start: int, channels: list[str], wrapped: bool) -> int:
-    """Raise at the first wrong row, else count the frames; if `wrapped`, rows may have any length."""
-    width, before = len(channels), 0
-    for number, row in enumerate(text[start:].split("\n"), text.count("\n", 0, start) + 1):
-        words = row.split()
-        if (wrapped or len(words) == width) and (place := wrong_number(words)) >= 0:
-            frame, channel = divmod(before + place, width)
-            expected = f"a number below {LARGEST:g} for {channels[channel]} in frame {frame + 1}"
-            raise FormatError(path, number, expected, f"'{shortened(words[place], 40)}'")
-        if words and not wrapped:
-            expected = f"{width} numbers after {before // width} complete frames"
-            to_numbers(path, number, words, expected, width)
-        before += len(words)
-    return before // width
 
 
 def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
@@ -169,27 +149,13 @@ def _rate(path: str | Path, text: str, times: re.Match[str]) -> float:
     return float(whole) if abs(1 / whole - seconds) < max(0.999 * last_digit, 1e-12) else 1 / seconds
 
 
-def _poses(joints: list[Joint], values: Array) -> tuple[Array, Array]:
-    """Sort the channels into places below the parent (F, J, 3), in file units, and rotations (F, J, 4)."""
-    places = np.tile(np.array([joint.offset for joint in joints]), (len(values), 1, 1))
-    local = np.tile(rotations.IDENTITY, (len(values), len(joints), 1))
-    column = 0
-    for index, joint in enumerate(joints):
-        block = values[:, column : column + len(joint.channels)]
-        column += len(joint.channels)
-        for channel, numbers in zip(joint.channels, block.T, strict=True):
-            if channel in POSITIONS:
-                places[:, index, POSITIONS.index(channel)] = numbers
-        turning = [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
-        if turning:
-            order = _turns(joint).upper()
-            local[:, index] = euler.from_euler(order, np.radians(block[:, turning]))
-    return places, local
+def _turning(joint: Joint) -> list[int]:
+    return [place for place, channel in enumerate(joint.channels) if channel in ROTATIONS]
 
 
 def _turns(joint: Joint) -> str:
     """Name the axes of a joint's rotation channels, in their order."""
-    return "".join(channel[0] for channel in joint.channels if channel in ROTATIONS)
+    return "".join(joint.channels[place][0] for place in _turning(joint))
 
 
 def _rigid(
@@ -218,15 +184,6 @@ def _rigid(
 
 def _moves(place: Array, scale: float) -> bool:
     return bool(np.ptp(place, axis=0).max() * scale > STILL)
-
-
-def _without_reference(joints: list[Joint], places: Array, local: Array) -> tuple[list[Joint], Array, Array]:
-    """Put the only child in the root's place: p = p_root + R_root p_child, R = R_root R_child."""
-    places, local = places.copy(), local.copy()
-    places[:, 1] = places[:, 0] + rotations.rotate(local[:, 0], places[:, 1])
-    local[:, 1] = rotations.multiply(local[:, 0], local[:, 1])
-    kept = [replace(joint, parent=joint.parent - 1) for joint in joints[1:]]
-    return kept, places[:, 1:], local[:, 1:]
 
 
 def write(motion: Motion, path: str | Path, *, scale: float = 0.01, precision: int = 6) -> None:

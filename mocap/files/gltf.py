@@ -1,30 +1,25 @@
 """A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
 
-The nodes stand at rest: no joint is turned, and the lowest is on the ground. Rotations are stored as shares
-of 32767 in 16 bits where that moves no joint by more than `CLOSE`, as glTF allows; where it would, those of
-the joints that carry most are stored as 32-bit floats.
+The nodes stand at rest: no joint is turned, and the lowest is on the ground. The turns of joints that carry
+little are stored as shares of 32767 in 16 bits, as glTF allows: that moves no joint by more than 0.1 mm.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocap._shared.atomic import replacing
 from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
 from mocap.files.gltf_binary import Block, to_glb
 from mocap.files.gltf_capsules import body, reaches, rest
 
-CLOSE = 5e-5  # metres that rounding may move a joint
-CARRIED = (np.inf, 0.5, 0.25, 0.0)  # metres: joints that carry more are not rounded; tried in this order
+CARRIED = 0.25  # metres: the turns of a joint that carries less are rounded to 16 bits
 VERTICES, CORNERS = 34962, 34963
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
@@ -118,25 +113,11 @@ def _animation(motion: Motion, block: Block) -> dict[str, Any]:
     clock = block.add(times, bounds=True)
     samplers = [{"input": clock, "output": block.add(motion.root_positions.astype(np.float32))}]
     channels = [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
-    for joint, turns in _rounded(motion).items():
+    turns = rotations.continuous(motion.rotations)[..., [1, 2, 3, 0]]
+    carries = reaches(motion.skeleton)
+    for joint in np.flatnonzero(turning(motion)).tolist():
+        exact = turns[:, joint].astype(np.float32)
+        short = np.round(32767 * exact).astype(np.int16)
         channels.append({"sampler": len(samplers), "target": {"node": joint, "path": "rotation"}})
-        samplers.append({"input": clock, "output": block.add(turns)})
+        samplers.append({"input": clock, "output": block.add(exact if carries[joint] > CARRIED else short)})
     return {"name": motion.name, "samplers": samplers, "channels": channels}
-
-
-def _rounded(motion: Motion) -> dict[int, NDArray[Any]]:
-    """Give the rotations (F, 4), as (x, y, z, w), of each joint that turns, in 16 or 32 bits."""
-    turns = rotations.continuous(motion.rotations)
-    stored = np.round(turns * 32767).astype(np.int16)
-    read = stored / np.linalg.norm(stored, axis=-1, keepdims=True)
-    exact, carries = joint_positions(motion), reaches(motion.skeleton)
-    for most in CARRIED:
-        whole = carries > most
-        seen = replace(motion, rotations=np.where(whole[:, None], turns, read))
-        if np.abs(joint_positions(seen) - exact).max() <= CLOSE:
-            break
-    order = [1, 2, 3, 0]
-    return {
-        int(joint): turns[:, joint, order].astype(np.float32) if whole[joint] else stored[:, joint, order]
-        for joint in np.flatnonzero(turning(motion))
-    }

@@ -124,39 +124,28 @@ def to_numbers(path: str | Path, line: int | None, words: list[str], expected: s
     """
     if len(words) != count:
         raise FormatError(path, line, expected, str(len(words)))
-    place = wrong_number(words)
-    if place >= 0:
-        word = shortened(words[place], 40)
-        got = f"'{word}' as number {place + 1}" if count > 1 else f"'{word}'"
-        large = is_number(words[place])
+    for place, word in enumerate(words, 1):
+        try:
+            large = not abs(float(word)) < LARGEST  # true for nan, too
+        except ValueError:
+            large = False
+        else:
+            if not large:
+                continue
+        got = f"'{shortened(word, 40)}'{f' as number {place}' if count > 1 else ''}"
         raise FormatError(path, line, f"{expected}, all below {LARGEST:g}" if large else expected, got)
     return np.array([float(word) for word in words])
 
 
-def is_number(word: str) -> bool:
-    """Check whether a word is a number of any size, or nan.
+def quick_numbers(words: list[str]) -> Array | None:
+    """Turn many words into numbers; None where one of them is no finite number below 10⁹.
 
     Examples
     --------
-    >>> is_number("1e99"), is_number("nan"), is_number("1,5")
-    (True, True, False)
+    >>> quick_numbers(["1.5", "nan"])
     """
     try:
-        float(word)
+        numbers = np.array(words, float)
     except ValueError:
-        return False
-    return True
-
-
-def wrong_number(words: list[str]) -> int:
-    """Find the first word that is no number, or not a finite one below 10⁹; -1 where there is none.
-
-    Examples
-    --------
-    >>> wrong_number(["1.5", "nan", "x"])
-    1
-    """
-    for place, word in enumerate(words):
-        if not is_number(word) or not abs(float(word)) < LARGEST:  # true for nan, too
-            return place
-    return -1
+        return None
+    return numbers if np.all(np.abs(numbers) < LARGEST) else None

@@ -58,22 +58,6 @@ def test_real_clips(real_data):
         assert gap(load_save.load(real_data / name)) < 1e-4
 
 
-def test_sixteen_bits_are_taken_where_they_are_enough_and_no_further():
-    motion = walk()
-    turns = gltf._rounded(motion)
-    behind = gltf_capsules.reaches(motion.skeleton)
-    rounded = {joint for joint, values in turns.items() if values.dtype == np.int16}
-    assert len(rounded) > len(turns) / 2
-    assert max(behind[list(rounded)]) <= min(behind[list(set(turns) - rounded)])
-    giant = replace(motion, skeleton=replace(motion.skeleton, offsets=1000 * motion.skeleton.offsets))
-    assert sum(values.dtype == np.int16 for values in gltf._rounded(giant).values()) <= 6  # leaves
-    all_rounded = replace(
-        motion,
-        rotations=(q := np.round(motion.rotations * 32767)) / np.linalg.norm(q, axis=-1, keepdims=True),
-    )
-    assert np.abs(joint_positions(all_rounded) - joint_positions(motion)).max() > gltf.CLOSE
-
-
 def test_between_frames_no_joint_turns_the_long_way_round():
     motion = walk()
     signs = np.random.default_rng(0).choice([-1.0, 1.0], size=(len(motion), len(motion.skeleton), 1))
