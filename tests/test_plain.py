@@ -159,7 +159,7 @@ def graphs_of_walks(request):
     return compiled([mocap.resample(mocap.load(folder / f"{trial}.amc"), 30) for trial in trials])
 
 
-@pytest.mark.parametrize("name", ["corner", "S"])
+@pytest.mark.parametrize("name", ["S", pytest.param("corner", marks=pytest.mark.sweep)])
 def test_a_walk_along_a_line_is_as_near_as_the_packages(name, graphs_of_walks):
     line, (clips, slow, quick) = LINES[name], graphs_of_walks
     roots, _ = plain.follow(clips, slow, plain.points_along(line.points))

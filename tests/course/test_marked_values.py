@@ -1,6 +1,7 @@
 """Numbers in prose: found, compared with their values, and written anew."""
 
 import json
+from pathlib import Path
 
 import nbformat
 import numpy as np
@@ -73,26 +74,16 @@ def test_the_question_is_answered_in_a_line_of_json(capsys):
     assert answer([], {}) == "{}"
 
 
-def test_running_a_notebook_writes_its_numbers(tmp_path):
-    new = nbformat.v4
-    cells = [new.new_code_cell("off = 2.25"), new.new_markdown_cell("It is 9.9<!--= off --> cm off.")]
-    path = tmp_path / "n.ipynb"
-    nbformat.write(new.new_notebook(cells=cells), path)
-    notebooks.run(path, tmp_path)
-    assert notebooks.read(path).cells[1].source == "It is 2.2<!--= off --> cm off."
-    assert len(notebooks.read(path).cells) == 2
-
-
-def test_a_number_that_nothing_computes_stops_the_run(tmp_path):
-    new = nbformat.v4
-    bare = new.new_markdown_cell("It is 9<!--= gone --> cm off.")
-    path = tmp_path / "n.ipynb"
-    nbformat.write(new.new_notebook(cells=[bare]), path)
-    with pytest.raises(MocapError, match=r"n.ipynb, cell 0: The text says 9; 'gone' gives NameError"):
-        notebooks.run(path, tmp_path)
-    bare.metadata["tags"] = ["real"]
-    nbformat.write(new.new_notebook(cells=[bare]), path)
-    notebooks.run(path, tmp_path)  # the clips that it needs may be missing
+def test_a_number_that_nothing_computes_stops_the_run():
+    values = json.dumps({"off": 2.25, "gone": "NameError"})
+    answered, path = [nbformat.v4.new_output("stream", name="stdout", text=values)], Path("n.ipynb")
+    cells = [nbformat.v4.new_markdown_cell(f"It is 9.9<!--= {name} --> cm off.") for name in ("off", "gone")]
+    notebook = nbformat.v4.new_notebook(cells=cells)
+    with pytest.raises(MocapError, match=r"n.ipynb, cell 1: The text says 9.9; 'gone' gives NameError"):
+        notebooks._refresh(notebook, path, answered)
+    assert cells[0].source == "It is 2.2<!--= off --> cm off."
+    cells[1].metadata["tags"] = ["real"]
+    notebooks._refresh(notebook, path, answered)  # the clips that it needs may be missing
 
 
 def test_people_are_given_or_a_sentence(monkeypatch, capsys):
