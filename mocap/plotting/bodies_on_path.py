@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -82,8 +83,7 @@ def bodies_along(
         ax.plot(*look[:2] @ way.T, color=colour, linewidth=wide, label=name, zorder=1)
     if len(marked := np.asarray(list(seams), int)):
         ax.plot(*look[:2] @ ways[0][marked].T, "D", color=MARK, markersize=6, label="seam", zorder=2)
-    _frame(ax)
-    return figure
+    return _frame(ax, figure)
 
 
 def _spans(
@@ -118,18 +118,24 @@ def _draw_floor(ax: Axes, ground: Array) -> Array:
     return look
 
 
-def _frame(ax: Axes) -> None:
+def _frame(ax: Axes, figure: Figure) -> Figure:
     """Make the picture as high as what it shows, and name each colour above it, once."""
     ax.set_axis_off()
     ax.margins(0.02, 0.04)
     ax.autoscale_view()
     wide, high = np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())
-    ax.figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
+    figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
     handles, names = ax.get_legend_handles_labels()
     if named := dict(zip(names, handles, strict=True)):
-        look = {"loc": "lower left", "bbox_to_anchor": (0, 1), "fontsize": 9, "frameon": False}
-        ax.legend(named.values(), named, ncols=min(6, len(named)), **look)
+        look: dict[str, Any] = {
+            "loc": "lower left",
+            "bbox_to_anchor": (0, 1),
+            "fontsize": 9,
+            "frameon": False,
+        }
+        ax.legend(list(named.values()), list(named), ncols=min(6, len(named)), **look)
     ax.text(1, 1.02, "lines 1 m apart", transform=ax.transAxes, ha="right", fontsize=8, color="#666666")
+    return figure
 
 
 def _chosen(way: Array) -> list[int]:

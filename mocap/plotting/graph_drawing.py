@@ -168,7 +168,8 @@ def node_link(
         arrow = FancyArrowPatch(places[a], places[b], connectionstyle=way, linewidth=1.2, zorder=1, **shape)  # type: ignore[arg-type]
         stays = kept.has_edge(a, b)
         arrow.set(color=ink if stays else QUIET, linestyle="-" if stays else "--")
-        arrows.append(ax.add_patch(arrow))
+        ax.add_patch(arrow)
+        arrows.append(arrow)
     ax.set(aspect="equal")
     ax.margins(0.2)
     ax.set_axis_off()

@@ -9,16 +9,13 @@ Reading order (notebooks 00 to 19)
 2. `embedding`: what plays, as part of a page, as a page, and where nothing plays
 3. `player`: a motion that plays, on a page or in a notebook
 4. `live`: the base of live widgets, and a picture when the notebook is opened again
-5. `live_player`: players that Python and the reader move together, and a canvas to draw a path on
-6. `live_mixing`: a blend whose weights sliders change while it plays
+5. `live_player`: players that Python and the reader move together, a canvas for paths, sliders that mix
+6. `pointing`: an image to click on, and handles to drag
 7. `experiments`: a picture with controls
-8. `pointing`: an image to click on
-9. `dragging`: handles to drag on an experiment's picture
-10. `recording`: positions of an experiment, as pictures for pages without Python
-11. `film`: a motion as a film, a strip of poses or a page
-12. `command_clocks`: the seconds until a command is obeyed
-13. `company`: characters that take their steps together
-14. `steered_widget`: characters side by side that obey one command of the reader
+8. `recording`: positions of an experiment, as pictures for pages without Python
+9. `film`: a motion as a film, a strip of poses or a page
+10. `company`: characters that take their steps together, and how long each takes to obey
+11. `steered_widget`: characters side by side that obey one command of the reader
 
 References
 ----------
@@ -31,11 +28,10 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "player": ["Player", "play"],
-        "live_player": ["draw_path", "linked"],
-        "live_mixing": ["Mixer"],
+        "player": ["play"],
+        "live_player": ["Mixer", "draw_path"],
         "experiments": ["Experiment", "explore", "step_aside"],
-        "dragging": ["handles"],
+        "pointing": ["handles"],
         "film": ["save_animation"],
         "steered_widget": ["steered"],
     },

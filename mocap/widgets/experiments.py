@@ -27,9 +27,8 @@ from PIL import Image
 
 from mocap.errors import MocapError
 from mocap.plotting.picture import Picture, few_colours, figure_of
-from mocap.widgets.dragging import Handles
 from mocap.widgets.live import Live, display_live, widget
-from mocap.widgets.pointing import Pointer, pointer
+from mocap.widgets.pointing import Handles, Pointer, pointer
 
 Drawn = Any  # a figure, what a function of `plotting` gives, or a list of moved artists
 
@@ -70,10 +69,6 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
 
     Notebook: 00-quickstart
     """
-    return Experiment(draw, alt, _widgets(draw, controls))
-
-
-def _widgets(draw: Callable[..., Drawn], controls: dict[str, Any]) -> dict[str, Any]:
     if importlib.util.find_spec("ipywidgets") is None:
         raise MocapError("Experiments need ipywidgets, which is not here: pip install 'mocap[notebooks]'.")
     defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
@@ -81,15 +76,15 @@ def _widgets(draw: Callable[..., Drawn], controls: dict[str, Any]) -> dict[str, 
     for name, control in controls.items():
         if name not in defaults:
             raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
-        made[name] = _widget(control, defaults[name])
-        if made[name] is None:
+        if (one := _widget(control, defaults[name])) is None:
             raise MocapError(
                 f"The control {name}={control!r} is no range, choice or widget, such as (0, 10)."
             )
-        made[name].description = name.replace("_", " ")
+        one.description = name.replace("_", " ")
+        made[name] = one
     if sum(isinstance(control, Handles) for control in made.values()) > 1:
         raise MocapError("An experiment has one control of handles: put all points into it.")
-    return made
+    return Experiment(draw, alt, made)
 
 
 def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore`)
@@ -98,10 +93,9 @@ def _widget(control: Any, default: Any) -> Any:  # noqa: ANN401 (as for `explore
 
     if isinstance(control, AxesImage):
         return pointer(control, (0, 0) if default is inspect.Parameter.empty else default)
-    try:
+    with suppress(ValueError, TypeError):
         return interactive.widget_from_abbrev(control, default)
-    except (ValueError, TypeError):
-        return None
+    return None
 
 
 def step_aside(reason: object) -> None:
@@ -150,29 +144,23 @@ class Experiment:
         self.draw, self.alt, self.controls = draw, alt, controls
         self.error: Exception | None = None
         self._canvas = BlittedFigure()
-        # Pictures shrink to 320 pixels and then stack, and further where there is less room.
-        shrinking = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
-        dragged: Any = [control for control in controls.values() if isinstance(control, Handles)]
+        self._images = [control for control in controls.values() if isinstance(control, Pointer)]
+        dragged: list[Any] = [control for control in controls.values() if isinstance(control, Handles)]
         self._dragged = dragged[0] if dragged else None
         self.picture: Any = self._dragged or ipywidgets.Image(format="png")
-        self.picture.layout = shrinking
         self.picture.add_class("mocap-picture")
         self.message = ipywidgets.HTML(layout={"display": "none"})
-        sentence = ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")
-        self._images = [control for control in controls.values() if isinstance(control, Pointer)]
-        for image in self._images:
-            image.layout = shrinking
         shown = [*self._images, self.picture]
-        above = [control for control in controls.values() if control not in shown]
+        for image in shown:  # they shrink to 320 pixels and then stack, and further where there is less room
+            image.layout = {"flex": "1 1 320px", "max_width": "max-content", "min_width": "0"}
         below = ipywidgets.HBox([*shown, self.message])
         below.layout = {"flex_flow": "row wrap", "align_items": "flex-start", "width": "100%"}
-        parts = [*above, below, sentence]
+        parts = [control for control in controls.values() if control not in shown]
+        parts += [below, ipywidgets.HTML(f"<small>{html.escape(alt)}</small>")]
         with suppress(MocapError):  # without anywidget, controls have no names
             parts.append(widget(Naming)(alt=alt))
         self.box = ipywidgets.VBox(parts, layout={"align_items": "flex-start"})
-        self.refresh()
-        if self.error:
-            raise self.error
+        self.set()
         for control in controls.values():
             control.observe(lambda _: self.refresh(), "value")
 
@@ -198,37 +186,32 @@ class Experiment:
         try:
             self.png = self._canvas.png(self.draw(**self.values()))
             self.error = None
-            self._show()
+            if self._dragged:
+                self._dragged.show(self.png)
+            else:
+                self.picture.value = self.png
         except Exception as error:  # of any kind: it comes from a student's function
             self.error = error
+            said = traceback.format_exception_only(error)[-1].strip()
+            for frame in traceback.extract_tb(error.__traceback__)[1:2]:  # in the student's function
+                said += f"\n({frame.name}, line {frame.lineno}: {frame.line})"
             style = "color:#A00000; white-space:pre-wrap"
-            self.message.value = f"<pre style='{style}'>{html.escape(_error_text(error))}</pre>"
+            self.message.value = f"<pre style='{style}'>{html.escape(said)}</pre>"
         self.picture.layout.display = "none" if self.error else None
         self.message.layout.display = None if self.error else "none"
 
-    def _show(self) -> None:
-        if self._dragged:
-            self._dragged.show(self.png)
-        else:
-            self.picture.value = self.png
-
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
-        """Return what stands where no Python runs: the data and the metadata of a picture."""
-        return Picture(self._whole_picture(), self.alt)._repr_mimebundle_()
+        """Return what stands where no Python runs: the images to click on and the picture, as one PNG."""
+        drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
+        parts = [*(image.with_ring() for image in self._images), drawn]
+        lefts = np.cumsum([0, *(part.width for part in parts)]).tolist()
+        row = Image.new("RGB", (lefts[-1], max(part.height for part in parts)), "white")
+        for part, left in zip(parts, lefts, strict=False):
+            row.paste(part, (left, 0))
+        return Picture(few_colours(row), self.alt)._repr_mimebundle_()
 
     def _ipython_display_(self) -> None:
         display_live(self.still(), self.box)
-
-    def _whole_picture(self) -> bytes:
-        """Return the images to click on and, to their right, the picture, as one PNG."""
-        drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
-        parts = [*(image.with_ring() for image in self._images), drawn]
-        row = Image.new(
-            "RGB", (sum(part.width for part in parts), max(part.height for part in parts)), "white"
-        )
-        for number, part in enumerate(parts):
-            row.paste(part, (sum(before.width for before in parts[:number]), 0))
-        return few_colours(row)
 
 
 class Naming(Live):
@@ -236,13 +219,6 @@ class Naming(Live):
 
     scripts = (Path(__file__).with_name("naming.js"),)
     shared: ClassVar = {"alt": ""}
-
-
-def _error_text(error: Exception) -> str:
-    """Say what went wrong, and in which line of the reader's function."""
-    (last,) = traceback.format_exception_only(error)[-1:]
-    at = traceback.extract_tb(error.__traceback__)[1:2]
-    return last.strip() + "".join(f"\n({frame.name}, line {frame.lineno}: {frame.line})" for frame in at)
 
 
 class BlittedFigure:
@@ -277,11 +253,6 @@ class BlittedFigure:
             if hasattr(artist, "do_3d_projection"):
                 artist.do_3d_projection()
             artist.draw(self.canvas.get_renderer())
-        return encoded(np.asarray(self.canvas.buffer_rgba()))
-
-
-def encoded(pixels: np.ndarray) -> bytes:
-    """Encode pixels, shape (height, width, 4), as a PNG: fast rather than small."""
-    stream = io.BytesIO()
-    Image.fromarray(pixels).convert("RGB").save(stream, "png", compress_level=1)
-    return stream.getvalue()
+        picture, stream = Image.fromarray(np.asarray(self.canvas.buffer_rgba())), io.BytesIO()
+        picture.convert("RGB").save(stream, "png", compress_level=1)  # fast rather than small
+        return stream.getvalue()

@@ -11,13 +11,11 @@ from tempfile import TemporaryFile
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from mpl_toolkits.mplot3d import Axes3D
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
-from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.body.kinematics import joint_positions
@@ -102,26 +100,20 @@ def _pictures(
     ax = ground_axes(centres[0], reach, ax=filled(figure))
     obstacles, outlines = Poly3DCollection(np.zeros((1, 3, 3)), facecolors=QUIET, zorder=0.5), rims(discs)
     ax.add_collection3d(obstacles)
-    bodies = [_body(motion, own_colour(n, len(motions)), ax) for n, motion in enumerate(motions)]
+    bodies = []
+    for number, motion in enumerate(motions):
+        colour, way = own_colour(number, len(motions)), to_picture(motion.root_positions * [1, 0, 1])
+        ax.plot(*way.T, color=colour or PATH, linewidth=1.5, zorder=1)
+        bodies.append(StickFigure(motion.skeleton, ax, colour=colour))
     for frame in progress(range(frames)):
         look_at(ax, centres[frame], reach)
-        obstacles.set_verts(to_picture(_near(outlines, centres[frame], 2.5 * reach)))
+        middle, side = np.insert(centres[frame], 1, 0.0), 2.5 * reach * np.array([1, 0, 1])
+        near = np.clip(outlines, middle - side, middle + side)  # matplotlib cannot draw behind the camera
+        obstacles.set_verts(to_picture(near))
         for body, cloud in zip(bodies, clouds, strict=True):
             body.pose(cloud[frame])
         canvas.draw()
         yield np.array(canvas.buffer_rgba())[..., :3]
-
-
-def _near(outlines: Array, centre: Array, reach: float) -> Array:
-    """Cut off what is farther than `reach` to a side of (x, z): matplotlib cannot draw behind the camera."""
-    middle, side = centre[[0, 0, 1]] * [1, 0, 1], np.array([reach, 0, reach])
-    return np.asarray(np.clip(outlines, middle - side, middle + side))
-
-
-def _body(motion: Motion, colour: str | None, ax: Axes3D) -> StickFigure:
-    """Draw a motion's path, and a body to move along it."""
-    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=colour or PATH, linewidth=1.5, zorder=1)
-    return StickFigure(motion.skeleton, ax, colour=colour)
 
 
 def _write_gif(pictures: Iterator[NDArray[np.uint8]], path: Path, fps: float) -> None:

@@ -69,11 +69,7 @@ def display_live(still: tuple[dict[str, str], dict[str, Any]], widget: Any) -> N
 
     data, metadata = still
     widget.add_class(LIVE)
-    display(still_bundle(data), metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
+    page = f'<div class="{STILL}">{data["text/html"]}</div>{_RULE}'  # where the rule finds the picture
+    display(data | {"text/html": page}, metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
     live = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
     display({WIDGET: live}, raw=True)  # type: ignore[no-untyped-call]
-
-
-def still_bundle(data: dict[str, str]) -> dict[str, str]:
-    """Put the HTML of a picture where the rule finds it."""
-    return data | {"text/html": f'<div class="{STILL}">{data["text/html"]}</div>{_RULE}'}

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -78,29 +78,16 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     """
     if not motions:
         raise MocapError("There is no motion to play.")
-    marks = Marks(
+    return Player(
+        motions,
         tuple(sources),
         tuple(seam if isinstance(seam, int) else seam.frame for seam in seams),
         np.reshape(np.asarray(path, float), (-1, 2)),
         runs(np.asarray(off, float) > ASTRAY),
         np.reshape(np.asarray(discs, float), (-1, 3)),
+        follow,
+        alt,
     )
-    return Player(motions, marks, follow, alt)
-
-
-def names(motions: Sequence[Motion]) -> str:
-    """Join the different names of motions."""
-    return ", ".join(dict.fromkeys(motion.name for motion in motions))
-
-
-class Marks(NamedTuple):
-    """What a player marks on the ground, as for `play`; `astray` are stretches of frames [start, end)."""
-
-    sources: Sources = ()
-    seams: tuple[int, ...] = ()
-    path: Array = np.empty((0, 2))
-    astray: Indices = np.empty((0, 2), int)
-    discs: Array = np.empty((0, 3))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -118,7 +105,11 @@ class Player(Embedded):
     """
 
     motions: Sequence[Motion]
-    marks: Marks
+    sources: Sources
+    seams: tuple[int, ...]
+    path: Array
+    astray: Indices  # stretches of frames [start, end)
+    discs: Array
     follow: bool
     said: str
     scripts = (*SHARED, Path(__file__).with_name("player.js"))
@@ -129,12 +120,12 @@ class Player(Embedded):
         count = len(self.motions)
         who = "A stick figure plays" if count == 1 else f"{count} stick figures play"
         seconds = max(motion.duration for motion in self.motions)
-        return self.said or f"{who} {names(self.motions)}, {seconds:.1f} s."
+        return self.said or f"{who} {self.heading}, {seconds:.1f} s."
 
     @property
     def heading(self) -> str:
-        """The names of the motions."""
-        return names(self.motions)
+        """The different names of the motions."""
+        return ", ".join(dict.fromkeys(motion.name for motion in self.motions))
 
     @cached_property
     def scene(self) -> dict[str, Any]:
@@ -143,44 +134,33 @@ class Player(Embedded):
         data, count = b"", len(self.motions)
         for number, motion in enumerate(self.motions):
             about, block = packed_character(motion, own_colour(number, count) or COLOURS["middle"])
-            characters.append(about | {"offset": len(data), "prints": _prints(motion)})
+            prints = [  # from, until (seconds), x, z (metres), number of the side
+                [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
+                for p in find_footprints(with_contacts(motion))
+            ]
+            characters.append(about | {"offset": len(data), "prints": prints})
             data += block
-        first, marks = self.motions[0], self.marks
-        characters[0] |= {
-            "path_colour": PATH if count == 1 else characters[0]["colour"],
-            "sources": self._coloured_sources(),
-            "seams": [seam / first.fps for seam in marks.seams],
-            "astray": (marks.astray / first.fps).tolist(),
-        }
+        first, fps = characters[0], self.motions[0].fps
+        first["path_colour"] = PATH if count == 1 else first["colour"]
+        colours = source_colours([name for _, name in self.sources])
+        first["sources"] = [{"start": f / fps, "name": n, "colour": colours[n]} for f, n in self.sources]
+        first["seams"] = [seam / fps for seam in self.seams]
+        first["astray"] = (self.astray / fps).tolist()
         return {
             **{"alt": self.alt, "number": 0, "reports": False, "follow": self.follow, **LOOK},
-            "fps": first.fps,
-            "frames": max(1 + round(motion.duration * first.fps) for motion in self.motions),
-            "asked": marks.path.round(3).tolist(),
-            "obstacles": marks.discs.round(3).tolist(),
+            "fps": fps,
+            "frames": max(1 + round(motion.duration * fps) for motion in self.motions),
+            "asked": self.path.round(3).tolist(),
+            "obstacles": self.discs.round(3).tolist(),
             "characters": characters,
             "data": zlib.compress(data),
         }
-
-    def _coloured_sources(self) -> list[dict[str, Any]]:
-        sources, fps = self.marks.sources, self.motions[0].fps
-        colours = source_colours([name for _, name in sources])
-        return [{"start": frame / fps, "name": name, "colour": colours[name]} for frame, name in sources]
 
     @cached_property
     def picture(self) -> bytes:
         """The whole motion as a PNG, for places where no script runs; who stays in place is shown in time."""
         ground = self.motions[0].root_positions[:, [0, 2]]
-        if max(np.ptp(ground, axis=0)) < WALKS and not len(self.marks.path):
+        if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
             return small_png(film_strip(self.motions))
-        sources, seams, path, _, discs = self.marks
-        figure = bodies_along(*self.motions, sources=sources, seams=seams, path=path, discs=discs)
-        return small_png(figure)
-
-
-def _prints(motion: Motion) -> list[list[float]]:
-    """List footprints as the scripts read them: from, until (seconds), x, z (metres), number of the side."""
-    return [
-        [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
-        for p in find_footprints(with_contacts(motion))
-    ]
+        marks: dict[str, Any] = {"sources": self.sources, "seams": self.seams, "path": self.path}
+        return small_png(bodies_along(*self.motions, discs=self.discs, **marks))

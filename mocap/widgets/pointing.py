@@ -1,4 +1,7 @@
-"""An image to click on: a click or the arrow keys choose one of its rows and columns."""
+"""Pictures to point at: an image to click on, and handles to drag, by mouse, by touch or by the arrow keys.
+
+Handles lie on the picture that an experiment draws, so the reader drags the very thing that answers.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +55,11 @@ def pointer(image: AxesImage, value: Sequence[int] = (0, 0)) -> Any:  # noqa: AN
     figure = figure_of(image)
     png = base64.b64encode(small_png(figure)).decode()
     plt.close(figure)
-    control = widget(Pointer)(box=_box(image), shape=numbers.shape, picture=f"data:image/png;base64,{png}")
+    left, right, bottom, top = image.get_extent()
+    first, last = (bottom, top) if image.origin == "lower" else (top, bottom)
+    x0, y0, x1, y1 = shares(image.axes, [(left, first), (right, last)])
+    picture = f"data:image/png;base64,{png}"
+    control = widget(Pointer)(box=[x0, y0, x1 - x0, y1 - y0], shape=numbers.shape, picture=picture)
     control.numbers, control.quantity = numbers, image.colorbar.ax.get_ylabel() if image.colorbar else "value"
     control.observe(control.say_where, "value")
     control.value = tuple(value)
@@ -66,29 +73,21 @@ def shares(ax: Axes, corners: ArrayLike) -> list[float]:
     return [float(share) for share in (seen * [1, -1] + [0, 1]).ravel()]
 
 
-def _box(image: AxesImage) -> list[float]:
-    """Find the image in its figure: left, top, width, height from row 0 and column 0, as shares of 1."""
-    left, right, bottom, top = image.get_extent()
-    first, last = (bottom, top) if image.origin == "lower" else (top, bottom)
-    x0, y0, x1, y1 = shares(image.axes, [(left, first), (right, last)])
-    return [x0, y0, x1 - x0, y1 - y0]
-
-
 class Pointer(Live):
     """A picture with a `value`, a row and a column, that Python and the reader may set."""
 
     scripts = (TOUCH, Path(__file__).with_name("pointing.js"))
     shared: ClassVar = {
         **{"description": "", "picture": "", "status": ""},
-        **{"box": [], "shape": (), "value": (0, 0)},
+        **{"box": [], "shape": (), "value": (0, 0)},  # left, top, width, height from row 0 and column 0
     }
     needs = "An image to point at needs"
     numbers: NDArray[np.floating[Any]]
     quantity: str
-    value: tuple[int, int]
-    box: list[float]
-    shape: tuple[int, int]
-    picture: str
+    value: Any
+    box: Any
+    shape: Any
+    picture: Any
     layout: Any
 
     def check_value(self, value: Sequence[int]) -> tuple[int, int]:
@@ -101,14 +100,111 @@ class Pointer(Live):
     def say_where(self, _: object = None) -> None:
         """Say where the ring is, and the number there."""
         row, column = self.value
-        self.status: str = f"row {row}, column {column}: {self.quantity} {self.numbers[row, column]:.3g}"
+        self.status: Any = f"row {row}, column {column}: {self.quantity} {self.numbers[row, column]:.3g}"
 
     def with_ring(self) -> Image.Image:
         """Draw the ring into the picture."""
         picture = Image.open(io.BytesIO(base64.b64decode(self.picture.split(",")[1]))).convert("RGB")
         (left, top, wide, high), (row, column) = self.box, np.add(self.value, 0.5) / self.shape
-        x, y = (left + wide * column) * picture.width, (top + high * row) * picture.height
+        at = np.array([left + wide * column, top + high * row]) * picture.size
         for radius, colour in ((9, "#222222"), (7, "#FFFFFF")):
-            around = (x - radius, y - radius, x + radius, y + radius)
-            ImageDraw.Draw(picture).ellipse(around, outline=colour, width=2)
+            ImageDraw.Draw(picture).ellipse([*(at - radius), *(at + radius)], outline=colour, width=2)
         return picture
+
+
+def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa: ANN401
+    """Make a control of points on axes: its value is a tuple of (across, up), in the units of the axes.
+
+    `explore` shows it on the picture that `draw` gives. So let `draw` move artists of the figure of these
+    axes and return them; it may also return a new figure whose axes lie in the same place.
+
+    Parameters
+    ----------
+    ax : linear axes, whose limits stay; no handle leaves them. Their labels name the two numbers.
+    points : shape (K, 2), where the handles are at first.
+    step : how far an arrow key moves a handle, in the units of the axes; with shift ten times as far.
+
+    Returns
+    -------
+    A widget with the trait `value`, for `explore`.
+
+    Raises
+    ------
+    MocapError : where anywidget is not installed, for points of another shape or outside the axes, here and
+        when they are set later, for axes that are not linear, and for a step that is not above 0.
+
+    Examples
+    --------
+    >>> ax = plt.figure().add_subplot(xlim=(3, -3), ylim=(0, 6), xlabel="x (m)", ylabel="z (m)")
+    >>> dragged = handles(ax, [[0, 1], [0, 3], [0, 5]])
+    >>> dragged.value = ((0, 1), (1.5, 3), (0, 5))  # as a drag of the second one does
+    >>> dragged.value[1]
+    (1.5, 3.0)
+
+    Notebook: 12-path-editing
+    """
+    where = np.asarray(points, float)
+    if where.ndim != 2 or where.shape[1] != 2 or not len(where):
+        raise MocapError(f"Handles are rows of two numbers, got an array of shape {where.shape}.")
+    if (ax.get_xscale(), ax.get_yscale()) != ("linear", "linear"):
+        raise MocapError(f"Handles need linear axes, not {ax.get_xscale()} and {ax.get_yscale()} ones.")
+    if not 0 < step < np.inf:
+        raise MocapError(f"An arrow key moves a handle by a number above 0, got step={step}.")
+    limits = [[float(end) for end in ends] for ends in (ax.get_xlim(), ax.get_ylim())]
+    names = [label.split(" (")[0] for label in (ax.get_xlabel() or "across", ax.get_ylabel() or "up")]
+    control = widget(Handles)(limits=limits, names=names, step=float(step))
+    control.ax, control.count = ax, len(where)
+    control.value = where
+    plt.close(figure_of(ax))
+    return control
+
+
+class Handles(Live):
+    """A picture with points as its `value`, which Python and the reader may set."""
+
+    scripts = (Path(__file__).with_name("dragging.js"),)
+    shared: ClassVar = {
+        **{"description": "", "picture": b"", "box": [0.0, 0.0, 1.0, 1.0]},
+        **{"limits": [], "names": [], "step": 0.0, "value": ()},
+    }
+    needs = "Handles to drag need"
+    ax: Axes
+    count: int
+    value: Any
+    limits: Any
+    layout: Any
+
+    def check_value(self, value: ArrayLike) -> tuple[tuple[float, float], ...]:
+        """Check that there are so many points, and that all lie within the axes."""
+        where = np.asarray(value, float)
+        if where.shape != (self.count, 2):
+            raise MocapError(f"There are {self.count} handles, got an array of shape {where.shape}.")
+        low, high = np.sort(self.limits, axis=1).T
+        outside = ~((where >= low) & (where <= high)).all(axis=1)
+        if outside.any():
+            first = int(outside.argmax())
+            raise MocapError(f"Handle {first + 1} would leave the axes: {where[first].tolist()}.")
+        return tuple((float(x), float(y)) for x, y in where)
+
+    def show(self, png: bytes) -> None:
+        """Take the picture that was just drawn; the axes' place may have changed with it."""
+        (left, right), (bottom, top) = self.limits
+        self.box: Any = shares(self.ax, [(left, top), (right, bottom)])
+        self.picture: Any = png
+
+    def with_handles(self) -> Image.Image:
+        """Draw the handles into the picture."""
+        picture = Image.open(io.BytesIO(self.picture)).convert("RGB")
+        (low, high), draw = np.array(self.limits).T, ImageDraw.Draw(picture)
+        left, top, right, bottom = self.box
+        places = (np.array(self.value) - low) / (high - low) * [right - left, top - bottom] + [left, bottom]
+        for number, at in enumerate(places * picture.size, start=1):
+            draw.ellipse([*(at - 9), *(at + 9)], fill="#FFFFFF", outline="#222222", width=2)
+            draw.text(at.tolist(), str(number), fill="#222222", anchor="mm")
+        return picture
+
+    def elsewhere(self) -> list[tuple[tuple[float, float], ...]]:
+        """Give values that a reader may reach: as it is, one handle in the middle, another at a corner."""
+        points = np.tile(np.array(self.value), (3, 1, 1))
+        points[1, 0], points[2, -1] = np.mean(self.limits, axis=1), np.array(self.limits)[:, 1]
+        return [self.check_value(some) for some in points]

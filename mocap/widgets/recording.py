@@ -15,9 +15,8 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from mocap.widgets.dragging import Handles
 from mocap.widgets.experiments import Experiment
-from mocap.widgets.pointing import Pointer
+from mocap.widgets.pointing import Handles, Pointer
 
 ROOM = 200_000  # bytes for the pictures of one experiment
 COUNTS = (15, 11, 8, 5)  # of positions; the most that fit in the room
@@ -54,45 +53,44 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
     >>> recorded["labels"], recorded["at"], len(recorded["pictures"])
     (['0', '2', '4'], 1, 3)
     """
-    movable = {name: c for name, c in experiment.controls.items() if not isinstance(c, Pointer | Handles)}
-    for name, control in movable.items():
-        if positions := _positions(control):
-            rest = control.value
-            at = next(number for number, (_, value) in enumerate(positions) if value == rest)
-            pictures = []
-            try:
-                for _, value in positions:
-                    pictures.append(_picture(experiment.set(**{name: value})))
-            finally:
-                experiment.set(**{name: rest})
-            kept, small = _fitting(pictures, at, room)
-            return {
-                "name": name.replace("_", " "),
-                "labels": [positions[number][0] for number in kept],
-                "pictures": [base64.b64encode(data).decode() for data in small],
-                "at": kept.index(at),
-                "alt": experiment.alt,
-            }
+    for name, control in experiment.controls.items():
+        if isinstance(control, Pointer | Handles) or not (positions := _positions(control)):
+            continue
+        rest = control.value
+        at = next(number for number, (_, value) in enumerate(positions) if value == rest)
+        try:
+            pictures = [_picture(experiment.set(**{name: value})) for _, value in positions]
+        finally:
+            experiment.set(**{name: rest})
+        kept, small = _fitting(pictures, at, room)
+        return {
+            "name": name.replace("_", " "),
+            "labels": [positions[number][0] for number in kept],
+            "pictures": [base64.b64encode(data).decode() for data in small],
+            "at": kept.index(at),
+            "alt": experiment.alt,
+        }
     return None
 
 
 def _positions(control: Any) -> list[tuple[str, Any]]:  # noqa: ANN401
     """List labels and values of a slider, choice or check box, the one at rest among them."""
-    if hasattr(control, "options"):
-        choices = [(str(label), value) for label, value in control._options_full]
-        at = next(number for number, (_, value) in enumerate(choices) if value == control.value)
-        return [choices[number] for number in _spread(len(choices), at, COUNTS[0])]
     if isinstance(control.value, bool):
         return [("off", False), ("on", True)]
-    if not hasattr(control, "step"):
+    if hasattr(control, "options"):
+        values = [value for _, value in control._options_full]
+        labels = [str(label) for label, _ in control._options_full]
+        at = values.index(control.value)
+    elif hasattr(control, "step"):
+        count = 1 + max(1, round((control.max - control.min) / control.step))
+        steps = (control.min + number * control.step for number in range(count))
+        values = [min(type(control.value)(value), control.max) for value in steps]
+        at = round((control.value - control.min) / control.step)
+        values[at] = control.value
+        labels = [f"{value:.6g}" for value in values]
+    else:
         return []
-    steps = max(1, round((control.max - control.min) / control.step))
-    at = round((control.value - control.min) / control.step)
-    values = [
-        control.value if number == at else type(control.value)(control.min + number * control.step)
-        for number in _spread(steps + 1, at, COUNTS[0])
-    ]
-    return [(f"{value:.6g}", value) for value in (min(value, control.max) for value in values)]
+    return [(labels[number], values[number]) for number in _spread(len(values), at, COUNTS[0])]
 
 
 def _spread(count: int, at: int, most: int) -> list[int]:

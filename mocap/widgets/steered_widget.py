@@ -6,7 +6,6 @@ steps and sends where the joints are. Nothing runs between two questions: no thr
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -23,7 +22,7 @@ from mocap.widgets.company import Company, Order
 from mocap.widgets.embedding import PAGE, PICTURE, SCENE, TOUCH
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.packing import LOOK
-from mocap.widgets.player import Player, play
+from mocap.widgets.player import play
 
 OWN = ("steered_walker.js", "steering_page.js", "steering.js")
 RECORDED = ((0.0, 2.0), (math.pi / 2, 4.0), (-math.pi / 4, 4.0))  # headings, and seconds of each
@@ -56,9 +55,7 @@ class Steered(Live):
         try:
             heading, speed, label = asked["command"]
             order = Order(float(heading), float(speed), str(label)).checked()
-            seconds = float(np.clip(float(asked["seconds"]), 0.0, MOST))
-            if math.isnan(seconds):
-                raise MocapError("Python was asked for nan seconds.")
+            seconds = min(max(0.0, float(asked["seconds"])), MOST)
         except (KeyError, TypeError, ValueError) as error:
             self.send({"kind": "refused", "why": shortened(f"{type(error).__name__}: {error}", 200)})
             return
@@ -127,12 +124,26 @@ def steered(
     if not 0 <= low < high < math.inf:
         raise MocapError(f"Speeds to ask for rise from 0 on, got {low:g} to {high:g} m/s.")
     company, speed = Company(characters), min(max(1.1, low), high)
-    alt = alt or f"Stick figures obey one command: {', '.join(member.name for member in company.members)}."
+    names = ", ".join(member.name for member in company.members)
+    alt = alt or f"Stick figures obey one command: {names}."
     player = play(*_recorded(company, speed), follow=False, alt=alt)
-    scene = {"alt": alt, "members": _members(company), **LOOK, "speeds": [low, high], "labels": list(labels)}
-    page = widget(Steered)(scene=scene)
+    data, metadata = player._repr_mimebundle_()
+    seen = data if record else player.still()._repr_mimebundle_()[0]
+    said = "Recorded: ahead for 2 s, 4 s to the left, 4 s to the right. Run the cell to steer by yourself."
+    data["text/html"] = f"<p>{said}</p>{seen['text/html']}"
+    members = [
+        {
+            **{"name": member.name, "fps": member.character.fps, "joints": len(member.drawn.joints)},
+            **{"bones": member.drawn.bones, "head": member.drawn.head},
+            "colour": own_colour(number, len(company.members)) or COLOURS["middle"],
+        }
+        for number, member in enumerate(company.members)
+    ]
+    page = widget(Steered)(
+        scene={"alt": alt, "members": members, **LOOK, "speeds": [low, high], "labels": list(labels)}
+    )
     page.command = [RECORDED[-1][0], speed, ""]
-    page.company, page.alt, page.still = company, alt, _still(player, record)
+    page.company, page.alt, page.still = company, alt, (data, metadata)
     page.on_msg(page.answer)
     return page
 
@@ -147,24 +158,3 @@ def _recorded(company: Company, speed: float) -> list[Motion]:
         away = np.array([number - (count - 1) / 2, 0, 0]) * APART - motion.root_positions[0] * [1, 0, 1]
         motions.append(replace(motion, root_positions=motion.root_positions + away))
     return motions
-
-
-def _still(player: Player, record: bool) -> tuple[dict[str, str], dict[str, Any]]:
-    """Give what a page without Python shows: the recording or its picture, and a sentence."""
-    data, metadata = player._repr_mimebundle_()
-    seen = data["text/html"] if record else player.still()._repr_mimebundle_()[0]["text/html"]
-    said = "Recorded: ahead for 2 s, 4 s to the left, 4 s to the right. Run the cell to steer by yourself."
-    data["text/html"] = f"<p>{html.escape(said)}</p>{seen}"
-    return data, metadata
-
-
-def _members(company: Company) -> list[dict[str, Any]]:
-    """Give what the scripts have to know of each character beforehand."""
-    return [
-        {
-            **{"name": member.name, "fps": member.character.fps, "joints": len(member.drawn.joints)},
-            **{"bones": member.drawn.bones, "head": member.drawn.head},
-            "colour": own_colour(number, len(company.members)) or COLOURS["middle"],
-        }
-        for number, member in enumerate(company.members)
-    ]

@@ -18,8 +18,8 @@ from mocap.datasets import samples
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.feet.footplants import standing_tracks
 from mocap.feet.footskate import clean_up
-from mocap.widgets.dragging import handles
 from mocap.widgets.experiments import explore
+from mocap.widgets.pointing import handles
 
 pytestmark = pytest.mark.benchmark
 

@@ -15,7 +15,8 @@ CELLS = {
         from mocap import blending, datasets, matching, plotting, resample
         from mocap.body import joint_positions
         from mocap.plotting import show
-        from mocap.widgets import Mixer, draw_path, explore, linked, play
+        from mocap.widgets import Mixer, draw_path, explore, play
+        from mocap.widgets.live_player import linked
         walk = resample(datasets.sample("walk_circle"), 30)[:240]
         points = joint_positions(walk)
 """,

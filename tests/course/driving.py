@@ -13,6 +13,7 @@ from IPython import get_ipython
 
 from mocap import widgets
 from mocap.widgets.company import Order
+from mocap.widgets.player import Player
 
 displayed = {}
 
@@ -42,7 +43,7 @@ def drive(shown):
     if isinstance(shown, widgets.Experiment):
         for values in settings(shown):
             shown.set(**values)
-    elif isinstance(shown, widgets.Player):
+    elif isinstance(shown, Player):
         assert shown.scene["frames"] > 1
     elif hasattr(shown, "pairs"):  # a blind test, whose films play in the page
         assert all(len(pair.seam) == len(pair.control) > 1 for pair in shown.pairs)

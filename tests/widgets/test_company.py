@@ -1,5 +1,6 @@
 """Characters that step together: each on its own time, and one that fails does not stop the others."""
 
+import cmath
 import math
 import warnings
 
@@ -10,8 +11,9 @@ from hypothesis import strategies as st
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning
+from mocap.steering import measure_delay
 from mocap.steering.characters import as_motion
-from mocap.widgets.company import Company, Order
+from mocap.widgets.company import CommandClock, Company, Order, between
 from tests.widgets.steerable import Dot
 
 
@@ -47,19 +49,15 @@ class Stumbling(Dot):
 
 def test_who_fails_stands_still_until_the_order_changes_and_says_why():
     company = Company({"sure": Dot(), "stumbling": Stumbling()})
+    company.walk(Order(0, 1, "fly"), 0.2)
+    _, forgotten = company.walk(Order(), 0.2)
+    assert forgotten.told["fault"] == "" and np.ptp(forgotten.places, axis=0).max() > 0.1
     for order, why in [(Order(0, 1, "fly"), "MocapError: No clip flies."), (Order(2.0), "not finite")]:
         sure, stumbling = company.walk(order, 0.5)
         assert why in stumbling.told["fault"] and len(stumbling.told["fault"]) <= 200
         assert np.ptp(stumbling.places, axis=0).max() == 0
         assert (sure.told["fault"], len(sure.poses)) == ("", len(stumbling.poses))
         assert np.ptp(sure.places, axis=0).max() > 0.3
-
-
-def test_a_stumble_is_forgotten_when_the_order_changes():
-    company = Company({"stumbling": Stumbling()})
-    company.walk(Order(0, 1, "fly"), 0.2)
-    (walked,) = company.walk(Order(), 0.2)
-    assert walked.told["fault"] == "" and np.ptp(walked.places, axis=0).max() > 0.1
 
 
 def test_an_error_at_the_first_step_is_raised():
@@ -82,13 +80,10 @@ def test_warnings_are_kept_once_each():
     assert company.notes == ["5 m/s is too fast."] and company.cost > 0
 
 
-@pytest.mark.parametrize("count", [0, 5])
-def test_one_to_four_walk_side_by_side(count):
-    with pytest.raises(MocapError, match=f"One to 4 characters walk side by side, got {count}"):
-        Company({str(number): Dot() for number in range(count)})
-
-
-def test_one_character_does_not_walk_twice():
+def test_one_to_four_walk_side_by_side_and_none_twice():
+    for count in (0, 5):
+        with pytest.raises(MocapError, match=f"One to 4 characters walk side by side, got {count}"):
+            Company({str(number): Dot() for number in range(count)})
     dot = Dot()
     with pytest.raises(MocapError, match="two names"):
         Company({"a": dot, "b": dot})
@@ -98,3 +93,59 @@ def test_one_character_does_not_walk_twice():
 def test_an_order_is_finite(order):
     with pytest.raises(MocapError, match="A command is a finite heading and a speed from 0 on"):
         order.checked()
+
+
+class Clocked(Dot):
+    """A dot that carries a clock along while `measure_delay` commands it."""
+
+    def __init__(self, rate):
+        super().__init__(rate)
+        self.clock = CommandClock(self.fps)
+
+    def step(self, heading, speed, label=""):
+        pose = super().step(heading, speed, label)
+        self.clock.command(heading)
+        self.clock.step(complex(pose.root_position[2], pose.root_position[0]))
+        return pose
+
+
+@given(st.floats(-50, 50), st.floats(-50, 50))
+def test_headings_differ_by_less_than_half_a_turn_whatever_their_numbers(a, b):
+    assert between(a, b) == pytest.approx(abs(cmath.phase(cmath.exp(1j * a) / cmath.exp(1j * b))), abs=1e-6)
+    assert 0 <= between(a, b) <= math.pi
+
+
+@pytest.mark.parametrize("rate", [60, 1000])
+def test_the_delays_are_those_of_measure_delay(rate):
+    dot = Clocked(math.radians(rate))
+    mean = measure_delay(dot, turns=60).mean
+    # `measure_delay` counts its first turn, too, which comes before there is any way.
+    assert len(dot.clock.delays) >= 57
+    assert np.mean(dot.clock.delays) == pytest.approx(mean, rel=0.03)
+
+
+def drive(clock, headings, dot):
+    for heading in headings:
+        clock.command(heading)
+        pose = dot.step(heading, 1.0)
+        clock.step(complex(pose.root_position[2], pose.root_position[0]))
+
+
+def test_a_heading_that_is_dragged_along_starts_the_clock_again_but_a_tremor_does_not():
+    clock, dot = CommandClock(30.0), Dot(math.radians(90))
+    drive(clock, [0.0] * 40, dot)
+    drive(clock, np.linspace(0, 1.5, 45), dot)
+    assert clock.waited < 0.2 and not clock.obeyed
+    drive(clock, 1.5 + 0.02 * np.sin(np.arange(60)), dot)
+    assert clock.obeyed and 0 < clock.waited < 2
+
+
+def test_a_small_turn_and_one_that_was_given_up_do_not_count():
+    clock, dot = CommandClock(30.0), Dot(math.radians(60))
+    drive(clock, [0.0] * 40 + [0.3] * 60, dot)  # 17 degrees
+    assert clock.obeyed and clock.delays == []
+    drive(clock, [3.0] * 5, dot)
+    drive(clock, [0.4] * 60, dot)
+    assert clock.delays == []
+    drive(clock, [0.4 + math.pi / 2] * 90, dot)
+    assert len(clock.delays) == 1

@@ -18,9 +18,9 @@ START = 0.25  # radians from the first axis to the point before the turn
 
 
 SHEETS = (
-    ("1. as in school", "xy", 1 + 0j),
-    ("2. the sheet turned by a quarter", "xy", 1j),
-    ("3. the ground from above", "zx", 1j),
+    ("1. as in school", ("x", "y"), 1 + 0j),
+    ("2. the sheet turned by a quarter", ("x", "y"), 1j),
+    ("3. the ground from above", ("z", "x"), 1j),
 )
 """Planes with two axes: a title, the names of the axes, and where on the page the first one points."""
 

@@ -69,8 +69,8 @@ def nodes_and_edges(step: int = 5) -> Figure:
         arrow(ax, start + 1j * lift, end + 1j * lift, PATH, 2.2, shrinkA=2, shrinkB=2)
         say(ax, start - 0.12 + 1j * lift, str(number), fontsize=9)
     for source, leaves, target, enters in leaps:
-        look = {"connectionstyle": f"arc3,rad={0.28 * (source == target)}", "shrinkA": 6, "shrinkB": 6}
-        colour = PATH if step == 5 else MARK
+        bend, colour = f"arc3,rad={0.28 * (source == target)}", PATH if step == 5 else MARK
+        look: dict[str, Any] = {"connectionstyle": bend, "shrinkA": 6, "shrinkB": 6}
         arrow(ax, leaves - 1j * source, enters - 1j * target, colour, **look).set_zorder(3)
     ax.set_title(f"{step}. {STEPS[step]}", fontsize=10, loc="left")
     ax.set(xlabel="time in the clip (s)", xlim=(-0.2, 6.2), ylim=(-1.75, 0.95))

@@ -85,8 +85,8 @@ def matched_windows(first: Motion, second: Motion) -> Figure:
     points = np.stack([joint_positions(motion) for motion in (first, second)])
     figure = Figure(figsize=(8.4, 4.6))
     for panel, (frame, words) in enumerate([(0, "first frame"), (len(first) - 1, "last frame")]):
-        here, ax = points[:, frame], figure.add_axes((panel / 2, 0.06, 0.5, 0.86), projection="3d")
-        _beside(ax, first[frame : frame + 1], here)
+        here, panels = points[:, frame], (panel / 2, 0.06, 0.5, 0.86)
+        ax = _beside(figure.add_axes(panels, projection="3d"), first[frame : frame + 1], here)
         threads = to_picture(here[:, distinct_joints(first.skeleton)].swapaxes(0, 1))
         ax.add_collection3d(Line3DCollection(threads, colors=QUIET, linewidths=1.0, zorder=2))
         StickFigure(first.skeleton, ax).pose(here[0])
