@@ -4,10 +4,10 @@ A walk from the graph turns only where its clips turn; path editing can turn it 
 how much a walk must be turned beyond what it turns by itself, and not how far it strays.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
-from typing import ClassVar, TypeVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,8 +25,6 @@ from mocap.steering.followed import Followed
 from mocap.steering.path_objective import OwnTurning, Route, Wishes, make_route
 from mocap.steering.path_search import Found
 from mocap.synthesis.walk_to_motion import to_motion
-
-T = TypeVar("T")
 
 # Metres, and a share of the line: how far the search goes on beyond its end; the rest is cut.
 FURTHER = (0.5, 0.02)
@@ -151,10 +149,11 @@ def plan_bending(
     pace = Ride(GroundPath([[0.0, 0.0], [0.0, straight[-1]]]), straight, np.zeros((4, 2)))
     line = round_line(path, pace, graph.fps, limit)
 
-    def rounded(asked: Sequence[tuple[float, T]]) -> list[tuple[float, T]]:
-        return [(float(np.interp(where, line.asked, line.along)), what) for where, what in asked]
-
-    wishes = replace(wishes, labels=rounded(wishes.labels), times=rounded(wishes.times), slide=0.0)
+    labels, times = (
+        [(float(np.interp(where, line.asked, line.along)), what) for where, what in asked]
+        for asked in (wishes.labels, wishes.times)
+    )
+    wishes = replace(wishes, labels=labels, times=times, slide=0.0)
     points = line.path.points
     way = points[-1] - points[-2]
     # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.

@@ -73,18 +73,14 @@ class PathSearch(LayeredSearch):
         super().__init__(starts, settings.width_on(route))
         self.graph, self.route, self.settings = graph, route, settings
         hops, own = graph.hops, route.own
-        progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph, route)
-        before = np.concatenate([[0.0], np.cumsum(progress)])
-        parts = before[hops.starts + hops.counts] - before[hops.starts]  # (H, 2)
-        # Metres: a running sum over the frames of all edges (T,), and what to subtract from it in both parts
-        # of each hop (H, 2), so that it counts from the hop's start.
-        self.along = before[1:]
-        self.since = before[hops.starts] - np.stack([np.zeros(len(parts)), parts[:, 0]], axis=1)
+        # Metres by which each frame of all edges moves on (T,), and each hop (H,).
+        self.progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph, route)
+        before = np.concatenate([[0.0], np.cumsum(self.progress)])
+        length = (before[hops.starts + hops.counts] - before[hops.starts]).sum(axis=1)
         # The hops as walks of one hop each, at the price of their transitions.
         price = np.where(graph.blended, settings.seam + settings.match * graph.cost**2, 0.0)[hops.last]
-        every, place = np.arange(len(parts)), (graph.turn[hops.last], graph.move[hops.last])
-        node, length = graph.target[hops.last], parts.sum(axis=1)
-        self.hops = States(node, *place, length, hops.frames, price, every, every)
+        every, place = np.arange(len(length)), (graph.turn[hops.last], graph.move[hops.last])
+        self.hops = States(graph.target[hops.last], *place, length, hops.frames, price, every, every)
         # Metres from each node in the next `AHEAD` seconds (N, 3).
         self.ahead = np.cumsum(np.abs(np.diff(graph.ahead, axis=1, prepend=graph.at[:, None])), axis=1)
 
@@ -113,8 +109,9 @@ class PathSearch(LayeredSearch):
         `start` (n,) are the metres along the path at which each of the hops begins.
         """
         row, of = self.graph.hops.rows(hop)
-        since = np.repeat(self.since[hop].ravel(), self.graph.hops.counts[hop].ravel())
-        return row, of, self.along[row] - since + start[of]
+        along = np.cumsum(self.progress[row])
+        ends = along[np.cumsum(self.graph.hops.frames[hop]) - 1]
+        return row, of, along + (start - ends + self.hops.along[hop])[of]
 
     def hop_costs(self, states: States, chosen: Indices, hop: Indices) -> Array:
         """Sum the costs of the frames of n hops (n,), which the walks `states.take(chosen)` take.

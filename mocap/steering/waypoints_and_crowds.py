@@ -92,7 +92,12 @@ def through_waypoints(
     """
     points = np.array([(point.x, point.z) for point in waypoints], float).reshape(-1, 2)
     path = spline(points)
-    placed = list(zip(_places_along(path, points), waypoints, strict=True))
+    passed = [0]  # the point of the path where it first passes each waypoint, in their order
+    for point in points[1:-1]:
+        off = np.hypot(*(path.points[passed[-1] :] - point).T)
+        passed.append(passed[-1] + int(np.flatnonzero(off < off.min() + 0.02)[0]))
+    places = [*path.along[passed].tolist(), path.length]
+    placed = list(zip(places, waypoints, strict=True))
     labels = [(along, point.label) for along, point in placed]
     times = [(along, point.seconds) for along, point in placed if point.seconds is not None]
     if times and waypoints[0].seconds is None:
@@ -106,17 +111,6 @@ def through_waypoints(
         off, seconds = float(np.hypot(*(followed.track[frame] - point[:2]))), frame / followed.graph.fps
         arrivals.append(Arrival(off, seconds, np.nan if point.seconds is None else seconds - point.seconds))
     return WaypointWalk(followed, arrivals)
-
-
-def _places_along(path: GroundPath, points: Array) -> list[float]:
-    """Find the metres along the path at which it passes each waypoint, in their order."""
-    found, first = [0], 0
-    for point in points[1:-1]:
-        off = np.hypot(*(path.points[first:] - point).T)
-        near = np.flatnonzero(off < off.min() + 0.02)[0]  # the first pass of several
-        first += int(near)
-        found.append(first)
-    return [*path.along[found].tolist(), path.length]
 
 
 class Crowd(NamedTuple):

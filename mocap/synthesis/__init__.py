@@ -5,12 +5,10 @@ choose edges belongs in a file beside `random_walks`; ways that follow a user's 
 
 Reading order (notebook 07)
 ---------------------------
-1. `walks`: check a walk, list its seams and the clips it plays
-2. `random_walks`: choose transitions at random
-3. `walk_to_motion`: turn a walk into a motion
-4. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
-5. `ground_walks`: price where a walk leads on the ground
-6. `streaming`: make hours of motion, piece by piece
+1. `walk_to_motion`: turn a walk into a motion; its seams and the clips it plays
+2. `random_walks`: choose transitions at random; make hours of motion, piece by piece
+3. `bounded_search`: find the cheapest walk by branch and bound, as the paper does
+4. `ground_walks`: price where a walk leads on the ground
 
 References
 ----------
@@ -22,9 +20,8 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "walks": ["Seam", "require_walk", "seams", "sources"],
-        "random_walks": ["random_walk", "wander"],
-        "walk_to_motion": ["places", "to_motion", "with_plants"],
+        "walk_to_motion": ["places", "seams", "sources", "to_motion", "with_plants"],
+        "random_walks": ["dump", "random_walk", "stream", "wander"],
         "bounded_search": [
             "Branch",
             "Budget",
@@ -35,6 +32,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "search_ahead",
         ],
         "ground_walks": ["GroundWalks", "Stand"],
-        "streaming": ["dump", "stream"],
     },
 )

@@ -1,12 +1,25 @@
-"""Random walks: choose the transitions of a motion graph at random, for a walk of any length."""
+"""Random walks: choose the transitions of a motion graph at random, for a walk of any length.
+
+A long one is written piece by piece while it is made: motion dumping [KGP02, 5.3].
+"""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
+from mocap._shared.progress import Progress
+from mocap.body.motion import Motion, concatenate, turning
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.errors import MocapError, NoWalk
-from mocap.graphs.edge_tables import Edge, require_node
+from mocap.feet.footskate import clean_up
+from mocap.files import bvh, gltf
+from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node
+from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
+
+MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
+LONGEST = 3600.0  # seconds of a walk that is made in memory
 
 
 def random_walk(
@@ -111,3 +124,119 @@ def wander(
         yield start_, node, key
         frames += data["frames"]
         since = since + data["frames"] if data["kind"] == "clip" else 0
+
+
+def stream(
+    motion_graph: MotionGraph, *, seconds: float, seed: int = 0, piece: float = 30.0, clean: bool = False
+) -> Iterator[Motion]:
+    """Play a random walk piece by piece, so that only one piece is in memory.
+
+    Parameters
+    ----------
+    motion_graph : pruned, so that the walk never ends.
+    seconds : the least duration of all pieces together.
+    seed : the walk is that of `synthesis.random_walk` with this seed.
+    piece : the least duration of a piece, seconds.
+    clean : whether to remove footskate, as in `synthesis.to_motion`.
+
+    Yields
+    ------
+    Motions; each starts where the one before ends. Together they are the walk, frame by frame.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
+    True
+
+    Notebook: 07-walks-and-search
+    """
+    if clean:
+        motion_graph = with_plants(motion_graph)
+    pieces = _motions(motion_graph, cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, piece))
+    yield from _cleaned(pieces) if clean else pieces
+
+
+def _motions(motion_graph: MotionGraph, walks: Iterator[list[Edge]]) -> Iterator[Motion]:
+    """Play walks one after the other."""
+    place = IDENTITY
+    for walk in walks:
+        yield to_motion(motion_graph, walk, place=place)
+        ends = places(edge_table(motion_graph, walk), place)
+        place = PlanarTransform(*(float(np.asarray(numbers)[-1]) for numbers in ends))
+
+
+def _cleaned(pieces: Iterator[Motion]) -> Iterator[Motion]:
+    """Clean each piece together with 2 · `MARGIN` of the motion before it; give its last `MARGIN` out later.
+
+    So every frame is cleaned together with all frames that it depends on, and the cuts do not show.
+    """
+    waiting, done = next(pieces), 0
+    margin = round(MARGIN * waiting.fps)
+    for piece in pieces:
+        if len(waiting) - done > margin:
+            yield clean_up(waiting)[done:-margin]
+            waiting, done = waiting[-2 * margin :], min(len(waiting) - margin, margin)
+        waiting = concatenate([waiting, piece])
+    yield clean_up(waiting)[done:]
+
+
+def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
+    motion_graph: MotionGraph,
+    path: str | Path,
+    *,
+    seconds: float,
+    seed: int = 0,
+    clean: bool = False,
+    progress: Progress = iter,
+) -> int:
+    """Write a random walk to a `.bvh` file while it is made; an hour needs no more memory than a minute.
+
+    In the paper: [KGP02, 5.3].
+
+    A `.glb` is made in memory, so it may last an hour at most.
+
+    Parameters
+    ----------
+    motion_graph, seconds, seed, clean : as for `stream`.
+    path : the file; it appears when it is complete.
+    progress : wraps the pieces, to show a bar.
+
+    Returns
+    -------
+    The number of frames written.
+
+    Raises
+    ------
+    MocapError : for another format, a file that cannot be written, or a duration that is not above 0.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample("walk_curve_1"), 30)]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     dump(graph, f"{folder}/long.bvh", seconds=20) >= 20 * 30
+    True
+
+    Notebook: 07-walks-and-search
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in (".bvh", ".glb"):
+        raise MocapError(f"A long walk is written as .bvh or .glb, got '{path}'.")
+    if suffix == ".glb" and seconds > LONGEST:
+        raise MocapError(f"A .glb of a walk may last {LONGEST:g} s, not {seconds:g}: write .bvh.")
+    # A .bvh file starts with its number of frames. The same seed gives the same walk, so count them first.
+    walks = cut_walk(motion_graph, wander(motion_graph, seed=seed), seconds, 30.0)
+    counts = [sum(motion_graph.graph.edges[edge]["frames"] for edge in walk) for walk in walks]
+    pieces = stream(motion_graph, seconds=seconds, seed=seed, clean=clean)
+    shown = (next(pieces) for _ in progress(counts))
+    if suffix == ".glb":
+        gltf.write(concatenate(list(shown)), path)
+        return sum(counts)
+    turns = np.any([turning(clip) for clip in motion_graph.clips], axis=0)
+    bvh.write_pieces(shown, path, frames=sum(counts), turns=turns)
+    return sum(counts)

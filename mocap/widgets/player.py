@@ -25,7 +25,7 @@ from mocap.plotting.bodies_on_path import bodies_along
 from mocap.plotting.picture import small_png
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS, PATH, own_colour, source_colours
-from mocap.synthesis.walks import Seam
+from mocap.synthesis.walk_to_motion import Seam
 from mocap.widgets.embedding import SHARED, Embedded
 from mocap.widgets.packing import LOOK, SIDES, packed_character, with_contacts
 

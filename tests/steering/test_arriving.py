@@ -27,8 +27,7 @@ from mocap.steering.in_betweens import in_between
 from mocap.steering.moments import Moment, choices
 from mocap.steering.two_sided_search import TwoSided
 from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walk_to_motion import to_motion, with_plants
-from mocap.synthesis.walks import require_walk
+from mocap.synthesis.walk_to_motion import require_walk, to_motion, with_plants
 from tests.bundled import bundled, captured, walking
 from tests.conftest import SWEEP
 from tests.editing.test_path_editing import slide

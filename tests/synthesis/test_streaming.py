@@ -11,8 +11,7 @@ from mocap.errors import MocapError
 from mocap.files import load_save
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
-from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.streaming import dump, stream
+from mocap.synthesis.random_walks import dump, random_walk, stream
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import bundled
 from tests.strategies import wave

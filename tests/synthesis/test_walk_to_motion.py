@@ -24,8 +24,7 @@ from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.matching.transitions import Transition
 from mocap.synthesis.random_walks import random_walk, wander
-from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
-from mocap.synthesis.walks import seams, sources
+from mocap.synthesis.walk_to_motion import places, seams, sources, to_motion, with_plants
 from tests.bundled import bundled
 from tests.strategies import planar, seeds, wave
 

@@ -21,7 +21,7 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import distinct_joints
-from mocap.synthesis.walks import seams
+from mocap.synthesis.walk_to_motion import seams
 
 SECONDS = 0.7  # of clip that are shown before and after a window
 CELLS = 20  # of a distance grid on each side of a transition, which a page measures itself

@@ -12,7 +12,7 @@ from mocap.errors import MocapError
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.synthesis.random_walks import random_walk
-from mocap.synthesis.walks import seams
+from mocap.synthesis.walk_to_motion import seams
 from tests.bundled import bundled
 from tests.course.lab.students import written
 
