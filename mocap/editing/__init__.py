@@ -11,23 +11,21 @@ Reading order (notebooks 10 to 14)
  3. `bodies`: which joints may turn, about which axes, at what price
  4. `steps`: how a change may run over time, and one step of the solver
  5. `solver`: the smallest smooth change, for each frame by itself or for all at once
- 6. `edits`: one face for edits: a calm change, to the last digit
+ 6. `edits`: one face for edits: a calm change, to the last digit; and one pose, made by dragging joints
  7. `levels`: from coarse to fine, by inverse kinematics and splines in turn
  8. `path_editing`: the path taken off a motion, changed, and the motion put back on it
  9. `line_rounding`: a line rounded where a walk would turn too fast on it
 10. `bending`: a walk laid on any line, with feet that stand
-11. `keys`: keys, the curve through them, and a warp by offsets
-12. `posing`: a key's pose, made by dragging joints
-13. `scaling`: a warp by scale
-14. `retiming`: time keys, and motions at moments between their frames
-15. `looping`: a cycle closed by a warp
-16. `warp_plans`: a whole warp out of a small text file
-17. `body_roles`: which joint does what
-18. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-19. `copied_motion`: every joint looks where the same joint of the other body looks
-20. `retargeting`: where the new feet may be, and all of it in one function
-21. `mirroring`: left and right swapped, by names and geometry
-22. `cycles`: the stretch of a clip that makes the best cycle, closed
+11. `keys`: keys, the curve through them, and warps by offsets and by scale
+12. `retiming`: time keys, and motions at moments between their frames
+13. `looping`: a cycle closed by a warp
+14. `warp_plans`: a whole warp out of a small text file
+15. `body_roles`: which joint does what
+16. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+17. `copied_motion`: every joint looks where the same joint of the other body looks
+18. `retargeting`: where the new feet may be, and all of it in one function
+19. `mirroring`: left and right swapped, by names and geometry
+20. `cycles`: the stretch of a clip that makes the best cycle, closed
 
 References
 ----------
@@ -50,7 +48,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "bodies": ["body_of"],
         "steps": ["Basis"],
         "solver": ["REACH", "solve"],
-        "edits": ["edit"],
+        "edits": ["edit", "posed"],
         "levels": ["hierarchy", "scattered_fit"],
         "bending": ["LIMIT", "bend"],
         "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
@@ -58,11 +56,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "copied_motion": ["copied"],
         "stances": ["Stance", "proportioned", "stance_of", "stance_of_zero"],
         "retargeting": ["floor_pins", "retarget", "standing_like"],
-        "keys": ["Key", "cardinal", "keys_around", "offsets"],
+        "keys": ["Key", "cardinal", "keys_around", "offsets", "scaled"],
         "looping": ["looped", "repeated"],
-        "posing": ["posed"],
-        "retiming": ["at_frames", "old_seconds", "retime"],
-        "scaling": ["scaled"],
+        "retiming": ["old_seconds", "retime"],
         "warp_plans": ["load_plan", "warp"],
         "mirroring": ["mirror", "mirrored_name"],
         "cycles": ["find_loop", "loop"],

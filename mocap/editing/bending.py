@@ -7,17 +7,15 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mocap._shared.arrays import Array, Mask, frozen
+from mocap._shared.arrays import Array, Mask
 from mocap.body.ground_path import GroundPath
-from mocap.body.limbs import legs_of
 from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept, ride_of
-from mocap.editing.pins import plant_pins
+from mocap.editing.pins import plant_pins, with_plants
 from mocap.editing.solver import solve_quietly
 from mocap.editing.steps import Basis
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 
 LIMIT = float(np.radians(60))  # per second: the fastest that a walk is turned
@@ -51,54 +49,40 @@ class Bent:
     def off(self) -> Array:
         """Metres of the root from the line asked for, shape (F,); the sway alone is 1 to 2 cm on average."""
         line = cKDTree(_reached(self.path, self.ride).resampled(FINE).points)
-        return frozen(line.query(self.motion.root_positions[:, [0, 2]])[0], np.float64)
+        return np.asarray(line.query(self.motion.root_positions[:, [0, 2]])[0])
 
     @cached_property
     def along(self) -> Array:
         """Metres along the line asked for in each frame, shape (F,)."""
-        return frozen(np.interp(self.ride.along, self.line.along, self.line.asked), np.float64)
+        return np.interp(self.ride.along, self.line.along, self.line.asked)
 
     @cached_property
     def rounded(self) -> Mask:
         """Whether the line is rounded where the walk is in each frame, shape (F,)."""
         parts = [(r.start <= self.along) & (self.along <= r.end) for r in self.line.roundings]
-        return frozen(np.any([np.zeros(len(self.along), bool), *parts], axis=0), np.bool_)
+        return np.any([np.zeros(len(self.along), bool), *parts], axis=0)
 
     @cached_property
     def turned(self) -> Array:
         """How fast the walk is turned beyond what it turns by itself, shape (F - 1,), radians per second."""
         old, new = (moving_frames(path, self.ride.along) for path in (self.ride.path, self.line.path))
-        return frozen(np.diff(np.asarray(new.angle) - old.angle) * self.motion.fps, np.float64)
-
-    @property
-    def progress(self) -> float:
-        """The part of the line that is walked, 1 for all of it."""
-        return float(self.along[-1] / self.path.length)
-
-    @property
-    def kept(self) -> float:
-        """The share of the planted frames that the clean-up kept."""
-        return plants_kept(self.motion, self.laid)
+        return np.diff(np.asarray(new.angle) - old.angle) * self.motion.fps
 
     def report(self) -> str:
         """Say how well the walk keeps to the line, and where the line was rounded and by how much."""
         as_asked = ~self.rounded if not self.rounded.all() else self.rounded
         off, fastest = 100 * self.off[as_asked], np.degrees(np.abs(self.turned).max(initial=0.0))
+        where, found = "", self.line.roundings
+        if found:
+            parts = [f"{r.start:.1f} to {r.end:.1f} m by up to {100 * r.worst:.0f} cm" for r in found[:MOST]]
+            more = f" and {len(found) - MOST} more" if len(found) > MOST else ""
+            where = f"{'' if self.rounded.all() else ' elsewhere'}, rounded at {', '.join(parts)}{more}"
         return (
-            f"{self.motion.duration:.1f} s along {self.progress:.0%} of {self.path.length:.1f} m, "
-            f"{off.mean():.1f} cm off on average, {off.max():.1f} cm at worst{self._where()}; "
-            f"turned by up to {fastest:.0f}° per second, {self.kept:.0%} of the plants kept"
+            f"{self.motion.duration:.1f} s along {self.along[-1] / self.path.length:.0%} of "
+            f"{self.path.length:.1f} m, {off.mean():.1f} cm off on average, {off.max():.1f} cm at worst"
+            f"{where}; turned by up to {fastest:.0f}° per second, "
+            f"{plants_kept(self.motion, self.laid):.0%} of the plants kept"
         )
-
-    def _where(self) -> str:
-        """Say where the line was rounded, and by how much."""
-        found = self.line.roundings
-        if not found:
-            return ""
-        parts = [f"{r.start:.1f} to {r.end:.1f} m by up to {100 * r.worst:.0f} cm" for r in found[:MOST]]
-        more = f" and {len(found) - MOST} more" if len(found) > MOST else ""
-        outside = "" if self.rounded.all() else " elsewhere"
-        return f"{outside}, rounded at {', '.join(parts)}{more}"
 
 
 def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride | None = None) -> Bent:
@@ -140,7 +124,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     """
     if not limit > 0:
         raise MocapError(f"A walk is turned by more than 0 radians per second, got limit={limit}.")
-    motion = _with_plants(motion)
+    motion = with_plants(motion)
     ride = ride or ride_of(motion)
     line = round_line(_reached(path, ride), ride, motion.fps, limit)
     frames = max(2, int(np.searchsorted(ride.along, line.along[-1], side="right")))
@@ -182,10 +166,3 @@ def _clean(motion: Motion) -> tuple[Motion, list[str]]:
         warnings.simplefilter("always", MocapWarning)
         found = clean_up(motion)
     return found, [str(warning.message) for warning in caught]
-
-
-def _with_plants(motion: Motion) -> Motion:
-    """Mark the plants of a motion's legs, unless it says when they stand."""
-    joints = [joint for leg in legs_of(motion.skeleton, None) for joint in (leg.ankle, leg.ball)]
-    known = all(motion.skeleton.names[joint] in motion.contacts for joint in joints)
-    return motion if known else mark_plants(motion)

@@ -13,7 +13,6 @@ from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, turning
-from mocap.body.skeleton import Skeleton
 from mocap.editing.displacements import Displacement
 from mocap.editing.pins import Pins
 from mocap.errors import MocapError
@@ -69,27 +68,25 @@ def body_of(
     motion: Motion,
     pinned: Sequence[int],
     *,
-    effort: float = EFFORT,
     prices: Mapping[str, float] | None = None,
     still: Sequence[str] = (),
 ) -> Body:
     """Choose which joints may turn to bring pinned ones to their places, and price them.
 
     All joints above a pinned one that ever turn may turn. The price of a radian is what it moves: the squared
-    distances of all joints below, added up (means over the clip), and `effort`. A metre of the root's moves
+    distances of all joints below, added up (means over the clip), and `EFFORT`. A metre of the root's moves
     all J joints, and costs J.
 
     Parameters
     ----------
     motion : the clip that shows which joints turn, and which of them are hinges.
     pinned : joints' indices.
-    effort : what a radian costs beyond, m².
     prices : factors for joints' prices, by name; more than 1 stiffens a joint.
     still : the names of joints that shall not turn.
 
     Raises
     ------
-    MocapError : for names that the skeleton lacks, an effort or a factor that is not above 0.
+    MocapError : for names that the skeleton lacks, and a factor that is not above 0.
 
     Examples
     --------
@@ -104,10 +101,8 @@ def body_of(
     skeleton = motion.skeleton
     fixed = {skeleton.index(name) for name in still}
     factors = {skeleton.index(name): factor for name, factor in (prices or {}).items()}
-    if not all(np.isfinite(number) and number > 0 for number in (effort, *factors.values())):
-        raise MocapError(
-            f"An effort and factors of prices are above 0, got {effort} and {dict(prices or {})}."
-        )
+    if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
+        raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
     turns, paths = turning(motion), [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
     above = sorted({joint for pin in pinned for joint in paths[pin][1:]} - fixed)
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
@@ -119,7 +114,7 @@ def body_of(
         hinge = hinge_of(motion, joint)
         axes.append(np.eye(3) if hinge is None else hinge[None])
         joints += [joint] * len(axes[-1])
-        price += [factors.get(joint, 1.0) * (moved + effort)] * len(axes[-1])
+        price += [factors.get(joint, 1.0) * (moved + EFFORT)] * len(axes[-1])
     return Body(np.array(joints, int), np.concatenate(axes), np.array(price))
 
 
@@ -168,27 +163,15 @@ def require_reachable(motion: Motion, pins: Pins) -> None:
     ------
     MocapError : naming the frame, both joints, and both lengths.
     """
-    names = motion.skeleton.names
-    for (a, first), (b, second) in combinations(enumerate(pins.joints), 2):
+    names, skeleton = motion.skeleton.names, motion.skeleton
+    paths = [set(skeleton.path_to_root(joint)) for joint in pins.joints]
+    for a, b in combinations(range(len(pins.joints)), 2):
         below, above = pins.low[:, a] - pins.high[:, b], pins.low[:, b] - pins.high[:, a]
         apart = np.linalg.norm(np.maximum(np.maximum(below, above), 0.0), axis=-1)
-        bones = length_between(motion.skeleton, first, second)
+        bones = np.linalg.norm(skeleton.offsets[sorted(paths[a] ^ paths[b])], axis=-1).sum()
         worst = int(apart.argmax())
         if apart[worst] > bones + SLACK:
             raise MocapError(
-                f"Frame {worst}: '{names[second]}' would be {apart[worst]:.2f} m from '{names[first]}', "
-                f"the bones between reach {bones:.2f} m."
+                f"Frame {worst}: '{names[pins.joints[b]]}' would be {apart[worst]:.2f} m from "
+                f"'{names[pins.joints[a]]}', the bones between reach {bones:.2f} m."
             )
-
-
-def length_between(skeleton: Skeleton, first: int, second: int) -> float:
-    """Add up the bones on the way from one joint to another, metres.
-
-    Examples
-    --------
-    >>> offsets = [[0, 0, 0], [0, -0.4, 0], [0, -0.5, 0], [0, 0, 1]]
-    >>> length_between(Skeleton(["hip", "knee", "ankle", "tail"], [-1, 0, 1, 0], offsets), 2, 3)
-    1.9
-    """
-    way = set(skeleton.path_to_root(first)) ^ set(skeleton.path_to_root(second))
-    return float(np.linalg.norm(skeleton.offsets[sorted(way)], axis=-1).sum())

@@ -5,9 +5,8 @@ the legs meet, the chest is where the arms meet, and the waist and the neck are 
 """
 
 from collections.abc import Mapping
-from textwrap import shorten
 
-from mocap.body.limbs import Leg, find_legs, name_leg
+from mocap.body.limbs import Leg, find_legs
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
@@ -34,13 +33,12 @@ _ARMS = (
 )
 
 
-def roles(skeleton: Skeleton, told: Mapping[str, str] | None = None) -> dict[str, int]:
+def roles(skeleton: Skeleton) -> dict[str, int]:
     """Find which joint plays which role in a body.
 
     Parameters
     ----------
     skeleton : J joints.
-    told : {role: joint's name} for joints that go before those found by name; the roles are `ROLES`.
 
     Returns
     -------
@@ -48,8 +46,7 @@ def roles(skeleton: Skeleton, told: Mapping[str, str] | None = None) -> dict[str
 
     Raises
     ------
-    MocapError : for a role or a joint that does not exist, two roles of one joint, and legs that neither the
-        names nor `told` give.
+    MocapError : for legs that are not found.
 
     Examples
     --------
@@ -60,19 +57,21 @@ def roles(skeleton: Skeleton, told: Mapping[str, str] | None = None) -> dict[str
 
     Notebook: 13-retargeting
     """
-    told = dict(told or {})
-    if unknown := [role for role in told if role not in ROLES]:
-        raise MocapError(f"No role '{unknown[0]}'; there are: {shorten(', '.join(ROLES), 150)}.")
-    given = {role: skeleton.index(name) for role, name in told.items()}
-    found = _named(skeleton, known_legs=all(f"{side} {part}" in given for side in SIDES for part in LEG))
-    found |= given
-    found = _trunk(skeleton, found) | found
-    for leg in legs_among(found):
-        name_leg(skeleton, *(skeleton.names[joint] for joint in leg))
-    joints = list(found.values())
-    if twice := [role for role, joint in found.items() if joints.count(joint) > 1]:
-        name = skeleton.names[found[twice[0]]]
-        raise MocapError(f"Joint '{name}' would be both {twice[0]} and {twice[1]}: name them by told=.")
+    plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
+    try:
+        legs = find_legs(skeleton)
+    except MocapError as error:
+        raise MocapError(f"{str(error).split(' Name each')[0]} Rename the joints.") from None
+    found = {
+        f"{s} {part}": n for s, leg in zip(SIDES, legs, strict=True) for part, n in zip(LEG, leg, strict=True)
+    }
+    arms = next((pair for pair in _ARMS if set(" ".join(pair).split()) <= set(plain)), ())
+    for side, arm in zip(SIDES, arms, strict=False):
+        names = zip(("shoulder", "elbow", "wrist"), arm.split(), strict=True)
+        found |= {f"{side} {part}": plain.index(name) for part, name in names}
+    heads = [joint for joint, name in enumerate(plain) if name.lower() == "head"]
+    found |= {"head": heads[0]} if heads else {}
+    found |= _trunk(skeleton, found)
     return {role: found[role] for role in ROLES if role in found}
 
 
@@ -87,26 +86,6 @@ def legs_among(who: Mapping[str, int]) -> tuple[Leg, Leg]:
     """
     left, right = (Leg(*(who[f"{side} {part}"] for part in LEG)) for side in SIDES)
     return left, right
-
-
-def _named(skeleton: Skeleton, *, known_legs: bool) -> dict[str, int]:
-    """Find legs, arms and head by their names; only the legs must be there, unless they are told."""
-    plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
-    found = {}
-    if not known_legs:
-        try:
-            legs = find_legs(skeleton)
-        except MocapError as error:
-            tried = str(error).split(" Name each")[0]
-            raise MocapError(f'{tried} Name them: told={{"left hip": "...", ...}}.') from None
-        for side, leg in zip(SIDES, legs, strict=True):
-            found |= {f"{side} {part}": joint for part, joint in zip(LEG, leg, strict=True)}
-    arms = next((pair for pair in _ARMS if set(" ".join(pair).split()) <= set(plain)), ())
-    for side, arm in zip(SIDES, arms, strict=False):
-        names = zip(("shoulder", "elbow", "wrist"), arm.split(), strict=True)
-        found |= {f"{side} {part}": plain.index(name) for part, name in names}
-    heads = [joint for joint, name in enumerate(plain) if name.lower() == "head"]
-    return found | ({"head": heads[0]} if heads else {})
 
 
 def _trunk(skeleton: Skeleton, limbs: Mapping[str, int]) -> dict[str, int]:

@@ -10,7 +10,6 @@ is large for a held pose, and for half a stride. Method and measure are ours.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -35,9 +34,6 @@ MOSTLY = 90  # percent of the frames: where the data leap, a frame counts no mor
 ENOUGH = 1.1  # times the least cost: two strides are hardly better than one
 MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 SEAM = 0.2  # seconds: the window in which two moments are compared, and in which the cycle is closed
-
-Way = Literal["blend", "inertialize"]
-WAYS: dict[str, Callable[..., Motion]] = {"blend": join, "inertialize": inertialize}
 
 
 class Loop(NamedTuple):
@@ -80,18 +76,16 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     Notebook: 10-real-data
     """
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
-    least, most = _lengths(motion, slow.fps, seconds)
-    window = max(2, round(SEAM * slow.fps))
-    if slow.duration > LONGEST:
+    if not SEAM <= seconds[0] <= seconds[1] < np.inf:
         raise MocapError(
-            f"'{shortened(motion.name)}' lasts {slow.duration:.0f} s: "
-            f"look for a cycle in {LONGEST:g} s of it."
+            f"A cycle lasts from one number of seconds to a larger one, {SEAM:g} or more; got {seconds}."
         )
-    most = min(most, len(slow) - window)
-    if least > most:
-        wanted = f"{seconds[0] + SEAM:g} s"
+    window, least = (max(2, round(length * slow.fps)) for length in (SEAM, seconds[0]))
+    most = min(round(seconds[1] * slow.fps), len(slow) - window)
+    if least > most or slow.duration > LONGEST:
         raise MocapError(
-            f"'{shortened(motion.name)}' lasts {motion.duration:.2g} s: a cycle takes {wanted} or more."
+            f"'{shortened(motion.name)}' lasts {motion.duration:.3g} s: to find a cycle takes "
+            f"{seconds[0] + SEAM:g} to {LONGEST:g} s."
         )
     points = point_cloud(slow)
     points = (points - points.mean(axis=(0, 1))).astype(np.float32)  # kilometres away 32 bits are too few
@@ -100,15 +94,6 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     first, length, missed = _best(grid, least, most)
     ends = (first / slow.fps, (first + length) / slow.fps)
     return _refined(motion, ends, seconds[0], missed)
-
-
-def _lengths(motion: Motion, fps: float, seconds: tuple[float, float]) -> tuple[int, int]:
-    """Turn the bounds of a cycle into frames."""
-    if not SEAM <= seconds[0] <= seconds[1] < np.inf:
-        raise MocapError(
-            f"A cycle lasts from one number of seconds to a larger one, {SEAM:g} or more; got {seconds}."
-        )
-    return max(2, round(seconds[0] * fps)), round(seconds[1] * fps)
 
 
 def _best(grid: Floats, least: int, most: int) -> tuple[int, int, float]:
@@ -150,7 +135,12 @@ def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed:
 
 
 def loop(
-    motion: Motion, found: Loop, *, way: Way = "blend", straight: bool = False, clean: bool = False
+    motion: Motion,
+    found: Loop,
+    *,
+    way: Literal["blend", "inertialize"] = "blend",
+    straight: bool = False,
+    clean: bool = False,
 ) -> Motion:
     """Cut a cycle out of a clip and close it.
 
@@ -173,8 +163,7 @@ def loop(
 
     Raises
     ------
-    MocapError : for frames that leave no room for the seam, another way, and with `clean` for legs that are
-        not found.
+    MocapError : for frames that leave no room for the seam, and with `clean` for legs that are not found.
 
     Warns
     -----
@@ -191,15 +180,13 @@ def loop(
 
     Notebook: 10-real-data
     """
-    if way not in WAYS:
-        raise MocapError(f"A cycle is closed by one of {', '.join(WAYS)}, not by '{way}'.")
     window = max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
         raise MocapError(
             f"A cycle from frame {found.first} to {found.last} leaves no room for a seam of {window} frames "
             f"in '{shortened(motion.name, 60)}', which has {len(motion)}."
         )
-    joined = WAYS[way](motion, found.last, motion, found.first, window)
+    joined = {"blend": join, "inertialize": inertialize}[way](motion, found.last, motion, found.first, window)
     cycle = joined[found.first + window : found.last + window + 1]
     cycle = replace(cycle, name=f"{motion.name}_loop")
     cycle = _straightened(cycle) if straight else cycle

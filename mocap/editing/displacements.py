@@ -61,10 +61,7 @@ def difference(motion: Motion, base: Motion) -> Displacement:
     """
     motion.skeleton.require_same(base.skeleton)
     if len(motion) != len(base):
-        raise MocapError(
-            f"A difference is taken frame by frame: '{motion.name}' has {len(motion)} frames, "
-            f"'{base.name}' has {len(base)}."
-        )
+        raise MocapError(f"'{motion.name}' has {len(motion)} frames, '{base.name}' has {len(base)}.")
     turns = rotations.to_rotvec(rotations.multiply(rotations.inverse(base.rotations), motion.rotations))
     return Displacement(motion.root_positions - base.root_positions, turns)
 
@@ -87,7 +84,7 @@ def displaced(base: Motion, change: Displacement) -> Motion:
 
     Raises
     ------
-    MocapError : for another number of frames or joints.
+    MocapError : for another number of frames.
 
     Examples
     --------
@@ -99,12 +96,8 @@ def displaced(base: Motion, change: Displacement) -> Motion:
 
     Notebook: 11-warping
     """
-    frames, joints = base.rotations.shape[:2]
-    if np.shape(change.root) != (frames, 3) or np.shape(change.turns) != (frames, joints, 3):
-        raise MocapError(
-            f"'{base.name}' needs a displacement of ({frames}, 3) and ({frames}, {joints}, 3), "
-            f"got {np.shape(change.root)} and {np.shape(change.turns)}."
-        )
+    if len(change.root) != len(base):
+        raise MocapError(f"'{base.name}' has {len(base)} frames, its displacement {len(change.root)}.")
     turned = base.rotations.copy()
     moved = np.flatnonzero(np.any(change.turns, axis=(0, 2)))
     turned[:, moved] = rotations.multiply(turned[:, moved], rotations.from_rotvec(change.turns[:, moved]))

@@ -1,8 +1,9 @@
-"""Keys, the curve through them, and a warp by offsets: θ(t) + b(t) [WP95]."""
+"""Keys, the curve through them, and warps by offsets, θ(t) + b(t), and by scale, a(t) θ(t) [WP95]."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicHermiteSpline
 
 from mocap._shared.arrays import Array
+from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.editing.displacements import Displacement, difference
 from mocap.errors import MocapError
@@ -82,8 +84,6 @@ def cardinal(
         raise MocapError(f"A curve needs as many values as keys, got shapes {values.shape} and {at.shape}.")
     if not (np.isfinite(at).all() and np.isfinite(values).all() and (np.diff(at) > 0).all()):
         raise MocapError(f"Keys need finite values at times that rise, got times {at[:6].tolist()}.")
-    if not all(-len(at) <= number < len(at) for number in flat):
-        raise MocapError(f"There are {len(at)} keys, so no curve is level at key {max(flat, key=abs)}.")
     if not 0 <= tension <= 1:
         raise MocapError(f"A tension lies between 0 and 1, got {tension}.")
     if len(at) == 1:
@@ -184,15 +184,59 @@ def check_keys(motion: Motion, keys: Sequence[Key]) -> None:
 
     Notebook: 11-warping
     """
-    if not keys:
-        raise MocapError("A warp needs a key or more, got none.")
-    for key in keys:
-        if not (isinstance(key.frame, int | np.integer) and 0 <= key.frame < len(motion)):
-            raise MocapError(f"Key {key.frame} is no frame of '{motion.name}', which has {len(motion)}.")
-        if key.pose is not None:
-            motion.skeleton.require_same(key.pose.skeleton)
-            if len(key.pose) != 1:
-                raise MocapError(f"The pose of key {key.frame} needs one frame, got {len(key.pose)}.")
-    for before, after in pairwise(key.frame for key in keys):
-        if after <= before:
-            raise MocapError(f"Keys stand in order of time, once each: frame {after} follows {before}.")
+    frames = [key.frame for key in keys]
+    if not keys or any(not isinstance(frame, int | np.integer) for frame in frames):
+        raise MocapError(f"A warp needs one key or more, at numbers of frames, got {frames[:6]}.")
+    if not all(before < after for before, after in pairwise([-1, *frames, len(motion)])):
+        raise MocapError(
+            f"Keys stand in order of time, once each, at frames of '{motion.name}', 0 to {len(motion) - 1}; "
+            f"got {frames[:6]}."
+        )
+    for pose in (key.pose for key in keys if key.pose is not None):
+        motion.skeleton.require_same(pose.skeleton)
+        if len(pose) != 1:
+            raise MocapError(f"The pose of a key needs one frame, got {len(pose)}.")
+
+
+def scaled(motion: Motion, joint: str | int, gain: ArrayLike, *, about: ArrayLike | None = None) -> Motion:
+    """Scale how far a joint turns from a reference: q' = r exp(a log(r⁻¹ q)) [WP95, scale].
+
+    The paper scales an angle about its zero, which a file puts anywhere; here it is a rotation vector about a
+    reference [ours]. Noise is scaled as well.
+
+    Parameters
+    ----------
+    motion : F frames.
+    joint : its name or number.
+    gain : a, a number or shape (F,).
+    about : the reference r, a quaternion (4,); the joint's mean rotation over the clip by default.
+
+    Raises
+    ------
+    MocapError : for a gain that turns the joint beyond half a turn, or is not finite.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> walk = sample("walk_straight")[:200]
+    >>> bool(abs(scaled(walk, "lhumerus", 1.0).rotations - walk.rotations).max() < 1e-12)
+    True
+
+    Notebook: 11-warping
+    """
+    number = motion.skeleton.index(joint) if isinstance(joint, str) else joint
+    turns, amount = motion.rotations[:, number], np.asarray(gain, float)
+    if amount.shape not in ((), (len(motion),)) or not np.isfinite(amount).all():
+        raise MocapError(f"A gain is one finite number, or {len(motion)}, got shape {amount.shape}.")
+    reference = rotations.mean(turns) if about is None else np.asarray(about, float)
+    away = rotations.to_rotvec(rotations.multiply(rotations.inverse(reference), turns))
+    angles = np.abs(amount) * np.linalg.norm(away, axis=-1)
+    if angles.max() > np.pi:
+        raise MocapError(
+            f"Frame {angles.argmax()}: such a gain turns '{motion.skeleton.names[number]}' by "
+            f"{np.degrees(angles.max()):.0f}° from its reference, beyond half a turn."
+        )
+    turned = motion.rotations.copy()
+    turn = rotations.from_rotvec((amount - 1).reshape(-1, 1) * away)  # r exp(a v) = q exp((a - 1) v)
+    turned[:, number] = rotations.multiply(turned[:, number], turn)
+    return replace(motion, rotations=turned)

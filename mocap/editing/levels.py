@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Array, Indices
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body
 from mocap.editing.displacements import displaced, spline_basis
@@ -66,10 +66,6 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
     -------
     c, shape (K, n); the curve is B c.
 
-    Raises
-    ------
-    MocapError : for another number of data than of frames, and a frame that is not there.
-
     Examples
     --------
     >>> control = scattered_fit(spline_basis(11, 5), np.array([[1.0]]), np.array([5]))
@@ -78,12 +74,6 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
 
     Notebook: 14-levels
     """
-    if np.ndim(data) != 2 or np.shape(at) != np.shape(data)[:1]:
-        raise MocapError(
-            f"Each datum, a row of numbers, needs a frame; got {np.shape(data)}, {np.shape(at)}."
-        )
-    if np.size(at) and not 0 <= np.min(at) <= np.max(at) < basis.shape[0]:
-        raise MocapError(f"Data stand at frames 0 to {basis.shape[0] - 1}, got {min(at)} to {max(at)}.")
     return local_heights(basis[at], np.asarray(data, float))
 
 
@@ -155,7 +145,10 @@ def hierarchy(
         asked = np.asarray(pins.held.any(axis=-1) | (errors > 0))  # (F, P)
         frames = np.asarray(asked.any(axis=1))
         _, _, change, body = solve_quietly(motion, pins.only(frames), [ASK], body)
-        who = listeners(base, pins, body, asked) if listen else np.repeat(frames[:, None], len(body.price), 1)
+        # The root's place listens to all frames, a joint's turns to those in which a joint below is pinned.
+        below = [np.isin(body.joints, base.skeleton.path_to_root(joint)[1:]) for joint in pins.joints]
+        turns = asked @ np.array(below) if listen else np.repeat(frames[:, None], len(body.joints), 1)
+        who = np.hstack([np.repeat(frames[:, None], 3, axis=1), turns])  # (F, n)
         basis = spline_basis(len(base), seconds * base.fps)
         fits = [scattered_fit(basis, change[at, n, None], np.flatnonzero(at)) for n, at in enumerate(who.T)]
         motion = displaced(motion, body.displacement(basis @ np.hstack(fits), len(base.skeleton)))
@@ -163,13 +156,3 @@ def hierarchy(
         rms = float(np.sqrt((errors[frames] ** 2).mean()))
         levels.append(Level(seconds, int(frames.sum()), float(errors.max()), rms))
     return motion, levels
-
-
-def listeners(base: Motion, pins: Pins, body: Body, asked: Mask) -> Mask:
-    """Say which frames each of the body's numbers listens to, (F, n), where pins ask in `asked` (F, P).
-
-    A joint's turns listen where a joint below it is pinned; the root's place listens to all.
-    """
-    above = [base.skeleton.path_to_root(joint)[1:] for joint in pins.joints]
-    moves = np.array([np.isin(body.joints, joints) for joints in above])  # (P, T)
-    return np.hstack([np.repeat(asked.any(axis=1, keepdims=True), 3, axis=1), asked @ moves])

@@ -7,7 +7,7 @@ from scipy.linalg import solveh_banded
 from scipy.ndimage import maximum_filter1d
 from scipy.spatial import cKDTree
 
-from mocap._shared.arrays import Array, Indices, Points, runs
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.path_editing import CHORD, Ride, moving_frames
@@ -67,15 +67,13 @@ class RoundedLine(NamedTuple):
     @property
     def roundings(self) -> list[Rounding]:
         """The stretches that are moved by more than 1 cm."""
-        found: list[Rounding] = []
-        for start, stop in runs(self.moved > SEEN):
-            first, last = float(self.asked[start]), float(self.asked[stop - 1])
-            worst = float(self.moved[start:stop].max())
-            if found and first - found[-1].end < JOINED:
-                before = found.pop()
-                first, worst = before.start, max(worst, before.worst)
-            found.append(Rounding(first, last, worst))
-        return found
+        far = np.flatnonzero(self.moved > SEEN)
+        new = (np.diff(far) > 1) & (np.diff(self.asked[far]) >= JOINED)
+        parts = [part for part in np.split(far, np.flatnonzero(new) + 1) if len(part)]
+        ends = [(float(self.asked[part[0]]), float(self.asked[part[-1]])) for part in parts]
+        return [
+            Rounding(*both, float(self.moved[part].max())) for both, part in zip(ends, parts, strict=True)
+        ]
 
 
 def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> RoundedLine:
@@ -110,59 +108,41 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     radius = np.diff(ride.along).max(initial=0.0) * fps / limit / spacing  # in cells
     walked = ride.along[ride.along <= path.length]  # to round a line makes it shorter
     own = np.diff(moving_frames(ride.path, walked).angle) * fps
-    turns = _Turns(walked, own, fps, limit, SMOOTH / spacing, WIDEST * radius)
-    line, slow = _as_slow(asked, turns)
+
+    def too_fast(line: Points) -> Indices:
+        """Find the points of a line where the walk would turn too fast."""
+        metres = _metres(line)
+        along = walked[walked <= metres[-1]]
+        rate = np.diff(moving_frames(GroundPath(from_ground(line)), along).angle) * fps
+        fast = np.abs(rate) > limit + np.maximum(np.sign(rate) * own[: len(rate)], 0)  # to the same side
+        return np.unique(np.searchsorted(metres, along[1:][fast]))
+
+    least, most = SMOOTH / spacing, WIDEST * radius
+    reach, slow = np.full(len(asked), least), False
+    while not slow:
+        line = _smoothed(asked, reach**4)
+        near = too_fast(line)
+        slow, grows = not len(near), near[reach[near] < most]
+        if not len(grows):
+            break
+        reach = _wider(reach, grows)
     rounded = _measured(path, even, line, even.along)
     cut = rounded.moved.max() > max(CUT * radius * spacing, CHORD)
     if slow and not cut and rounded.path.length > SHORTER * path.length:
         return rounded
     places, points = _steered(asked, spacing, radius)
-    line = _smoothed(points, np.full(len(points), turns.least**4))
-    return _measured(path, even, line, spacing * places)
+    return _measured(path, even, _smoothed(points, np.full(len(points), least**4)), spacing * places)
 
 
 def _measured(path: GroundPath, even: GroundPath, line: Points, places: Array) -> RoundedLine:
     """Measure how far a line is from the one asked for, and that from the line."""
+
+    def far(points: Array, goal: GroundPath) -> Array:
+        return np.asarray(cKDTree(goal.resampled(SPACING / 10).points).query(points)[0])
+
     rounded = GroundPath(from_ground(line))
-    missed = np.interp(places, even.along, _distance(on_ground(even.points), rounded))
-    return RoundedLine(rounded, _metres(line), places, np.maximum(_distance(line, path), missed))
-
-
-class _Turns(NamedTuple):
-    """What a line is rounded for: a walk, and the least and the largest reach, in points of the line.
-
-    `along` (F,) are the walk's metres along its path, `own` (F - 1,) how fast it turns itself, radians per
-    second; it has `fps` frames per second, and may be turned by `limit` radians per second.
-    """
-
-    along: Array
-    own: Array
-    fps: float
-    limit: float
-    least: float
-    most: float
-
-    def too_fast(self, line: Points) -> Array:
-        """List the metres along a line where the walk would turn too fast."""
-        along = self.along[self.along <= _metres(line)[-1]]
-        rate = np.diff(moving_frames(GroundPath(from_ground(line)), along).angle) * self.fps
-        own = np.maximum(np.sign(rate) * self.own[: len(rate)], 0)  # to the same side
-        fast: Array = along[1:][np.abs(rate) > self.limit + own]
-        return fast
-
-
-def _as_slow(points: Points, turns: _Turns) -> tuple[Points, bool]:
-    """Smooth a line where the walk turns too fast, until it does not; say whether that was reached."""
-    reach = np.full(len(points), turns.least)
-    cells = round(CHORD / SPACING)
-    while True:
-        line = _smoothed(points, reach**4)
-        fast = turns.too_fast(line)
-        near = np.unique(np.searchsorted(_metres(line), fast))
-        grows = near[reach[near] < turns.most]
-        if not len(grows):
-            return line, not len(near)
-        reach = _wider(reach, grows, cells)
+    missed = np.interp(places, even.along, far(even.points, rounded))
+    return RoundedLine(rounded, _metres(line), places, np.maximum(far(from_ground(line), path), missed))
 
 
 def _metres(line: Points) -> Array:
@@ -190,17 +170,12 @@ def _steered(points: Points, step: float, radius: float) -> tuple[Array, Points]
     return np.array(places), np.array(found)
 
 
-def _distance(points: Points, path: GroundPath) -> Array:
-    """Measure how far some points are from a path, metres."""
-    return np.asarray(cKDTree(path.resampled(SPACING / 10).points).query(from_ground(points))[0])
-
-
-def _wider(reach: Array, near: Indices, cells: int) -> Array:
-    """Let a reach (n,) grow within some cells of the points `near`; further away it falls with a slope."""
+def _wider(reach: Array, near: Indices) -> Array:
+    """Let a reach (n,) grow within a chord of the points `near`; further away it falls with a slope."""
     grown = np.zeros(len(reach))
     grown[near] = GROW * reach[near]
     fall = FALL * np.arange(len(reach))
-    grown = maximum_filter1d(grown, 2 * cells + 1)
+    grown = maximum_filter1d(grown, 2 * round(CHORD / SPACING) + 1)
     after = np.maximum.accumulate(grown + fall) - fall
     before = np.maximum.accumulate((grown - fall)[::-1])[::-1] + fall
     return np.asarray(np.maximum(reach, np.maximum(after, before)))

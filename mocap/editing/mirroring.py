@@ -34,21 +34,14 @@ ENDING = "_mirrored"
 class Symmetry(NamedTuple):
     """What is left and what is right in a skeleton.
 
-    Parameters
-    ----------
-    partners : shape (J,), each joint's mirror image; its own number in the middle.
-    across : the unit vector from right to left in the body at rest, (3,).
-    turns : shape (J, 4), quaternions K, which lay the bones of a partner on the mirror images of a joint's
-        own.
-    worst : the joint whose bone differs most from its partner's.
-    gap : by how much their lengths differ, metres.
+    `partners` (J,) are the joints' mirror images, a joint's own number in the middle; `across` (3,) is the
+    unit vector from right to left in the body at rest; `turns` (J, 4) are quaternions K, which lay the bones
+    of a partner on the mirror images of a joint's own.
     """
 
     partners: NDArray[np.intp]
     across: Array
     turns: Array
-    worst: str
-    gap: float
 
 
 def symmetry(skeleton: Skeleton) -> Symmetry:
@@ -60,41 +53,28 @@ def symmetry(skeleton: Skeleton) -> Symmetry:
 
     Examples
     --------
-    >>> from mocap.datasets.samples import SKELETON
-    >>> found = symmetry(SKELETON)
-    >>> found.across.tolist(), found.gap
-    ([1.0, 0.0, 0.0], 0.0)
+    >>> from mocap.datasets.generated import SKELETON
+    >>> symmetry(SKELETON).across.tolist()
+    [1.0, 0.0, 0.0]
     """
-    joints = range(len(skeleton))
+    joints, above = range(len(skeleton)), skeleton.parents
     partners = np.array([skeleton.partner(joint) for joint in joints])
-    above = skeleton.parents
-    alike = partners[partners] == np.arange(len(skeleton))
+    alike = partners[partners] == joints
     alike[1:] &= partners[above[1:]] == above[partners[1:]]
     if not alike.all():
-        name = skeleton.names[int(alike.argmin())]
-        raise MocapError(
-            f"'{shortened(name, 40)}' has no mirror image: its side has other joints than the other."
-        )
-    across = _across(skeleton, partners)
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    gaps = np.abs(lengths - lengths[partners])
-    worst = int(gaps.argmax())
-    turns = _turns(skeleton, partners, across)
-    return Symmetry(partners, across, turns, skeleton.names[worst], float(gaps[worst]))
-
-
-def _across(skeleton: Skeleton, partners: NDArray[np.intp]) -> Array:
-    """Give the direction from right to left at rest, between the first partners that sit apart."""
-    places = np.zeros_like(skeleton.offsets)
-    for joint in range(1, len(skeleton)):
-        places[joint] = places[skeleton.parents[joint]] + skeleton.offsets[joint]
-        apart = places[joint] - places[partners[joint]]
-        if partners[joint] < joint and np.linalg.norm(apart) > 1e-3:
-            across = apart / np.linalg.norm(apart) * (1 if skeleton.side(joint) == "left" else -1)
-            axis = int(np.abs(across).argmax())
-            near = abs(across[axis]) > NEAR
-            return np.asarray(np.sign(across[axis]) * np.eye(3)[axis] + 0.0 if near else across)
-    raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
+        name = shortened(skeleton.names[int(alike.argmin())], 40)
+        raise MocapError(f"'{name}' has no mirror image: its side has other joints than the other.")
+    places = np.array([skeleton.offsets[skeleton.path_to_root(joint)[:-1]].sum(axis=0) for joint in joints])
+    apart = places - places[partners]
+    pairs = np.flatnonzero((partners < joints) & (np.linalg.norm(apart, axis=-1) > 1e-3))
+    if not len(pairs):
+        raise MocapError(f"No left and right joints here: {shortened(', '.join(skeleton.names), 100)}.")
+    across = apart[pairs[0]] / np.linalg.norm(apart[pairs[0]])
+    across *= 1 if skeleton.side(int(pairs[0])) == "left" else -1
+    axis = int(np.abs(across).argmax())
+    if abs(across[axis]) > NEAR:
+        across = np.sign(across[axis]) * np.eye(3)[axis] + 0.0
+    return Symmetry(partners, across, _turns(skeleton, partners, across))
 
 
 def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Array:
@@ -177,42 +157,35 @@ def mirror(motion: Motion) -> Motion:
     Notebook: 10-real-data
     """
     skeleton = motion.skeleton
-    found = symmetry(skeleton)
-    if found.gap > LOPSIDED:
+    partners, across, turns = symmetry(skeleton)
+    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
+    gaps = np.abs(lengths - lengths[partners])
+    if gaps.max() > LOPSIDED:
         warnings.warn(
-            f"'{shortened(motion.name, 60)}': left and right bones differ by up to {1000 * found.gap:.0f} mm "
-            f"({shortened(found.worst, 40)}), so its mirror image does not reach quite as far.",
+            f"'{shortened(motion.name, 60)}': left and right bones differ by up to {1e3 * gaps.max():.0f} mm "
+            f"({shortened(skeleton.names[gaps.argmax()], 40)}), so its mirror image does not reach as far.",
             MocapWarning,
             stacklevel=2,
         )
-    before = rotations.inverse(found.turns[skeleton.parents])
-    before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(found.across))
-    local = rotations.multiply(
-        before, rotations.multiply(_flipped(motion.rotations, found.across), found.turns)
-    )
+    before = rotations.inverse(turns[skeleton.parents])
+    before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))
+    vectors = -motion.rotations[..., 1:] @ _reflection(across)  # (w, v) becomes (w, -H v)
+    flipped = np.concatenate([motion.rotations[..., :1], vectors], axis=-1)
+    local = rotations.multiply(before, rotations.multiply(flipped, turns))
+    other = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
+    names = dict(zip(skeleton.names, (skeleton.names[joint] for joint in partners), strict=True))
     return replace(
         motion,
         root_positions=motion.root_positions * (1 - 2 * ACROSS),
-        rotations=local[:, found.partners],
+        rotations=local[:, partners],
         name=mirrored_name(motion.name),
-        labels={_other_side(label): mark for label, mark in motion.labels.items()},
-        contacts={_partner(skeleton, found, joint): mark for joint, mark in motion.contacts.items()},
+        labels={
+            re.sub("[Ll]eft|[Rr]ight", lambda word: other[word[0]], label): mark
+            for label, mark in motion.labels.items()
+        },
+        contacts={names[joint]: mark for joint, mark in motion.contacts.items()},
     )
 
 
 def _reflection(across: Array) -> Array:
     return np.eye(3) - 2 * np.outer(across, across)
-
-
-def _flipped(quaternions: Array, across: Array) -> Array:
-    """Mirror rotations: (w, v) becomes (w, -H v)."""
-    return np.concatenate([quaternions[..., :1], -quaternions[..., 1:] @ _reflection(across)], axis=-1)
-
-
-def _partner(skeleton: Skeleton, found: Symmetry, name: str) -> str:
-    return str(skeleton.names[found.partners[skeleton.index(name)]])
-
-
-def _other_side(label: str) -> str:
-    swap = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
-    return re.sub("|".join(swap), lambda word: swap[word[0]], label)

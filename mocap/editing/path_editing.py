@@ -14,13 +14,12 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from mocap._shared.arrays import Array, frozen
+from mocap._shared.arrays import Array
 from mocap.body.ground_path import CLOSEST, GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground, on_ground
 from mocap.editing.displacements import spline_basis
 from mocap.errors import MocapError, MocapWarning
-from mocap.feet.footskate import clean_up
 
 # Seconds between knots: too slow for the sway, of which 4.9 to 5.1 cm stay in the motion. With 0.4 the path
 # takes half of the sway, and its heading wags by 13°; 0.9, near a stride, aliases.
@@ -48,10 +47,6 @@ class Ride:
     path: GroundPath
     along: Array
     handles: Array
-
-    def __post_init__(self) -> None:
-        for name in ("along", "handles"):
-            object.__setattr__(self, name, frozen(getattr(self, name), np.float64))
 
     def with_handles(self, handles: ArrayLike) -> GroundPath:
         """Draw the path that other handles (K, 2) give; a handle moves it within two knots to either side."""
@@ -90,8 +85,6 @@ def ride_of(motion: Motion, *, stride: float = STRIDE) -> Ride:
 
     Notebook: 12-path-editing
     """
-    if not (np.isfinite(stride) and stride > 0):
-        raise MocapError(f"Knots must be more than 0 s apart, got stride={stride}.")
     basis = spline_basis(len(motion), stride * motion.fps)
     track = motion.root_positions[:, [0, 2]]
     middle, normal = track.mean(axis=0), (basis.T @ basis).tocsc()
@@ -135,28 +128,22 @@ def moving_frames(path: GroundPath, along: ArrayLike, *, chord: float = CHORD) -
     """
     if not (np.isfinite(chord) and chord > 0):
         raise MocapError(f"A chord reaches more than 0 m before and after, got chord={chord}.")
-    along = np.asarray(along, float)
-    place, ahead, behind = _points(path, np.stack([along, along + chord, along - chord]), chord)
-    way = ahead - behind
-    defined = np.abs(way) > CLOSEST  # not where the path comes back on itself
+    along, length = np.asarray(along, float), path.length
+    start, end = (float(np.clip(at, 0, length)) for at in (chord, length - chord))
+    knots = on_ground(np.concatenate([path.points[[0, -1, 1, -2]], path.at([start, end])]))
+    # Which way the path goes on beyond its ends: as the chord there, or as its first and last step.
+    ways = np.array([[knots[4] - knots[0], knots[2] - knots[0]], [knots[1] - knots[5], knots[1] - knots[3]]])
+    ways = np.where(np.abs(ways[:, 0]) > CLOSEST, ways[:, 0], ways[:, 1])
+    ways /= np.abs(ways)
+    moments = np.stack([along, along + chord, along - chord])
+    beyond = np.minimum(moments, 0) * ways[0] + np.maximum(moments - length, 0) * ways[1]
+    place, ahead, behind = on_ground(path.at(moments)) + beyond
+    defined = np.abs(ahead - behind) > CLOSEST  # not where the path comes back on itself
     angle = np.zeros(len(along))
     if defined.any():
         frames = np.arange(len(along))
-        angle = np.interp(frames, frames[defined], np.unwrap(np.angle(way[defined])))
+        angle = np.interp(frames, frames[defined], np.unwrap(np.angle((ahead - behind)[defined])))
     return PlanarTransform(angle, place.imag, place.real)
-
-
-def _points(path: GroundPath, along: Array, chord: float) -> Array:
-    """Give the points `along` (...) metres from the start as complex numbers; beyond the ends straight on."""
-    ends = on_ground(path.points[[0, -1]])
-    length = path.length
-    inner = on_ground(path.at([min(chord, length), max(length - chord, 0)]))
-    way = np.array([inner[0] - ends[0], ends[1] - inner[1]])
-    steps = np.diff(on_ground(path.points))[[0, -1]]
-    way = np.where(np.abs(way) > CLOSEST, way, steps)
-    way /= np.abs(way)
-    beyond = np.minimum(along, 0) * way[0] + np.maximum(along - length, 0) * way[1]
-    return np.asarray(on_ground(path.at(along)) + beyond)
 
 
 def start_at(path: GroundPath, ride: Ride) -> GroundPath:
@@ -213,7 +200,7 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
 
     Raises
     ------
-    MocapError : for a motion that goes nowhere, a ride of another motion, and choices that there are not.
+    MocapError : for a motion that goes nowhere, a ride of another motion, and another word to keep.
 
     Warns
     -----
@@ -236,8 +223,6 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
         raise MocapError(f"The ride has {len(ride.along)} frames, '{motion.name}' has {len(motion)}.")
     if keep not in ("speed", "ends"):
         raise MocapError(f"A motion keeps its 'speed' or the path's 'ends', got keep={keep!r}.")
-    if turn not in (True, False):
-        raise MocapError(f"A body turns with its path or not, got turn={turn!r}.")
     longer = path.length / ride.path.length if keep == "ends" else 1.0
     old, new = (
         moving_frames(line, along, chord=chord)
@@ -245,24 +230,13 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
     )
     if not turn:
         old, new = (frames._replace(angle=np.zeros(len(motion))) for frames in (old, new))
-    bent = (new @ old.inverse()).apply_motion(motion)
     if not 0.5 <= longer <= 2:
-        _warn(bent, longer)
-    return bent
-
-
-def _warn(bent: Motion, longer: float) -> None:
-    """Warn of steps that no leg takes, with the share of the plants that a clean-up keeps."""
-    kept = ""
-    if bent.contacts:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MocapWarning)
-            kept = f"; a clean-up keeps {plants_kept(clean_up(bent), bent):.0%} of its plants"
-    warnings.warn(
-        f"'{bent.name}' takes steps {longer:.2f} times as long on this path{kept}.",
-        MocapWarning,
-        stacklevel=3,
-    )
+        warnings.warn(
+            f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.",
+            MocapWarning,
+            stacklevel=2,
+        )
+    return (new @ old.inverse()).apply_motion(motion)
 
 
 def plants_kept(cleaned: Motion, bent: Motion) -> float:

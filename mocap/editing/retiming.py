@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
@@ -106,10 +106,6 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     -------
     N frames at the motion's rate; labels and contacts come from the nearest frame.
 
-    Raises
-    ------
-    MocapError : for moments that are not finite, or none.
-
     Examples
     --------
     >>> from mocap.datasets import sample
@@ -117,40 +113,28 @@ def at_frames(motion: Motion, frames: ArrayLike) -> Motion:
     >>> at_frames(walk, [0, 2.5, 8])
     Motion('walk_straight', 3 frames at 120 Hz, 38 joints)
     """
-    moments = np.asarray(frames, float)
-    if moments.ndim != 1 or not len(moments) or not np.isfinite(moments).all():
-        raise MocapError(f"A motion is shown at one or more finite moments, got shape {moments.shape}.")
     last = len(motion) - 1
-    moments = np.clip(moments, 0, last)
+    moments = np.clip(np.asarray(frames, float), 0, last)
     start = np.minimum(moments.astype(int), max(last - 1, 0))
-    root, turn = _between(motion, start, moments - start)
-    nearest = np.round(moments).astype(int)
-    labels = {name: mark[nearest] for name, mark in motion.labels.items()}
-    contacts = {name: mark[nearest] for name, mark in motion.contacts.items()}
-    return replace(motion, root_positions=root, rotations=turn, labels=labels, contacts=contacts)
-
-
-def _between(motion: Motion, start: Indices, share: Array) -> tuple[Array, Array]:
-    """Give roots and rotations at a share of the way from frame `start` to the next."""
-    last = len(motion) - 1
-    frames = [np.clip(start + step, 0, last) for step in (-1, 0, 1, 2)]
-    base = motion.rotations[start]
-    weigh = _hermite_weights(frames, share)
-    log = [
-        rotations.to_rotvec(rotations.multiply(rotations.inverse(base), motion.rotations[f])) for f in frames
-    ]
-    root = sum(w[:, None] * motion.root_positions[f] for w, f in zip(weigh, frames, strict=True))
-    turn = sum(w[:, None, None] * vector for w, vector in zip(weigh, log, strict=True))
-    return np.asarray(root), rotations.multiply(base, rotations.from_rotvec(turn))
-
-
-def _hermite_weights(frames: Sequence[Indices], u: Array) -> Array:
-    """Weigh the frames i - 1, i, i + 1, i + 2 so that they give the Hermite curve, shape (4, N)."""
-    before, here, there, after = frames
+    u, base = moments - start, motion.rotations[start]
+    around = [np.clip(start + step, 0, last) for step in (-1, 0, 1, 2)]
+    before, here, there, after = around
     first, second = (np.maximum(b - a, 1) for a, b in ((before, there), (here, after)))  # one or two frames
-    rise, fall = (u**3 - 2 * u**2 + u) / first, (u**3 - u**2) / second
-    end = 3 * u**2 - 2 * u**3
-    return np.stack([-rise, 1 - end - fall, end + rise, fall])
+    rise, fall, end = (u**3 - 2 * u**2 + u) / first, (u**3 - u**2) / second, 3 * u**2 - 2 * u**3
+    weights = (-rise, 1 - end - fall, end + rise, fall)  # of the four frames, for a cubic Hermite curve
+    root, turn = np.zeros((len(u), 3)), np.zeros((*base.shape[:2], 3))
+    for weight, frame in zip(weights, around, strict=True):
+        away = rotations.multiply(rotations.inverse(base), motion.rotations[frame])
+        root += weight[:, None] * motion.root_positions[frame]
+        turn += weight[:, None, None] * rotations.to_rotvec(away)
+    nearest = np.round(moments).astype(int)
+    return replace(
+        motion,
+        root_positions=root,
+        rotations=rotations.multiply(base, rotations.from_rotvec(turn)),
+        labels={name: mark[nearest] for name, mark in motion.labels.items()},
+        contacts={name: mark[nearest] for name, mark in motion.contacts.items()},
+    )
 
 
 def _checked(keys: TimeKeys) -> tuple[Array, Array]:

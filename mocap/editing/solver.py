@@ -23,7 +23,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.displacements import displaced
 from mocap.editing.pins import Pins, Rows, pin_errors, require_pins_of
-from mocap.editing.steps import Basis, Curve, linear
+from mocap.editing.steps import Basis, Curve, Linear, linear
 from mocap.errors import MocapError, MocapWarning
 
 TOLERANCE = 0.005  # metres: what the solver may leave without a warning
@@ -112,14 +112,17 @@ def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = 
 
 def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = None) -> Solved:
     """Solve as `solve` does, without a word on what is left."""
-    _check(base, pins, bases)
+    require_pins_of(base, pins)
+    require_reachable(base, pins)
+    if not len(bases):
+        raise MocapError("To solve takes a basis or more, got none.")
     body = body or body_of(base, pins.joints)
-    if not (body.joints < len(base.skeleton)).all():
-        raise MocapError(f"The body turns joints that '{base.name}' lacks: it has {len(base.skeleton)}.")
     change, worst = np.zeros((len(base), len(body.price))), [float(pin_errors(base, pins).max(initial=0.0))]
     for number, way in enumerate(bases):
         if number == 0 and not way.alone and (np.isfinite(pins.high) & ~pins.held).any():
             way = way._replace(damping=CEILING * way.damping)
+        if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.passes >= 1):
+            raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
         missed = pin_errors(base, pins).max(axis=1, initial=0.0) > MET
         rows = np.flatnonzero(missed) if way.alone else slice(None)
         change = np.zeros_like(change)
@@ -143,7 +146,8 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
         before = curve.cost(c, now.gap)
         gain = before - curve.cost(new, then.gap)  # of each frame by itself, or of all together
         helps = gain > 0
-        c, now = np.where(helps, new, c), now.replaced(helps, then)
+        c = np.where(helps, new, c)
+        now = Linear(np.where(helps, then.gap, now.gap), np.where(helps[..., None], then.slopes, now.slopes))
         more = (np.abs(gain) > np.where(helps, GAIN, GAIN / 100) * before) | (helps & (damping > 1))
         damping = np.where(helps, damping / FALL, damping * RISE)
         worst.append(now.worst)
@@ -165,19 +169,6 @@ def _pared(base: Motion, pins: Pins, body: Body, rows: Rows) -> tuple[Motion, Pi
     motion = Motion(small, base.root_positions[rows], base.rotations[rows][:, kept], base.fps, base.name)
     own = Pins(tuple(number[joint] for joint in pins.joints), pins.low[rows], pins.high[rows])
     return motion, own, body._replace(joints=np.searchsorted(kept, body.joints))
-
-
-def _check(base: Motion, pins: Pins, bases: Sequence[Basis]) -> None:
-    """Raise `MocapError` for what cannot be solved."""
-    require_pins_of(base, pins)
-    require_reachable(base, pins)
-    if not len(bases):
-        raise MocapError("To solve takes a basis or more, got none.")
-    for way in bases:
-        if not (0 <= way.knots < np.inf and 0 <= way.calm < np.inf and 0 < way.weight < np.inf):
-            raise MocapError(f"A basis needs knots and calm of 0 s or more, and a weight above 0, got {way}.")
-        if not (way.passes >= 1 and 0 <= way.damping < np.inf):
-            raise MocapError(f"A basis needs a pass or more, and a damping of 0 or more, got {way}.")
 
 
 def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> None:

@@ -101,13 +101,12 @@ class Stance:
         return np.asarray(self.points[self.roles[end]] - self.points[self.roles[start]])
 
 
-def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stance:
+def stance_of(motion: Motion) -> Stance:
     """Take the stance of a motion's skeleton: its rest pose where that stands, else the mean over the motion.
 
     Parameters
     ----------
     motion : a walk, where the rest pose means nothing; its feet give the heights in any case.
-    told : {role: joint's name}, as for `roles`.
 
     Raises
     ------
@@ -121,18 +120,16 @@ def stance_of(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stanc
 
     Notebook: 13-retargeting
     """
-    who = roles(motion.skeleton, told)
+    who = roles(motion.skeleton)
     motion = with_plants(motion, legs_among(who))
     heights = standing_heights(motion, who)
     try:
-        return stance_of_zero(motion.skeleton, heights, told=told)
+        return stance_of_zero(motion.skeleton, heights)
     except MocapError:
-        return stance_of_walk(motion, told=told)
+        return stance_of_walk(motion)
 
 
-def stance_of_zero(
-    skeleton: Skeleton, heights: Mapping[str, float] | float, *, told: Mapping[str, str] | None = None
-) -> Stance:
+def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> Stance:
     """Take a skeleton's rest pose, all rotations zero, as its stance, and lay its feet flat.
 
     A foot that hangs at rest, by more than 45°, is laid straight ahead.
@@ -142,7 +139,6 @@ def stance_of_zero(
     skeleton : its rest pose must stand upright and head +z.
     heights : metres over the floor by role, as `standing_heights` measures them; or one number for both
         balls, with the ankles as far above as in the rest pose.
-    told : {role: joint's name}, as for `roles`.
 
     Raises
     ------
@@ -158,7 +154,7 @@ def stance_of_zero(
     array([ 0.09, -0.94,  0.04])
     """
     turns = np.tile(rotations.IDENTITY, (len(skeleton), 1))
-    rest = Stance(skeleton, roles(skeleton, told), turns, dict.fromkeys(FEET, 0.0))
+    rest = Stance(skeleton, roles(skeleton), turns, dict.fromkeys(FEET, 0.0))
     level = _degrees(rest.bone("right hip", "left hip"), [1, 0, 0])
     hanging = max(_degrees(rest.bone(f"{side} hip", f"{side} knee"), [0, -1, 0]) for side in SIDES)
     if level > LEVEL or hanging > HANGING:
@@ -183,7 +179,7 @@ def _degrees(vector: Array, other: list[int]) -> float:
     return float(np.degrees(rotations.angle_between(rotations.IDENTITY, rotations.between(vector, other))))
 
 
-def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> Stance:
+def stance_of_walk(motion: Motion) -> Stance:
     """Take the mean over a walk as the stance of its skeleton; this needs no rest pose that means anything.
 
     The idea is ours: each joint's mean turn against the body's heading, which is square to the hips' line; a
@@ -193,7 +189,6 @@ def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> 
     Parameters
     ----------
     motion : upright, with feet that stand flat at times; its plants are marked if they are not yet.
-    told : {role: joint's name}, as for `roles`.
 
     Raises
     ------
@@ -206,7 +201,7 @@ def stance_of_walk(motion: Motion, *, told: Mapping[str, str] | None = None) -> 
     >>> rotations.rotate(stance.turns[0], [0, 0, 1]).round(1) + 0.0  # the pelvis looks ahead
     array([0., 0., 1.])
     """
-    who = roles(motion.skeleton, told)
+    who = roles(motion.skeleton)
     legs = legs_among(who)
     motion = with_plants(motion, legs)
     pose = forward_kinematics(motion)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg import block_diag, solveh_banded
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics
 from mocap.body.motion import Motion
 from mocap.editing.bodies import Body
@@ -68,11 +68,6 @@ class Linear(NamedTuple):
     def worst(self) -> float:
         """The largest distance of a joint from its pin, metres."""
         return float(np.linalg.norm(self.gap.reshape(len(self.gap), -1, 3), axis=-1).max())
-
-    def replaced(self, helps: Mask, other: "Linear") -> "Linear":
-        """Take the frames (F, 1), or all (1, 1), where it helps from another one."""
-        slopes = np.where(helps[..., None], other.slopes, self.slopes)
-        return Linear(np.where(helps, other.gap, self.gap), slopes)
 
 
 def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from difflib import SequenceMatcher
-from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,8 +16,8 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
+from mocap.editing.edits import posed
 from mocap.editing.keys import HALF_SECOND, Key, offsets
-from mocap.editing.posing import posed
 from mocap.editing.retiming import retime
 from mocap.errors import FormatError, MocapError
 from mocap.feet.footskate import clean_up
@@ -27,25 +25,18 @@ from mocap.files.text import lines, read_text, to_numbers
 
 AT = "'at MOMENT JOINT LEFT UP AHEAD [level]', 'at MOMENT same' or 'at MOMENT level'"
 LINE = f"{AT}, or 'time NEW OLD'"
-WHEN = re.compile(r"(\d+\.?\d*|\.\d+)(s?)")
+# A line about poses: a moment, and then one word, or a joint, three numbers, and perhaps `level`.
+POSE = re.compile(
+    r"at (?P<moment>\d+\.?\d*|\.\d+)(?P<seconds>s?) (?:(?P<word>same|level)"
+    r"|(?P<joint>(?!(?:same|level) )\S+) (?P<move>\S+ \S+ \S+)(?P<level> level)?)"
+)
 
 
 class Wish(NamedTuple):
     """One line about one moment: a joint that is moved, or `joint` "same" or "level" for the pose as it was.
 
-    Parameters
-    ----------
-    line : its number in the file, for messages.
-    moment : a frame, or a second where `in_seconds`.
-    in_seconds : which of the two.
-    joint : its name.
-    move : metres to the body's left, up, and ahead of it.
-    level : the change stands still there.
-
-    Examples
-    --------
-    >>> Wish(1, 1.5, True, "lhand", (0.1, 0.2, 0.0)).frame(120.0)
-    180
+    `line` is its number in the file, `moment` a frame, or a second where `in_seconds`; `move` are metres to
+    the body's left, up, and ahead of it. With `level` the change stands still there.
     """
 
     line: int
@@ -55,38 +46,13 @@ class Wish(NamedTuple):
     move: tuple[float, ...] = ()
     level: bool = False
 
-    def frame(self, fps: float) -> int:
-        """Give the nearest frame at some rate."""
-        return round(self.moment * fps if self.in_seconds else self.moment)
 
-
-class TimeKey(NamedTuple):
-    """One line about time: the `old` second of the clip is shown at the `new` one.
-
-    Examples
-    --------
-    >>> TimeKey(3, new=2.5, old=2.0).new
-    2.5
-    """
-
-    line: int
-    new: float
-    old: float
-
-
-@dataclass(frozen=True)
-class WarpPlan:
-    """What a file of keys says: `wishes` about poses in its order, and `times`.
-
-    Examples
-    --------
-    >>> WarpPlan("keys.txt", (), (TimeKey(1, 0.0, 0.0), TimeKey(2, 2.5, 2.0))).times[1].old
-    2.0
-    """
+class WarpPlan(NamedTuple):
+    """What a file of keys says: `wishes` about poses in its order, and `times`: (line, new, old second)."""
 
     path: str
     wishes: tuple[Wish, ...]
-    times: tuple[TimeKey, ...]
+    times: tuple[tuple[int, float, float], ...]
 
 
 def load_plan(path: str | Path) -> WarpPlan:
@@ -118,16 +84,27 @@ def load_plan(path: str | Path) -> WarpPlan:
     """
     wishes, times = [], []
     for number, words in lines(read_text(path)):
-        if words[0] == "at":
-            wishes.append(_wish(path, number, words[1:]))
+        found = POSE.fullmatch(" ".join(words))
+        if found:
+            at = float(to_numbers(path, number, [found["moment"]], "a moment", 1)[0])
+            move = (found["move"] or "").split()
+            metres = to_numbers(path, number, move, "LEFT UP AHEAD, in metres", len(move)).tolist()
+            joint = found["joint"] or found["word"]
+            level = found["word"] == "level" or bool(found["level"])
+            wishes.append(Wish(number, at, bool(found["seconds"]), joint, tuple(metres), level))
         elif words[0] == "time" and len(words) == 3:
             new, old = to_numbers(path, number, words[1:], "time NEW OLD, in seconds", 2).tolist()
-            times.append(TimeKey(number, new, old))
+            if times and not (times[-1][1] < new and times[-1][2] < old):
+                line, *last = times[-1]
+                expected = f"two seconds after {last[0]:g} and {last[1]:g}, those of line {line}"
+                raise FormatError(path, number, expected, f"{new:g} and {old:g}")
+            times.append((number, new, old))
         else:
-            raise FormatError(path, number, LINE, f"'{' '.join(words)}'")
+            raise FormatError(path, number, AT if words[0] == "at" else LINE, f"'{' '.join(words)}'")
     if not wishes and not times:
         raise FormatError(path, None, LINE, "no key")
-    _check_times(path, times)
+    if len(times) == 1:
+        raise FormatError(path, times[0][0], "two lines or more about time", "one")
     return WarpPlan(str(path), tuple(wishes), tuple(times))
 
 
@@ -163,10 +140,13 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     >>> warp(walk, plan)
     Motion('walk_straight', 1201 frames at 120 Hz, 38 joints)
     """
-    _require_on_clip(motion, plan)
-    moments = _by_frame(motion, plan)
     if not (math.isfinite(window) and window * motion.fps >= 1):
         raise MocapError(f"A window lasts a frame or longer, got {window} s at {motion.fps:g} Hz.")
+    last = motion.duration
+    for line, _, old in plan.times:
+        if not 0 <= old <= last + 0.5 / motion.fps:
+            raise FormatError(plan.path, line, f"an old second up to {last:g}, the clip's last", f"{old:g}")
+    moments = _by_frame(motion, plan)
     if moments:
         wanted = {frame: _places(motion, frame, wishes) for frame, wishes in moments.items()}
         keys = [_key(motion, plan, wanted[frame], moments[frame], feet) for frame in sorted(moments)]
@@ -175,53 +155,26 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
             motion = clean_up(motion)
             motion = _through(motion, [_again(motion, key, wanted[key.frame]) for key in keys], window)
     if plan.times:
-        last = motion.duration  # a second that was rounded up may lie half a frame behind it
-        motion = retime(motion, [(time.new, min(time.old, last)) for time in plan.times])
+        motion = retime(motion, [(new, min(old, last)) for _, new, old in plan.times])
         motion = clean_up(motion) if feet else motion
     return motion
 
 
-def _wish(path: str | Path, number: int, words: list[str]) -> Wish:
-    """Read what stands behind `at`."""
-    level = words[-1:] == ["level"]
-    rest = words[:-1] if level and len(words) > 2 else words  # "level" alone stands where a joint would
-    moment = WHEN.fullmatch(rest[0]) if len(rest) in (2, 5) else None
-    if not moment or (len(rest) == 2) != (rest[1] in ("same", "level")) or (level and rest[1] == "same"):
-        raise FormatError(path, number, AT, f"'at {' '.join(words)}'")
-    value = float(to_numbers(path, number, [moment[1]], "a moment", 1)[0])
-    move = to_numbers(path, number, rest[2:], "LEFT UP AHEAD, in metres", len(rest) - 2)
-    return Wish(number, value, bool(moment[2]), rest[1], tuple(move.tolist()), level)
-
-
-def _check_times(path: str | Path, times: Sequence[TimeKey]) -> None:
-    """Raise unless there are no times, or two or more that rise."""
-    if len(times) == 1:
-        raise FormatError(path, times[0].line, "two lines or more about time", "one")
-    for before, after in pairwise(times):
-        if not (before.new < after.new and before.old < after.old):
-            expected = f"two seconds after {before.new:g} and {before.old:g}, those of line {before.line}"
-            raise FormatError(path, after.line, expected, f"{after.new:g} and {after.old:g}")
-
-
-def _require_on_clip(motion: Motion, plan: WarpPlan) -> None:
-    """Raise for a second that the clip does not have."""
-    for time in plan.times:
-        if not 0 <= time.old <= motion.duration + 0.5 / motion.fps:
-            last = f"an old second up to {motion.duration:g}, the clip's last"
-            raise FormatError(plan.path, time.line, last, f"{time.old:g}")
+def _frame(motion: Motion, wish: Wish) -> int:
+    return round(wish.moment * motion.fps if wish.in_seconds else wish.moment)
 
 
 def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
     """Sort the wishes by their frames, and refuse those that the motion cannot have."""
     moments: dict[int, list[Wish]] = {}
     for wish in plan.wishes:
-        frame = wish.frame(motion.fps)
+        frame, names = _frame(motion, wish), motion.skeleton.names
         if frame >= len(motion):
             last = f"{len(motion) - 1}, or second {motion.duration:g}"
             raise FormatError(plan.path, wish.line, f"a moment up to frame {last}", f"frame {frame}")
-        if wish.move and wish.joint not in motion.skeleton.names:
-            names = ", ".join(_likest_first(wish.joint, motion.skeleton.names))
-            raise FormatError(plan.path, wish.line, f"a joint, one of {names}", f"'{wish.joint}'")
+        if wish.move and wish.joint not in names:
+            known = ", ".join(sorted(names, key=lambda name, typed=wish.joint: -_likeness(typed, name)))
+            raise FormatError(plan.path, wish.line, f"a joint, one of {known}", f"'{wish.joint}'")
         for other in moments.setdefault(frame, []):
             if not (wish.move and other.move) or wish.joint == other.joint:
                 got = f"'{wish.joint}' beside '{other.joint}' of line {other.line}"
@@ -242,11 +195,9 @@ def _key(
     motion: Motion, plan: WarpPlan, places: Mapping[str, Array], wishes: Sequence[Wish], feet: bool
 ) -> Key:
     """Make the key of one frame."""
-    frame, level = wishes[0].frame(motion.fps), any(wish.level for wish in wishes)
-    if not places:
-        return Key(frame, flat=level)
+    frame, level = _frame(motion, wishes[0]), any(wish.level for wish in wishes)
     try:
-        return Key(frame, posed(motion, frame, places, feet=feet), level)
+        return Key(frame, posed(motion, frame, places, feet=feet) if places else None, level)
     except MocapError as error:
         raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
 
@@ -254,37 +205,27 @@ def _key(
 def _again(motion: Motion, key: Key, places: Mapping[str, Array]) -> Key:
     """Make a key for the joints that no leg carries and that carry none: the root and the legs stay."""
     skeleton = motion.skeleton
-    legs = {joint for leg in find_legs(skeleton) for joint in skeleton.path_to_root(leg.ball)}
     hips = {leg.hip for leg in find_legs(skeleton)}
+    trunk = {joint for hip in hips for joint in skeleton.path_to_root(hip)}
+    above = {name: skeleton.path_to_root(skeleton.index(name)) for name in places}
     free = {
         name: place
         for name, place in places.items()
-        if skeleton.index(name) not in legs and not hips & set(skeleton.path_to_root(skeleton.index(name)))
+        if above[name][0] not in trunk and not hips & set(above[name])
     }
     root = skeleton.names[:1]
-    pose = posed(motion, key.frame, free, feet=False, still=root) if free else None
-    return key._replace(pose=pose)
+    return key._replace(pose=posed(motion, key.frame, free, feet=False, still=root) if free else None)
 
 
 def _through(motion: Motion, keys: Sequence[Key], window: float) -> Motion:
     """Warp through keys; add those from which on the motion is as it was, where the plan has none."""
-    poses = [key.frame for key in keys if key.pose is not None]
-    if not poses:
+    if all(key.pose is None for key in keys):
         return motion
     half = round(window * motion.fps)
-    ends = Key(poses[0] - half), Key(poses[-1] + half)
-    before = [end for end in ends[:1] if end.frame >= 0 and keys[0].pose is not None]
-    after = [end for end in ends[1:] if end.frame < len(motion) and keys[-1].pose is not None]
-    return displaced(motion, offsets(motion, [*before, *keys, *after]))
+    ends = [Key(key.frame + way) for key, way in ((keys[0], -half), (keys[-1], half)) if key.pose is not None]
+    known = [*keys, *(end for end in ends if 0 <= end.frame < len(motion))]
+    return displaced(motion, offsets(motion, sorted(known, key=lambda key: key.frame)))
 
 
-def _likest_first(name: str, names: Sequence[str]) -> list[str]:
-    """Sort names by how much they are like one that was typed.
-
-    Examples
-    --------
-    >>> _likest_first("lhand", ["Hips", "LeftArm", "LeftHand", "RightHand"])
-    ['LeftHand', 'RightHand', 'LeftArm', 'Hips']
-    """
-    typed = name.lower()[:80]
-    return sorted(names, key=lambda known: SequenceMatcher(None, typed, known.lower()).ratio(), reverse=True)
+def _likeness(typed: str, name: str) -> float:
+    return SequenceMatcher(None, typed.lower()[:80], name.lower()).ratio()

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
 
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
@@ -14,7 +13,6 @@ from mocap.editing.bodies import (
     Body,
     body_of,
     hinge_of,
-    length_between,
     require_reachable,
 )
 from mocap.editing.displacements import Displacement, difference, displaced
@@ -24,7 +22,6 @@ from mocap.editing.steps import Basis
 from mocap.errors import MocapError
 from mocap.files.load_save import load
 from tests.editing.wishes import captured, stone, walk
-from tests.strategies import random_motion, seeds
 
 LEGS = find_legs(walk().skeleton)
 
@@ -87,12 +84,13 @@ def test_a_knee_that_may_turn_about_three_axes_meets_the_stone_and_twists():
     assert twists["balls"] > 10
 
 
-def test_an_ankle_that_is_too_cheap_turns_too_far():
+def test_an_ankle_that_is_too_cheap_turns_too_far(monkeypatch):
     clip = walk()
     pins = stone(clip, 0.2)
     turned = []
     for effort in (0.02, 1.0):
-        solved = solve(clip, pins, [REACH], body_of(clip, pins.joints, effort=effort))
+        monkeypatch.setattr("mocap.editing.bodies.EFFORT", effort)
+        solved = solve(clip, pins, [REACH], body_of(clip, pins.joints))
         turned.append(np.linalg.norm(difference(solved.motion, clip).turns[:, LEGS[0].ankle], axis=-1).max())
     assert turned[0] > 1.4 * turned[1]
 
@@ -119,17 +117,6 @@ def test_pins_farther_apart_than_the_bones_between_are_refused():
         require_reachable(clip, high)
 
 
-@given(seeds)
-def test_joints_are_never_farther_apart_than_the_bones_between(seed):
-    clip = random_motion(seed, frames=3, joints=8)
-    positions = joint_positions(clip)
-    for a in range(8):
-        for b in range(8):
-            apart = np.linalg.norm(positions[:, a] - positions[:, b], axis=-1)
-            assert (apart <= length_between(clip.skeleton, a, b) + 1e-9).all()
-        assert clip.skeleton.path_to_root(a)[-1] == 0
-
-
 def test_a_change_on_the_left_would_miss():
     """exp(d) q₀ turns about the parent's axes: the hand that was to meet its target misses it."""
     clip = walk()[:1]
@@ -149,5 +136,3 @@ def test_bad_bodies():
         body_of(clip, [4], still=["knee"])
     with pytest.raises(MocapError, match="above 0"):
         body_of(clip, [4], prices={"lfemur": 0.0})
-    with pytest.raises(MocapError, match="above 0"):
-        body_of(clip, [4], effort=np.nan)

@@ -120,17 +120,12 @@ def test_real_walks_and_runs(real_data):
 
 
 def test_what_cannot_be_looped_is_refused():
-    with pytest.raises(MocapError, match=r"'wave' lasts 0\.47 s: a cycle takes 0\.6 s or more"):
-        find_loop(wave(15))
-    with pytest.raises(MocapError, match=r"'wave' lasts 0 s: a cycle takes 0\.6 s or more"):
-        find_loop(wave(1))
-    with pytest.raises(MocapError, match="'wave' lasts 303 s: look for a cycle in 300 s of it"):
-        find_loop(wave(9100))
+    for frames, long in ((15, r"0\.467"), (1, "0"), (9100, "303")):
+        with pytest.raises(MocapError, match=rf"'wave' lasts {long} s: to find a cycle takes 0\.6 to 300 s"):
+            find_loop(wave(frames))
     for seconds in ((2.0, 1.0), (0.0, 1.0), (0.1, 1.0), (1.0, np.inf), (np.nan, 1.0)):
         with pytest.raises(MocapError, match="from one number of seconds to a larger one"):
             find_loop(wave(200), seconds=seconds)
-    with pytest.raises(MocapError, match="closed by one of blend, inertialize, not by 'magic'"):
-        loop(wave(200), Loop(0, 40, 0, 0), way="magic")
     for first, last in ((-1, 40), (40, 40), (0, 3), (0, 195), (50, 40)):
         with pytest.raises(MocapError, match=f"from frame {first} to {last} leaves no room for a seam of 6"):
             loop(wave(200), Loop(first, last, 0, 0))

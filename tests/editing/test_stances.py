@@ -22,7 +22,7 @@ from mocap.editing.stances import (
 )
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
-from tests.editing.bodies import adult, along_x, renamed, rested, walk
+from tests.editing.bodies import adult, along_x, rested, walk
 
 
 def degrees_apart(a, b):
@@ -134,12 +134,6 @@ def test_the_hips_say_where_the_body_heads():
     facing = heading_by_hips(positions, adult().roles)
     turned = PlanarTransform(0.5, 0.0, 0.0).apply_motion(walk())
     assert np.allclose(heading_by_hips(joint_positions(turned), adult().roles), facing + 0.5)
-
-
-def test_names_can_be_told():
-    clip = renamed(walk(), {"head": "crown"})
-    assert "head" not in stance_of(clip).roles
-    assert stance_of(clip, told={"head": "crown"}).roles == adult().roles
 
 
 @pytest.mark.parametrize(
