@@ -10,8 +10,8 @@ import pytest
 from mocap.body.kinematics import forward_kinematics
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
-from mocap.editing.keys import keys_around, offsets
 from mocap.editing.edits import posed
+from mocap.editing.keys import keys_around, offsets
 from mocap.editing.retiming import retime
 from tests.editing.test_posing import post
 
