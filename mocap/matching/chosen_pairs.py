@@ -36,8 +36,8 @@ def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> 
     order = np.lexsort((i, j - i))  # by diagonal, and by frame on each
     weights = taper.astype(a.heights.dtype)
     distances = np.empty(len(i), a.heights.dtype)
-    for part in _parts(len(i)):
-        some = order[part]
+    for start in range(0, len(i), AT_ONCE):
+        some = order[start : start + AT_ONCE]
         distances[some] = _in_runs(a, b, i[some], j[some], weights)
     return distances
 
@@ -80,13 +80,10 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
     >>> fit(ready, ready, np.array([0]), np.array([1]), np.ones(1))[[0, 2, 3], 0]
     array([ 0.5, -3. , -4. ])
     """
-    return np.concatenate([_fits(a, b, i[part], j[part], taper) for part in _parts(len(i))], axis=1)
-
-
-def _fits(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
-    root = np.sqrt(taper).astype(a.heights.dtype)[:, None]
-
-    frames = np.arange(len(taper))
+    if len(i) > AT_ONCE:
+        parts = [slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE)]
+        return np.concatenate([fit(a, b, i[part], j[part], taper) for part in parts], axis=1)
+    root, frames = np.sqrt(taper).astype(a.heights.dtype)[:, None], np.arange(len(taper))
     ground, heights = [], []  # (N, k, P + 1) and (N, k, P) of each cloud
     for cloud, starts in ((a, i), (b, j)):
         each = starts[:, None] + frames
@@ -97,8 +94,3 @@ def _fits(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
     square = (np.abs(left) ** 2).sum((1, 2)) + ((heights[0] - heights[1]) ** 2).sum((1, 2))
     move = a.centres[i] - np.exp(1j * angle.astype(float)) * b.centres[j]
     return np.stack([np.sqrt(square), angle, *from_ground(move).T])
-
-
-def _parts(count: int) -> list[slice]:
-    """Cut a count of pairs into parts, at least one."""
-    return [slice(start, start + AT_ONCE) for start in range(0, max(count, 1), AT_ONCE)]

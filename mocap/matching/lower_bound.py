@@ -51,13 +51,6 @@ class Weights(NamedTuple):
     taper: Array
 
 
-class Directions(NamedTuple):
-    """The mean of f, shape (2kP,), and d orthonormal directions, shape (2kP, d), of most variance first."""
-
-    mean: Array
-    axes: Array
-
-
 def window_numbers(cloud: Cloud, starts: NDArray[np.intp], weights: Weights) -> Array:
     """Give f = (√w y, √w r) of windows: numbers that no planar transform changes.
 
@@ -89,7 +82,7 @@ def window_numbers(cloud: Cloud, starts: NDArray[np.intp], weights: Weights) -> 
     return np.concatenate([heights, np.abs(ground)], axis=2).reshape(len(starts), -1).astype(float)
 
 
-def principal_directions(numbers: Array, count: int = MOST) -> Directions:
+def principal_directions(numbers: Array, count: int = MOST) -> tuple[Array, Array]:
     """Find the directions in which rows of numbers vary most (principal component analysis).
 
     Parameters
@@ -97,9 +90,13 @@ def principal_directions(numbers: Array, count: int = MOST) -> Directions:
     numbers : shape (N, n), such as those of `window_numbers`.
     count : directions at most.
 
+    Returns
+    -------
+    The mean of the rows, shape (n,), and d orthonormal directions, shape (n, d), of most variance first.
+
     Examples
     --------
-    >>> principal_directions(np.array([[0.0, 0], [3, 4]]), 1).axes.round(6)[:, 0] ** 2
+    >>> principal_directions(np.array([[0.0, 0], [3, 4]]), 1)[1].round(6)[:, 0] ** 2
     array([0.36, 0.64])
 
     Notebook: 02c-most-pairs
@@ -108,20 +105,23 @@ def principal_directions(numbers: Array, count: int = MOST) -> Directions:
     size = numbers.shape[1]
     count = min(count, size)
     _, axes = eigh((numbers - mean).T @ (numbers - mean), subset_by_index=(size - count, size - 1))
-    return Directions(mean, np.ascontiguousarray(axes[:, ::-1]))
+    return mean, np.ascontiguousarray(axes[:, ::-1])
 
 
-def sample_directions(cloud: Cloud, weights: Weights) -> Directions:
+def sample_directions(cloud: Cloud, weights: Weights) -> tuple[Array, Array]:
     """Find the principal directions of a sample of a cloud's windows, evenly spaced."""
     return principal_directions(window_numbers(cloud, evenly(whole_windows(cloud), SAMPLE), weights))
 
 
-def projections(cloud: Cloud, starts: NDArray[np.intp], weights: Weights, directions: Directions) -> Floats:
+def projections(
+    cloud: Cloud, starts: NDArray[np.intp], weights: Weights, directions: tuple[Array, Array]
+) -> Floats:
     """Project the f of windows, some at a time; in the cloud's precision, shape (N, d)."""
-    found = np.empty((len(starts), directions.axes.shape[1]), cloud.heights.dtype)
+    mean, axes = directions
+    found = np.empty((len(starts), axes.shape[1]), cloud.heights.dtype)
     for start in range(0, len(starts), AT_ONCE):
         part = slice(start, start + AT_ONCE)
-        found[part] = (window_numbers(cloud, starts[part], weights) - directions.mean) @ directions.axes
+        found[part] = (window_numbers(cloud, starts[part], weights) - mean) @ axes
     return found
 
 

@@ -127,7 +127,13 @@ def euler_grid(
         total = np.zeros((len(p), len(q)))
         each = zip(bones, np.split(p, columns, axis=1), np.split(q, columns, axis=1), strict=True)
         for bone, angles, others in each:
-            total += weights[skeleton.names[bone]] * _angle_gaps(angles, others)
+            square = np.zeros_like(total)
+            for own, other in zip(angles.T / 360, others.T / 360, strict=True):
+                turns = own[:, None] - other
+                if np.abs(turns).max() > 0.5:
+                    turns -= np.rint(turns)
+                square += np.multiply(turns, turns, out=turns)
+            total += weights[skeleton.names[bone]] * 360 * np.sqrt(square)
         return total
 
     angles = [np.hstack([file_angles(clip, bone) for bone in bones]) for clip in (a, b)]
@@ -158,29 +164,16 @@ def file_angles(motion: Motion, joint: int) -> Array:
     return np.degrees(euler.to_euler(every, own)[:, : len(dofs)])
 
 
-def _angle_gaps(a: Array, b: Array) -> Array:
-    """Measure ‖Δ‖ for all pairs of frames of angles (F, D) in degrees, each Δ wrapped to [-180, 180]."""
-    square = np.zeros((len(a), len(b)))
-    for column_a, column_b in zip(a.T / 360, b.T / 360, strict=True):
-        turns = column_a[:, None] - column_b
-        if np.abs(turns).max() > 0.5:
-            turns -= np.rint(turns)
-        square += np.multiply(turns, turns, out=turns)
-    return 360 * np.sqrt(square)
-
-
-def pose_grid(
-    a: Motion, b: Motion, *, window: int, form: str = "quaternion", velocities: float = 0.0
-) -> Array:
+def pose_grid(a: Motion, b: Motion, *, window: int, velocities: float = 0.0) -> Array:
     """Measure the norm of the difference of pose vectors, which the paper discusses and rejects [KGP02, 3.1].
 
     It is the mean over the window of √(Σ over joints of ‖Δq‖² + (velocities · ‖Δω‖)²), without the root.
+    Of q and -q, which are the same turn, the nearer one counts.
 
     Parameters
     ----------
     a, b : motions.
     window : frames in a window.
-    form : "quaternion", where q and -q are the same; or "log", the rotation vectors in radians.
     velocities : seconds by which a difference in angular velocity ω is multiplied, so that it counts as a
         difference in pose; 0 leaves velocities out.
 
@@ -190,8 +183,8 @@ def pose_grid(
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, another
-        form, and velocities that are negative, not finite, or asked of a clip of one frame.
+    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, and
+        velocities that are negative, not finite, or asked of a clip of one frame.
 
     Examples
     --------
@@ -199,38 +192,25 @@ def pose_grid(
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> one, bent = rotations.from_rotvec([[0, 0, 0], [0.5, 0, 0]])
     >>> a, b = (Motion(bone, [[0, 1, 0]], [[one, tip]], 30.0) for tip in (one, bent))
-    >>> pose_grid(a, b, window=1, form="log").round(6)
-    array([[0.5]])
+    >>> pose_grid(a, b, window=1).round(3)  # 2 sin(0.5 / 4)
+    array([[0.249]])
 
     Notebook: 02-matching
     """
     _require_windows(a, b, window)
-    if form not in ("quaternion", "log"):
-        raise MocapError(f'The form of a pose is "quaternion" or "log", got {form!r}.')
     if not (np.isfinite(velocities) and velocities >= 0):
         raise MocapError(f"velocities must be seconds, 0 or more, got {velocities}.")
-    if form == "log":
-        square = _square_gaps(*(rotations.to_rotvec(m.rotations[:, 1:]) for m in (a, b)))
-    else:
-        square = _all_pairs(_quaternion_gaps, a.rotations[:, 1:], b.rotations[:, 1:])
+
+    def apart(p: Array, q: Array) -> Array:
+        pairs = zip(np.swapaxes(p, 0, 1), np.swapaxes(q, 0, 1), strict=True)
+        return np.asarray(sum(2 - 2 * np.minimum(np.abs(one @ other.T), 1.0) for one, other in pairs))
+
+    square = _all_pairs(apart, a.rotations[:, 1:], b.rotations[:, 1:])
     if velocities:
-        square += velocities**2 * _square_gaps(*(_angular_velocities(m)[:, 1:] for m in (a, b)))
+        v, w = (_angular_velocities(motion)[:, 1:].reshape(len(motion), -1) for motion in (a, b))
+        gaps = (v**2).sum(1)[:, None] + (w**2).sum(1) - 2 * v @ w.T
+        square += velocities**2 * np.maximum(gaps, 0.0)
     return diagonal_sum(np.sqrt(square), window) / window
-
-
-def _quaternion_gaps(a: Array, b: Array) -> Array:
-    """Measure Σ over joints of ‖q ∓ q'‖² = 2 ∓ 2 q·q', whichever sign is nearer."""
-    square = np.zeros((len(a), len(b)))
-    for q, other in zip(np.swapaxes(a, 0, 1), np.swapaxes(b, 0, 1), strict=True):
-        square += 2 - 2 * np.minimum(np.abs(q @ other.T), 1.0)
-    return square
-
-
-def _square_gaps(a: Array, b: Array) -> Array:
-    """Measure ‖v - v'‖² between all rows of two stacks of vectors."""
-    a, b = a.reshape(len(a), -1), b.reshape(len(b), -1)
-    square = (a**2).sum(1)[:, None] + (b**2).sum(1) - 2 * a @ b.T
-    return np.asarray(np.maximum(square, 0.0))
 
 
 def _angular_velocities(motion: Motion) -> Array:

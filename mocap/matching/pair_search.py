@@ -119,7 +119,7 @@ def _places(cloud: Cloud, weights: Weights, count: int) -> Floats:
     """Project the f of all windows; those that run off a clip are put far from everything."""
     starts, directions = whole_windows(cloud), sample_directions(cloud, weights)
     far = NOWHERE * np.arange(1, count + 1)[:, None]
-    places = np.repeat(far, directions.axes.shape[1], axis=1).astype(cloud.heights.dtype)
+    places = np.repeat(far, directions[1].shape[1], axis=1).astype(cloud.heights.dtype)
     places[starts] = projections(cloud, starts, weights, directions)
     return places
 

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.arrays import Indices, Mask
 from mocap.errors import MocapError
 
 Floats = NDArray[np.floating[Any]]
@@ -177,7 +177,17 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
 
     Notebook: 15-registration
     """
-    costs = _checked(grid, slope, slack)
+    costs = np.asarray(grid, float)
+    if costs.ndim != 2 or not costs.size or not np.isfinite(costs.sum()):
+        raise MocapError(
+            f"A path needs a grid of finite numbers, of two dimensions; got shape {costs.shape}."
+        )
+    if not 1 <= slope <= 63:
+        raise MocapError(f"A slope limit is a whole number from 1 to 63, got {slope}.")
+    if not 0 <= slack < min(costs.shape):
+        raise MocapError(
+            f"Slack is from 0 to less than the {min(costs.shape)} frames of a clip, got {slack}."
+        )
     starts = np.zeros(costs.shape, bool)
     starts[0, : slack + 1] = starts[: slack + 1, 0] = True
     ends = np.argwhere(starts[::-1, ::-1])
@@ -218,20 +228,3 @@ def path_mean(grid: ArrayLike, path: ArrayLike) -> float:
     values, cells = np.asarray(grid), np.asarray(path)
     advanced = np.append(2, np.abs(np.diff(cells, axis=0)).sum(axis=1))
     return float(np.average(values[cells[:, 0], cells[:, 1]], weights=advanced))
-
-
-def _checked(grid: ArrayLike, slope: int, slack: int) -> Array:
-    costs = np.asarray(grid, float)
-    if costs.ndim != 2 or not costs.size:
-        raise MocapError(f"A grid has two dimensions and some entries, got shape {costs.shape}.")
-    if not np.isfinite(costs.sum()):
-        place = np.argwhere(~np.isfinite(costs))[0].tolist()
-        raise MocapError(f"A path needs a grid of finite numbers; it holds {costs[tuple(place)]} at {place}.")
-    if not isinstance(slope, int | np.integer) or not 1 <= slope <= 63:
-        raise MocapError(f"A slope limit is a whole number from 1 to 63, got {slope}.")
-    if not isinstance(slack, int | np.integer) or not 0 <= slack < min(costs.shape):
-        raise MocapError(
-            f"Slack is a whole number of frames, from 0 to less than either clip has "
-            f"({costs.shape[0]} and {costs.shape[1]}), got {slack}."
-        )
-    return costs

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, TypedDict, get_args, overload
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array
@@ -248,25 +247,17 @@ def _both_ways(found: Array, clips: Sequence[Motion], gap: int) -> Transitions:
 
 def _limits(below: Mapping[Any, float], clips: Sequence[Motion], window: int, found: Transitions) -> Array:
     """Give each transition its threshold: NaN, which no cost is below, where no pair of labels applies."""
-    limits = np.full(len(found), np.nan)
+    starts, limits = np.cumsum([0, *map(len, clips)]), np.full(len(found), np.nan)
+
+    def bears(label: str, clip: Integers, frame: Integers) -> NDArray[np.bool_]:
+        """Mark the windows in which a label is on in any of their frames."""
+        marks = [np.broadcast_to(motion.labels.get(label, False), len(motion)) for motion in clips]
+        on, first = np.append(0, np.cumsum(np.concatenate(marks))), starts[clip] + frame
+        return np.asarray(on[first + window] > on[first])
+
     for pair, metres in ({pair and pair[::-1]: m for pair, m in below.items()} | dict(below)).items():
-        first, second = pair or (None, None)
-        applies = _labelled(first, clips, window, found.source, found.leave)
-        applies &= _labelled(second, clips, window, found.target, found.enter)
+        applies = np.ones(len(found), bool)
+        if pair:
+            applies = bears(pair[0], found.source, found.leave) & bears(pair[1], found.target, found.enter)
         limits[applies] = np.fmin(limits[applies], metres)
     return limits
-
-
-def _labelled(
-    label: str | None, clips: Sequence[Motion], window: int, clip: Integers, start: Integers
-) -> NDArray[np.bool_]:
-    """Mark the windows in which a label is on in any of their frames; all of them for no label."""
-    if label is None:
-        return np.ones(len(clip), bool)
-    on = np.zeros(len(clip), bool)
-    for number, motion in enumerate(clips):
-        if label in motion.labels:
-            mine = clip == number
-            marks = np.asarray(motion.labels[label])
-            on[mine] = sliding_window_view(marks, window)[start[mine]].any(-1)
-    return on

@@ -8,7 +8,6 @@ from hypothesis import given
 
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
@@ -80,14 +79,6 @@ def test_root_grid_adds_metres_and_radians():
     assert root_grid(a, replace(b, rotations=-b.rotations), window=2) == pytest.approx(grid)
 
 
-def test_root_grid_is_misled_by_where_a_clip_was_captured():
-    """The paper's point: a motion elsewhere is far in the root metric, at 0 in the right one [KGP02, 3.1]."""
-    a = wave(20)
-    b = PlanarTransform(2.0, 3.0, 0.0).apply_motion(a)
-    assert root_grid(a, b, window=3).diagonal().min() > 2
-    assert distance_grid(a, b, window=3).diagonal().max() < 1e-12
-
-
 @given(seeds)
 def test_the_files_own_angles_come_back(seed):
     motion, angles = body_motion(seed)
@@ -117,16 +108,8 @@ def test_the_euler_grid_takes_weights_by_name():
         euler_grid(wave(9), wave(9), window=2)
     with pytest.raises(MocapError, match="none of the bones with a weight: root, rhumerus_end"):
         euler_grid(a, a, window=2, weights={"root": 1.0, "rhumerus_end": 1.0})
-    for bad in (-1.0, np.nan, np.inf):
-        with pytest.raises(MocapError, match=f"got {{'ltibia': {bad}}}"):
-            euler_grid(a, a, window=2, weights={"lfemur": 1.0, "ltibia": bad})
-
-
-def test_the_euler_grid_leaves_out_the_root_bones_without_angles_and_weights_of_0():
-    a, _ = body_motion(0, 9)
-    weights = {"root": 1.0, "ltibia": 1.0, "rhumerus": 0.0, "rhumerus_end": 1.0}
-    one = euler_grid(a, a, window=2, weights={"ltibia": 1.0})
-    assert np.array_equal(euler_grid(a, a, window=2, weights=weights), one)
+    with pytest.raises(MocapError, match=r"got \{'ltibia': -1.0\}"):
+        euler_grid(a, a, window=2, weights={"lfemur": 1.0, "ltibia": -1.0})
 
 
 def test_the_homework_weighs_bones_of_its_skeleton_left_and_right_alike():
@@ -140,31 +123,10 @@ def test_the_pose_grid_adds_up_joints():
     a, b = random_motion(0, frames=5), random_motion(1, frames=4)
     b = replace(b, skeleton=a.skeleton)
     q, p = a.rotations[:, 1:], b.rotations[:, 1:]
-    for form, vectors in (("log", rotations.to_rotvec), ("quaternion", lambda x: x)):
-        grid = pose_grid(a, b, window=2, form=form)
-        for i, j in np.ndindex(*grid.shape):
-            steps = []
-            for f in range(2):
-                gaps = [
-                    np.linalg.norm(vectors(q[i + f]) - sign * vectors(p[j + f]), axis=-1)
-                    for sign in ((1, -1) if form == "quaternion" else (1,))
-                ]
-                steps.append(np.linalg.norm(np.min(gaps, axis=0)))
-            assert grid[i, j] == pytest.approx(np.mean(steps))
-
-
-def test_a_quaternion_and_its_negative_are_one_pose():
-    a = random_motion(0)
-    assert pose_grid(a, replace(a, rotations=-a.rotations), window=2).diagonal() == pytest.approx(0, abs=1e-6)
-
-
-def test_one_frame_does_not_tell_forwards_from_backwards():
-    """Reason three of 3.1: with velocities the two are told apart [KGP02, 3.1]."""
-    forwards = wave(21)
-    backwards = replace(forwards, rotations=forwards.rotations[::-1])
-    middle = (10, 10)
-    assert pose_grid(forwards, backwards, window=1)[middle] == pytest.approx(0, abs=1e-6)
-    assert pose_grid(forwards, backwards, window=1, velocities=0.2)[middle] > 0.1
+    grid = pose_grid(a, b, window=2)
+    for i, j in np.ndindex(*grid.shape):
+        gaps = [np.linalg.norm(q[i : i + 2] - sign * p[j : j + 2], axis=-1) for sign in (1, -1)]
+        assert grid[i, j] == pytest.approx(np.linalg.norm(np.min(gaps, axis=0), axis=-1).mean())
 
 
 @pytest.mark.parametrize("velocities", [0.0, 0.5, 2.0])
@@ -178,16 +140,14 @@ def test_the_pose_grid_weighs_differences_of_velocity(velocities):
     turns[:, :, 0] = np.random.default_rng(0).normal(size=(2, 5, 3))
     turns[:, :, 1:, 0] = angles
     clips = [Motion(bones, np.zeros((5, 3)), rotations.from_rotvec(turn), 30.0) for turn in turns]
-    grid = pose_grid(*clips, window=1, form="log", velocities=velocities)
+    grid = pose_grid(*clips, window=1, velocities=velocities)
     for i, j in np.ndindex(5, 5):
-        gaps = angles[0][i] - angles[1][j], velocities * (speeds[0][i] - speeds[1][j])
+        gaps = 2 * np.sin((angles[0][i] - angles[1][j]) / 4), velocities * (speeds[0][i] - speeds[1][j])
         assert grid[i, j] == pytest.approx(np.linalg.norm(gaps))
 
 
 def test_pose_grid_refuses_what_it_does_not_know():
     a = wave(5)
-    with pytest.raises(MocapError, match="got 'matrix'"):
-        pose_grid(a, a, window=2, form="matrix")
     for bad in (-1, np.nan, np.inf):
         with pytest.raises(MocapError, match="velocities must be seconds"):
             pose_grid(a, a, window=2, velocities=bad)

@@ -17,6 +17,7 @@ from mocap.matching.lower_bound import Weights
 from mocap.matching.minima import local_minima
 from mocap.matching.pair_search import find_minima, is_quicker
 from mocap.matching.transitions import find_transitions
+from tests.conftest import SWEEP
 from tests.strategies import seeds, wave
 
 CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
@@ -125,23 +126,6 @@ def test_only_a_few_blocks_are_out_at_once_and_they_are_shown(by_bound, monkeypa
     assert seen == [(0, 0), (0, 10), (0, 20), (10, 10), (10, 20), (20, 20)]
 
 
-def test_after_an_error_nothing_is_left_waiting(monkeypatch):
-    monkeypatch.setattr(pair_search, "BLOCK", 4)
-    futures = []
-
-    class Failing:
-        def submit(self, work, *arguments):
-            futures.append(Future())
-            if len(futures) == 1:
-                futures[0].set_exception(KeyboardInterrupt())
-            return futures[-1]
-
-    with pytest.raises(KeyboardInterrupt):
-        find_minima(clouds([30], 2, 0), equal(2), 0.8, executor=Failing())
-    assert len(futures) == 36
-    assert all(future.cancelled() for future in futures[1:])
-
-
 def same(found, others, costs=1e-9):
     places = all(np.array_equal(a, b) for a, b in zip(found.columns[:4], others.columns[:4], strict=True))
     return places and np.allclose(found.cost, others.cost, atol=costs, rtol=0)
@@ -152,7 +136,7 @@ def both_ways(clips, **search):
 
 
 @pytest.mark.parametrize("window", [1, 2, 8])
-@pytest.mark.parametrize("below", [0.01, 0.1, np.inf])
+@pytest.mark.parametrize("below", [0.1, np.inf])
 def test_both_methods_give_the_same_transitions(window, below):
     every, few = both_ways(CLIPS, window=window, below=below)
     assert same(few, every) and len(every) > 0
@@ -168,12 +152,6 @@ def test_in_32_bits_both_methods_differ_in_flat_valleys_only(window):
     assert few.cost.min() == pytest.approx(every.cost.min(), abs=1e-6)
 
 
-def test_identical_clips_match_at_no_cost_on_both_ways():
-    clips = [CLIPS[0], replace(CLIPS[0], name="again")]
-    found = find_transitions(clips, window=8, below=0.01, method="bound")
-    assert found.cost.min() < 1e-9 and np.any((found.source == 0) & (found.target == 1))
-
-
 @pytest.mark.parametrize("method", ["products", "bound"])
 def test_weights_of_joints_and_frames_are_those_of_the_grid(method):
     weights = {"joint_weights": [1, 0, 5, 2], "taper": [1, 2, 3, 4, 4, 3, 2, 0]}
@@ -185,17 +163,6 @@ def test_weights_of_joints_and_frames_are_those_of_the_grid(method):
     assert not same(found, find_transitions(CLIPS, window=8, below=0.1, method=method))
     graph = build(CLIPS, window=8, threshold=0.1, method=method, **weights)  # passes all parameters on
     assert graph.count("transition") == len(found)
-
-
-def test_thresholds_for_pairs_of_labels():
-    marks = np.arange(70) < 35
-    clips = [
-        replace(CLIPS[0], labels={"walk": marks, "run": ~marks}),
-        replace(CLIPS[1], labels={"walk": True}),
-    ]
-    below = {("walk", "walk"): 0.1, ("walk", "run"): 0.001, ("run", "walk"): 0.003}
-    every, few = both_ways(clips, window=8, below=below)
-    assert same(few, every) and len(few)
 
 
 def test_the_bound_is_taken_for_many_windows_of_which_few_are_near(monkeypatch):
@@ -224,8 +191,10 @@ def test_auto_asks_which_is_quicker(monkeypatch):
 
 
 @pytest.mark.parametrize("method", ["products", "bound"])
-@pytest.mark.parametrize("workers", [1, 3])
-@pytest.mark.parametrize("executor", [ThreadPoolExecutor, ProcessPoolExecutor])
+@pytest.mark.parametrize(
+    ("executor", "workers"),
+    [(ThreadPoolExecutor, 3), pytest.param(ProcessPoolExecutor, 2, marks=pytest.mark.sweep)],
+)
 def test_any_number_of_workers_gives_the_same_bit_for_bit(executor, workers, method, monkeypatch):
     for name in ("BLOCK", "WIDE_BLOCK"):
         monkeypatch.setattr(pair_search, name, 40)
@@ -242,7 +211,7 @@ def real_clips(real_data, pattern):
 
 
 def assert_all_found(clips):
-    for below in (0.02, 0.04, 0.06, 0.1):
+    for below in (0.02, 0.04, 0.06, 0.1) if SWEEP else (0.04, 0.1):
         every, few = both_ways(clips, window=10, below=below, precision="double")
         assert same(few, every), below
 

@@ -7,11 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.body.motion import resample
-from mocap.datasets import sample
 from mocap.errors import MocapError
-from mocap.matching.distance_grids import distance_grid
-from mocap.matching.point_clouds import point_cloud
 from mocap.matching.time_paths import origins, path_mean, path_sums, time_path, trace
 from tests.strategies import seeds
 
@@ -84,30 +80,6 @@ def test_no_path_has_a_lower_sum(seed, rows, columns, slope):
     assert longest_run(path) <= slope
 
 
-@pytest.mark.parametrize(("slope", "pattern"), [(1, "symmetricP1"), (2, "symmetricP05")])
-def test_the_limit_is_that_of_sakoe_and_chiba(slope, pattern):
-    """A row and column before the grid let the judge's path, like ours, go straight on from the corner."""
-    dtw = pytest.importorskip("dtw", reason="pip install dtw-python: it judges the paths here")
-    for seed in range(20):
-        grid = random_grid(seed, 17, 14)
-        before = np.pad(grid, ((1, 0), (1, 0)), constant_values=1e9)
-        before[0, 0] = 0
-        assert total(grid, time_path(grid, slope=slope)) == pytest.approx(
-            dtw.dtw(before, step_pattern=pattern).distance, abs=1e-12
-        )
-
-
-def test_with_a_wide_limit_the_sum_is_within_a_tenth_of_plain_dynamic_time_warping():
-    """Plain warping has no limit, and may go right after it went down: so its sum is the lower one."""
-    dtaidistance = pytest.importorskip("dtaidistance", reason="pip install dtaidistance: it judges the sums")
-    first, second = np.cumsum(random_grid(3, 2, 40), axis=1)
-    grid = np.abs(first[:, None] - second)
-    plain, _ = dtaidistance.dtw.warping_paths(first, second, inner_dist="euclidean")
-    path = time_path(grid, slope=39)
-    straight = grid[path[:, 0], path[:, 1]].sum()
-    assert plain <= straight <= 1.1 * plain
-
-
 @given(seeds, st.integers(4, 8), st.integers(4, 8), slopes)
 def test_free_ends_give_the_least_mean_of_all_ends(seed, rows, columns, slope):
     grid, slack = random_grid(seed, rows, columns), 2
@@ -133,51 +105,6 @@ def test_slack_finds_a_valley_beside_the_corners():
     assert path_mean(grid, time_path(grid)) == pytest.approx(0.8917, abs=1e-4)
 
 
-def test_the_least_sum_cuts_corners_that_the_least_mean_keeps():
-    """On a flat grid each path has the same mean, and the shortest one has the least sum."""
-    rows, columns = np.indices((30, 30))
-    grid = 0.05 + 0.001 * np.abs(rows - columns)
-    starts = ((rows == 0) | (columns == 0)) & (rows + columns <= 8)
-    sums = path_sums(grid, starts, slope=2)
-    ends = np.where(starts[::-1, ::-1], sums.totals, np.inf)
-    cut = trace(sums, np.unravel_index(ends.argmin(), ends.shape))
-    whole = time_path(grid, slack=8)
-    assert advanced(whole).sum() == 60 > advanced(cut).sum() + 8
-    assert path_mean(grid, whole) < path_mean(grid, cut)
-
-
-def one_counter(grid, slope):
-    """The slope limit kept as one counter for each cell, that of its cheapest predecessor: it looks right."""
-    best = np.full(grid.shape, np.inf)
-    down, right = (np.zeros(grid.shape, int) for _ in range(2))
-    best[0, 0] = 2 * grid[0, 0]
-    for i, j in np.ndindex(grid.shape):
-        ways = []
-        if i and j:
-            ways.append((best[i - 1, j - 1] + 2 * grid[i, j], 0, 0))
-        if i and down[i - 1, j] < slope and not right[i - 1, j]:
-            ways.append((best[i - 1, j] + grid[i, j], down[i - 1, j] + 1, 0))
-        if j and right[i, j - 1] < slope and not down[i, j - 1]:
-            ways.append((best[i, j - 1] + grid[i, j], 0, right[i, j - 1] + 1))
-        if ways and np.isfinite(min(ways)[0]):
-            best[i, j], down[i, j], right[i, j] = min(ways)
-    return best[-1, -1]
-
-
-def test_one_counter_for_each_cell_misses_the_best_path():
-    grids = [random_grid(seed, 12, 9) for seed in range(60)]
-    ratios = [one_counter(grid, 2) / total(grid, time_path(grid)) for grid in grids]
-    assert min(ratios) >= 1 - 1e-12
-    assert np.mean(np.array(ratios) > 1 + 1e-9) >= 0.1
-
-
-def test_without_a_limit_one_body_stands_still_while_the_other_goes_on():
-    walk, jog = (resample(sample(name), 30) for name in ("walk_straight", "jog"))
-    grid = np.sqrt(distance_grid(point_cloud(walk), point_cloud(jog)[60:360], window=5))
-    assert longest_run(time_path(grid, slope=63)) >= 10
-    assert longest_run(time_path(grid)) <= 2
-
-
 @given(seeds, st.integers(2, 7), st.integers(2, 7), slopes)
 def test_begun_anywhere_the_sums_are_those_of_a_local_alignment(seed, rows, columns, slope):
     costs = random_grid(seed, rows, columns) - 0.5
@@ -192,24 +119,15 @@ def test_begun_anywhere_the_sums_are_those_of_a_local_alignment(seed, rows, colu
         assert longest_run(path) <= slope
 
 
-def test_32_bits_stay_32_bits():
-    costs = random_grid(1, 6, 5).astype(np.float32)
-    assert path_sums(costs, np.ones(costs.shape, bool), slope=2).totals.dtype == np.float32
-
-
 @pytest.mark.parametrize(
     ("grid", "settings", "message"),
     [
-        (np.ones(4), {}, r"two dimensions and some entries, got shape \(4,\)"),
-        (np.ones((0, 4)), {}, r"some entries, got shape \(0, 4\)"),
-        ([[1.0, np.nan], [1.0, 1.0]], {}, r"finite numbers; it holds nan at \[0, 1\]"),
-        ([[1.0, 1.0], [1.0, np.inf]], {}, r"it holds inf at \[1, 1\]"),
+        (np.ones((0, 4)), {}, r"of two dimensions; got shape \(0, 4\)"),
+        ([[1.0, np.nan], [1.0, 1.0]], {}, "a grid of finite numbers"),
         (np.ones((9, 4)), {"slope": 1}, "9 frames cannot be laid on 4 with slope 1: at most 2 to 1"),
-        (np.ones((471, 90)), {}, "471 frames cannot be laid on 90 with slope 2: at most 3 to 1"),
         (np.ones((4, 4)), {"slope": 0}, "from 1 to 63, got 0"),
-        (np.ones((4, 4)), {"slope": 1.5}, "from 1 to 63, got 1.5"),
-        (np.ones((4, 4)), {"slack": -1}, "from 0 to less than either clip has .4 and 4., got -1"),
-        (np.ones((9, 4)), {"slack": 4}, "less than either clip has .9 and 4., got 4"),
+        (np.ones((4, 4)), {"slack": -1}, "less than the 4 frames of a clip, got -1"),
+        (np.ones((9, 4)), {"slack": 4}, "less than the 4 frames of a clip, got 4"),
     ],
 )
 def test_what_has_no_path_is_refused(grid, settings, message):
