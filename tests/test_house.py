@@ -25,7 +25,7 @@ STOREYS = ("course", "methods")  # rooms in them are rooms too
 ROOMS += sorted(
     f"{storey}/{path.parent.name}" for storey in STOREYS for path in PACKAGE.glob(f"{storey}/*/__init__.py")
 )
-ROOMS.remove("course/checks")  # a file a notebook, found by itself
+ROOMS.remove("course/checks")  # a table a notebook, found by itself
 LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc__, re.MULTILINE))
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")

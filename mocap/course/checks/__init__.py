@@ -1,7 +1,7 @@
 """The checks of the course's exercises, by the names of the functions that they ask for.
 
 A notebook has a table here, such as `06-pruning.toml`: what each of its exercises asks for, and the mistakes
-that students make, each with its hint. Beside it, `pruning.py` has what takes more than an expression.
+that students make, each with its hint. Beside them, five files have what takes more than an expression.
 
 >>> from mocap.course import checks
 >>> checks.speed(lambda positions, fps: ...)
@@ -12,19 +12,23 @@ import tomllib
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from mocap.course.check import Check, check_of
+
+FILES = ("poses", "likeness", "graphs", "walks", "measures", "edits")
 
 
 @cache
 def all_checks() -> dict[str, Check]:
     """Return every check by its name, notebook by notebook."""
+    known = {
+        name: value for file in FILES for name, value in vars(import_module(f"{__name__}.{file}")).items()
+    }
     found: dict[str, Check] = {}
     for file in sorted(Path(__file__).parent.glob("*.toml")):
-        number, _, topic = file.stem.partition("-")
-        known = vars(import_module(f"{__name__}.{topic.replace('-', '_')}"))
         for name, table in tomllib.loads(file.read_text("utf-8")).items():
-            found[name] = check_of(name, table, known, number)
+            found[name] = check_of(name, table, known, file.stem.partition("-")[0])
     return found
 
 

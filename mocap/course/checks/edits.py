@@ -1,0 +1,254 @@
+"""Random input and answers, right and wrong, of exercises about edited and mixed motions."""
+
+from collections.abc import Sequence
+from functools import reduce
+
+import numpy as np
+
+from mocap._shared.arrays import Array, Mask, Points
+from mocap.body.rotations import from_rotvec, inverse, multiply, to_rotvec
+
+# ---- Notebook 11
+
+
+def draw_offset_curve(rng: np.random.Generator) -> tuple[Array, int, Array, Array]:
+    """Draw a joint's rotations, a key, the pose asked for there (of either sign), and the shares."""
+    q = from_rotvec(rng.normal(size=3) + rng.normal(scale=0.15, size=(20, 3)).cumsum(axis=0))
+    key = int(rng.integers(5, 15))
+    pose = multiply(q[key], from_rotvec(rng.normal(size=3))) * rng.choice([-1, 1])
+    share = np.clip(1 - np.abs(np.arange(20) - key) / 6, 0, 1)
+    return q, key, pose, share
+
+
+def own(q: Array, key: int, pose: Array) -> Array:
+    """Give the offset at the key, in the joint's own frame."""
+    return to_rotvec(multiply(inverse(q[key]), pose))
+
+
+def long_way(quaternion: Array) -> Array:
+    """Give a rotation vector without taking the shorter of the two ways."""
+    w, v = quaternion[0], quaternion[1:]
+    return np.asarray(2 * np.arctan2(np.linalg.norm(v), w) * v / np.linalg.norm(v))
+
+
+def draw_cardinal_slopes(rng: np.random.Generator) -> tuple[Array, Array, float]:
+    """Draw keys at uneven times, and a tension."""
+    count = int(rng.integers(3, 7))
+    return rng.uniform(3, 30, count).cumsum(), rng.normal(size=count), float(rng.uniform(0.1, 0.9))
+
+
+def cardinal(at: Array, values: Array, tension: float) -> Array:
+    slopes = np.zeros(len(at))
+    slopes[1:-1] = (1 - tension) * (values[2:] - values[:-2]) / (at[2:] - at[:-2])
+    return slopes
+
+
+# ---- Notebook 12
+
+
+def as_complex(rows: Array) -> Array:
+    return np.asarray(rows[:, -1] + 1j * rows[:, -2])
+
+
+def as_rows(ground: Array) -> Array:
+    return np.stack([ground.imag, ground.real], axis=1)
+
+
+def carry(points: Array, old: Array, new: Array) -> Array:
+    """Carry points from cart to cart."""
+    on_cart = np.exp(-1j * old[:, 0]) * (as_complex(points) - as_complex(old))
+    return as_rows(np.exp(1j * new[:, 0]) * on_cart + as_complex(new))
+
+
+def draw_carry(rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    count = int(rng.integers(3, 9))
+    carts = [rng.normal(size=(count, 3)) * [1.0, 2.0, 2.0] for _ in range(2)]
+    return rng.normal(size=(count, 2)), carts[0], carts[1]
+
+
+def draw_plant_place(rng: np.random.Generator) -> tuple[Array, Mask]:
+    count, start = int(rng.integers(12, 24)), int(rng.integers(2, 5))
+    planted = (np.arange(count) >= start) & (np.arange(count) < start + rng.integers(4, 7))
+    positions = rng.normal(size=(count, 3)).cumsum(axis=0) * 0.02
+    return positions + [0.0, 0.1, 0.0] * ~planted[:, None], planted
+
+
+# ---- Notebook 13
+
+
+def scaled_way(hips: Array, ratio: float, heights: tuple[float, float], centre: Array) -> Array:
+    """Scale a way about a centre (x, z), and heights from one standing height to another."""
+    scaled = np.array(hips)
+    scaled[:, [0, 2]] = centre + ratio * (hips[:, [0, 2]] - centre)
+    scaled[:, 1] = heights[1] + ratio * (hips[:, 1] - heights[0])
+    return scaled
+
+
+def product(*quaternions: Array) -> Array:
+    return reduce(multiply, quaternions)
+
+
+# ---- Notebook 14
+
+
+def draw_clip_gap(rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """Draw places (N, 3), and boxes of every kind around, above and below them: held, free, half open."""
+    places = rng.normal(size=(8, 3))
+    low = places + rng.choice([-1.0, 1.0], (8, 3)) * rng.uniform(0.1, 1, (8, 3))
+    high = low + rng.choice([0.0, 0.05], (8, 3))
+    kind = rng.integers(0, 4, (8, 3))
+    kind[0] = [1, 2, 3]  # each kind at least once
+    low = np.where((kind == 1) | (kind == 3), -np.inf, low)
+    high = np.where((kind == 2) | (kind == 3), np.inf, high)
+    return places, low, high
+
+
+def to_the_middle(p: Array, low: Array, high: Array) -> Array:
+    both = np.isfinite(low) & np.isfinite(high)
+    return np.where(both, (np.where(both, low, 0) + np.where(both, high, 0)) / 2 - p, 0.0)
+
+
+def draw_position_slope(rng: np.random.Generator) -> tuple[Array, Array, Array, Array]:
+    """Draw a joint, an end below it, an axis in the joint's own frame, and how the joint is turned."""
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    axis = rng.normal(size=3)
+    return rng.normal(size=3), rng.normal(size=3), axis / np.linalg.norm(axis), turn * np.linalg.det(turn)
+
+
+def draw_local_fit(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw the weights of N data on K splines, some of which no datum is near, and the data."""
+    weights = np.zeros((6, 9))
+    for row, first in enumerate(rng.integers(0, 4, 6)):
+        weights[row, first : first + 4] = rng.dirichlet(np.ones(4))
+    return weights, rng.normal(size=6)
+
+
+def fit(weights: Array, data: Array) -> Array:
+    """Fit control points: what each datum alone asks for, in the mean by the squares of the weights."""
+    squares = (weights**2).sum(axis=1, keepdims=True)
+    alone = np.divide(weights * data[:, None], squares, out=np.zeros_like(weights), where=squares > 0)
+    above, below = (weights**2 * alone).sum(axis=0), (weights**2).sum(axis=0)
+    return np.asarray(np.divide(above, below, out=np.zeros_like(above), where=below > 0))
+
+
+# ---- Notebook 17
+
+
+Box = tuple[Array, Array]
+
+
+def draw_mixed_way(rng: np.random.Generator) -> tuple[Points, Array, Array, float]:
+    """Draw three walks that turn to different sides, seen from their bodies, and weights."""
+    speeds = rng.uniform(0.5, 1.5, (3, 12)) + 1j * rng.uniform(-0.2, 0.2, (3, 12))
+    turnings = rng.uniform(0.5, 2, (3, 12)) * np.array([[-1.0], [1.0], [0.3]])
+    return speeds, turnings, rng.dirichlet(np.ones(3)), 0.1
+
+
+def integrated(speed: Points, turning: Array, dt: float) -> Points:
+    heading = np.concatenate([[0], np.cumsum(turning * dt)])
+    return np.concatenate([[0], np.cumsum(speed * np.exp(1j * heading[:-1]) * dt)])
+
+
+def draw_shrink_box(rng: np.random.Generator) -> tuple[Array, Array, Array, float]:
+    """Draw good targets in degrees and m/s, and bad ones near a side of them."""
+    scale = np.array([60.0, 0.4])
+    good = rng.uniform([-50, 0.7], [50, 1.3], (12, 2))
+    low, high = good.min(axis=0), good.max(axis=0)
+    bad = rng.uniform(low + 0.05 * (high - low), high - 0.05 * (high - low), (3, 2))
+    return good, bad, scale, 0.01
+
+
+def shrunk(good: Array, bad: Array, scale: Array, eps: float) -> Box:
+    """Shrink the box of good samples until no bad one is left, each time by the side that loses least."""
+    low, high = good.min(axis=0), good.max(axis=0)
+    room = eps * scale
+    for sample in bad:
+        if ((sample > low - room) & (sample < high + room)).all():
+            lost = np.array([(sample - low) / scale, (high - sample) / scale])
+            side, axis = divmod(int(lost.argmin()), len(low))
+            if side == 0:
+                low[axis] = sample[axis] + room[axis]
+            else:
+                high[axis] = sample[axis] - room[axis]
+    return low, high
+
+
+def cut_all(good: Array, bad: Array, scale: Array, eps: float) -> Box:
+    """Move the nearer side of every axis."""
+    low, high = good.min(axis=0), good.max(axis=0)
+    for sample in bad:
+        if ((sample > low - eps * scale) & (sample < high + eps * scale)).all():
+            nearer = sample - low < high - sample
+            low = np.where(nearer, sample + eps * scale, low)
+            high = np.where(nearer, high, sample - eps * scale)
+    return low, high
+
+
+def draw_box_at(rng: np.random.Generator) -> tuple[float, Array, Array, Array, int]:
+    at = np.sort(rng.uniform(-75, 75, 9))
+    low, high = at - rng.uniform(20, 60, 9), at + rng.uniform(20, 60, 9)
+    return float(rng.uniform(-60, 60)), at, low, high, int(rng.integers(3, 6))
+
+
+def weighed(asked: float, at: Array, low: Array, high: Array, k: int) -> tuple[float, float]:
+    near = np.argsort(np.abs(at - asked))[:k]
+    gaps = np.abs(at - asked)[near]
+    weights = 1 / gaps - 1 / gaps[-1]
+    weights = weights / weights.sum()
+    return float(weights @ low[near]), float(weights @ high[near])
+
+
+# ---- Notebook 18
+
+
+def standardised(values: Array, groups: Sequence[slice], weights: Sequence[float]) -> Array:
+    centred = values - values.mean(axis=0)
+    scaled = centred.copy()
+    for columns, weight in zip(groups, weights, strict=True):
+        group = centred[:, columns]
+        scaled[:, columns] = group / group.std(axis=0).mean() * weight
+    return np.asarray(scaled)
+
+
+def draw_standardise(rng: np.random.Generator) -> tuple[Array, list[slice], list[float]]:
+    """Draw columns whose spreads differ within a group, and between groups by a hundred."""
+    sizes = rng.integers(2, 5, rng.integers(2, 4))
+    stops = np.cumsum(sizes)
+    groups = [slice(int(stop - size), int(stop)) for size, stop in zip(sizes, stops, strict=True)]
+    spreads = np.concatenate([10 ** rng.uniform(-1, 1) * rng.uniform(0.3, 3, size) for size in sizes])
+    values = rng.normal(scale=spreads, size=(int(rng.integers(20, 40)), int(stops[-1]))) + 3 * spreads
+    return values, groups, [float(weight) for weight in rng.uniform(0.3, 0.8, len(sizes))]
+
+
+def spring(x: float, v: float, goal: float, halflife: float, t: float) -> float:
+    pull = 2 * np.log(2) / halflife
+    gap = x - goal
+    return float(goal + (gap + (v + gap * pull) * t) * np.exp(-pull * t))
+
+
+def next_frame(costs: Array, usable: Mask, now: int, near: int, bonus: float) -> int:
+    frames = np.arange(len(costs))
+    candidates = np.flatnonzero(usable & (np.abs(frames - now) >= near))
+    best = int(candidates[costs[candidates].argmin()])
+    return now if costs[best] + bonus >= costs[now] else best
+
+
+def draw_next_frame(rng: np.random.Generator) -> tuple[Array, Mask, int, int, float]:
+    """Draw a trap: an unusable frame or a neighbour is nearest, or the bonus decides."""
+    count, near, bonus = int(rng.integers(30, 60)), int(rng.integers(3, 6)), float(rng.uniform(0.2, 0.6))
+    costs, usable = rng.uniform(1.5, 9, count), rng.random(count) < 0.7
+    now = int(rng.integers(near, count - near))
+    gaps = np.abs(np.arange(count) - now)
+    far = np.flatnonzero(gaps >= near)
+    usable[rng.choice(far, 6, replace=False)] = True
+    trap = int(rng.integers(5))
+    if trap == 0:  # the nearest is not usable
+        other = int(rng.choice(far))
+        usable[other], costs[other] = False, 0.01
+    elif trap == 1:  # the nearest is a neighbour
+        beside = int(rng.choice(np.flatnonzero((gaps > 0) & (gaps < near))))
+        usable[beside], costs[beside] = True, 0.01
+    else:  # to play on costs a little more than the best, a little less, or much less
+        more = {2: rng.uniform(0.2, 0.8), 3: -rng.uniform(0.2, 0.8), 4: -1.5}[trap]
+        costs[now] = costs[usable & (gaps >= near)].min() + more * bonus
+    return costs, usable, now, near, bonus

@@ -1,0 +1,273 @@
+"""Random input and answers, right and wrong, of exercises about graphs."""
+
+import itertools
+import sys
+from collections.abc import Iterable, Mapping
+from itertools import combinations, permutations
+from typing import Any
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array
+from mocap.course.check import close
+from mocap.plain import components
+
+# ---- Notebook 00
+
+
+def draw_cheapest(rng: np.random.Generator) -> tuple[Array, NDArray[np.int64]]:
+    grid = rng.uniform(size=(rng.integers(5, 20), rng.integers(5, 20)))
+    minima = np.argwhere(grid > 0.3)  # never the smallest of the whole grid
+    return grid, rng.permutation(minima)[: rng.integers(3, 12)]
+
+
+def draw_dead_ends(rng: np.random.Generator) -> tuple[list[tuple[int, int]]]:
+    count = int(rng.integers(6, 12))
+    ways = [(int(a), int(b)) for a, b in rng.integers(0, count, size=(count, 2))]
+    # A node that no edge enters, one that no edge leaves, and one whose only edge leads to that one.
+    return ([(count, 0), *ways, (0, count + 2), (count + 2, count + 1)],)
+
+
+def ends(edges: list[tuple[int, int]]) -> set[int]:
+    return {b for _, b in edges} - {a for a, _ in edges}
+
+
+# ---- Notebook 05
+
+
+def matches(rng: np.random.Generator) -> tuple[Array, float]:
+    """Draw the distances of some matches, and the probability that the successor leaves them."""
+    return rng.uniform(100, 400, rng.integers(1, 9)), float(rng.choice([0.5, 1.0]))
+
+
+def draw_expected_seam(rng: np.random.Generator) -> tuple[Array, Array]:
+    costs, left = matches(rng)
+    odds = rng.uniform(0.1, 1, len(costs))
+    return costs, left * odds / odds.sum()
+
+
+def draw_chance_to_last(rng: np.random.Generator) -> tuple[Array, int]:
+    """Draw the probabilities of going from segment to segment, some without successor, and a length."""
+    count = int(rng.integers(3, 9))
+    odds = rng.random((count, count)) * (rng.random((count, count)) < 0.5)
+    odds[rng.integers(count)] = 0
+    return odds / np.maximum(odds.sum(axis=1, keepdims=True), 1e-9), int(rng.integers(2, 9))
+
+
+def alive(probabilities: Array, steps: int) -> Array:
+    """Give, for each start, the probability that this many steps can be taken."""
+    return np.asarray(np.linalg.matrix_power(probabilities, steps).sum(axis=1))
+
+
+# ---- Notebook 05b
+
+
+Point = tuple[float, float]
+
+
+def draw_choice_points(rng: np.random.Generator) -> tuple[int, list[int], list[int], int]:
+    """Draw a clip's length, where transitions leave and enter it, and their window."""
+    frames, window = int(rng.integers(60, 300)), int(rng.integers(5, 15))
+    leaves, enters = (rng.integers(0, frames - window, rng.integers(1, 9)) for _ in range(2))
+    return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
+
+
+def same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    return bool(given == wanted) if isinstance(given, set) else close(given, wanted)
+
+
+def draw_turning_point(rng: np.random.Generator) -> tuple[float, float, float]:
+    """Draw a planar transform: often no turn at all, a very small one, or a half turn."""
+    angle = rng.choice([0.0, 1e-3, -1e-3, np.pi, *rng.uniform(-3, 3, 4)])
+    return float(angle), *rng.uniform(-2, 2, 2).tolist()
+
+
+def fixed_point(angle: float, x: float, z: float) -> Point | None:
+    """Solve T c = c, with the point (x, z) as the complex number z + ix."""
+    if angle == 0:
+        return None
+    centre = complex(z, x) / (1 - np.exp(1j * angle))
+    return float(centre.imag), float(centre.real)
+
+
+def same_point(given: Any, wanted: Point | None) -> bool:  # noqa: ANN401
+    """Compare two points, or two answers that no point stays; a division by zero may give inf or nan."""
+    if given is None or wanted is None:
+        return given is wanted
+    a, b = np.asarray(given, float), np.asarray(wanted, float)
+    if a.shape == b.shape and not np.isfinite(b).all():
+        return not np.isfinite(a).all()
+    return a.shape == b.shape and np.allclose(a, b, rtol=1e-6, atol=1e-9)
+
+
+Places = list[tuple[int, int]]
+Following = dict[tuple[int, int], Places]
+Links = list[tuple[int, int, int, int]]
+
+
+def draw_successors_of(rng: np.random.Generator) -> tuple[list[list[int]], Links, int]:
+    """Draw the choice points of two or three clips, the transitions between them, and their window."""
+    window, lengths = int(rng.integers(3, 9)), rng.integers(60, 120, rng.integers(2, 4))
+    points = [{0, int(length)} for length in lengths]
+    links = []
+    for _ in range(rng.integers(3, 8)):
+        source, target = rng.integers(len(lengths), size=2).tolist()
+        leave, enter = (int(rng.integers(1, lengths[clip] - window)) for clip in (source, target))
+        points[source].add(leave)
+        points[target].add(enter + window)
+        links.append((source, leave, target, enter))
+    return [sorted(frames) for frames in points], links, window
+
+
+def follow(points: list[list[int]], links: Links, window: int) -> Following:
+    """Join each choice point to the next of its clip, and the two ends of each transition."""
+    following: Following = {(clip, frame): [] for clip, frames in enumerate(points) for frame in frames}
+    for clip, frames in enumerate(points):
+        for here, there in itertools.pairwise(frames):
+            following[clip, here].append((clip, there))
+    for source, leave, target, enter in links:
+        following.setdefault((source, leave), []).append((target, enter + window))
+    return following
+
+
+def same_following(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Compare what follows each node, in any order."""
+    return bool(given.keys() == wanted.keys() and all(sorted(given[n]) == sorted(wanted[n]) for n in wanted))
+
+
+# ---- Notebook 06
+
+
+Successors = dict[int, list[int]]
+
+
+def draw_graph(rng: np.random.Generator) -> Successors:
+    count = int(rng.integers(3, 9))
+    joined = rng.random((count, count)) < 1.2 / count
+    return {node + 1: (np.flatnonzero(row) + 1).tolist() for node, row in enumerate(joined)}
+
+
+def digraph(successors: Mapping[int, Iterable[int]]) -> nx.DiGraph:
+    return nx.DiGraph({node: list(ends) for node, ends in successors.items()})
+
+
+def after(successors: Successors, start: int) -> set[int]:
+    return {int(node) for node in nx.descendants(digraph(successors), start)}
+
+
+def on_cycle(successors: Successors, node: int) -> bool:
+    return any(node in after(successors, end) | {end} for end in successors[node])
+
+
+def stripped(successors: Successors, both_ways: bool) -> set[int]:
+    """Remove nodes without a successor, or without a predecessor, until none are left."""
+    left = digraph(successors)
+    while poor := [n for n in left if not left.out_degree(n) or (both_ways and not left.in_degree(n))]:
+        left.remove_nodes_from(poor)
+    return set(successors) - set(left)
+
+
+def same_members(given: Iterable[object], wanted: set[object]) -> bool:
+    return set(given) == wanted
+
+
+def same_sets(given: Iterable[Iterable[object]], wanted: Iterable[set[int]]) -> bool:
+    parts = list(map(frozenset, given))
+    return set(parts) == set(map(frozenset, wanted)) and len(set(parts)) == len(parts)
+
+
+# ---- Notebook 06b
+
+
+Weighed = list[tuple[int, int, int]]  # start, end, frames
+
+
+def draw_component_to_keep(rng: np.random.Generator) -> tuple[list[set[int]], Weighed]:
+    """Draw the components of a graph, and its edges with the frames that they play."""
+    while True:
+        graph = digraph(draw_graph(rng))
+        parts = [set(part) for part in nx.strongly_connected_components(graph)]
+        edges = [(a, b, int(rng.integers(5, 400))) for a, b in graph.edges]
+        if any(played(part, edges) for part in parts):
+            return parts, edges
+
+
+def played(part: set[int], edges: Weighed) -> int:
+    return sum(frames for start, end, frames in edges if start in part and end in part)
+
+
+def draw_missing_ways(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, set[int]]]:
+    """Draw a graph of rings, some joined by an edge, some by a node that is in no ring."""
+    graph, kinds = nx.DiGraph(), {}
+    for first, kind in zip((0, 10, 20, 30), ("walk", "jog", "sneak", "stand"), strict=True):
+        ring = list(range(first, first + int(rng.integers(2, 5))))
+        nx.add_cycle(graph, ring)
+        kinds[kind] = set(ring)
+    graph.add_edge(*rng.choice([0, 10, 20, 30], 2, replace=False).tolist())
+    here, there = rng.choice([0, 10, 20, 30], 2, replace=False).tolist()
+    nx.add_path(graph, [here, 99, there])
+    return graph, kinds
+
+
+def without_way(graph: nx.Graph, kinds: Mapping[str, set[int]]) -> set[tuple[str, str]]:
+    return {(a, b) for a, b in permutations(kinds, 2) if not way(graph, kinds[a], kinds[b])}
+
+
+def way(graph: nx.Graph, here: set[int], there: set[int]) -> bool:
+    return bool(nx.has_path(graph, min(here), min(there)))
+
+
+def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:
+    """Draw a graph and its strongly connected component of most nodes."""
+    while True:
+        graph = draw_graph(rng)
+        kept = max(nx.strongly_connected_components(digraph(graph)), key=len)
+        if 1 < len(kept) < len(graph):
+            return graph, {int(node) for node in kept}
+
+
+def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
+    found = {}
+    for node in successors.keys() - kept:
+        if not on_cycle(successors, node):
+            found[node] = "dead end"
+        else:
+            found[node] = "unreached" if after(successors, node) & kept else "sink"
+    return found
+
+
+# ---- Notebook 07b
+
+
+Graph = dict[int, list[int]]
+
+
+def draw_count_walks(rng: np.random.Generator) -> tuple[Graph, int, int]:
+    """Draw a graph of two to six nodes, with up to three edges each, two of which may lead to one node."""
+    count = int(rng.integers(2, 7))
+    graph = {node: rng.integers(0, count, rng.integers(1, 4)).tolist() for node in range(count)}
+    return graph, int(rng.integers(count)), int(rng.integers(1, 8))
+
+
+def counted(graph: Graph, node: int, edges: int) -> int:
+    """Count walks from the end: those of n edges start with one edge, and n - 1 are left."""
+    walks = dict.fromkeys(graph, 1)  # the empty walk
+    for _ in range(edges):
+        walks = {n: sum(walks[end] for end in ends) for n, ends in graph.items()}
+    return walks[node]
+
+
+def end_nodes(graph: Graph, node: int, edges: int) -> int:
+    ends = {node}
+    for _ in range(edges):
+        ends = {end for start in ends for end in graph[start]}
+    return len(ends)
+
+
+def off(points: Array, before: int, goal: complex, frames: int) -> float:
+    """Add up the squared distances from a point that walks straight to the goal in so many frames."""
+    made = before + np.arange(1, len(points) + 1)
+    wanted = goal * np.minimum(1, made / frames)
+    return float((np.abs(points - wanted) ** 2).sum())

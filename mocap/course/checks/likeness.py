@@ -1,0 +1,279 @@
+"""Random input and answers, right and wrong, of exercises about windows that are alike."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array, Mask, Points
+from mocap.body.planar import PlanarTransform
+from mocap.matching.minima import local_minima
+from mocap.matching.point_clouds import align
+
+# ---- Notebook 02
+
+
+def draw_angle_gap(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw angles in degrees, among them two that are equal and two that are half a turn apart."""
+    a, b = rng.uniform(-180, 180, (2, int(rng.integers(4, 9))))
+    a[:2] = rng.integers(-180, 180, 2)
+    b[0], b[1] = a[0], a[1] - 180 * np.copysign(1, a[1])
+    return a, b
+
+
+def clouds(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Make a cloud, and the same cloud turned and moved; two times in three also changed a little.
+
+    One cloud in four is turned by half a turn, and one in four not at all.
+    """
+    points = rng.normal(size=(int(rng.integers(5, 12)), 3)) + rng.normal(size=3) * 3
+    angle = rng.choice([0.0, np.pi, *rng.uniform(-np.pi, np.pi, 2)])
+    moved = PlanarTransform(angle, *rng.normal(size=2)).apply_points(points)
+    return points, moved + rng.normal(size=points.shape) * rng.choice([0.0, 0.1, 0.1])
+
+
+def turned(points: Array, angle: float) -> Array:
+    return PlanarTransform(angle, 0.0, 0.0).apply_points(points)
+
+
+def gap(points: Array, others: Array) -> Array:
+    """Move from the mean of one cloud to that of another over the ground: (x, z)."""
+    return np.asarray((points.mean(0) - others.mean(0))[[0, 2]])
+
+
+def parts(points: Array, others: Array) -> tuple[float, float]:
+    """Give Σ (x z' - x' z) and Σ (x x' + z z') without centring."""
+    (x, _, z), (other_x, _, other_z) = points.T, others.T
+    return float((x * other_z - other_x * z).sum()), float((x * other_x + z * other_z).sum())
+
+
+def centred(points: Array, others: Array) -> tuple[float, float]:
+    return parts(points - points.mean(0), others - others.mean(0))
+
+
+# ---- Notebook 02b
+
+
+def diagonal_sums(products: Array, window: int) -> Array:
+    """Add up products[i + f, j + f] over a window's frames, as far as a window fits."""
+    rows, columns = (count - window + 1 for count in products.shape)
+    return np.asarray(np.sum([products[f : f + rows, f : f + columns] for f in range(window)], axis=0))
+
+
+def draw_later_by(rng: np.random.Generator) -> tuple[Array]:
+    """Make what a clip against itself looks like: a symmetric grid with zeros on the diagonal."""
+    places = rng.normal(size=(int(rng.integers(5, 10)), 3))
+    return (((places[:, None] - places) ** 2).sum(-1),)
+
+
+def along(grid: Array, average: Callable[[Array], Any] = np.mean) -> Array:
+    return np.array([average(grid.diagonal(n)) for n in range(len(grid))])
+
+
+def draw_inner_minima(rng: np.random.Generator) -> tuple[Array, float]:
+    """Make a grid with minima inside and on the border, and a threshold that leaves some of them out."""
+    grid = rng.uniform(0, 1, rng.integers(7, 12, 2))
+    return grid, float(rng.uniform(0.2, 0.6))
+
+
+def inside(grid: Array, found: NDArray[np.intp]) -> set[tuple[int, int]]:
+    """Keep the places that are not on the border of a grid."""
+    last = np.array(grid.shape) - 1
+    return {(int(r), int(c)) for r, c in found[((found > 0) & (found < last)).all(axis=1)]}
+
+
+def lowest_of_four(grid: Array, below: float) -> set[tuple[int, int]]:
+    padded = np.pad(grid, 1, constant_values=np.inf)
+    around = padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
+    return inside(grid, np.argwhere((grid < below) & (grid < np.min(around, axis=0))))
+
+
+def same_places(given: Any, wanted: set[tuple[int, int]]) -> bool:  # noqa: ANN401
+    """Compare places, which a student may list in any order and type."""
+    found = np.reshape(np.asarray([tuple(place) for place in given], float), (-1, 2))
+    return {(int(i), int(j)) for i, j in found} == wanted
+
+
+# ---- Notebook 02c
+
+
+def draw_turn_free(rng: np.random.Generator) -> tuple[Array]:
+    """Make a window of random points, turned and moved at random."""
+    points = rng.normal(size=(*rng.integers(3, 7, 2), 3)) * [0.5, 0.5, 1.0] + [0, 1.5, 0]
+    return (PlanarTransform(*rng.uniform(-3, 3, 3)).apply_points(points),)
+
+
+def joined_numbers(points: Array) -> Array:
+    """Join heights and distances from the window's middle, over the root of the number of points."""
+    heights, ground = points[..., 1], points[..., [0, 2]]
+    radii = np.linalg.norm(ground - ground.mean(axis=(0, 1)), axis=-1)
+    return np.asarray(np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size))
+
+
+def draw_worth_a_look(rng: np.random.Generator) -> tuple[Array, float]:
+    """Make rows of numbers and a reach that leaves some pairs."""
+    rows = rng.normal(size=(int(rng.integers(7, 12)), 4))
+    apart = np.linalg.norm(rows[:, None] - rows, axis=-1)
+    return rows, float(np.quantile(apart[np.triu_indices(len(rows), 1)], rng.uniform(0.3, 0.6)))
+
+
+def pairs(near: NDArray[np.bool_]) -> set[tuple[int, int]]:
+    return {(int(i), int(j)) for i, j in np.argwhere(near)}
+
+
+def within_reach(rows: Array, reach: float) -> NDArray[np.bool_]:
+    return np.asarray(np.linalg.norm(rows[:, None] - rows, axis=-1) <= reach)
+
+
+def draw_bounds_by_direction(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Make a difference of two rows and some orthonormal directions."""
+    size = int(rng.integers(5, 9))
+    axes, _ = np.linalg.qr(rng.normal(size=(size, size)))
+    return rng.normal(size=size), axes[:, : size - 1]
+
+
+# ---- Notebook 15
+
+
+def draw_next_row(rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """Draw what is known of the row above, with cells that no path has reached, and a row of costs."""
+    diagonal = rng.uniform(1, 5, 8)
+    diagonal[rng.integers(0, 8, 2)] = np.inf
+    best = np.minimum(diagonal, rng.uniform(1, 5, 8))
+    best[0] = diagonal[0]
+    return diagonal, best, rng.uniform(0, 2, 8)
+
+
+def shifted(row: Array) -> Array:
+    return np.append(np.inf, row[:-1])
+
+
+def right_from_any(diagonal: Array, best: Array, costs: Array) -> Array:
+    now = 2 * costs + shifted(best)
+    least = np.minimum(now, costs + diagonal)
+    for column in range(1, len(costs)):
+        least[column] = min(least[column], costs[column] + least[column - 1])
+    return np.array([now, least])
+
+
+def row_after(diagonal: Array, best: Array, costs: Array) -> Array:
+    now = 2 * costs + shifted(best)
+    return np.array([now, np.minimum(np.minimum(now, costs + diagonal), costs + shifted(now))])
+
+
+def draw_ground_step(rng: np.random.Generator) -> tuple[float, complex, Array, Points, Array]:
+    turns = rng.uniform(-3, 3, 3) + np.array([np.zeros(3), rng.normal(0, 0.4, 3)])
+    moves = np.asarray(rng.normal(size=(3, 2)) @ [0.1, 0.1j], complex)
+    place = complex(*rng.normal(size=2))
+    return float(rng.uniform(-3, 3)), place, turns, moves, rng.dirichlet(np.ones(3))
+
+
+def step(
+    heading: float, place: complex, turns: Array, moves: Points, weights: Array
+) -> tuple[float, complex]:
+    after = heading - float(weights @ (turns[1] - turns[0]))
+    angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + after)
+    return after, complex(place + weights @ (np.exp(1j * angles) * moves))
+
+
+def pace(slopes: Array, weights: Array) -> float:
+    return float(weights @ slopes / weights.sum())
+
+
+# ---- Notebook 16
+
+
+Grid = NDArray[np.int64]
+Pairs = list[tuple[float, int]]
+
+
+def along_rows(grid: Grid, *, strict: bool = False) -> Mask:
+    """Mark what is no higher than both neighbours in its row; with `strict`, what is lower."""
+    wide = np.pad(grid.astype(float), ((0, 0), (1, 1)), constant_values=np.inf)
+    lower = np.less if strict else np.less_equal
+    return np.asarray(lower(grid, wide[:, :-2]) & lower(grid, wide[:, 2:]))
+
+
+def either(grid: Grid, *, strict: bool = False) -> Mask:
+    return np.asarray(along_rows(grid, strict=strict) | along_rows(grid.T, strict=strict).T)
+
+
+def all_eight(grid: Grid) -> Mask:
+    wide = np.pad(grid.astype(float), 1, constant_values=np.inf)
+    rows, columns = grid.shape
+    around = [wide[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+    return np.asarray(grid <= np.min(around, axis=0))
+
+
+MOST = 400  # calls of `matches_of`, far more than a right answer needs
+
+
+class Matches:
+    """What is like what: motions in clusters ten frames apart, some linked; found a little off each time."""
+
+    def __init__(self, links: dict[int, list[tuple[float, int, int]]]) -> None:
+        self.links, self.calls = links, 0
+
+    def __call__(self, match: int) -> Pairs:
+        """Give what is like a match, as pairs (cost, match)."""
+        self.calls += 1
+        if self.calls > MOST:
+            raise RecursionError(
+                f"it has asked {MOST} times and does not end: what is found again, at nearly the same "
+                "frames, is not new"
+            )
+        return [(cost, 10 * other + off) for cost, other, off in self.links[(match + 5) // 10]]
+
+
+def same_frame(first: int, second: int) -> bool:
+    return abs(first - second) <= 4
+
+
+def draw_spread(rng: np.random.Generator) -> tuple[int, Matches, Callable[[int, int], bool]]:
+    """Link eight motions in a chain, and some of them across, both ways."""
+    links: dict[int, list[tuple[float, int, int]]] = {number: [] for number in range(10)}
+    order = rng.permutation(8).tolist()
+    chain = list(pairwise(order))
+    for one, other in [*chain, *((chain[n][0], chain[n + 2][1]) for n in range(0, 5, 2))]:
+        for here, there in ((one, other), (other, one)):
+            for _ in range(2):
+                cost = round(float(rng.uniform(1, 5)), 3)
+                links[here].append((cost, there, int(rng.integers(-2, 3))))
+    return 10 * order[0], Matches(links), same_frame
+
+
+def spread(query: int, matches_of: Callable[[int], Pairs], same: Callable[[int, int], bool]) -> list[int]:
+    found, asking = [query], [query]
+    while asking:
+        new = sorted((pair for match in asking for pair in matches_of(match)), key=lambda pair: pair[0])
+        asking = []
+        for _cost, match in new:
+            if not any(same(match, other) for other in found):
+                found.append(match)
+                asking.append(match)
+    return found
+
+
+def shares(distances: Array) -> Array:
+    """Weigh samples by 1 / d - 1 / d_k; one that is hit gets all."""
+    if distances[0] == 0:
+        return np.asarray(np.eye(len(distances))[0])
+    with np.errstate(all="ignore"):
+        weights = 1 / distances - 1 / distances[-1]
+        return np.asarray(weights / weights.sum())
+
+
+def same_or_nan(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Compare numbers; those that are none are the same only as themselves."""
+    return np.shape(given) == np.shape(wanted) and np.allclose(
+        given, wanted, rtol=1e-8, atol=1e-9, equal_nan=True
+    )
+
+
+def draw_neighbour_weights(rng: np.random.Generator) -> tuple[Array]:
+    distances = np.sort(rng.uniform(0.1, 5, rng.integers(3, 7)))
+    if rng.random() < 0.3:
+        distances[0] = 0
+    return (distances,)

@@ -1,0 +1,118 @@
+"""Random input and answers, right and wrong, of exercises about what is measured."""
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocap._shared.arrays import Array, Indices, Mask
+
+# ---- Notebook 04b
+
+
+def stray(points: Array, planted: Mask, *, about: Array | None = None) -> float:
+    """Measure the largest distance of planted points from their mean, or from another point, in cm."""
+    centre = points[planted].mean(axis=0) if about is None else about
+    return float(100 * np.linalg.norm(points[planted] - centre, axis=1).max())
+
+
+def draw_plant_marks(rng: np.random.Generator) -> tuple[Array, float, float]:
+    """Draw the speed of a joint: slow and fast stretches with noise, and two thresholds."""
+    level = np.repeat(rng.uniform(0.0, 1.0, 8), rng.integers(2, 6, 8))
+    return np.abs(level + rng.normal(0, 0.08, len(level))), 0.25, 0.5
+
+
+def grown(speed: Array, start: float, stay: float, ways: tuple[int, ...] = (1, -1)) -> Mask:
+    """Mark frames below `start`, and grow the marks one frame at a time while the speed is below `stay`."""
+    marks = speed < start
+    for way in ways:
+        for before, frame in pairwise(range(len(speed))[::way]):
+            marks[frame] |= marks[before] and speed[frame] < stay
+    return marks
+
+
+def inner(thigh: float, shank: float, distance: float) -> float:
+    """Give the angle between thigh and shank, radians."""
+    return float(np.arccos((thigh**2 + shank**2 - distance**2) / (2 * thigh * shank)))
+
+
+# ---- Notebook 09
+
+
+def draw_paired_gain(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw two measurements on the same paths, which differ less than the paths do."""
+    before = rng.gamma(3.0, 2.0, int(rng.integers(5, 20)))
+    return before, before * rng.uniform(0.7, 1.1) + rng.normal(0, 0.3, len(before))
+
+
+# ---- Notebook 09b
+
+
+def track(rng: np.random.Generator) -> Array:
+    return np.asarray(rng.normal(size=(int(rng.integers(12, 40)), 3)).cumsum(axis=0))
+
+
+def draw_added_jolt(rng: np.random.Generator) -> tuple[Array, Array, Array, Array, float]:
+    """Draw tracks of a joint in two clips, and a blend of them with a little noise."""
+    first = track(rng)
+    second = first + rng.normal(size=first.shape).cumsum(axis=0)
+    window = len(first) - 8
+    alpha = np.concatenate([np.ones(4), 1 - np.arange(1, window + 1) / window, np.zeros(4)])
+    mixed = alpha[:, None] * first + (1 - alpha[:, None]) * second
+    return mixed + 0.1 * rng.normal(size=first.shape), first, second, alpha, float(rng.integers(24, 121))
+
+
+def added(result: Array, first: Array, second: Array, alpha: Array) -> Array:
+    """Second differences of a blend without the mean of those of its clips, (F - 2, 3)."""
+    share = alpha[:, None]
+    changes = [np.diff(places, 2, axis=0) for places in (result, first, second)]
+    return np.asarray(changes[0] - share * changes[1] - (1 - share) * changes[2])
+
+
+def largest(vectors: Array) -> float:
+    return float(np.linalg.norm(vectors, axis=1).max())
+
+
+def falling(rng: np.random.Generator) -> Array:
+    """Draw weights that fall from nearly 1 to 0 and rarely pass 0.5 in the middle."""
+    steps = np.arange(1, int(rng.integers(8, 60)) + 1)
+    return (1 - steps / len(steps)) ** rng.uniform(1.5, 4)
+
+
+def draw_reaction_time(rng: np.random.Generator) -> tuple[int, NDArray[np.intp], Array, float]:
+    """Draw frames at which transitions leave, and a frame up to the last of them; sometimes one of them."""
+    leaves = np.unique(rng.integers(0, 200, int(rng.integers(3, 12))))
+    now = rng.choice(leaves) if rng.random() < 0.3 else rng.integers(0, leaves[-1] + 1)
+    return int(now), leaves, falling(rng), float(rng.integers(24, 121))
+
+
+def next_leave(asked: int, leaves: NDArray[np.intp]) -> int:
+    return int(leaves[leaves >= asked].min())
+
+
+# ---- Notebook 10
+
+
+def draw_standing(rng: np.random.Generator) -> tuple[Array, float, float]:
+    """Draw speeds of a foot: swings, runs that almost stand, and plants."""
+    levels = rng.permutation([4.0, 0.6, 4.0, 0.2, 4.0, 0.2, 4.0])
+    speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
+    speeds[: len(speeds) - 2 : 9] = 0.7
+    return speeds, 0.2, 0.9
+
+
+def draw_running(rng: np.random.Generator) -> tuple[Array, int, float]:
+    """Draw speeds that vary with every step, of a walk and then a run."""
+    frames, span = 120, 2 * int(rng.integers(3, 10)) + 1
+    change = rng.integers(40, 80)
+    speeds = np.where(np.arange(frames) < change, 1.2, 2.8) + rng.normal(0, 0.9, frames)
+    return np.abs(speeds), span, 2.0
+
+
+def smooth(speeds: Array, span: int) -> Array:
+    counts = np.convolve(np.ones(len(speeds)), np.ones(span), "same")
+    return np.asarray(np.convolve(speeds, np.ones(span), "same") / counts)
+
+
+def share_kept(lengths: Indices, window: float, least: float = 0.0) -> float:
+    return float(np.maximum(least, lengths - 2 * window).sum() / lengths.sum())

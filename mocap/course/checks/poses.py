@@ -1,0 +1,281 @@
+"""Random input and answers, right and wrong, of exercises about bodies, places and turns."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mocap._shared.arrays import Array, Indices, Mask
+from mocap._shared.easing import quintic_step
+from mocap.blending.joining import blend
+from mocap.blending.weights import cubic_weights, quintic_weights
+from mocap.body import euler, rotations
+from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform
+from mocap.body.rotations import multiply
+from mocap.body.skeleton import Skeleton
+from mocap.course.check import close, close_rotations
+
+# ---- Notebook 01
+
+
+def hand(upper: float, fore: float, shoulder: float, elbow: float) -> Array:
+    return upper * np.array([np.cos(shoulder), np.sin(shoulder)]) + fore * np.array(
+        [np.cos(elbow), np.sin(elbow)]
+    )
+
+
+def draw_hamilton(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw two rotations: mostly different ones, sometimes equal, nearly equal, opposite, or no turn."""
+    a, b = normalised(rng.normal(size=(2, 4)))
+    special = [a, normalised(a + 1e-9 * b), -a, rotations.inverse(a), rotations.IDENTITY]
+    return a, np.array([*special, *[b] * 15][rng.integers(20)])
+
+
+def draw_climb(rng: np.random.Generator) -> tuple[Skeleton, Array, int]:
+    count = int(rng.integers(4, 9))
+    parents = np.array([-1, 0, *(rng.integers(joint - 2, joint) for joint in range(2, count))])
+    skeleton = Skeleton([f"joint {n}" for n in range(count)], parents, rng.normal(size=(count, 3)))
+    turns = rng.normal(size=(count, 4))
+    return skeleton, turns / np.linalg.norm(turns, axis=1, keepdims=True), count - 1
+
+
+def climb(skeleton: Skeleton, turns: Array, joint: int) -> Array:
+    """Go from a joint to the root; each parent turns all that hangs below it."""
+    point = np.zeros(3)
+    while joint > 0:
+        offset, parent = skeleton.offsets[joint], int(skeleton.parents[joint])
+        point = rotations.rotate(turns[parent], point + offset)
+        joint = parent
+    return point
+
+
+# ---- Notebook 01b
+
+
+def acclaim(axis: Array, angles: Array) -> Array:
+    c, m = (euler.from_euler("xyz", np.radians(turns)) for turns in (axis, angles))
+    return rotations.multiply(rotations.multiply(c, m), rotations.inverse(c))
+
+
+def draw_acclaim_turn(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw the angles of two turns: mostly different ones, sometimes the same, opposite, or none."""
+    axis, angles = rng.uniform(-80, 80, (2, 3)).round(1)
+    special = [axis, -axis, np.zeros(3)]
+    return axis, np.array([*special, *[angles] * 12][rng.integers(15)])
+
+
+def draw_strikes(rng: np.random.Generator) -> tuple[Mask]:
+    """Draw runs of standing and swinging; half of them begin with standing."""
+    runs = rng.integers(1, 12, rng.integers(3, 9))
+    return (np.repeat((np.arange(len(runs)) + rng.integers(2)) % 2, runs).astype(bool),)
+
+
+def strikes(contact: Mask) -> Indices:
+    return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
+
+
+# ---- Notebook 03
+
+
+Placed = tuple[float, float, float]
+
+
+def draw_move_points(rng: np.random.Generator) -> tuple[Array, float, float, float]:
+    angle, x, z = rng.uniform(-3, 3, 3)
+    return rng.normal(size=(int(rng.integers(1, 9)), 3)), angle, x, z
+
+
+def draw_undo(rng: np.random.Generator) -> tuple[float, float, float]:
+    """Draw a transform; now and then half a turn, or none."""
+    angle, x, z = rng.uniform(-3, 3, 3).tolist()
+    return (0.0, np.pi, *[angle] * 8)[int(rng.integers(10))], x, z
+
+
+def turned_shift(angle: float, x: float, z: float) -> tuple[float, float]:
+    moved = PlanarTransform(angle, 0.0, 0.0).apply_points([x, 0, z])
+    return float(moved[0]), float(moved[2])
+
+
+def draw_lay_on(rng: np.random.Generator) -> tuple[Placed, Placed]:
+    """Draw two placed bodies; now and then the same heading, the opposite one, or the same place."""
+    first, second = (tuple(rng.uniform(-3, 3, 3).tolist()) for _ in range(2))
+    special = [(first[0], *second[1:]), (first[0] + np.pi, *second[1:]), first]
+    return first, (*special, *[second] * 9)[int(rng.integers(12))]
+
+
+def lay_on(moving: Placed, target: Placed) -> Placed:
+    angle = target[0] - moving[0]
+    x, z = turned_shift(angle, *moving[1:])
+    return angle, target[1] - x, target[2] - z
+
+
+def draw_put_over(rng: np.random.Generator) -> tuple[Array, float, Array]:
+    """Draw a path of roots, a turn, and a spot with a height of its own."""
+    steps = rng.normal(0, 0.1, (int(rng.integers(2, 8)), 3))
+    return steps.cumsum(axis=0) + rng.uniform(-2, 2, 3), float(rng.uniform(-3, 3)), rng.uniform(-2, 2, 3)
+
+
+def put(roots: Array, angle: float, spot: Array) -> Array:
+    """Turn roots, and move the first one over the spot, each as high as it was."""
+    turned = PlanarTransform(angle, 0.0, 0.0).apply_points(roots)
+    return np.asarray(turned + (spot - turned[0]) * [1, 0, 1])
+
+
+# ---- Notebook 03b
+
+
+TURN = 2 * np.pi
+Part = tuple[Array, int, int]
+
+
+def wrapped(angle: float) -> float:
+    return (angle + np.pi) % TURN - np.pi
+
+
+def same_turn(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Compare turns; exactly half a turn may go to either side."""
+    return close(given, wanted) or (close(abs(wanted), np.pi) and close(abs(given), np.pi))
+
+
+def draw_turn_between(rng: np.random.Generator) -> tuple[float, float]:
+    """Draw two headings; every fourth time equal, opposite, or nearly so."""
+    a = float(rng.uniform(-np.pi, np.pi))
+    apart = (0.0, np.pi, 1e-9, np.pi - 1e-6, *rng.uniform(-np.pi, np.pi, 12))[int(rng.integers(16))]
+    return a, wrapped(a + float(apart))
+
+
+def draw_mean_heading(rng: np.random.Generator) -> tuple[Array]:
+    """Draw headings around the cut at ±180°; now and then all the same."""
+    middle = np.pi + rng.uniform(-0.3, 0.3)
+    spread = 0.0 if rng.integers(8) == 0 else 0.8
+    headings = middle + spread * rng.uniform(-1, 1, int(rng.integers(3, 9)))
+    return ((headings + np.pi) % TURN - np.pi,)
+
+
+def mean_vector(headings: ArrayLike) -> tuple[float, float]:
+    return float(np.sin(headings).mean()), float(np.cos(headings).mean())
+
+
+def draw_nearest_twin(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw the angles z, x, y of two frames: nearly the same, or near twins, plus whole turns."""
+    before = rng.uniform(-1, 1, 3) * [np.pi, 1.2, np.pi]
+    # Nearly the same, not quite: then the twin is half a turn away, which could be written with either sign.
+    angles = before + rng.choice([1e-8, 1e-3, 0.05, 0.3]) * rng.uniform(-1, 1, 3)
+    if rng.integers(2):
+        angles = twin(angles)
+    return before, angles + TURN * rng.integers(-1, 2, 3)
+
+
+def twin(angles: ArrayLike) -> Array:
+    return np.asarray(angles) * [1, -1, 1] + np.pi
+
+
+def near(before: ArrayLike, angles: ArrayLike) -> Array:
+    """Add the whole turns that bring each angle nearest to the one before."""
+    steps = np.subtract(angles, before)
+    return np.asarray(np.asarray(angles) - TURN * np.round(steps / TURN))
+
+
+def nearest_of(before: ArrayLike, *candidates: ArrayLike) -> Array:
+    return np.asarray(min(candidates, key=lambda c: float(np.abs(np.subtract(c, before)).sum())))
+
+
+def draw_chain(rng: np.random.Generator) -> tuple[list[Part]]:
+    """Draw slices of walks over the ground; the second sometimes follows the first in the same clip."""
+    clips = [rng.uniform(-3, 3, 2) + rng.uniform(0.1, 0.4, (20, 2)).cumsum(axis=0) for _ in range(3)]
+    parts = [(clip, int(rng.integers(0, 6)), int(rng.integers(8, 14))) for clip in clips]
+    if rng.integers(2):
+        parts[1] = (parts[0][0], parts[0][2], parts[0][2] + 4)
+    return (parts,)
+
+
+def chained(parts: list[Part]) -> Array:
+    """Join slices: each first frame where the clip before would have been."""
+    pieces, moved = [], np.zeros(2)
+    for number, (clip, start, stop) in enumerate(parts):
+        if number:
+            before, _, end = parts[number - 1]
+            moved = moved + before[end] - clip[start]
+        pieces.append(clip[start:stop] + moved)
+    return np.concatenate(pieces)
+
+
+# ---- Notebook 04
+
+
+NEAR = 1e-4  # radians between quaternions; below, a wrong answer may give anything
+
+
+def normalised(q: Array) -> Array:
+    return np.asarray(q / np.linalg.norm(q, axis=-1, keepdims=True))
+
+
+def draw_short_way(rng: np.random.Generator) -> tuple[Array, Array, float]:
+    """Draw two rotations: far apart, almost the same or the same, and the second with either sign."""
+    start, other = normalised(rng.normal(size=(2, 4)))
+    away = normalised(other - (other @ start) * start) * 10.0 ** rng.uniform(-9, -5)
+    end = (other, other, start + away, start)[rng.integers(4)]
+    return start, normalised(end) * rng.choice([-1, 1]), float(rng.uniform(0.1, 0.9))
+
+
+def nearer(start: Array, end: Array) -> Array:
+    return end if start @ end > 0 else -end
+
+
+def sines(start: Array, end: Array, amount: float) -> Array:
+    """Weight by sines without a change of sign; NaN, which stands for any answer, near equal or opposite."""
+    cosine = float(np.clip(start @ end, -1, 1))
+    if abs(cosine) > np.cos(NEAR):
+        return np.full(4, np.nan)
+    angle = np.arccos(cosine)
+    return np.asarray((np.sin((1 - amount) * angle) * start + np.sin(amount * angle) * end) / np.sin(angle))
+
+
+def on_a_line(start: Array, end: Array, amount: float) -> Array:
+    return (1 - amount) * start + amount * end
+
+
+def same_where_known(given: Array, wanted: Array) -> bool:
+    """Check whether two rotations are the same; a known mistake leaves open what it gives where it is NaN."""
+    return bool(np.isnan(wanted).any()) or close_rotations(given, wanted)
+
+
+Poses = tuple[Array, Array]
+
+
+def draw_mix(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:
+    """Draw two motions of three joints, in some frames with equal poses, and falling weights."""
+    body = Skeleton(
+        ["hip", "knee", "foot"], np.array([-1, 0, 1]), np.array([[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
+    )
+    frames = int(rng.integers(4, 9))
+    turns = normalised(rng.normal(size=(2, frames, 3, 4)))
+    turns[1, 0] = turns[0, 0] * rng.choice([-1, 1])
+    a, b = (Motion(body, rng.normal(size=(frames, 3)), own, 30.0) for own in turns)
+    return a, b, np.sort(rng.uniform(0, 1, frames))[::-1].copy()
+
+
+def mixed_roots(a: Motion, b: Motion, alpha: Array) -> Array:
+    return np.asarray(alpha[:, None] * a.root_positions + (1 - alpha[:, None]) * b.root_positions)
+
+
+def mixed_turns(a: Motion, b: Motion, alpha: Array) -> Array:
+    return rotations.slerp(b.rotations, a.rotations, alpha[:, None])
+
+
+def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, nearer: bool = False) -> Array:
+    """Mix quaternions on straight lines; with `nearer`, to that of b and -b which is nearer to a."""
+    signs = np.sign((a.rotations * b.rotations).sum(-1, keepdims=True)) if nearer else 1.0
+    share = alpha[:, None, None]
+    return np.asarray(share * a.rotations + (1 - share) * signs * b.rotations)
+
+
+def blended(a: Motion, b: Motion, alpha: Array) -> Poses:
+    result = blend(a, b, alpha)
+    return result.root_positions, result.rotations
+
+
+def same_poses(given: Poses, wanted: Poses) -> bool:
+    roots, turns = given
+    return close(roots, wanted[0]) and close_rotations(turns, wanted[1])

@@ -1,0 +1,273 @@
+"""Random input and answers, right and wrong, of exercises about walks."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from mocap._shared.arrays import Array, Indices, Points
+from mocap.body.ground_path import GroundPath
+from mocap.course.check import close, close_angles
+
+# ---- Notebook 07
+
+
+def running_shares(costs: Array) -> Array:
+    return np.asarray(np.cumsum(1 / (costs + 1e-3)) / np.sum(1 / (costs + 1e-3)))
+
+
+def chosen(shares: Array, chance: float) -> int:
+    """Find the first item whose running share exceeds the chance."""
+    return min(int(np.searchsorted(shares, chance, side="right")), len(shares) - 1)
+
+
+def product_in_turn(transforms: Array) -> tuple[float, float, float]:
+    """Multiply rows (angle, x, z): each step is turned by the angles before it."""
+    angle, at = 0.0, 0j
+    for turn, x, z in transforms:
+        at += (z + 1j * x) * np.exp(1j * angle)
+        angle += turn
+    return angle, at.imag, at.real
+
+
+def same_place(given: Any, wanted: Any) -> bool:  # noqa: ANN401
+    """Compare (angle, x, z), the angles up to whole turns."""
+    angle, *shift = given
+    return len(shift) == 2 and close_angles(angle, wanted[0]) and close(shift, wanted[1:])
+
+
+def draw_product_of(rng: np.random.Generator) -> tuple[Array]:
+    """Draw transforms; some turn by nothing, by nearly nothing, by half a turn, or do nothing at all."""
+    rows = rng.normal(size=(rng.integers(2, 8), 3)) * [1.0, 2.0, 2.0]
+    rows[rng.integers(len(rows)), 0] = rng.choice([0.0, 1e-12, np.pi, -np.pi, 3.0])
+    if rng.uniform() < 0.3:
+        rows[rng.integers(len(rows))] = 0.0
+    return (rows,)
+
+
+Lengths = dict[int, dict[int, float]]
+
+
+def draw_shortest_walk(rng: np.random.Generator) -> tuple[Lengths, int, int, int]:
+    """Draw eight nodes with three edges each, some of them loops, a start, a goal, and a limit of edges."""
+    lengths = {
+        node: {int(after): float(rng.uniform(0.1, 2)) for after in rng.choice(8, size=3, replace=False) + 1}
+        for node in range(1, 9)
+    }
+    start, goal = rng.choice(8, size=2, replace=False) + 1
+    return lengths, int(start), int(goal), int(rng.integers(3, 7))
+
+
+def shortest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[float, list[int]]:
+    """Search as the notebook does: the cost of the shortest walk of at most so many edges, and its nodes."""
+    best: tuple[float, list[int]] = (np.inf, [])
+    waiting = [(0.0, [start])]
+    while waiting:
+        cost, walk = waiting.pop()
+        if cost >= best[0]:
+            continue
+        if walk[-1] == goal:
+            best = cost, walk
+        elif len(walk) <= longest:
+            ways = sorted(lengths[walk[-1]].items(), key=lambda way: -way[1])
+            waiting += [(cost + more, [*walk, node]) for node, more in ways]
+    return best
+
+
+def fewest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[float, list[int]]:
+    each = {node: {after: more + 100 for after, more in row.items()} for node, row in lengths.items()}
+    _, walk = shortest(each, start, goal, longest)
+    return sum(lengths[a][b] for a, b in pairwise(walk)) if walk else np.inf, walk
+
+
+# ---- Notebook 08
+
+
+Line = Callable[[Array], Array]
+
+
+def draw_polyline(rng: np.random.Generator) -> Array:
+    return np.asarray(rng.normal(size=(rng.integers(4, 9), 2)).cumsum(axis=0))
+
+
+def path_cost(track: Array, path: Line, along: float, steps: Array) -> tuple[float, float]:
+    reached = along + np.cumsum(steps)
+    return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
+
+
+def step_lengths(track: Array) -> Array:
+    return np.asarray(np.hypot(*np.diff(track, axis=0).T))
+
+
+def draw_edge_cost(rng: np.random.Generator) -> tuple[Array, Line, float, float]:
+    line = GroundPath(draw_polyline(rng))
+    track = rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)).cumsum(axis=0)
+    return track, line.at, float(rng.uniform(0, line.length)), float(rng.uniform(0.02, 0.06))
+
+
+def survivors(stand: Indices, costs: Array, width: int) -> Indices:
+    order = np.argsort(costs)
+    _, first = np.unique(stand[order], axis=0, return_index=True)
+    return np.asarray(order[np.sort(first)[:width]])
+
+
+def draw_survivors(rng: np.random.Generator) -> tuple[Indices, Array, int]:
+    count = int(rng.integers(30, 60))
+    return rng.integers(0, 2, size=(count, 4)), rng.permutation(count) / 100, int(rng.integers(3, 7))
+
+
+Walk = tuple[complex, complex, float, float]
+Edge = tuple[int, Points, complex, complex, float]
+Longer = list[tuple[int, complex, complex, float, float]]
+
+
+def draw_lengthen(rng: np.random.Generator) -> tuple[Walk, list[Edge], Line, float]:
+    """Draw where a walk is, the edges that leave its node, a path, and the least progress per frame."""
+    line = GroundPath(draw_polyline(rng))
+    (x, z), along = line.at(0.4 * line.length), 0.4 * line.length
+    walk = (complex(draw_turn(rng)), complex(z, x), along, float(rng.uniform(0.1, 2)))
+    edges = []
+    for end in rng.permutation(9)[: rng.integers(2, 5)].tolist():
+        track = (rng.normal(scale=0.05, size=(rng.integers(3, 9), 2)) @ [1, 1j]).cumsum()
+        move = complex(*rng.normal(size=2))
+        edges.append((end, track, complex(draw_turn(rng)), move, float(rng.choice([0.0, 0.3]))))
+    return walk, edges, line.at, 0.01
+
+
+def draw_turn(rng: np.random.Generator) -> complex:
+    return complex(np.exp(1j * rng.uniform(-3, 3)))
+
+
+def lengthen(walk: Walk, edges: list[Edge], path: Line, least: float) -> Longer:
+    turn, move, along, cost = walk
+    longer = []
+    for end, track, edge_turn, edge_move, price in edges:
+        placed = turn * track + move
+        steps = np.maximum(np.abs(np.diff(placed)), least)
+        more, reached = path_cost(np.stack([placed.imag, placed.real], axis=1), path, along, steps)
+        longer.append((end, turn * edge_turn, move + turn * edge_move, reached, cost + more + price))
+    return longer
+
+
+# ---- Notebook 08b
+
+
+def seconds_until(track: Array, heading: float, frame: int, back: int) -> float:
+    moved = track[back:] - track[:-back]
+    off = np.arctan2(moved[:, 0], moved[:, 1]) - heading
+    off = np.abs((off + np.pi) % (2 * np.pi) - np.pi)
+    obeys = off[max(frame - back, 0) :] < np.radians(20)
+    return int(obeys.argmax()) if obeys.any() else -1
+
+
+def draw_obeys_after(rng: np.random.Generator) -> tuple[Array, float, int, int]:
+    """Draw a walk that turns to another heading, often across ±180°; some need not turn, some turn back."""
+    frame, back = int(rng.integers(20, 40)), int(rng.integers(5, 12))
+    first = rng.uniform(-np.pi, np.pi)
+    turn = rng.choice([-1, 1]) * rng.choice([rng.uniform(0.7, np.pi), rng.uniform(0.7, np.pi), np.pi, 0.0])
+    wait, takes = rng.integers(0, 20), rng.integers(15, 60)
+    share = np.clip((np.arange(frame + rng.integers(20, 120)) - frame - wait) / takes, 0, 1)
+    ways = first + turn * share
+    steps = rng.uniform(0.02, 0.05) * np.stack([np.sin(ways), np.cos(ways)], axis=1)
+    return np.cumsum(steps, axis=0), float(first + turn), frame, back
+
+
+def crowding(track: Array, other: Array, apart: float) -> float:
+    there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
+    near = np.maximum(apart - np.hypot(*(track - there).T), 0.0)
+    return float(np.sum(near**2))
+
+
+def draw_crowding_cost(rng: np.random.Generator) -> tuple[Array, Array, float]:
+    """Draw two lines that come near each other; the other one may be shorter or longer."""
+    count, others = int(rng.integers(30, 50)), int(rng.integers(15, 60))
+    track = np.stack([np.zeros(count), np.linspace(0, 2, count)], axis=1)
+    other = np.stack([np.linspace(-1, 1, others), np.full(others, 1.0)], axis=1)
+    shake = rng.normal(scale=0.03, size=(count, 2))
+    return track + shake, other + rng.normal(scale=0.1, size=2), float(rng.uniform(0.6, 1.2))
+
+
+def nearest(turn: complex, velocities: list[complex], wanted: complex) -> int:
+    return int(np.argmin([abs(turn * velocity - wanted) for velocity in velocities]))
+
+
+def mean_velocities(tracks: list[Points], fps: float, frames: int = -1) -> list[complex]:
+    """Give the mean velocity along each track of n + 1 points, which are n frames apart."""
+    return [complex(track[-1] - track[0]) / (len(track) + frames) * fps for track in tracks]
+
+
+def draw_next_edge(rng: np.random.Generator) -> tuple[complex, list[Points], float, float, float]:
+    """Draw tracks whose velocities are near the one asked for, and near those that mistakes ask for."""
+    turn, heading, speed = np.exp(1j * rng.uniform(-3, 3)), rng.uniform(-3, 3), rng.uniform(0.4, 2.0)
+    wanted, fps = speed * np.exp(1j * heading), float(rng.choice([30, 60]))
+    tracks = []
+    for aim in (wanted / turn, wanted, 1j * np.conj(wanted) / turn, 3 * wanted / turn, wanted / turn):
+        count = int(rng.integers(3, 20))
+        velocity = aim * np.exp(rng.normal(scale=0.3) + 1j * rng.normal(scale=0.3))
+        sway = 0.02 * rng.normal(size=(count, 2)) @ [1, 1j]
+        tracks.append(velocity * np.arange(count) / fps + sway)
+    return complex(turn), tracks, float(heading), float(speed), fps
+
+
+# ---- Notebook 19
+
+
+def squared_distances(a: Points, b: Points) -> Array:
+    return np.abs(a[:, None] - b) ** 2
+
+
+def assign(a: Points, b: Points) -> Indices:
+    return np.asarray(linear_sum_assignment(squared_distances(a, b))[1])
+
+
+def greedy(a: Points, b: Points) -> Indices:
+    squares, order = squared_distances(a, b), np.zeros(len(a), int)
+    for _ in a:
+        i, j = divmod(int(squares.argmin()), len(b))
+        order[i] = j
+        squares[i], squares[:, j] = np.inf, np.inf
+    return order
+
+
+def in_turn(a: Points, b: Points) -> Indices:
+    squares, order = squared_distances(a, b), np.zeros(len(a), int)
+    for i in range(len(a)):
+        order[i] = squares[i].argmin()
+        squares[:, order[i]] = np.inf
+    return order
+
+
+def draw_assign(rng: np.random.Generator) -> tuple[Points, Points]:
+    """Draw two groups that overlap, so that who is nearest to whom is often disputed."""
+    a, b = rng.normal(0, 1.5, (2, int(rng.integers(8, 13)), 2)) @ [1, 1j]
+    return a, b
+
+
+def laid(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[complex, complex]:
+    cross = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum() + 0.49 * (va * vb.conj()).sum()
+    turn = complex(cross / abs(cross))
+    return turn, complex(pa.mean() - turn * pb.mean())
+
+
+def draw_lay_group(rng: np.random.Generator) -> tuple[Points, Points, Points, Points]:
+    """Draw a group, and the same one turned, moved and shaken."""
+    count, turn = int(rng.integers(5, 10)), np.exp(1j * rng.uniform(-3, 3))
+    pa = np.asarray(rng.normal(0, 1.5, (count, 2)) @ [1, 1j] + complex(*rng.normal(0, 5, 2)), complex)
+    va = np.asarray(1.1 + rng.normal(0, 0.3, (count, 2)) @ [1, 1j], complex)
+    shaken = rng.normal(0, 0.5, (2, count, 2)) @ [1, 1j]
+    move = complex(*rng.normal(0, 6, 2))
+    return pa, va, (pa + shaken[0]) * turn + move, (va + shaken[1]) * turn
+
+
+def slots_after(orders: Indices) -> Indices:
+    slots = np.arange(orders.shape[1])
+    for order in orders:
+        slots = order[slots]
+    return slots
+
+
+def draw_slots(rng: np.random.Generator) -> tuple[Indices]:
+    members, clips = int(rng.integers(5, 9)), int(rng.integers(2, 5))
+    return (np.array([rng.permutation(members) for _ in range(clips)]),)
