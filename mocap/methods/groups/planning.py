@@ -120,19 +120,18 @@ def plan_group(
             count += 1
             promise = after.seconds + (0.0 if after.goal == points else weight * left)
             heappush(waiting, (promise, count, after))
-    # The gap named just lets the narrowest node through.
+    why = _why(graph, scene, most if waiting else 0)
+    raise NoWalk(f"No way past point {farthest + 1} of {points} was found: {why}")
+
+
+def _why(graph: GroupGraph, scene: Scene, most: int) -> str:
+    """Say why no way was found, and what would help; the gap named just lets the narrowest node through."""
     wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body
-    why, helps = (
-        "obstacles closed every way",
-        "Start farther off or turned, take fewer members, or leave gaps",
-    )
-    if waiting:
-        why = f"the limit of {most} states ended the search"
-        helps = "Set a point on the way, take fewer members, allow more states, or leave gaps"
-    raise NoWalk(
-        f"No way past point {farthest + 1} of {points} was found: {why} ({len(seen)} tried). "
-        f"{helps} of {wide:.1f} m."
-    )
+    if not most:
+        helps = "Start farther off or turned, take fewer members, or leave gaps"
+        return f"obstacles closed every way. {helps} of {wide:.1f} m."
+    helps = "Set a point on the way, take fewer members, allow more states, or leave gaps"
+    return f"the limit of {most} states ended the search. {helps} of {wide:.1f} m."
 
 
 def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:

@@ -6,16 +6,15 @@ no search: it reads the box, and takes what is nearest to the command.
 
 Reading order (notebook 17)
 ---------------------------
- 1. `strides`: strides and steps, all on one grid of phases
- 2. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
- 3. `stride_changes`: strides that begin as one kind and end as another
- 4. `nearest_windows`: where to leave one stride and enter another
- 5. `parametric_edges`: boxes of targets that may follow
- 6. `parametric_motion_graphs`: spaces and edges, under names
- 7. `kinds_of_strides`: from clips to a graph in one call
- 8. `made_strides`: one stride, frame by frame
- 9. `parametric_files`: save and load a graph
-10. `parametric_control`: a character that decides once per stride
+1. `strides`: strides and steps, all on one grid of phases
+2. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
+3. `made_strides`: strides made out of mixes, frame by frame
+4. `nearest_windows`: where to leave one stride and enter another
+5. `parametric_edges`: boxes of targets that may follow
+6. `parametric_motion_graphs`: spaces and edges, under names
+7. `kinds_of_strides`: from clips to a graph in one call, with changes from kind to kind
+8. `parametric_files`: save and load a graph
+9. `parametric_control`: a character that decides once per stride
 
 References
 ----------
@@ -34,13 +33,12 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "strides": ["Strides", "cut_strides", "mixed_way"],
         "stride_spaces": ["StrideSpace", "bell_weights", "make_space", "measure_mixes", "neighbours"],
-        "stride_changes": ["changing_strides"],
+        "made_strides": ["make_stride"],
         "nearest_windows": ["optimal_transitions"],
-        "parametric_edges": ["ParametricEdge", "Sampling", "build_edge", "shrink_box", "smallest_good"],
+        "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
         "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
         "kinds_of_strides": ["build_kinds", "on_the_spot"],
         "parametric_files": ["load_parametric", "save_parametric"],
-        "made_strides": ["make_stride"],
         "parametric_control": ["ParametricController"],
     },
 )

@@ -1,26 +1,31 @@
 """From clips to a graph in one call: kinds of strides, changes between them, and all their edges [ours]."""
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 from itertools import permutations
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mocap._shared.arrays import Indices
+from mocap._shared.easing import quintic_step
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.methods.parametric_graphs.parametric_edges import Sampling, smallest_good
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_changes import changing_strides
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space, measure_mixes, said
 from mocap.methods.parametric_graphs.strides import Strides, cut_strides
 
 WIDTH = np.radians(14)  # of the bell, for strides
 WIDEST = np.radians(75)  # of turn per stride, to either side
 LEAST, MOST = 0.04, 0.08  # metres: T_GOOD where none is given
 BOTH = np.radians(10)  # per stride: who turns less to one side does not obey there
-Made = TypeVar("Made")
+FROM, TO = 0.2, 0.8  # phases between which a change takes place
+NEAR = np.radians(5)  # a turn that the other kind nearly has
+EXAMPLES = 60  # of a change, at most
 SLOW, TURNS = 0.35, np.radians(30)  # m/s and radians per stride, of turns on the spot
 
 
@@ -73,13 +78,17 @@ def build_kinds(
     if not kinds:
         raise MocapError("A graph has one kind of strides or more, got none.")
     sampling = sampling or Sampling(sources=25, targets=250)
-    strides = {name: _cut(name, some) for name, some in kinds.items()}
+    strides: dict[str, Strides] = {}
+    for name, kind in kinds.items():
+        with _naming(name):
+            strides[name] = kind if isinstance(kind, Strides) else _cut(name, kind)
     edges = [(name, name) for name in strides]
     for one, other in permutations(strides, 2) if changes is None else changes:
         if unknown := {one, other} - set(kinds):
             raise MocapError(f"There is no kind '{min(unknown)}'; there are: {', '.join(kinds)}.")
         name = f"{one} to {other}"
-        strides[name] = _named(name, partial(changing_strides, strides[one], strides[other]))
+        with _naming(name):
+            strides[name] = changing_strides(strides[one], strides[other])
         edges += [(one, name), (name, other)]
     spaces = {name: _space(name, some, widest, warn=name in kinds) for name, some in strides.items()}
     good = _least(spaces, edges, sampling) if good is None else good
@@ -122,43 +131,41 @@ def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -
     )
 
 
-def _cut(name: str, kind: Sequence[Motion] | Strides) -> Strides:
-    if isinstance(kind, Strides):
-        return kind
-    label = name if any(name in clip.labels for clip in kind) else ""
-    return _named(name, lambda: cut_strides(kind, label=label))
+def _cut(name: str, clips: Sequence[Motion]) -> Strides:
+    return cut_strides(clips, label=name if any(name in clip.labels for clip in clips) else "")
 
 
 def _space(name: str, strides: Strides, widest: float, *, warn: bool) -> StrideSpace:
     low, high = np.clip(np.percentile(strides.values[:, 0], [4, 96]), -widest, widest)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), _naming(name):
         if not warn:  # a change has the gaps of its kinds
             warnings.simplefilter("ignore", MocapWarning)
-        space = _named(name, lambda: make_space(strides, WIDTH, min(low, high - 1e-6), high))
+        space = make_space(strides, WIDTH, min(low, high - 1e-6), high)
         if max(low, -high) > -BOTH:
-            side = "left" if high < BOTH else "right"
             warnings.warn(
-                f"{name} turns by {np.degrees(low):.0f}° to {np.degrees(high):.0f}° per stride, hardly to "
-                f"the {side}: there it does not obey; add clips, or mirror these.",
+                f"{name} turns by {said('turn', low)} to {said('turn', high)} per stride, hardly to the "
+                f"{'left' if high < BOTH else 'right'}: there it does not obey; add clips, or mirror these.",
                 MocapWarning,
                 stacklevel=3,
             )
-    return space
+        return space
 
 
-def _named(name: str, make: Callable[[], Made]) -> Made:
-    """Make something for a kind, and name the kind where that is refused."""
+@contextmanager
+def _naming(name: str) -> Iterator[None]:
+    """Name the kind where something is refused."""
     try:
-        return make()
+        yield
     except MocapError as error:
         raise type(error)(f"{name}: {error}"[:200]) from error
 
 
 def _least(spaces: Mapping[str, StrideSpace], edges: Sequence[tuple[str, str]], sampling: Sampling) -> float:
     """Find the T_GOOD that gives all edges, with a twentieth to spare."""
-    needed = {
-        (a, b): _named(f"{a} → {b}", partial(smallest_good, spaces[a], spaces[b], sampling)) for a, b in edges
-    }
+    needed = {}
+    for a, b in edges:
+        with _naming(f"{a} → {b}"):
+            needed[a, b] = smallest_good(spaces[a], spaces[b], sampling)
     (one, other), worst = max(needed.items(), key=lambda item: item[1])
     if worst > MOST:
         raise NoWalk(
@@ -166,3 +173,72 @@ def _least(spaces: Mapping[str, StrideSpace], edges: Sequence[tuple[str, str]], 
             f"to accept it, narrow the range, or leave the change out."
         )
     return max(LEAST, 1.05 * worst)
+
+
+def changing_strides(first: Strides, second: Strides) -> Strides:
+    """Fade strides of one kind into strides of another, phase by phase [ours; KG03's transition on phases].
+
+    Each stride of the first kind is paired with the one of the second that turns most like it. Between the
+    phases 0.2 and 0.8 all rates and poses go from the one to the other, with level ends; so its start fits
+    what follows the first kind, and its end what comes before the second.
+
+    Parameters
+    ----------
+    first, second : examples over the same strikes, of one skeleton and rate.
+
+    Returns
+    -------
+    At most 60 examples, of turns that both kinds have.
+
+    Raises
+    ------
+    MocapError, SkeletonMismatch : for examples over other strikes, and of other skeletons or rates.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> from mocap.body import resample
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> kinds = [cut_strides([resample(sample(f"walk_6m_{speed}_0"), 30)]) for speed in (0.7, 1.65)]
+    >>> speeds = [kind.values[:, 1].mean() for kind in (kinds[0], changing_strides(*kinds), kinds[1])]
+    >>> bool(speeds[0] < speeds[1] < speeds[2])
+    True
+    """
+    if len(first.grid) != len(second.grid) or not np.allclose(first.grid, second.grid):
+        raise MocapError("A change goes between examples over the same strikes.")
+    first.require_joinable(second)
+    one, other = _pairs(first, second)
+    share = quintic_step((first.grid - FROM) / (TO - FROM))
+
+    def faded(before: NDArray[Any], after: NDArray[Any]) -> NDArray[Any]:
+        amount = share.reshape(-1, *[1] * (before.ndim - 2))
+        return np.asarray((1 - amount) * before + amount * after)
+
+    start, end = first.poses[one], second.poses[other]
+    poses = faded(start, np.where((start * end).sum(axis=-1, keepdims=True) < 0, -end, end))
+    step = first.grid[1] - first.grid[0]
+    rates = (np.gradient(part, step, axis=1) for part in (first.seconds[one], second.seconds[other]))
+    parts = ("speeds", "turning", "heights")
+    made = replace(
+        first,
+        **{part: faded(getattr(first, part)[one], getattr(second, part)[other]) for part in parts},
+        seconds=first.integrated(faded(*rates)),  # how long a phase lasts is what fades
+        poses=poses / np.linalg.norm(poses, axis=-1, keepdims=True),
+        contacts=np.where((share < 0.5)[:, None], first.contacts[one], second.contacts[other]),
+        values=np.zeros((len(one), 2)),
+        sway=(first.sway + second.sway) / 2,
+        offset=(first.offset + second.offset) / 2,
+        dropped=0,
+    )
+    return replace(made, values=measure_mixes(made, np.eye(len(made))))
+
+
+def _pairs(first: Strides, second: Strides) -> tuple[Indices, Indices]:
+    """Pair each stride of the first kind with the one of the second that turns most like it."""
+    turns, others = first.values[:, 0], second.values[:, 0]
+    shared = np.flatnonzero((turns >= others.min() - NEAR) & (turns <= others.max() + NEAR))
+    if not len(shared):
+        raise MocapError("The two kinds have no turn in common, so that none can change into the other.")
+    ordered = shared[np.argsort(turns[shared])]
+    one = ordered[np.unique(np.linspace(0, len(ordered) - 1, EXAMPLES).round().astype(int))]
+    return one, np.abs(turns[one][:, None] - others).argmin(axis=1)

@@ -1,15 +1,13 @@
-"""One stride made out of a space, frame by frame, ready to be played and joined."""
+"""Strides made out of mixes, frame by frame: near their strikes, or one as a whole."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.arrays import Array, Mask
 from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, concatenate
-from mocap.methods.parametric_graphs.nearest_windows import HALF
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, neighbours
+from mocap.body.motion import Motion
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, measure_mixes, neighbours
 from mocap.methods.parametric_graphs.strides import mixed_way
 
 
@@ -21,16 +19,13 @@ class MadeStride:
     ----------
     motion : F frames, with contacts.
     phases : shape (F,).
-    ground, heading : shape (F,), where the root is and how the body faces.
-    joints : those that windows are compared by.
+    heading : shape (F,), how the body faces.
     values : shape (2,), the turn in radians and the speed in m/s that it comes to.
     """
 
     motion: Motion
     phases: Array
-    ground: Points
     heading: Array
-    joints: list[int]
     values: Array
 
     def frame(self, phase: float) -> int:
@@ -38,18 +33,41 @@ class MadeStride:
         return int(np.abs(self.phases - phase).argmin())
 
 
-def facing_windows(one: MadeStride, centre: int, other: MadeStride, into: int) -> tuple[Array, Array]:
-    """Give the points (K, 3) of two strides' frames about their centres, to align one with the other."""
-    both = [stride.motion[at - HALF : at + HALF + 1] for stride, at in ((one, centre), (other, into))]
-    points = joint_positions(concatenate(both))[:, one.joints].reshape(2, -1, 3)
-    return points[0], points[1]
+def mixed_frames(space: StrideSpace, asked: Array, phases: Array) -> tuple[Array, Array, Array, Array]:
+    """Make M strides at F phases each: roots (M, F, 3), rotations (M, F, J, 4), headings (M, F), and values.
+
+    The pose is a normalised sum of quaternions of one sign; heights are sums; the root's velocities are mixed
+    as the body sees them [ours], and integrated.
+
+    Parameters
+    ----------
+    space : of strides.
+    asked : shape (M, d), parameters.
+    phases : shape (M, F).
+    """
+    strides, weights = space.strides, space.weights(asked)
+    near, shares = neighbours(asked, space.values, space.scale)
+    ground, facing = mixed_way(strides, weights)
+    values = measure_mixes(strides, weights, (ground, facing))
+    place = (phases - strides.grid[0]) / (strides.grid[1] - strides.grid[0])
+    low = np.clip(place.astype(int), 0, len(strides.grid) - 2)
+    share, row = place - low, np.arange(len(weights))[:, None]
+    ground, facing, heights = (
+        part[row, low] * (1 - share) + part[row, low + 1] * share
+        for part in (ground, facing, weights @ strides.heights)
+    )
+    turns = np.zeros((*low.shape, *strides.poses.shape[2:]))
+    for k in range(near.shape[1]):
+        for step, amount in ((0, 1 - share), (1, share)):
+            mixed = space.sampled_poses[near[:, k, None], low + step]
+            turns += (shares[:, k, None] * amount)[..., None, None] * mixed
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    turns[:, :, 0] = rotations.multiply(rotations.about_y(facing), turns[:, :, 0])
+    return np.stack([ground.imag, heights, ground.real], axis=-1), turns, facing, values
 
 
 def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     """Make the stride that a space has for some parameters, at the rate of its clips.
-
-    The pose is a normalised sum of quaternions of one sign; heights and times are sums; the root's velocities
-    are mixed as the body sees them [ours], and integrated.
 
     Parameters
     ----------
@@ -66,28 +84,15 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     >>> float((made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]).round(1))
     0.5
     """
-    strides, grid = space.strides, space.strides.grid
-    near, parts = neighbours(np.atleast_2d(asked), space.values, space.scale)
-    weights = parts @ space.mixes[near[0]]
-    (ground,), (facing,) = mixed_way(strides, weights)
-    weights, (zero, one) = weights[0], strides.ends
-    seconds, heights = weights @ strides.seconds, weights @ strides.heights
-    speed = np.abs(np.diff(ground[zero : one + 1])).sum() / seconds[one]
-    values = np.array([facing[one] - facing[zero] - strides.sway, speed])
-    frames = np.arange(np.ceil(seconds[0] * strides.fps), np.floor(seconds[-1] * strides.fps) + 1)
-    phases = np.interp(frames / strides.fps, seconds, grid)
-    place = (phases - grid[0]) / (grid[1] - grid[0])
-    low = np.clip(place.astype(int), 0, len(grid) - 2)
-    share, used = place - low, np.flatnonzero(weights)
-    poses = np.tensordot(parts[0], space.sampled_poses[near[0]], 1)
-    turns = poses[low] * (1 - share)[:, None, None] + poses[low + 1] * share[:, None, None]
-    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
-    ground, facing, heights = (
-        part[low] * (1 - share) + part[low + 1] * share for part in (ground, facing, heights)
+    strides, weights = space.strides, space.weights(asked)
+    seconds = (weights @ strides.seconds)[0]
+    times = (
+        np.arange(np.ceil(seconds[0] * strides.fps), np.floor(seconds[-1] * strides.fps) + 1) / strides.fps
     )
-    turns[:, 0] = rotations.multiply(rotations.about_y(facing), turns[:, 0])
-    contacts: Mask = np.tensordot(weights[used], strides.contacts[used], 1)[np.round(place).astype(int)] > 0.5
-    roots = np.stack([ground.imag, heights, ground.real], axis=-1)
+    phases = np.interp(times, seconds, strides.grid)
+    (roots,), (turns,), (facing,), (values,) = mixed_frames(space, asked[None], phases[None])
+    near = np.abs(strides.grid - phases[:, None]).argmin(axis=1)
+    contacts: Mask = np.tensordot(weights[0], strides.contacts[:, near], 1) > 0.5
     marks = dict(zip(strides.contact_names, contacts.T, strict=True))
     motion = Motion(strides.skeleton, roots, turns, strides.fps, "stride", contacts=marks)
-    return MadeStride(motion, phases, ground, facing, strides.joints, values)
+    return MadeStride(motion, phases, facing, values)

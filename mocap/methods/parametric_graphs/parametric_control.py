@@ -8,12 +8,13 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.blending.joining import blend
 from mocap.blending.weights import cubic_weights
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, concatenate
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.methods.parametric_graphs.made_strides import facing_windows, make_stride
+from mocap.methods.parametric_graphs.made_strides import make_stride
 from mocap.methods.parametric_graphs.nearest_windows import HALF, WINDOW
 from mocap.methods.parametric_graphs.parametric_edges import Way
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
@@ -128,11 +129,9 @@ class ParametricController:
         }
         soonest = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
         self._next, self._at = 0, max(soonest, first)
-        parts = [*before, *self._laid(first, self._at)]
-        self._frames, self._blended = concatenate(parts), range(0)
-        if blended:
-            start = sum(map(len, before)) - blended
-            self._blended = range(start, start + blended)
+        start = sum(map(len, before)) - blended
+        self._blended = range(start, start + blended)
+        self._frames = concatenate([*before, *self._laid(first, self._at)])
 
     def _laid(self, first: int, stop: int) -> list[Motion]:
         """Place some frames of the stride: one motion, or none."""
@@ -146,14 +145,18 @@ class ParametricController:
         taken = np.clip(wished, way.low, way.high)
         made, centre = make_stride(space, taken), max(self.stride.frame(way.leave), self._at + HALF)
         into, rest = made.frame(way.enter), self._laid(self._at, centre - HALF)
-        window, facing = facing_windows(self.stride, centre, made, into)
+        parts = [
+            stride.motion[middle - HALF : middle + HALF + 1]
+            for stride, middle in ((self.stride, centre), (made, into))
+        ]
+        joints = space.strides.joints
+        window, facing = (joint_positions(part)[:, joints].reshape(-1, 3) for part in parts)
         lay = align(window, facing)
         cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=-1).mean()))
         self.chosen.append(Chosen(node, wished, taken, made.values[space.columns], cost))
-        [old] = self._laid(centre - HALF, centre + HALF + 1)
+        old = self.place.apply_motion(parts[0])
         self.node, self.parameters, self.stride, self.place = node, taken, made, self.place @ lay
-        [new] = self._laid(into - HALF, into + HALF + 1)
-        mixed = blend(old, new, cubic_weights(WINDOW))
+        mixed = blend(old, self.place.apply_motion(parts[1]), cubic_weights(WINDOW))
         self._play([*rest, mixed], WINDOW, into + HALF + 1)
 
     def _wish(self, space: StrideSpace, heading: float, speed: float) -> Array:
@@ -177,8 +180,6 @@ class ParametricController:
             if label in self.way:
                 return label
             return min(self.way, key=lambda node: nx.shortest_path_length(self.graph.graph, node, label))
-        if len(self.way) == 1:
-            return next(iter(self.way))
         return min(self.way, key=lambda node: self._missed(node, heading, speed))
 
     def _missed(self, node: str, heading: float, speed: float) -> float:

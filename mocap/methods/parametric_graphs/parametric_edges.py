@@ -8,7 +8,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.parametric_graphs.nearest_windows import OptimalTransitions, optimal_transitions
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, neighbours
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, neighbours, said
 
 BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
 EPSILON = 0.005  # of half a range, by which a box keeps off bad targets
@@ -69,10 +69,8 @@ class ParametricEdge:
 
     def look_up(self, asked: Array, count: int | None = None) -> Way:
         """Weigh the boxes of the sources nearest to some parameters (d,) [HG07, Eq. 3]."""
-        near, shares = neighbours(asked[None], self.at, self.scale, count)
-        rows, shares = near[0], shares[0]
-        sides = (shares @ self.low[rows], shares @ self.high[rows])
-        return Way(*sides, float(shares @ self.leave[rows]), float(shares @ self.enter[rows]))
+        (rows,), (shares,) = neighbours(asked[None], self.at, self.scale, count)
+        return Way(*(shares @ part[rows] for part in (self.low, self.high, self.leave, self.enter)))
 
 
 def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> tuple[Array, Array]:
@@ -114,44 +112,22 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     return low, high
 
 
-class _Sampled(NamedTuple):
-    """Parameters of sources and targets, and their transitions."""
-
-    at: Array
-    to: Array
-    found: OptimalTransitions
-
-
-def require_joinable(source: StrideSpace, target: StrideSpace) -> None:
-    """Raise SkeletonMismatch or MocapError for spaces of different skeletons or rates."""
-    one, other = source.strides, target.strides
-    one.skeleton.require_same(other.skeleton)
-    if one.fps != other.fps:
-        raise MocapError(f"An edge joins spaces of one rate, got {one.fps:g} and {other.fps:g} Hz.")
-    if odd := set(one.contact_names) ^ set(other.contact_names):
-        raise MocapError(f"An edge joins spaces with the same marks; one of them lacks {min(odd)}.")
-
-
-def _sample(source: StrideSpace, target: StrideSpace, sampling: Sampling) -> _Sampled:
+def _sample(
+    source: StrideSpace, target: StrideSpace, sampling: Sampling
+) -> tuple[Array, Array, OptimalTransitions]:
     """Draw sources and targets, the outermost sources among them, and compare all pairs."""
     least = len(source.parameters) + 2
     if sampling.sources < least or sampling.targets < 1:
         raise MocapError(f"An edge takes {least} sources and a target or more, got {sampling}.")
-    require_joinable(source, target)
+    source.strides.require_joinable(target.strides)
     random = np.random.default_rng(sampling.seed)
     at = draw_parameters(source, sampling.sources, random)
     to = draw_parameters(target, sampling.targets, random)
-    ends = _outermost(source)  # mixing cannot reach beyond them
-    at[: len(ends)] = ends
-    return _Sampled(at, to, optimal_transitions(source, target, at, to))
-
-
-def _outermost(space: StrideSpace) -> Array:
-    """Give the ends of a range; of two parameters the samples farthest out, for its corners may hold none."""
-    if len(space.parameters) == 1:
-        return np.array([space.low, space.high])
-    values = space.reached
-    return np.asarray(values[np.concatenate([values.argmin(axis=0), values.argmax(axis=0)])])
+    ends, some = np.array([source.low, source.high]), source.reached
+    if len(source.parameters) > 1:  # the samples farthest out, for the corners of the range may hold none
+        ends = some[np.concatenate([some.argmin(axis=0), some.argmax(axis=0)])]
+    at[: len(ends)] = ends  # mixing cannot reach beyond them
+    return at, to, optimal_transitions(source, target, at, to)
 
 
 def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling | None = None) -> float:
@@ -171,7 +147,8 @@ def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling |
 
     Notebook: 17-parametric-graphs
     """
-    return float(_sample(source, target, sampling or Sampling()).found.cost.min(axis=1).max())
+    _, _, found = _sample(source, target, sampling or Sampling())
+    return float(found.cost.min(axis=1).max())
 
 
 def build_edge(
@@ -218,7 +195,12 @@ def build_edge(
     at, to, found = _sample(source, target, sampling or Sampling())
     cost, least = found.cost, found.cost.min(axis=1)
     if (least > good).any():
-        raise NoWalk(_refusal(source, at[int(least.argmax())], good, float(least.max())))
+        asked, worst = at[int(least.argmax())], float(least.max())
+        what = "a turn of " * ("turn" in source.parameters) + " at ".join(map(said, source.parameters, asked))
+        raise NoWalk(
+            f"Nothing follows {what} below {100 * good:.1f} cm (the best costs {100 * worst:.1f} "
+            f"cm): raise T_GOOD to {100 * np.ceil(1000 * worst) / 1000:.1f} cm, or narrow the range."
+        )
     rows = []
     for row in range(len(at)):
         fine = cost[row] <= good
@@ -230,13 +212,3 @@ def build_edge(
         rows.append((low, high, found.leave[row, inside].mean(), found.enter[row, inside].mean()))
     low, high, leave, enter = (np.array(part) for part in zip(*rows, strict=True))
     return ParametricEdge(at, low, high, leave, enter, source.scale, float(least.max()))
-
-
-def _refusal(space: StrideSpace, asked: Array, good: float, least: float) -> str:
-    """Say which source has no target, and what would help."""
-    texts = {"turn": lambda v: f"a turn of {np.degrees(v):.0f}°", "speed": lambda v: f"{v:.2f} m/s"}
-    what = " at ".join(texts[name](value) for name, value in zip(space.parameters, asked, strict=True))
-    return (
-        f"Nothing follows {what} below {100 * good:.1f} cm (the best costs {100 * least:.1f} cm): "
-        f"raise T_GOOD to {100 * np.ceil(1000 * least) / 1000:.1f} cm, or narrow the range."
-    )

@@ -1,7 +1,9 @@
 """Parametric motion graphs in `.npz` files: spaces, strides and edges, all that a character needs."""
 
 from collections.abc import Iterator
+from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -14,62 +16,63 @@ from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricG
 from mocap.methods.parametric_graphs.stride_spaces import PARAMETERS, StrideSpace
 from mocap.methods.parametric_graphs.strides import Strides
 
-NAME, VERSION = "a parametric motion graph", 1
-_HEAD: Layout = {"nodes": ("U", ("K",)), "sources": ("i", ("E",)), "targets": ("i", ("E",))}
-_BODY: Layout = {
-    "fps": ("f", ()),
-    "joints": ("U", ("J",)),
-    "parents": ("i", ("J",)),
-    "offsets": ("f", ("J", 3)),
-    "contact_names": ("U", ("C",)),
+Table = dict[str, tuple[str, tuple[int | str, ...], str]]
+"""For each array its kind, its shape, and where it is found; sizes in small letters are one node's own."""
+HEAD: Layout = {"nodes": ("U", ("K",)), "sources": ("i", ("E",)), "targets": ("i", ("E",))}
+BODY: Table = {
+    "fps": ("f", (), "fps"),
+    "joints": ("U", ("J",), "skeleton.names"),
+    "parents": ("i", ("J",), "skeleton.parents"),
+    "offsets": ("f", ("J", 3), "skeleton.offsets"),
+    "contact_names": ("U", ("C",), "contact_names"),
 }
-_STRIDES: Layout = {  # n strides on g phases
-    "grid": ("f", ("g",)),
-    "speeds": ("c", ("n", "g")),
-    **dict.fromkeys(("seconds", "turning", "heights"), ("f", ("n", "g"))),
-    "poses": ("f", ("n", "g", "J", 4)),
-    "contacts": ("b", ("n", "g", "C")),
+NODE: Table = {  # n strides on g phases, s samples of d parameters
+    "grid": ("f", ("g",), "strides.grid"),
+    "speeds": ("c", ("n", "g"), "strides.speeds"),
+    **{key: ("f", ("n", "g"), f"strides.{key}") for key in ("seconds", "turning", "heights")},
+    "poses": ("f", ("n", "g", "J", 4), "strides.poses"),
+    "contacts": ("b", ("n", "g", "C"), "strides.contacts"),
+    "facts": ("f", ("n", 2), "strides.values"),
+    "numbers": ("f", (3,), "strides.sway strides.offset strides.dropped"),
+    "values": ("f", ("s", "d"), "values"),
+    "mixes": ("f", ("s", "n"), "mixes"),
+    "low": ("f", ("d",), "low"),
+    "high": ("f", ("d",), "high"),
+    "parameters": ("U", ("d",), "parameters"),
 }
-_SPACE: Layout = {  # s samples of d parameters
-    "values": ("f", ("s", "d")),
-    "mixes": ("f", ("s", "n")),
-    **dict.fromkeys(("low", "high"), ("f", ("d",))),
-}
-_NODE: Layout = {
-    **_STRIDES,
-    **_SPACE,
-    "facts": ("f", ("n", 2)),
-    "numbers": ("f", (3,)),  # sway, offset, how many were left out
-    "parameters": ("U", ("d",)),
-}
-_EDGE: Layout = {  # s sources of d parameters, boxes of t parameters
-    "at": ("f", ("s", "d")),
-    **dict.fromkeys(("box_low", "box_high"), ("f", ("s", "t"))),
-    **dict.fromkeys(("leave", "enter"), ("f", ("s",))),
-    "unit": ("f", ("d",)),
-    "least": ("f", ()),
+EDGE: Table = {  # s sources of d parameters, boxes of t parameters
+    "at": ("f", ("s", "d"), "at"),
+    **{f"box_{side}": ("f", ("s", "t"), side) for side in ("low", "high")},
+    **{key: ("f", ("s",), key) for key in ("leave", "enter")},
+    "unit": ("f", ("d",), "scale"),
+    "least": ("f", (), "least"),
 }
 
 
 def _kind(nodes: int, edges: int) -> Kind:
-    """Say which arrays a file has: a node or edge has its own, and sizes in small letters are its own."""
-    own = [(f"_of_{number}", _NODE) for number in range(nodes)]
-    own += [(f"_of_edge_{number}", _EDGE) for number in range(edges)]
+    """Say which arrays a file has: a node or edge has its own."""
+    own = [(f"_of_{number}", NODE) for number in range(nodes)]
+    own += [(f"_of_edge_{number}", EDGE) for number in range(edges)]
     parts = {
         f"{key}{end}": (kind, tuple(f"{n}{end}" if str(n).islower() else n for n in shape))
-        for end, arrays in own
-        for key, (kind, shape) in arrays.items()
+        for end, table in own
+        for key, (kind, shape, _) in table.items()
     }
-    return Kind(NAME, VERSION, {**_HEAD, **_BODY, **parts}, _rules)
+    body = {key: row[:2] for key, row in BODY.items()}
+    return Kind("a parametric motion graph", 1, {**HEAD, **body, **parts}, _rules if nodes else lambda _: ())
 
 
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     """Yield what must hold."""
     nodes, ends = arrays["nodes"], np.concatenate([arrays["sources"], arrays["targets"]])
-    yield "nodes have names of their own", 0 < len(nodes) == len(set(nodes.tolist()))
+    yield "nodes have names of their own", len(nodes) == len(set(nodes.tolist()))
     yield "there are edges between its nodes", (ends >= 0) & (ends < len(nodes))
     names = (part for key, part in arrays.items() if key.startswith("parameters"))
     yield "spaces are asked by turn and speed", [set(part.tolist()) <= set(PARAMETERS) for part in names]
+
+
+def _taken(one: object, table: Table, end: str = "") -> dict[str, Any]:
+    return {f"{key}{end}": attrgetter(*where.split())(one) for key, (_, _, where) in table.items()}
 
 
 def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
@@ -80,28 +83,14 @@ def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
     MocapError : for another suffix, and where the file cannot be written.
     """
     nodes, edges = list(graph.graph), list(graph.graph.edges)
-    first = graph.space(nodes[0]).strides
-    arrays: dict[str, object] = {
-        "nodes": nodes,
-        "sources": [nodes.index(a) for a, _ in edges],
-        "targets": [nodes.index(b) for _, b in edges],
-        "fps": first.fps,
-        "joints": first.skeleton.names,
-        "parents": first.skeleton.parents,
-        "offsets": first.skeleton.offsets,
-        "contact_names": first.contact_names,
+    ends = {
+        key: [nodes.index(pair[side]) for pair in edges] for side, key in enumerate(("sources", "targets"))
     }
+    arrays = {"nodes": nodes, **ends, **_taken(graph.space(nodes[0]).strides, BODY)}
     for number, node in enumerate(nodes):
-        space = graph.space(node)
-        strides = space.strides
-        own = {key: getattr(strides, key) for key in _STRIDES} | {key: getattr(space, key) for key in _SPACE}
-        own |= {"facts": strides.values, "parameters": space.parameters}
-        own["numbers"] = [strides.sway, strides.offset, float(strides.dropped)]
-        arrays |= {f"{key}_of_{number}": value for key, value in own.items()}
-    for number, (a, b) in enumerate(edges):
-        edge = graph.edge(a, b)
-        parts = (edge.at, edge.low, edge.high, edge.leave, edge.enter, edge.scale, edge.least)
-        arrays |= {f"{key}_of_edge_{number}": part for key, part in zip(_EDGE, parts, strict=True)}
+        arrays |= _taken(graph.space(node), NODE, f"_of_{number}")
+    for number, pair in enumerate(edges):
+        arrays |= _taken(graph.edge(*pair), EDGE, f"_of_edge_{number}")
     write_arrays(path, _kind(len(nodes), len(edges)), arrays)
 
 
@@ -112,32 +101,22 @@ def load_parametric(path: str | Path) -> ParametricGraph:
     ------
     FormatError, MocapError : for a file that is missing, is another kind of file, or contradicts itself.
     """
-    head = read_arrays(path, Kind(NAME, VERSION, _HEAD))
-    nodes, edges = head["nodes"].tolist(), list(zip(head["sources"], head["targets"], strict=False))
-    arrays = read_arrays(path, _kind(len(nodes), len(edges)))
+    head = read_arrays(path, _kind(0, 0))
+    nodes, ends = head["nodes"].tolist(), np.stack([head["sources"], head["targets"]], axis=-1).tolist()
+    arrays = read_arrays(path, _kind(len(nodes), len(ends)))
+    fps, *bones, contact_names = (arrays[key] for key in BODY)
+    skeleton = Skeleton(bones[0].tolist(), *bones[1:])
     graph = nx.DiGraph()
     for number, node in enumerate(nodes):
-        graph.add_node(node, space=_space(arrays, f"_of_{number}"))
-    for number, (a, b) in enumerate(edges):
-        at, low, high, leave, enter, unit, least = (arrays[f"{key}_of_edge_{number}"] for key in _EDGE)
-        edge = ParametricEdge(at, low, high, leave, enter, unit, float(least))
+        own = {where: arrays[f"{key}_of_{number}"] for key, (_, _, where) in NODE.items()}
+        sway, offset, dropped = own.pop(NODE["numbers"][2]).tolist()
+        strides = {where.partition(".")[2]: own.pop(where) for where in list(own) if "." in where}
+        strides |= {"contact_names": tuple(contact_names.tolist()), "dropped": int(dropped)}
+        names = tuple(own.pop("parameters").tolist())
+        made = Strides(skeleton, float(fps), **strides, sway=sway, offset=offset)
+        graph.add_node(node, space=StrideSpace(made, names, **own))
+    for number, (a, b) in enumerate(ends):
+        parts = {where: arrays[f"{key}_of_edge_{number}"] for key, (_, _, where) in EDGE.items()}
+        edge = ParametricEdge(**parts | {"least": float(parts["least"])})
         graph.add_edge(nodes[a], nodes[b], edge=edge)
     return ParametricGraph(graph)
-
-
-def _space(arrays: Arrays, end: str) -> StrideSpace:
-    """Put the space of a node together."""
-    sway, offset, dropped = arrays[f"numbers{end}"].tolist()
-    strides = Strides(
-        Skeleton(arrays["joints"].tolist(), arrays["parents"], arrays["offsets"]),
-        float(arrays["fps"]),
-        **{key: arrays[f"{key}{end}"] for key in _STRIDES},
-        contact_names=tuple(arrays["contact_names"].tolist()),
-        values=arrays[f"facts{end}"],
-        sway=sway,
-        offset=offset,
-        dropped=int(dropped),
-    )
-    return StrideSpace(
-        strides, tuple(arrays[f"parameters{end}"].tolist()), **{key: arrays[f"{key}{end}"] for key in _SPACE}
-    )

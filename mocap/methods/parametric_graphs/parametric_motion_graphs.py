@@ -4,16 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import networkx as nx
-import numpy as np
 
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.parametric_graphs.parametric_edges import (
-    ParametricEdge,
-    Sampling,
-    build_edge,
-    require_joinable,
-)
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
+from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge, Sampling, build_edge
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, said
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,13 +39,11 @@ class ParametricGraph:
         lines = []
         for node, other, data in self.graph.edges(data=True):
             edge: ParametricEdge = data["edge"]
-            parts = []
-            for number, name in enumerate(self.space(other).parameters):
-                wide = float((edge.high - edge.low)[:, number].mean())
-                turns = name == "turn"
-                parts.append(f"{np.degrees(wide):.0f}° of turn" if turns else f"{wide:.2f} m/s of speed")
-            boxes = " and ".join(parts)
-            lines.append(f"{node} → {other}: boxes of {boxes}, from {100 * edge.least:.1f} cm on")
+            wide = (edge.high - edge.low).mean(axis=0)
+            boxes = map("{} of {}".format, map(said, names := self.space(other).parameters, wide), names)
+            lines.append(
+                f"{node} → {other}: boxes of {' and '.join(boxes)}, from {100 * edge.least:.1f} cm on"
+            )
         return "\n".join(lines)
 
 
@@ -103,7 +95,7 @@ def build_parametric(
     if unknown := [name for pair in asked for name in pair if name not in spaces]:
         raise MocapError(f"There is no space '{unknown[0]}'; there are: {', '.join(spaces)}.")
     for space in spaces.values():  # before any edge takes its seconds
-        require_joinable(next(iter(spaces.values())), space)
+        next(iter(spaces.values())).strides.require_joinable(space.strides)
     graph = nx.DiGraph()
     graph.add_nodes_from((name, {"space": space}) for name, space in spaces.items())
     for name, other in asked:

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array, Indices, Points
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.match_webs.wishes import neighbour_weights
+from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
 from mocap.methods.parametric_graphs.strides import Strides, mixed_way
 
 PARAMETERS = ("turn", "speed")
@@ -89,22 +89,14 @@ def neighbours(asked: Array, among: Array, scale: Array, count: int | None = Non
     -------
     The numbers of the samples and their weights, (M, k) each.
 
-    Raises
-    ------
-    MocapError : for fewer samples than are asked for.
-
     Examples
     --------
     >>> near, weights = neighbours(np.array([[0.0]]), np.array([[4.0], [1], [2]]), np.ones(1))
     >>> near, weights
     (array([[1, 2, 0]]), array([[0.75, 0.25, 0.  ]]))
     """
-    count = asked.shape[1] + NEIGHBOURS if count is None else count
-    if len(among) < count:
-        raise MocapError(f"{count} neighbours are taken, but there are {len(among)} samples.")
-    gaps = np.linalg.norm((asked[:, None] - among) / scale, axis=-1)
-    near = np.argsort(gaps, axis=1, kind="stable")[:, :count]
-    return near, neighbour_weights(np.take_along_axis(gaps, near, 1))
+    near, gaps = nearest_samples(asked, among, scale, count or asked.shape[1] + NEIGHBOURS)
+    return near, neighbour_weights(gaps)
 
 
 def bell_weights(values: Array, asked: Array, width: Array) -> Array:
@@ -126,8 +118,8 @@ def bell_weights(values: Array, asked: Array, width: Array) -> Array:
     return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 
 
-def measure_mixes(strides: Strides, weights: Array) -> Array:
-    """Measure what mixes (M, N) come to: turn in radians and speed in m/s, (M, 2).
+def measure_mixes(strides: Strides, weights: Array, way: tuple[Points, Array] | None = None) -> Array:
+    """Measure what mixes (M, N), whose way may be given, come to: turn in radians and speed in m/s, (M, 2).
 
     Examples
     --------
@@ -139,7 +131,7 @@ def measure_mixes(strides: Strides, weights: Array) -> Array:
 
     Notebook: 17-parametric-graphs
     """
-    ground, facing = mixed_way(strides, weights)
+    ground, facing = way or mixed_way(strides, weights)
     zero, one = strides.ends
     way = np.abs(np.diff(ground[:, zero : one + 1], axis=1)).sum(axis=1)
     turn = facing[:, one] - facing[:, zero] - strides.sway
@@ -168,9 +160,8 @@ def make_space(
 
     Raises
     ------
-    MocapError : for unknown parameters, a range that is none or lies outside what the samples come to, a
-        width that is not above 0, fewer strides than d + 2, too few samples in a range of two parameters, and
-        strides that do not vary.
+    MocapError : for unknown parameters, a range that is none or holds too few samples, a width that is not
+        above 0, fewer strides than d + 2, and strides that do not vary.
 
     Warns
     -----
@@ -188,12 +179,22 @@ def make_space(
 
     Notebook: 17-parametric-graphs
     """
-    names = tuple(parameters)
+    names, columns = tuple(parameters), [PARAMETERS.index(name) for name in parameters if name in PARAMETERS]
     width, lowest, highest = (np.atleast_1d(np.asarray(value, float)) for value in (width, low, high))
-    _check(names, width, lowest, highest)
-    columns = [PARAMETERS.index(name) for name in names]
+    if not names or len(set(columns)) < len(names):
+        raise MocapError(f"A space is asked by 'turn', 'speed' or both, got {', '.join(names) or 'none'}.")
+    if (
+        any(end.shape != (len(names),) for end in (width, lowest, highest))
+        or not (
+            (width > 0) & (width < np.inf) & (-np.inf < lowest) & (lowest < highest) & (highest < np.inf)
+        ).all()
+    ):
+        raise MocapError(
+            "A range has for each parameter a low end below its high end and a width above 0, got "
+            f"{lowest} to {highest} and {width}."
+        )
     values = strides.values[:, columns]
-    _check_strides(names, values, width)
+    _require_variety(names, values, width)
     if len(names) == 1:
         asked = np.linspace(lowest - width, highest + width, SAMPLES[0])
     else:
@@ -202,66 +203,53 @@ def make_space(
         asked = around + random.normal(size=around.shape) * width
     mixes = bell_weights(values, asked, width)
     come = measure_mixes(strides, mixes)[:, columns]
-    lowest, highest = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
-    if not (lowest < highest).all():
-        number = int(np.argmin(highest - lowest))
-        ends = (_said(names[number], end) for end in (come[:, number].min(), come[:, number].max()))
+    ends = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
+    space = StrideSpace(strides, names, come, mixes, *ends)
+    if len(space.reached) < len(names) + NEIGHBOURS:
         raise MocapError(
-            f"These strides come to a {names[number]} of {' to '.join(ends)}, outside the range asked for."
+            f"Only {len(space.reached)} of {len(asked)} samples lie in the range: they come to "
+            + " and ".join(_spans(names, come))
+            + "."
         )
-    _warn_of_gaps(names, values, width, (lowest, highest))
-    space = StrideSpace(strides, names, come, mixes, lowest, highest)
-    if len(names) > 1 and len(space.reached) < len(names) + NEIGHBOURS:
-        raise MocapError(f"Only {len(space.reached)} of {len(asked)} samples lie in the range: widen it.")
+    if len(names) == 1:  # of two parameters the samples are the range
+        _warn_of_gaps(names[0], values[:, 0], width[0], np.linspace(*ends, 25)[:, 0])
     return space
 
 
-def _check_strides(names: tuple[str, ...], values: Array, width: Array) -> None:
+def said(name: str, value: float) -> str:
+    """Say a parameter with its unit."""
+    return f"{np.degrees(value):.0f}°" if name == "turn" else f"{value:.2f} m/s"
+
+
+def _spans(names: tuple[str, ...], values: Array) -> list[str]:
+    ends = zip(names, values.min(axis=0), values.max(axis=0), strict=True)
+    return [f"a {name} of {said(name, low)} to {said(name, high)}" for name, low, high in ends]
+
+
+def _require_variety(names: tuple[str, ...], values: Array, width: Array) -> None:
     """Refuse strides that are too few, or hardly differ in what they shall be asked by."""
     if len(values) < len(names) + NEIGHBOURS:
         raise MocapError(
             f"A space asked by {' and '.join(names)} takes {len(names) + NEIGHBOURS} strides or more, "
             f"got {len(values)}: add clips, or longer ones, for a stride needs room at its ends."
         )
-    spans = np.ptp(values, axis=0)
-    if (spans < width / 2).any():
-        number = int((spans / width).argmin())
-        low, high = (_said(names[number], end) for end in (values[:, number].min(), values[:, number].max()))
+    spread = np.ptp(values, axis=0) / width
+    if spread.min() < 1 / 2:
         raise MocapError(
-            f"{len(values)} strides hardly vary in {names[number]}, from {low} to {high}: "
-            f"ask by something else, or add clips that vary."
+            f"{len(values)} strides hardly vary, with {_spans(names, values)[spread.argmin()]}: "
+            "ask by something else, or add clips that vary."
         )
 
 
-def _warn_of_gaps(names: tuple[str, ...], values: Array, width: Array, ends: tuple[Array, Array]) -> None:
-    """Warn of parts of a range with hardly any stride; of two parameters the samples are the range."""
-    if len(names) > 1:
-        return
-    parts = np.linspace(*ends, 25)[:, 0]
-    near = (np.abs(parts[:, None] - values[:, 0]) <= 2 * width[0]).sum(axis=1)
+def _warn_of_gaps(name: str, values: Array, width: float, parts: Array) -> None:
+    """Warn of parts of a range with hardly any stride."""
+    near = (np.abs(parts[:, None] - values) <= 2 * width).sum(axis=1)
     if near.min() < FEWEST:
         warnings.warn(
-            f"Only {near.min()} of {len(values)} strides are near a {names[0]} of "
-            f"{_said(names[0], parts[near.argmin()])}: blends there hardly differ; narrow the range, or add "
-            "clips.",
+            f"Only {near.min()} of {len(values)} strides are near a {name} of "
+            f"{said(name, parts[near.argmin()])}: blends there hardly differ; narrow the range or add clips.",
             MocapWarning,
             stacklevel=3,
-        )
-
-
-def _said(name: str, value: float) -> str:
-    return f"{np.degrees(value):.0f}°" if name == "turn" else f"{value:.2f} m/s"
-
-
-def _check(names: tuple[str, ...], width: Array, low: Array, high: Array) -> None:
-    if not names or len(set(names)) < len(names) or not set(names) <= set(PARAMETERS):
-        raise MocapError(f"A space is asked by 'turn', 'speed' or both, got {', '.join(names) or 'none'}.")
-    for value, what in ((width, "width"), (low, "low end"), (high, "high end")):
-        if value.shape != (len(names),) or not np.isfinite(value).all():
-            raise MocapError(f"The {what} has one finite number per parameter, {len(names)}; got {value}.")
-    if not (width > 0).all() or not (low < high).all():
-        raise MocapError(
-            f"A range needs a low end below its high end and a width above 0: {low}, {high}, {width}."
         )
 
 

@@ -11,7 +11,7 @@ Notebook: 17-parametric-graphs
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,13 +90,20 @@ class Strides:
         parts = ("seconds", "speeds", "turning", "heights", "poses", "contacts", "values")
         return replace(self, **{part: getattr(self, part)[which] for part in parts})
 
+    def integrated(self, rates: NDArray[Any]) -> NDArray[Any]:
+        """Integrate rates (M, G) over the phases, from the first strike on."""
+        step, zero = self.grid[1] - self.grid[0], self.ends[0]
+        total = np.cumsum((rates[:, 1:] + rates[:, :-1]) / 2 * step, axis=1)
+        total = np.concatenate([np.zeros((len(rates), 1)), total], axis=1)
+        return np.asarray(total - total[:, zero : zero + 1])
 
-class _Found(NamedTuple):
-    """A stretch of a clip: the frames of its strikes, and of the one before and the one after."""
-
-    clip: Motion
-    strikes: Array
-    around: Array
+    def require_joinable(self, other: "Strides") -> None:
+        """Raise SkeletonMismatch or MocapError for examples of another skeleton, rate or marks."""
+        self.skeleton.require_same(other.skeleton)
+        if self.fps != other.fps:
+            raise MocapError(f"Strides are joined at one rate, got {self.fps:g} and {other.fps:g} Hz.")
+        if odd := set(self.contact_names) ^ set(other.contact_names):
+            raise MocapError(f"Strides are joined with the same marks; some of them lack {min(odd)}.")
 
 
 def cut_strides(
@@ -143,27 +150,16 @@ def cut_strides(
         raise MocapError("Strides are cut out of one clip or more, got none.")
     require_alike(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
-    grid = _grid(feet, margin)
-    found, dropped = [], 0
-    for clip in clips:
-        for stretch in _stretches(clip, feet, label):
-            frames = None if stretch is None else np.interp(grid, *_phases(stretch))
-            if stretch is None or frames is None or frames[0] < 0 or frames[-1] > len(stretch.clip) - 1:
-                dropped += 1
-            else:
-                found.append((stretch, frames))
+    step, beyond = 2 / (len(feet) - 1) / FINE, round(margin * FINE)
+    grid = np.arange(-beyond, round(1 / step) + beyond + 1) * step
+    tried = [(clip, frames) for clip in clips for frames in _examples(clip, feet, label, grid)]
+    found = [(clip, frames) for clip, frames in tried if frames is not None]
+    dropped = len(tried) - len(found)
     if not found:
         what = f"'{feet}' labelled '{label}'" if label else f"'{feet}'"
         raise MocapError(f"No example of {what} in {len(clips)} clips; {dropped} were left out.")
-    if by == "curves":
-        found = _registered(found, grid)
-    return _tabled(found, grid, feet, dropped)
-
-
-def _grid(feet: str, margin: float) -> Array:
-    """Space phases evenly, `FINE` per stride, with a margin at both ends."""
-    step, beyond = 2 / (len(feet) - 1) / FINE, round(margin * FINE)
-    return np.asarray(np.arange(-beyond, round(1 / step) + beyond + 1) * step, float)
+    found = _registered(found) if by == "curves" else found
+    return _calibrated(_tabled(found, grid, dropped), steps=feet != STRIDE)
 
 
 def _strikes(clip: Motion) -> list[tuple[int, str]]:
@@ -178,61 +174,56 @@ def _strikes(clip: Motion) -> list[tuple[int, str]]:
     return sorted(event for event in events if event[0] > 0)
 
 
-def _stretches(clip: Motion, feet: str, label: str) -> Iterator[_Found | None]:
-    """Find stretches with the strikes and label asked for; None for one that begins right and is no use."""
+def _examples(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Array | None]:
+    """Yield the frames (G,) of each example at the phases of a grid; None for one that is no use."""
     events, count = _strikes(clip), len(feet)
     low, high = (seconds * clip.fps for seconds in STEP_LASTS)
+    named = clip.labels[label] if label in clip.labels else np.full(len(clip), not label)
     for first in range(len(events) - count + 1):
-        some = events[first : first + count]
-        named = clip.labels[label] if label in clip.labels else np.full(len(clip), not label)
-        if some[0][1] != feet[0] or not named[some[0][0] : some[-1][0] + 1].all():
+        at = np.array([frame for frame, _ in events[first : first + count]], float)
+        order = "".join(foot for _, foot in events[first : first + count])
+        if order[0] != feet[0] or not named[int(at[0]) : int(at[-1]) + 1].all():
             continue
-        at = np.array([frame for frame, _ in some], float)
         gaps = np.diff(at)
-        if "".join(foot for _, foot in some) != feet or gaps.min() < low or gaps.max() > high:
+        if order != feet or gaps.min() < low or gaps.max() > high:
             yield None
             continue
         before = at[0] - events[first - 1][0] if first else 0.0
         after = events[first + count][0] - at[-1] if first + count < len(events) else 0.0
-        before = before if low <= before <= high else gaps[0]
-        after = after if low <= after <= high else gaps[-1]
-        yield _Found(clip, at, np.array([at[0] - before, at[-1] + after]))
+        before, after = (
+            own if low <= own <= high else gap for own, gap in ((before, gaps[0]), (after, gaps[-1]))
+        )
+        phases = np.arange(-1, count + 1) / (count - 1)
+        frames = np.interp(grid, phases, [at[0] - before, *at, at[-1] + after])
+        yield frames if frames[0] >= 0 and frames[-1] <= len(clip) - 1 else None
 
 
-def _phases(stretch: _Found) -> tuple[Array, Array]:
-    """Give the phases of the strikes, and of those before and after, and their frames."""
-    steps = len(stretch.strikes) - 1
-    phases = np.arange(-1, steps + 2) / steps
-    return phases, np.concatenate([stretch.around[:1], stretch.strikes, stretch.around[1:]])
-
-
-def _registered(found: list[tuple[_Found, Array]], grid: Array) -> list[tuple[_Found, Array]]:
+def _registered(found: list[tuple[Motion, Array]]) -> list[tuple[Motion, Array]]:
     """Put the frames of all examples on the clock of the one whose turn is the median [KG03]."""
-    clips = [stretch.clip[int(frames[0]) : int(np.ceil(frames[-1])) + 1] for stretch, frames in found]
+    clips = [clip[int(frames[0]) : int(np.ceil(frames[-1])) + 1] for clip, frames in found]
     turns = [float(np.ptp(np.unwrap(heading(clip.rotations[:, 0])))) for clip in clips]
-    middle = int(np.argsort(turns)[len(turns) // 2])
+    middle, fps = int(np.argsort(turns)[len(turns) // 2]), clips[0].fps
     registration = register(clips, reference=middle, slack=0.0)
-    fps = clips[0].fps
     clock = (found[middle][1] - int(found[middle][1][0])) / fps
     on_clock = []
-    for (stretch, frames), times, clip in zip(found, registration.times, clips, strict=True):
+    for (whole, frames), times, clip in zip(found, registration.times, clips, strict=True):
         warped = np.clip(times(clock) * fps, 0, len(clip) - 1) + int(frames[0])
-        on_clock.append((stretch, np.maximum.accumulate(warped)))
+        on_clock.append((whole, np.maximum.accumulate(warped)))
     return on_clock
 
 
-def _tabled(found: list[tuple[_Found, Array]], grid: Array, feet: str, dropped: int) -> Strides:
+def _tabled(found: list[tuple[Motion, Array]], grid: Array, dropped: int) -> Strides:
     """Take the motion at the frames of all examples."""
-    clip, step = found[0][0].clip, grid[1] - grid[0]
+    step, names = grid[1] - grid[0], tuple(found[0][0].contacts)
     zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
     rows = []
-    for stretch, frames in found:
-        posed = stretch.clip.at(frames)
+    for clip, frames in found:
+        posed = clip.at(frames)
         roots, turns = posed.root_positions, posed.rotations.copy()
         facing, ground = np.unwrap(heading(turns[:, 0])), on_ground(roots)
         turns[:, 0] = rotations.multiply(rotations.about_y(-facing), turns[:, 0])
-        near = np.clip(np.round(frames).astype(int), 0, len(stretch.clip) - 1)
-        contact = np.stack([stretch.clip.contacts[name][near] for name in clip.contacts], axis=-1)
+        near = np.round(frames).astype(int)
+        contact = np.stack([clip.contacts[name][near] for name in names], axis=-1)
         clock = (frames - frames[zero]) / clip.fps
         way = np.abs(np.diff(ground[zero : one + 1])).sum() / clock[one]
         speed, spin = np.gradient(ground, step) * np.exp(-1j * facing), np.gradient(facing, step)
@@ -240,8 +231,8 @@ def _tabled(found: list[tuple[_Found, Array]], grid: Array, feet: str, dropped: 
     seconds, speeds, turning, heights, poses, contacts, values = map(np.array, zip(*rows, strict=True))
     poses[0] = rotations.continuous(poses[0])  # one sign from phase to phase, and for all examples
     poses *= np.where((poses * poses[0]).sum(axis=-1, keepdims=True) < 0, -1, 1)
-    own = (clip.skeleton, clip.fps, grid, seconds, speeds, turning, heights, poses, contacts)
-    return _calibrated(Strides(*own, tuple(clip.contacts), values, dropped=dropped), steps=feet != STRIDE)
+    own = (clip.skeleton, clip.fps, grid, seconds, speeds, turning, heights, poses, contacts, names, values)
+    return Strides(*own, dropped=dropped)
 
 
 def _calibrated(strides: Strides, *, steps: bool) -> Strides:
@@ -280,12 +271,5 @@ def mixed_way(strides: Strides, weights: Array) -> tuple[Points, Array]:
     >>> ground.shape == heading.shape == (2, len(strides.grid))
     True
     """
-    step, zero = strides.grid[1] - strides.grid[0], strides.ends[0]
-
-    def integral(rate: NDArray[Any]) -> NDArray[Any]:
-        total = np.cumsum((rate[:, 1:] + rate[:, :-1]) / 2 * step, axis=1)
-        total = np.concatenate([np.zeros((len(rate), 1)), total], axis=1)
-        return np.asarray(total - total[:, zero : zero + 1])
-
-    facing = integral(weights @ strides.turning)
-    return integral((weights @ strides.speeds) * np.exp(1j * facing)), facing
+    facing = strides.integrated(weights @ strides.turning)
+    return strides.integrated((weights @ strides.speeds) * np.exp(1j * facing)), facing

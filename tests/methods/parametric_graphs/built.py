@@ -22,24 +22,40 @@ def clips() -> tuple[Motion, ...]:
     return tuple(resample(samples.sample(name), 30) for name in WALKS)
 
 
-@cache
 def strides(feet: str = "lrl", by: str = "strikes") -> Strides:
+    return _strides(feet, by)
+
+
+@cache
+def _strides(feet: str, by: str) -> Strides:
     return cut_strides(clips(), feet=feet, by=by)
 
 
+def space(feet: str = "lrl") -> StrideSpace:
+    return _space(feet)
+
+
 @cache
-def space(feet: str = "lrl", by: str = "strikes") -> StrideSpace:
+def _space(feet: str) -> StrideSpace:
     width, high = np.radians([12, 75]) * SHARE[feet]
-    return make_space(strides(feet, by), width, -high, high)
+    return make_space(strides(feet), width, -high, high)
+
+
+def walking(good: float = 0.03) -> ParametricGraph:
+    return _walking(good)
 
 
 @cache
-def walking(good: float = 0.03) -> ParametricGraph:
+def _walking(good: float) -> ParametricGraph:
     return build_parametric({"walk": space()}, good=good)
 
 
-@cache
 def stepping(good: float = 0.03) -> ParametricGraph:
+    return _stepping(good)
+
+
+@cache
+def _stepping(good: float) -> ParametricGraph:
     spaces = {"left": space("lr"), "right": space("rl")}
     few = Sampling(sources=30, targets=300)
     return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good, sampling=few)

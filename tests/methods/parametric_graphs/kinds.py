@@ -7,9 +7,9 @@ from walking import generate_walk
 from walking.footsteps import winding
 
 from mocap.body.motion import resample
+from mocap.methods.parametric_graphs.kinds_of_strides import changing_strides
 from mocap.methods.parametric_graphs.parametric_edges import Sampling
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_changes import changing_strides
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space
 from mocap.methods.parametric_graphs.strides import Strides, cut_strides
 

@@ -10,10 +10,9 @@ from mocap.datasets import samples
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
-from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, on_the_spot
+from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, changing_strides, on_the_spot
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import Sampling
-from mocap.methods.parametric_graphs.stride_changes import changing_strides
 from mocap.methods.parametric_graphs.strides import cut_strides
 from tests.methods.parametric_graphs.built import SMALL, clips, strides
 
@@ -100,7 +99,7 @@ def test_a_kind_that_turns_to_one_side_only_is_said(side, hardly):
 @pytest.mark.parametrize(
     ("kinds", "changes", "error", "sentence"),
     [
-        (lambda: {"walk": [clips()[3]]}, None, MocapError, "walk: 7 strides hardly vary in turn"),
+        (lambda: {"walk": [clips()[3]]}, None, MocapError, "walk: 7 strides hardly vary, with a turn"),
         (lambda: {"walk": [clips()[3][:60]]}, None, MocapError, "walk: No example of 'lrl'"),
         (lambda: {"walk": strides()}, [("walk", "fly")], MocapError, "no kind 'fly'; there are: walk"),
         (dict, None, MocapError, "one kind of strides or more, got none"),

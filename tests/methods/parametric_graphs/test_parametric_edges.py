@@ -134,7 +134,7 @@ def test_spaces_of_other_rates_marks_and_bodies_are_refused():
     source = space()
     fewer = ("lfoot", "rfoot", "ltoes", "head")
     marked = replace(source, strides=replace(source.strides, contact_names=fewer))
-    with pytest.raises(MocapError, match="the same marks; one of them lacks head"):
+    with pytest.raises(MocapError, match="the same marks; some of them lack head"):
         build_edge(source, marked, good=0.04)
     slow = replace(source, strides=replace(source.strides, fps=60.0))
     with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.methods.parametric_graphs.stride_changes import _pairs, changing_strides
+from mocap.methods.parametric_graphs.kinds_of_strides import _pairs, changing_strides
 from tests.methods.parametric_graphs.built import strides
 from tests.methods.parametric_graphs.kinds import cut
 
@@ -46,7 +46,7 @@ def test_kinds_that_do_not_fit_are_refused():
     walk, jog = cut("walk"), cut("jog")
     with pytest.raises(MocapError, match="over the same strikes"):
         changing_strides(walk, strides("lr"))
-    with pytest.raises(MocapError, match="one rate and with the same marks"):
+    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
         changing_strides(walk, replace(jog, fps=60.0))
     with pytest.raises(MocapError, match="no turn in common"):
         changing_strides(walk, replace(jog, values=jog.values + 9))

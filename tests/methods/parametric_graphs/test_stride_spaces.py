@@ -79,20 +79,15 @@ def test_the_range_is_cut_to_what_the_strides_come_to():
         ({"parameters": ("turn", "turn")}, "asked by"),
         ({"width": 0.0}, "a width above 0"),
         ({"low": 0.5, "high": 0.5}, "a low end below its high end"),
-        ({"low": [0.1, 0.2]}, "one finite number per parameter, 1"),
-        ({"high": np.nan}, "one finite number per parameter"),
-        ({"low": 20.0, "high": 21.0}, r"come to a turn of -?\d+° to -?\d+°, outside the range"),
+        ({"low": [0.1, 0.2]}, "for each parameter a low end"),
+        ({"high": np.nan}, "for each parameter a low end"),
+        ({"low": 20.0, "high": 21.0}, r"Only 0 of 120 .* they come to a turn of -?\d+° to -?\d+°\."),
     ],
 )
 def test_what_makes_no_sense_is_refused(settings, sentence):
     asked = {"width": 0.2, "low": -0.5, "high": 0.5, **settings}
     with pytest.raises(MocapError, match=sentence):
         make_space(strides(), asked.pop("width"), asked.pop("low"), asked.pop("high"), **asked)
-
-
-def test_more_neighbours_than_samples_are_refused():
-    with pytest.raises(MocapError, match="3 neighbours are taken, but there are 2 samples"):
-        neighbours(np.zeros((1, 1)), np.ones((2, 1)), np.ones(1))
 
 
 def some(count, spread=1.0):
@@ -112,13 +107,15 @@ def test_too_few_strides_are_refused_with_what_helps():
 
 
 def test_a_range_of_two_parameters_that_hardly_any_sample_lies_in_is_refused():
-    with pytest.raises(MocapError, match=r"Only \d of 400 samples lie in the range: widen it"):
+    with pytest.raises(
+        MocapError, match=r"Only \d of 400 samples lie in the range: they come to a turn of .* and a speed of"
+    ):
         make_space(strides(), [0.2, 0.1], [0.3, 0.7], [0.301, 0.71], parameters=("turn", "speed"))
 
 
 def test_strides_that_do_not_vary_are_refused():
     straight = cut_strides([clips()[3]])
-    with pytest.raises(MocapError, match=r"hardly vary in turn, from -1° to 1°: ask by something else"):
+    with pytest.raises(MocapError, match=r"hardly vary, with a turn of -1° to 1°: ask by something else"):
         make_space(straight, np.radians(14), -0.5, 0.5)
     with pytest.warns(MocapWarning, match="of 7 strides are near a speed of 1"):
         by_speed = make_space(straight, 0.02, 1.0, 1.2, parameters=("speed",))
@@ -156,6 +153,6 @@ def test_a_change_of_two_degrees_changes_the_clip_by_millimetres():
     )
     asked = np.linspace(-1.1, 1.1, 60)[:, None]
     for tested in (smooth, raw):
-        one, other = (near_strike(tested, a, 0.0).points for a in (asked, asked + np.radians(2)))
+        one, other = (near_strike(tested, a, 0.0)[0] for a in (asked, asked + np.radians(2)))
         changes.append(100 * np.median(np.sqrt(((one - other) ** 2).sum(axis=-1).mean(axis=(1, 2)))))
     assert changes[0] < 0.4 and changes[1] > 1.2 > 4 * changes[0]
