@@ -118,8 +118,9 @@ def _by_turns(one: Configuration, other: Configuration, start: float, rounds: in
     """Assign and lay M pairs on by turns, (M, N) each, from one turn, until no pair gets nearer."""
     way, other_way = one.velocities.mean(-1), other.velocities.mean(-1)
     turn = np.exp(1j * (np.angle(way * other_way.conj()) + start))
-    match = Match(np.full(len(turn), np.inf), np.zeros(0, int), turn, np.zeros(0))
-    match = match._replace(move=one.places.mean(-1) - turn * other.places.mean(-1))
+    match = Match(
+        np.full(len(turn), np.inf), np.zeros(0, int), turn, one.places.mean(-1) - turn * other.places.mean(-1)
+    )
     for _ in range(rounds):
         before, square = match.rms, assignment_costs(one, other, match.turn, match.move)
         match = _laid(one, other, np.array([linear_sum_assignment(costs)[1] for costs in square]))

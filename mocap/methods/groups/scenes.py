@@ -4,7 +4,7 @@ Because every clip's extent is known, most tests for collisions are one comparis
 bounds of [LCF05]. The rest is ours.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -53,27 +53,27 @@ class Scene(NamedTuple):
 
 
 class Exits(NamedTuple):
-    """The C clips that leave a node, side by side: numbers, clips, bounds, turns, places and their middles.
+    """The C clips that leave a node, side by side, which all last as long.
 
-    `centres`, `radii` and `turns` (C,); `places` (C, F, N), complex, and their `middles` (C, F).
+    `places` (C, F, N), complex, and their `middles` (C, F); `centres`, `radii` and `turns` (C,).
     """
 
     numbers: list[int]
     clips: list[GroupClip]
+    places: Points
+    middles: Points
     centres: Points
     radii: Array
     turns: Points
-    places: Points
-    middles: Points
 
     @classmethod
     def of(cls, graph: GroupGraph, node: int) -> "Exits":
         """Take the clips that leave a node, which all last as long."""
         numbers = graph.leaving(node)
         clips = [graph.clips[number] for number in numbers]
-        bounds = zip(*((*clip.disc, clip.turn) for clip in clips), strict=True)
+        bounds: Any = zip(*((*clip.disc, clip.turn) for clip in clips), strict=True)
         places = np.array([clip.places for clip in clips])
-        return cls(numbers, clips, *map(np.array, bounds), places, places.mean(axis=2))
+        return cls(numbers, clips, places, places.mean(axis=2), *map(np.array, bounds))
 
 
 class Obstacles:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -29,19 +30,23 @@ class PoseDatabase:
     Parameters
     ----------
     clips : of one skeleton and one rate.
+    labels, contacts : as those of the clips, (T,) each.
     values : shape (T, 27), standardised features; `mean` and `scale` (27,) made them so.
+    usable : shape (T,), frames that a search may find.
+    last : shape (T,), the number of the last frame of each frame's clip.
     ground, heading, drift, spin : shape (T,): where the body is and faces, and its velocity and turning.
     roots, turns : shape (T, 3) and (T, J, 4), the poses.
     speeds : shape (T, J + 1, 3): the root's in m/s, then each joint's in its own frame, rad/s.
-    usable : shape (T,), frames that a search may find.
-    last : shape (T,), the number of the last frame of each frame's clip.
-    labels, contacts : as those of the clips, (T,) each.
     """
 
     clips: tuple[Motion, ...]
+    labels: Mapping[str, Mask]
+    contacts: Mapping[str, Mask]
     values: Array
     mean: Array
     scale: Array
+    usable: Mask
+    last: Indices
     ground: Points
     heading: Array
     drift: Points
@@ -49,10 +54,6 @@ class PoseDatabase:
     roots: Array
     turns: Array
     speeds: Array
-    usable: Mask
-    last: Indices
-    labels: Mapping[str, Mask]
-    contacts: Mapping[str, Mask]
 
     def __len__(self) -> int:
         return len(self.values)
@@ -135,25 +136,27 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
         )
     frames = [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
+    tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
     return PoseDatabase(
         tuple(clips),
+        _marks([clip.labels for clip in clips], frames),
+        _marks([clip.contacts for clip in clips], frames),
         frozen(values, np.float64),
         mean,
         scale,
-        *(np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True)),
         np.concatenate([np.arange(count)[::-1] >= END * rate for count in frames]),
         np.repeat(np.cumsum(frames) - 1, frames),
-        _marks([clip.labels for clip in clips], frames),
-        _marks([clip.contacts for clip in clips], frames),
+        *tracks,
     )
 
 
-def _tracks(clip: Motion) -> tuple[Array | Points, ...]:
+def _tracks(clip: Motion) -> tuple[Any, ...]:
     """Follow the body with its velocity and its turning, and the pose with its speeds."""
     ground, facing = body_track(clip)
     speeds = np.concatenate([velocities(clip.root_positions, clip.fps)[:, None], turn_speeds(clip)], axis=1)
-    moving = velocities(ground, clip.fps), velocities(facing, clip.fps)
-    return ground, facing, *moving, clip.root_positions, clip.rotations, speeds
+    moving: Points = np.gradient(ground) * clip.fps
+    turning = velocities(facing, clip.fps)
+    return ground, facing, moving, turning, clip.root_positions, clip.rotations, speeds
 
 
 def turn_speeds(motion: Motion) -> Array:

@@ -218,10 +218,13 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
     poses = faded(start, np.where((start * end).sum(axis=-1, keepdims=True) < 0, -end, end))
     step = first.grid[1] - first.grid[0]
     rates = (np.gradient(part, step, axis=1) for part in (first.seconds[one], second.seconds[other]))
-    parts = ("speeds", "turning", "heights")
+    faded_parts: dict[str, Any] = {
+        part: faded(getattr(first, part)[one], getattr(second, part)[other])
+        for part in ("speeds", "turning", "heights")
+    }
     made = replace(
         first,
-        **{part: faded(getattr(first, part)[one], getattr(second, part)[other]) for part in parts},
+        **faded_parts,
         seconds=first.integrated(faded(*rates)),  # how long a phase lasts is what fades
         poses=poses / np.linalg.norm(poses, axis=-1, keepdims=True),
         contacts=np.where((share < 0.5)[:, None], first.contacts[one], second.contacts[other]),

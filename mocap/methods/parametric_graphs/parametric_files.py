@@ -104,19 +104,19 @@ def load_parametric(path: str | Path) -> ParametricGraph:
     head = read_arrays(path, _kind(0, 0))
     nodes, ends = head["nodes"].tolist(), np.stack([head["sources"], head["targets"]], axis=-1).tolist()
     arrays = read_arrays(path, _kind(len(nodes), len(ends)))
-    fps, *bones, contact_names = (arrays[key] for key in BODY)
-    skeleton = Skeleton(bones[0].tolist(), *bones[1:])
+    skeleton = Skeleton(arrays["joints"].tolist(), arrays["parents"], arrays["offsets"])
+    marks = tuple(arrays["contact_names"].tolist())
     graph = nx.DiGraph()
     for number, node in enumerate(nodes):
-        own = {where: arrays[f"{key}_of_{number}"] for key, (_, _, where) in NODE.items()}
+        own: dict[str, Any] = {where: arrays[f"{key}_of_{number}"] for key, (_, _, where) in NODE.items()}
         sway, offset, dropped = own.pop(NODE["numbers"][2]).tolist()
-        strides = {where.partition(".")[2]: own.pop(where) for where in list(own) if "." in where}
-        strides |= {"contact_names": tuple(contact_names.tolist()), "dropped": int(dropped)}
-        names = tuple(own.pop("parameters").tolist())
-        made = Strides(skeleton, float(fps), **strides, sway=sway, offset=offset)
-        graph.add_node(node, space=StrideSpace(made, names, **own))
+        parts = {where.partition(".")[2]: own.pop(where) for where in list(own) if "." in where}
+        parts |= {"contact_names": marks, "sway": sway, "offset": offset, "dropped": int(dropped)}
+        own["parameters"] = tuple(own["parameters"].tolist())
+        strides = Strides(skeleton=skeleton, fps=float(arrays["fps"]), **parts)
+        graph.add_node(node, space=StrideSpace(strides=strides, **own))
     for number, (a, b) in enumerate(ends):
-        parts = {where: arrays[f"{key}_of_edge_{number}"] for key, (_, _, where) in EDGE.items()}
-        edge = ParametricEdge(**parts | {"least": float(parts["least"])})
-        graph.add_edge(nodes[a], nodes[b], edge=edge)
+        own = {where: arrays[f"{key}_of_edge_{number}"] for key, (_, _, where) in EDGE.items()}
+        own["least"] = float(own["least"])
+        graph.add_edge(nodes[a], nodes[b], edge=ParametricEdge(**own))
     return ParametricGraph(graph)

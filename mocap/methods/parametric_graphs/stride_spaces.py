@@ -180,19 +180,13 @@ def make_space(
     Notebook: 17-parametric-graphs
     """
     names, columns = tuple(parameters), [PARAMETERS.index(name) for name in parameters if name in PARAMETERS]
-    width, lowest, highest = (np.atleast_1d(np.asarray(value, float)) for value in (width, low, high))
     if not names or len(set(columns)) < len(names):
         raise MocapError(f"A space is asked by 'turn', 'speed' or both, got {', '.join(names) or 'none'}.")
-    if (
-        any(end.shape != (len(names),) for end in (width, lowest, highest))
-        or not (
-            (width > 0) & (width < np.inf) & (-np.inf < lowest) & (lowest < highest) & (highest < np.inf)
-        ).all()
+    lowest, highest, width = ends = [np.atleast_1d(np.asarray(value, float)) for value in (low, high, width)]
+    if {end.shape for end in ends} != {(len(names),)} or not (
+        np.isfinite(ends).all() and (width > 0).all() and (lowest < highest).all()
     ):
-        raise MocapError(
-            "A range has for each parameter a low end below its high end and a width above 0, got "
-            f"{lowest} to {highest} and {width}."
-        )
+        raise MocapError(f"A range has ends low < high and a width above 0, got {ends}.")
     values = strides.values[:, columns]
     _require_variety(names, values, width)
     if len(names) == 1:
@@ -203,8 +197,8 @@ def make_space(
         asked = around + random.normal(size=around.shape) * width
     mixes = bell_weights(values, asked, width)
     come = measure_mixes(strides, mixes)[:, columns]
-    ends = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
-    space = StrideSpace(strides, names, come, mixes, *ends)
+    lowest, highest = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
+    space = StrideSpace(strides, names, come, mixes, lowest, highest)
     if len(space.reached) < len(names) + NEIGHBOURS:
         raise MocapError(
             f"Only {len(space.reached)} of {len(asked)} samples lie in the range: they come to "
@@ -212,7 +206,7 @@ def make_space(
             + "."
         )
     if len(names) == 1:  # of two parameters the samples are the range
-        _warn_of_gaps(names[0], values[:, 0], width[0], np.linspace(*ends, 25)[:, 0])
+        _warn_of_gaps(names[0], values[:, 0], width[0], np.linspace(lowest, highest, 25)[:, 0])
     return space
 
 

@@ -151,7 +151,7 @@ def cut_strides(
     require_alike(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
     step, beyond = 2 / (len(feet) - 1) / FINE, round(margin * FINE)
-    grid = np.arange(-beyond, round(1 / step) + beyond + 1) * step
+    grid = np.asarray(np.arange(-beyond, round(1 / step) + beyond + 1) * step, float)
     tried = [(clip, frames) for clip in clips for frames in _examples(clip, feet, label, grid)]
     found = [(clip, frames) for clip, frames in tried if frames is not None]
     dropped = len(tried) - len(found)
