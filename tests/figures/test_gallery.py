@@ -15,7 +15,11 @@ from mocap.errors import MocapError
 FIGURES = Path(__file__).parents[2] / "figures"
 
 
-@pytest.mark.parametrize("name", gallery.PICTURES)
+SLOW = ("walk", "segments", "dying_walks", "match_webs", "groups", "parametric_graph", "path", "steered")
+PICTURES = [pytest.param(name, marks=[pytest.mark.sweep] * (name in SLOW)) for name in gallery.PICTURES]
+
+
+@pytest.mark.parametrize("name", PICTURES)
 def test_no_picture_is_stale(name):
     figure = gallery.PICTURES[name]()
     kept, now = gallery.drawn_in(FIGURES / f"{name}.png"), gallery.fingerprint(figure)
