@@ -9,7 +9,6 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-import mocap
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
@@ -21,7 +20,7 @@ from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
 from mocap.steering import moments
-from mocap.steering.end_bending import Limits, bend_to, level_rise
+from mocap.steering.end_bending import Limits, bend_to
 from mocap.steering.held_ends import meet_poses
 from mocap.steering.in_betweens import in_between
 from mocap.steering.moments import Moment, choices
@@ -84,7 +83,7 @@ def require_pairs(graph, seeds):
 
 
 def test_what_the_clips_can_give_is_met():
-    require_pairs(bundled(*OWN), range(20 if SWEEP else 6))
+    require_pairs(bundled(*OWN), range(20 if SWEEP else 3))
 
 
 @pytest.mark.exhaustive
@@ -106,15 +105,25 @@ def asked_anywhere(graph, seed):
 
 def test_what_no_walk_gives_is_bent_and_still_met():
     graph = walking()
-    for seed in range(6):
+    for seed in range(6 if SWEEP else 3):
         start, end, seconds = asked_anywhere(graph, seed)
-        require_met(quietly(graph, start, end, seconds), seconds)
+        found = quietly(graph, start, end, seconds)
+        require_met(found, seconds)
+        require_walk(graph.source, found.walk)
+        for words in (
+            f"{found.seams} seams",
+            "° per second",
+            "times as long",
+            "times as fast",
+            "plants kept",
+        ):
+            assert words in found.report()
 
 
 def test_without_bending_the_best_walk_misses_by_decimetres():
     """The naive way: play what the search found as it is."""
     graph, lacks = walking(), []
-    for seed in range(8):
+    for seed in range(4):
         start, end, seconds = asked_anywhere(graph, seed)
         near = [choices(graph, moment, way=way, limit=np.inf) for moment, way in ((start, 1), (end, -1))]
         frames = round(seconds * graph.fps)
@@ -125,33 +134,6 @@ def test_without_bending_the_best_walk_misses_by_decimetres():
     assert np.median(lacks) > 0.3
 
 
-def test_a_straight_fade_from_pose_to_pose_slides():
-    """The other naive way: interpolate the two poses. The feet slide all the way."""
-    graph = walking()
-    start, end, seconds = asked_anywhere(graph, 1)
-    found = quietly(graph, start, end, seconds)
-    both = mocap.body.concatenate([start.placed(), end.placed()])
-    faded = both.at(np.linspace(0, 1, len(found.motion)))
-    assert slide(replace(faded, contacts=found.motion.contacts)) > 0.1
-    assert slide(found.motion) < 1e-4
-
-
-def test_its_report_says_what_was_met_and_what_it_took():
-    graph = walking()
-    found = quietly(graph, *asked_anywhere(graph, 1))
-    report = found.report()
-    for words in (
-        "seams",
-        "° per second",
-        "times as long",
-        "times as fast",
-        "plants kept",
-    ):
-        assert words in report
-    require_walk(graph.source, found.walk)
-    assert found.graph is graph.source
-
-
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 def test_poses_of_a_clip_that_is_not_in_the_graph_are_met(fps):
     clip = resample(samples.sample("walk_straight"), fps)
@@ -159,9 +141,9 @@ def test_poses_of_a_clip_that_is_not_in_the_graph_are_met(fps):
     start, end = (Moment(clip, frame) for frame in frames)
     # It walks faster than the graph's clips, and straight on where they turn: they need a second more.
     require_met(quietly(walking(), start, end, 5.0), 5.0)
-    # Poses alone, which do not say how fast they move.
-    start, end = (Moment(clip[frame : frame + 1]) for frame in frames)
-    require_met(quietly(walking(), start, end, 5.0), 5.0)
+    if fps == 30:  # poses alone, which do not say how fast they move
+        start, end = (Moment(clip[frame : frame + 1]) for frame in frames)
+        require_met(quietly(walking(), start, end, 5.0), 5.0)
 
 
 def test_plants_that_are_let_go_are_warned_of():
@@ -174,48 +156,36 @@ def test_plants_that_are_let_go_are_warned_of():
     assert found.kept < 1
 
 
-def test_the_end_may_come_on_the_same_stretch_of_clip():
-    clip = walking().source.clips[0]
-    found = quietly(walking(), Moment(clip, 300), Moment(clip, 307), 7 / 30)
-    require_met(found, 7 / 30)
+@pytest.mark.parametrize(("first", "last", "off"), [(300, 307, 2e-3), (200, 320, 5e-3)])
+def test_a_clip_is_its_own_in_between_also_on_one_stretch(first, last, off):
+    clip, seconds = walking().source.clips[0], (last - first) / 30
+    found = quietly(walking(), Moment(clip, first), Moment(clip, last), seconds)
+    require_met(found, seconds)
     assert found.seams == 0
-    np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[300:308], atol=2e-3)
-
-
-def test_a_clip_is_its_own_in_between():
-    clip = walking().source.clips[1]
-    found = quietly(walking(), Moment(clip, 200), Moment(clip, 320), 4.0)
-    assert found.seams == 0
-    assert np.degrees(np.abs(found.arrived.turned).max()) < 1
-    np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[200:321], atol=5e-3)
+    np.testing.assert_allclose(found.motion.root_positions, clip.root_positions[first : last + 1], atol=off)
 
 
 # ---------------------------------------------------------------------------------------------- refusals
+
+
 @pytest.mark.parametrize(
     ("place", "direction", "seconds", "sentence"),
     [
         ((0, 30), 0.0, 2.0, r"walks end 2\d\.\d m from the place that is 30.0 m away: give about \d+\.\d s"),
         ((0, -1.5), 0.0, 1.0, "give about|another time"),
         ((0, 0.1), np.pi, 1.0, "give about|another time"),
+        pytest.param((0, 9), 0.0, 5.0, r"give about \d+\.\d s", marks=pytest.mark.sweep),
     ],
 )
 def test_too_little_time_is_refused_with_what_would_help(place, direction, seconds, sentence):
     clip = walking().source.clips[0]
+    start, end = Moment(clip, 40, (0, 0), 0.0), Moment(clip, 200, place, direction)
     with pytest.raises(NoWalk, match=sentence) as refused:
-        in_between(walking(), Moment(clip, 40, (0, 0), 0.0), Moment(clip, 200, place, direction), seconds)
+        in_between(walking(), start, end, seconds)
     assert len(str(refused.value)) <= 200
-
-
-def test_the_time_that_would_help_does_help():
-    graph = walking()
-    start, end = (
-        Moment(graph.source.clips[0], 40, (0, 0), 0.0),
-        Moment(graph.source.clips[0], 200, (0, 9), 0.0),
-    )
-    with pytest.raises(NoWalk, match=r"give about (\d+\.\d) s") as refused:
-        in_between(graph, start, end, 5.0)
-    seconds = float(str(refused.value).split("about ")[1].split(" s")[0])
-    require_met(quietly(graph, start, end, seconds + 1), seconds + 1)
+    if seconds == 5:  # and it does help
+        more = float(str(refused.value).split("about ")[1].split(" s")[0]) + 1
+        require_met(quietly(walking(), start, end, more), more)
 
 
 def test_turns_beyond_the_limit_are_refused_with_what_would_help():
@@ -344,15 +314,6 @@ def test_turning_is_held_to_its_limit_where_there_is_a_way():
     held = bend_to(walk, len(walk), end, 0.0, Limits(turn=limit))
     assert held.lack < 1e-3
     assert np.abs(held.turned).max() <= limit
-
-
-@settings(max_examples=10)
-@given(st.integers(3, 300))
-def test_a_level_rise_rises_from_0_to_1(count):
-    rise = level_rise(count)
-    assert rise[0] == 0
-    assert abs(rise[-1] - 1) < 1e-12
-    assert (np.diff(rise) >= 0).all()
 
 
 def test_a_walk_that_is_played_slower_keeps_its_pace_at_both_ends():

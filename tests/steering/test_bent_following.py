@@ -2,12 +2,12 @@
 
 import warnings
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
 from asked_lines import LINES, random_line
 
-import mocap
 from mocap.body.ground_path import GroundPath, circle, letter_s
 from mocap.body.motion import resample
 from mocap.datasets import samples
@@ -21,7 +21,7 @@ from mocap.steering.bent_following import BentWalk
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.walk_to_motion import to_motion
-from tests.bundled import bundled, captured, sneaking, walking
+from tests.bundled import sneaking, walking
 from tests.editing.test_path_editing import acc99, slide
 
 SOME = {
@@ -31,8 +31,6 @@ SOME = {
     "heart": LINES["heart"](),
     "random": random_line(501),
 }
-OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")
-STRAIGHT = (15, 16, 21, 22, 31, 32, 47)  # seven straight walks of subject 16
 
 
 def quietly(graph, path, **options):
@@ -41,14 +39,11 @@ def quietly(graph, path, **options):
         return follow_path(graph, path, bend=LIMIT, **options)
 
 
-def graph_of(clips, threshold=0.04):
-    return compile_graph(prune(build([resample(clip, 30) for clip in clips], window=10, threshold=threshold)))
-
-
 @cache
 def straight_walker() -> CompiledGraph:
     """One straight walk, again and again: no line can be followed with it unless it is bent."""
-    return graph_of([samples.sample("walk_straight")], threshold=0.06)
+    clips = [resample(samples.sample("walk_straight"), 30)]
+    return compile_graph(prune(build(clips, window=10, threshold=0.06)))
 
 
 def require_kept_to(followed):
@@ -66,8 +61,17 @@ def require_kept_to(followed):
     assert acc99(bent.motion, to_motion(followed.graph, followed.walk)) <= 1.25
 
 
-@pytest.mark.parametrize("line", SOME)
-@pytest.mark.parametrize("graph", [walking, straight_walker])
+@pytest.mark.parametrize(
+    ("graph", "line"),
+    [
+        (walking, "random"),
+        (straight_walker, "heart"),
+        *(
+            pytest.param(graph, line, marks=pytest.mark.sweep)
+            for graph, line in product([walking, straight_walker], SOME)
+        ),
+    ],
+)
 def test_any_line_with_any_walk(graph, line):
     require_kept_to(quietly(graph(), SOME[line]))
 
@@ -97,6 +101,8 @@ def test_the_search_asks_for_little_bending():
 
 def test_what_it_says_is_what_the_motion_does():
     path = GroundPath([[0, 0], [0, 5], [5, 5]])
+    with pytest.warns(MocapWarning, match="it turns too fast there"):
+        follow_path(walking(), path, bend=np.radians(30))
     followed = quietly(walking(), path)
     motion = followed.motion(name="corner")
     assert motion.name == "corner"
@@ -109,14 +115,6 @@ def test_what_it_says_is_what_the_motion_does():
     assert f"{followed.seams_per_second:.2f} seams per second" in followed.report()
     frames = [followed.graph.graph.edges[edge]["frames"] for edge in followed.walk]
     assert sum(frames[:-1]) <= len(motion) <= sum(frames)
-
-
-def test_a_path_that_is_rounded_by_much_is_warned_of():
-    with pytest.warns(MocapWarning, match="it turns too fast there"):
-        follow_path(walking(), GroundPath([[0, 0], [0, 5], [5, 5]]), bend=np.radians(30))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", MocapWarning)
-        follow_path(walking(), circle(2.0), bend=LIMIT)
 
 
 def test_labels_and_times_are_kept_on_the_line():
@@ -152,27 +150,3 @@ def test_clips_that_stand_cannot_be_laid_on_a_line():
     graph = build([standing], window=20, threshold=0.2)
     with pytest.raises(MocapError, match="only stand"):
         follow_path(graph, circle(2.0), bend=LIMIT)
-
-
-# ---------------------------------------------------------------------------------------------- everything
-def walks_of(real_data, name):
-    folder = real_data / "cmu"
-    if name == "bundled clips":
-        return bundled(*OWN)
-    if name == "CMU 16":
-        return captured(real_data)
-    trials = {
-        "7 straight walks": [f"16_{n}" for n in STRAIGHT],
-        "CMU 02": ["02_01", "02_02", "02_03"],
-    }[name]
-    return graph_of(
-        [mocap.load(folder / trial[:2] / f"{trial}.amc") for trial in trials], 0.06 if "02" in name else 0.04
-    )
-
-
-@pytest.mark.exhaustive
-@pytest.mark.parametrize("name", ["bundled clips", "7 straight walks", "CMU 16", "CMU 02"])
-def test_every_line_with_every_walk(real_data, name):
-    graph = compile_graph(walks_of(real_data, name))
-    for line in [*(draw() for draw in LINES.values()), *(random_line(seed) for seed in range(500, 540))]:
-        require_kept_to(quietly(graph, line))

@@ -1,6 +1,5 @@
 """One loop for all characters: the graph, the graph turned about its feet, strides, and matching."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -14,7 +13,6 @@ from mocap.graphs.compiled_graph import compile_graph
 from mocap.methods.motion_matching import MotionMatcher, Wants
 from mocap.methods.parametric_graphs import ParametricController
 from mocap.quality.seam_measures import spread
-from mocap.quality.standing_feet import plant_slides
 from mocap.steering import Controller, FootTurner, command_headings, judge_control
 from mocap.steering.characters import Pose
 from mocap.steering.judged_control import _pivots
@@ -75,18 +73,6 @@ def test_pivots_are_the_degrees_between_a_plant_s_ends():
     assert _pivots(Motion(SKELETON, np.zeros((66, 3)), turns, 30.0, contacts=stands)) == pytest.approx(9)
 
 
-def test_plants_found_anew_would_hide_the_fault():
-    """A foot that slides is no plant: marked anew, half of the slide is gone."""
-    from mocap.feet.footplants import mark_plants
-    from mocap.steering import steer
-
-    headings = command_headings(40, 30).tolist()
-    walked = steer(CHARACTERS["matching"](), headings, SPEED).motion
-    found = mark_plants(replace(walked, contacts={}))
-    means = [np.mean([slide.far for slide in plant_slides(motion)]) for motion in (found, walked)]
-    assert means[0] < 0.8 * means[1]
-
-
 def test_commands_turn_by_30_to_120_degrees_every_two_seconds():
     headings = command_headings(20, 30, seed=3)
     turns = np.abs(np.diff(headings[::60]))
@@ -113,14 +99,3 @@ class Flier:
 def test_a_character_that_never_stands_is_refused():
     with pytest.raises(MocapError, match="do not say when feet stand"):
         judge_control(Flier, spread(clips()), seconds=5)
-
-
-def test_a_character_without_marks_is_refused_before_its_delay_is_measured(monkeypatch):
-    from mocap.graphs.motion_graph import build
-    from mocap.graphs.pruning import prune
-
-    bare = [replace(clip, contacts={}) for clip in clips()[:1]]
-    marks = compile_graph(prune(build(bare, window=10, threshold=0.04)))
-    monkeypatch.setattr("mocap.steering.judged_control.measure_delay", None)
-    with pytest.raises(MocapError, match="do not say when feet stand"):
-        judge_control(lambda: Controller(marks), spread(clips()), seconds=5)

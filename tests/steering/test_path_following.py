@@ -20,12 +20,18 @@ from tests.bundled import captured, sneaking, walking
 
 GRAPH = walking()
 BOUNDS = {"NEAR": following, "ASTRAY": following, "most_seams": following.Followed}
+
+
+def shapes(first, without=()):
+    """List one shape, and the others for a sweep."""
+    others = sorted(set(ground_path.SHAPES) - {first, *without})
+    return [first, *(pytest.param(shape, marks=pytest.mark.sweep) for shape in others)]
+
+
 STRAIGHT = GroundPath([[2, 1], [2, 9]])
 
 
-@pytest.mark.parametrize(
-    "shape", sorted(set(ground_path.SHAPES) - {"letter S"})
-)  # two clips turn only so far
+@pytest.mark.parametrize("shape", shapes("square", without={"letter S"}))  # two clips turn only so far
 def test_walks_stay_on_their_paths(shape):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)
@@ -74,12 +80,6 @@ def test_with_every_term_off_the_cost_is_eq_9():
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-def test_dear_seams_are_few():
-    cheap, dear = (follow_path(GRAPH, s_curve(), settings=Settings(seam=s, tries=1)) for s in (0.01, 2.0))
-    assert dear.seams_per_second < 0.8 * cheap.seams_per_second
-
-
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
     """By a second and a third, wider search, at another price; the best walk is taken."""
     tried, walks = [], []
@@ -92,28 +92,21 @@ def test_what_is_out_of_bounds_is_searched_for_again(monkeypatch):
         walks.append(account(*args))
         return walks[-1]
 
-    def widths():
-        found = [settings.width for settings in tried]
-        tried.clear()
-        return found
-
     monkeypatch.setattr(path_following, "find_walk", search)
     monkeypatch.setattr(path_following, "account", measure)
     once = follow_path(GRAPH, s_curve(), settings=Settings(tries=1))
-    assert once.excess > 1
-    assert widths() == [50]
+    assert once.excess > 1 and len(tried) == 1
     better = follow_path(GRAPH, s_curve())
     assert better.excess == min(walk.excess for walk in walks)
-    assert (tried[1].seam > Settings.seam) == (once.seams_per_second > 1)
-    assert widths() in ([50, 75], [50, 75, 100])
-    for bound, of in BOUNDS.items():
-        monkeypatch.setattr(of, bound, getattr(of, bound) / 9)
-    assert follow_path(GRAPH, s_curve()).excess > 1
-    assert widths() == [50, 75, 100]
-    for bound, of in BOUNDS.items():
-        monkeypatch.setattr(of, bound, 9.0)
-    assert follow_path(GRAPH, s_curve()).walk == once.walk
-    assert widths() == [50]
+    assert (tried[2].seam > Settings.seam) == (once.seams_per_second > 1)
+    for factor, widths in ((1 / 9, [50, 75, 100]), (9, [50])):
+        for bound, of in BOUNDS.items():
+            monkeypatch.setattr(of, bound, factor * getattr(of, bound) * (9 if factor > 1 else 1))
+        tried.clear()
+        walk = follow_path(GRAPH, s_curve())
+        assert [settings.width for settings in tried] == widths
+        assert (walk.excess > 1) == (factor < 1)
+    assert walk.walk == once.walk
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
@@ -204,7 +197,7 @@ def test_a_label_out_of_reach_is_told_with_those_in_reach():
         follow_path(cut, STRAIGHT, Wishes(labels=[(0, "sneak")], start=start))
 
 
-@pytest.mark.parametrize("shape", ground_path.SHAPES)
+@pytest.mark.parametrize("shape", shapes("S-curve"))
 def test_real_walks_stay_on_their_paths(real_data, shape):
     followed = follow_path(captured(real_data), ground_path.SHAPES[shape]())
     assert followed.off.mean() <= 0.04

@@ -66,11 +66,6 @@ def test_a_wider_beam_costs_more_and_follows_better_and_the_work_is_linear_in_th
     assert 3 < long / short < 5
 
 
-def test_the_cost_is_what_the_walk_is_off():
-    followed = follow_path(GRAPH, GroundPath([[0, 0], [0, 6]]), settings=Settings(**FREE, tries=1))
-    assert followed.found.cost >= (followed.off**2).sum() - 1e-9
-
-
 def test_it_tells_how_far_it_has_come():
     seen = []
 
@@ -171,24 +166,6 @@ def test_the_promise_of_a_walk_is_bounded_by_what_a_transition_could_save():
     none, half, every = (search_on(rescue=rescue).score(walks) - walks.cost for rescue in (0.0, 0.5, np.inf))
     assert not none.any() and (every > 0).all()
     assert half == pytest.approx(np.minimum(every, 0.5))
-
-
-def test_looking_ahead_a_walk_sees_others_in_its_way():
-    """Someone stands 2 m ahead: a second's walk away, and as far beyond as it takes to give way."""
-    walks = at_nodes(GRAPH, range(0, len(GRAPH.nodes), 40))
-    alone, seen = (
-        search_on(wishes=Wishes(others=others), crowding=50.0, rescue=np.inf).score(walks)
-        for others in ((), [np.tile([0.0, 2.0], (3, 1))])
-    )
-    assert (seen >= alone).all()
-    assert (seen > alone + 1.0).mean() > 0.5
-
-
-def test_a_body_pays_for_the_square_of_how_much_it_is_too_near():
-    """To another one that stands still at its end, 5 m ahead, from frame 1 on."""
-    search = search_on(wishes=Wishes(others=[np.array([[0.0, 2.0], [0.0, 5.0]])]), crowding=50.0)
-    body, frame = np.array([2.5, 2.5, 5 + 0.5j, 5.0, 9.0]) + 0j, np.array([0, 1, 1, 9, 9])
-    assert search.crowding(body, frame) == pytest.approx(50 * np.array([0.3, 0.0, 0.3, 0.8, 0.0]) ** 2)
 
 
 @pytest.mark.parametrize(("times", "seen"), [(1, 1), (2, 1), (3, 1), (4, 0)])

@@ -15,7 +15,7 @@ from mocap.blending.weights import cubic_weights
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import concatenate
-from mocap.body.planar import IDENTITY, PlanarTransform, heading
+from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError, NoWalk
 from mocap.feet.footplants import mark_plants
@@ -54,20 +54,12 @@ def test_a_random_walk_is_a_walk_as_long_as_asked_and_the_same_again(seed):
     lengths = [GRAPH.graph.edges[edge]["frames"] for edge in walk]
     assert len(motion) == sum(lengths) >= 4 * 30 > sum(lengths[:-1])
     assert walk == random_walk(GRAPH, seconds=4, seed=seed)
-
-
-def test_another_seed_another_walk():
-    assert len({tuple(random_walk(GRAPH, seconds=6, seed=seed)) for seed in range(8)}) > 4
-
-
-def test_a_walk_settles_between_transitions_where_it_can():
-    patient = seams(GRAPH, random_walk(GRAPH, seconds=60, seed=3, settle=1.0))
-    hasty = seams(GRAPH, random_walk(GRAPH, seconds=60, seed=3, settle=0.0))
-    assert 0 < len(patient) < len(hasty)
+    assert random_walk(GRAPH, seconds=1, start=walk[-1][0])[0][0] == walk[-1][0]
 
 
 def test_cheap_transitions_are_taken_more_often():
     walk = random_walk(GRAPH, seconds=900, seed=0, settle=0.0)
+    assert len(seams(GRAPH, random_walk(GRAPH, seconds=900, seed=0))) < len(seams(GRAPH, walk))
     costs = [cost for _, _, cost in GRAPH.graph.edges(data="cost") if cost is not None]
     assert np.mean([seam.cost for seam in seams(GRAPH, walk)]) < np.mean(costs)
 
@@ -83,34 +75,6 @@ def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave,
     mixed = blend(CLIPS[0][leave : leave + WINDOW], moved[enter : enter + WINDOW], cubic_weights(WINDOW))
     expected = np.concatenate([joint_positions(mixed), joint_positions(moved)[enter + WINDOW :]])
     assert joint_positions(motion) == pytest.approx(expected, abs=1e-9)
-
-
-def test_seams_are_no_rougher_than_the_clips():
-    walk = random_walk(GRAPH, seconds=30, seed=1)
-    speed = np.linalg.norm(np.diff(joint_positions(to_motion(GRAPH, walk)), 2, axis=0), axis=-1)
-    own = [np.linalg.norm(np.diff(joint_positions(clip), 2, axis=0), axis=-1) for clip in CLIPS]
-    assert speed.max() < 2.5 * max(s.max() for s in own)
-
-
-def test_headings_go_on_smoothly():
-    motion = to_motion(GRAPH, random_walk(GRAPH, seconds=30, seed=2))
-    turns = np.abs(np.diff(np.unwrap(heading(motion.rotations[:, 0]))))
-    assert turns.max() < 0.15
-    steps = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])
-    assert steps.max() < 0.3
-
-
-def test_seams_tell_where_and_how_much():
-    walk = random_walk(GRAPH, seconds=10, seed=1)
-    motion = to_motion(GRAPH, walk)
-    found = seams(GRAPH, walk)
-    assert len(found) == sum(GRAPH.graph.edges[e]["kind"] == "transition" for e in walk)
-    assert all(0 <= seam.frame <= len(motion) - WINDOW and 0 < seam.cost < 0.05 for seam in found)
-
-
-def test_a_start_node_is_kept():
-    node = sorted(GRAPH.graph)[3]
-    assert random_walk(GRAPH, seconds=1, start=node)[0][0] == node
 
 
 def test_bad_walks_are_refused():
