@@ -131,11 +131,6 @@ def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
     print(f"wrote {out} and {table}: {sum(one.right for one in marks)} of {len(marks)} are right")
 
 
-def papers() -> None:
-    """Write notebooks/PAPERS.md: which line of which paper is in which function, test and cell."""
-    print(f"wrote {course.write_ledger(course.stored().parent)}")
-
-
 def run(notebooks: Sequence[Path] = ()) -> None:
     """Run notebooks again and store them with their outputs.
 
@@ -146,8 +141,6 @@ def run(notebooks: Sequence[Path] = ()) -> None:
     folder = course.stored()
     for notebook in bar("running")(notebooks or sorted(folder.glob("*.ipynb"))):
         course.run(notebook, folder.parent / "figures")
-    if (folder.parent / "tests").is_dir():  # of a checkout: headings and calls may have changed
-        course.write_ledger(folder.parent)
 
 
 def lab(
@@ -169,5 +162,5 @@ def lab(
 
 COURSE = Group(
     "Hand out, mark, publish or run the notebooks.",
-    {command.__name__: command for command in (handout, site, slides, film, board, lite, mark, papers, run)},
+    {command.__name__: command for command in (handout, site, slides, film, board, lite, mark, run)},
 )

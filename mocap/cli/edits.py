@@ -16,7 +16,6 @@ FORMATS = (".bvh", ".glb", ".amc")
 LASTS = number(0.2, 600)  # seconds; no shorter than the seam
 POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
 LITTLE = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
-SLACK = 1.2  # seconds, at most half of the shortest clip
 
 
 def warp(
@@ -165,7 +164,7 @@ def blend(
     weights: Annotated[Sequence[float], number(-1, 2)] = (),
     fade: Annotated[float | None, number(0.01, 1000)] = None,
     at: Annotated[float | None, number(0, 1e6)] = None,
-    slack: Annotated[float | None, number(0, 1e4)] = None,
+    slack: Annotated[float, number(0, 1e4)] = 1.2,
     clean: bool = False,
     out: Path = Path("blend.bvh"),
     reading: Reading,
@@ -181,7 +180,7 @@ def blend(
     weights : one for each clip, with the sum 1 (default: all alike).
     fade (SECONDS) : pass from the first into the second clip.
     at (SECONDS) : middle of the fade, in the first clip's time.
-    slack : seconds that one clip may start or end before the others (default: 1.2, or half of the shortest).
+    slack : seconds that one clip may start or end before the others, at most half of the shortest.
     clean : find footplants and clean up footskate.
     out : file to write.
 
@@ -201,8 +200,6 @@ def blend(
     motions = [reading.load(path) for path in bar("reading")(clips)]
     if clean:
         motions = [feet.mark_plants(motion) for motion in motions]
-    if slack is None:
-        slack = min(SLACK, min(motion.duration for motion in motions) / 2)
     registration = blending.register(motions, slack=slack)
     first, last = registration.span
     worst = 100 * max(registration.costs)

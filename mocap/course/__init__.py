@@ -15,16 +15,15 @@ Reading order
 6. `notebooks`: read a notebook, find its cells by their tags, run it
 7. `names`: which names some code defines and uses
 8. `handout`: copies without solutions
-9. `ledger`: which line of which paper is where
-10. `formulas`: formulas as MathML
-11. `site`: the course as HTML pages, beside the reference pages of the package
-12. `conf`: how Sphinx makes these pages
-13. `lite`: the course in JupyterLite
-14. `opening`: the course in JupyterLab
-15. `diagrams`: ideas drawn step by step
-16. `lab`: what students wrote is used, and what they thought is kept
-17. `marking`: marks for notebooks handed in, whose code runs sealed
-18. `teaching`: slides and films that are made from the notebooks
+9. `formulas`: formulas as MathML
+10. `site`: the course as HTML pages, beside the reference pages of the package
+11. `conf`: how Sphinx makes these pages
+12. `lite`: the course in JupyterLite
+13. `opening`: the course in JupyterLab
+14. `diagrams`: ideas drawn step by step
+15. `lab`: what students wrote is used, and what they thought is kept
+16. `marking`: marks for notebooks handed in, whose code runs sealed
+17. `teaching`: slides and films that are made from the notebooks
 
 References
 ----------
@@ -40,7 +39,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "real_clips": ["people"],
         "notebooks": ["read", "run", "shown_source", "tagged"],
         "handout": ["hand_out"],
-        "ledger": ["write_ledger"],
         "site": ["build_site"],
         "lite": ["build_lite"],
         "opening": ["open_course", "stored"],

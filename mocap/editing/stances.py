@@ -176,7 +176,7 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
 
 
 def _degrees(vector: Array, other: list[int]) -> float:
-    return float(np.degrees(rotations.angle_between(rotations.IDENTITY, rotations.between(vector, other))))
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(vector, other)), np.dot(vector, other))))
 
 
 def stance_of_walk(motion: Motion) -> Stance:

@@ -110,7 +110,6 @@ REFUSED = [
     ("blend a.bvh a.bvh --at 1", "--at belongs to --fade"),
     ("blend a.bvh a.bvh a.bvh --fade 1", "got 3 clips"),
     ("blend a.bvh a.bvh --fade 99", "does not lie within"),
-    ("blend a.bvh a.bvh --slack 1.97", "less than each clip lasts"),
     ("blend a.bvh a.bvh -o a.bvh", "is one of the files to read"),
     ("blend a.bvh a.bvh -o x.fbx", "as .bvh, .amc, .glb or .npz"),
     ("blend a.bvh gone.bvh", "Cannot read"),

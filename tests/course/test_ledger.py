@@ -5,11 +5,8 @@ from functools import cache
 from pathlib import Path
 from pkgutil import resolve_name
 
-import pytest
+import ledger  # of the folder figures
 
-from mocap.cli.main import main
-from mocap.course import ledger
-from mocap.errors import MocapError
 from tests.loops import for_each
 
 ROOT = Path(__file__).parents[2]
@@ -63,7 +60,7 @@ def test_the_ten_papers_are_those_of_the_faces_references():
 
 def test_the_page_on_disk_is_what_is_written():
     stored = (ROOT / "notebooks" / "PAPERS.md").read_text("utf-8")
-    assert stored == ledger.page(rows()), "something it lists has changed: run mocap course papers"
+    assert stored == ledger.page(rows()), "something it lists has changed: run python figures/ledger.py"
 
 
 def test_every_row_of_the_page_has_as_many_columns():
@@ -72,26 +69,9 @@ def test_every_row_of_the_page_has_as_many_columns():
     assert len(lines) == 2 + len(ledger.papers()) + 2 * len(ledger.papers()) + len(PLACES)
 
 
-def test_the_command_writes_the_page_of_a_checkout(tmp_path, monkeypatch, capsys):
-    (tmp_path / "notebooks").mkdir()
-    monkeypatch.setattr("mocap.course.stored", lambda: tmp_path / "notebooks")
-    assert main(["course", "papers"]) == 2
-    assert f"there are none in {tmp_path}" in capsys.readouterr().err
-    (tmp_path / "tests").mkdir()
-    (tmp_path / "mocap").mkdir()
-    assert main(["course", "papers"]) == 0
-    text = (tmp_path / "notebooks" / "PAPERS.md").read_text("utf-8")
-    assert text.startswith("# Papers") and "## KGP02 Motion Graphs" in text
-
-
 def test_citations_are_read_one_by_one():
     assert ledger.cited("[KGP02, Eqs. 2-4], [HG07, Eqs. 1-2, after ACP02]; [KG03] and\n[KSG02, step 1].") == {
         *(("KGP02", f"Eq. {number}") for number in (2, 3, 4)),
         *(("HG07", f"Eq. {number}") for number in (1, 2)),
         ("KSG02", "step 1"),
     }
-
-
-def test_a_folder_without_tests_is_refused(tmp_path):
-    with pytest.raises(MocapError, match="reads the package's tests: there are none in"):
-        ledger.ledger(tmp_path)

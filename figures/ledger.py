@@ -2,7 +2,8 @@
 
 `papers.toml` says what must have a row, and what departs from the paper there. The rest is found: functions
 by the citations in their docstrings, such as [KGP02, Eq. 5], tests by the same citations, else by the
-functions that they use, and cells of notebooks by their `source:` tags, else by what they call.
+functions that they use, and cells of notebooks by their `source:` tags, else by what they call. Run it as
+`python figures/ledger.py` after a change of any of these.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ import networkx as nx
 
 from mocap._shared.atomic import write_text
 from mocap.course.notebooks import read, tagged
-from mocap.errors import MocapError
 
 PAPERS = Path(__file__).with_name("papers.toml")
 SHOWN = 4  # functions of a row at most
@@ -124,13 +124,7 @@ def ledger(root: Path) -> list[Row]:
     Parameters
     ----------
     root : a checkout: the folder with the folders mocap, tests and notebooks.
-
-    Raises
-    ------
-    MocapError : where there are no tests, as in an installed package.
     """
-    if not (root / "tests").is_dir():
-        raise MocapError(f"The ledger of papers reads the package's tests: there are none in {root}.")
     known, tests, cells = functions(root / "mocap"), _tests(root / "tests"), _cells(root / "notebooks")
     rows = []
     for key, paper in papers().items():
@@ -255,8 +249,6 @@ def _slug(key: str, paper: Mapping[str, Any]) -> str:
     return f"{key} {paper['title']}".lower().replace(" ", "-")
 
 
-def write_ledger(root: Path) -> Path:
-    """Write `notebooks/PAPERS.md` of a checkout anew, and give its path."""
-    path = root / "notebooks" / "PAPERS.md"
-    write_text(path, page(ledger(root)))
-    return path
+if __name__ == "__main__":
+    checkout = Path(__file__).parents[1]
+    write_text(checkout / "notebooks" / "PAPERS.md", page(ledger(checkout)))
