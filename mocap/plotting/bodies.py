@@ -1,7 +1,5 @@
 """Bodies as lines: their bones, and poses drawn on flat axes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -12,9 +10,7 @@ from matplotlib.collections import LineCollection
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Array, Indices
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions
 from mocap.matching.point_clouds import distinct_joints
 from mocap.plotting.style import ASKED, COLOURS
 

@@ -1,7 +1,5 @@
 """Bodies along their path: a whole walk in one picture, as in [KGP02, Fig. 1]."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -12,8 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
+from mocap.body import Motion, joint_positions
 from mocap.plotting.bodies import draw_body
 from mocap.plotting.stick_figures import rims
 from mocap.plotting.style import ASKED, FLOOR, MARK, PATH, QUIET, own_colour, source_colours

@@ -1,7 +1,5 @@
 """Charts: curves over time, samples as bands, boxes of costs, plants as bars, matches as trees, spaces."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import cycle, repeat
 from typing import Any

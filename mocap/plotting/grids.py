@@ -1,7 +1,5 @@
 """Grids as images: distances of windows with minima, paths and curves; costs of pairs; walks as rows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,8 +12,7 @@ from matplotlib.image import AxesImage
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
-from mocap.blending.registering import Warp
-from mocap.blending.timewarps import Curve
+from mocap.blending import Curve, Warp
 from mocap.plotting.style import MARK, PATH, QUIET
 
 Grid = NDArray[np.floating[Any]]

@@ -1,7 +1,5 @@
 """What lies on the ground, seen from above: paths, seams, footprints, ways and plans."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
@@ -14,8 +12,7 @@ from matplotlib.patches import Circle
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Points
-from mocap.body.motion import Motion
-from mocap.body.planar import heading
+from mocap.body import Motion, heading
 from mocap.feet.footplants import Footprint
 from mocap.plotting.picture import figure_of
 from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, SOURCES

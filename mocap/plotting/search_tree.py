@@ -3,8 +3,6 @@
 To expand a walk is to lengthen it by every edge that leaves its last node.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable
 from typing import NamedTuple

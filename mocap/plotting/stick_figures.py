@@ -3,8 +3,6 @@
 The world's (z, x, y) are matplotlib's (x, y, z): its third axis points up, ours is y.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
@@ -16,9 +14,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions
 from mocap.plotting.bodies import bones, head_joints
 from mocap.plotting.style import COLOURS, FLOOR, PATH, SOURCES, own_colour
 

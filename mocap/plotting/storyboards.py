@@ -1,7 +1,5 @@
 """A transition in panels: where it is, its two windows, aligned, and the seam."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,10 +13,7 @@ from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
 from mocap.blending.joining import join
-from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, heading
+from mocap.body import Motion, PlanarTransform, find_legs, heading, joint_positions
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import align, distinct_joints, point_cloud, rms_distance
 from mocap.plotting.bodies import draw_body

@@ -1,7 +1,5 @@
 """What plays on a page, as a notebook shows it: live, as a picture or as a sentence."""
 
-from __future__ import annotations
-
 import base64
 import html
 import json

@@ -18,8 +18,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
+from mocap.body import Motion, joint_positions, resample
 from mocap.errors import MocapError
 from mocap.plotting.stick_figures import StickFigure, filled, ground_axes, look_at, rims, to_picture
 from mocap.plotting.style import PATH, QUIET, own_colour

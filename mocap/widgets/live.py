@@ -5,8 +5,6 @@ cell has two outputs here, the picture and the widget. A rule hides the picture 
 the widget's output when it does not.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
@@ -33,7 +31,6 @@ class Live:
 
     scripts: ClassVar[tuple[Path, ...]]
     shared: ClassVar[dict[str, Any]]  # names, with their values at first
-    kept: ClassVar[dict[str, Any]] = {}  # the same, for traits that only Python knows
     needs: ClassVar[str] = "A live widget needs"
 
 
@@ -46,9 +43,8 @@ def widget(kind: type[Live]) -> type[Any]:
         from ipywidgets import ValueWidget
     except ImportError as error:
         raise MocapError(f"{kind.needs} anywidget: pip install 'mocap[notebooks]'.") from error
-    parts: dict[str, Any] = {name: traitlets.Any(value) for name, value in (kind.shared | kind.kept).items()}
-    for name, trait in parts.copy().items():
-        trait.tag(sync=name in kind.shared)
+    parts: dict[str, Any] = {name: traitlets.Any(value).tag(sync=True) for name, value in kind.shared.items()}
+    for name in kind.shared:
         if check := getattr(kind, f"check_{name}", None):
             parts[f"_{name}"] = traitlets.validate(name)(
                 lambda self, proposal, check=check: check(self, proposal["value"])

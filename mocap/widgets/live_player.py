@@ -1,14 +1,7 @@
-"""Players that Python and the reader move together, a canvas to draw a path on, and sliders that mix.
-
-Here `anywidget` runs the player's scripts. Scenes are numbered: a frame that the browser sent while another
-scene was shown does not count.
-"""
-
-from __future__ import annotations
+"""Players whose scene Python changes: a canvas to draw a path on, and sliders that mix."""
 
 import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -17,9 +10,8 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, frozen
 from mocap._shared.easing import quintic_step
+from mocap.blending import Registration, mix
 from mocap.blending.clocks import checked
-from mocap.blending.mixing import mix
-from mocap.blending.registering import Registration
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
 from mocap.widgets.live import Live, display_live, widget
@@ -30,92 +22,39 @@ FPS = 30.0  # of a mix
 
 
 class LivePlayer(Live):
-    """A player with a `frame` that Python may set and observe."""
+    """A player whose scene Python changes, and which tells Python what it shows."""
 
     scripts = Player.scripts
     shared: ClassVar = {
-        "scene": {},
+        "scene": {"number": 0},
         "at": [-1, 0],  # the browser's: the number of a scene, and a frame
         "move": [0, 0],  # Python's
         "path": [],
         "message": "",
     }
-    kept: ClassVar = {"frame": 0}
-    needs = "A linked player needs"
+    needs = "A live player needs"
     player: Player
     scene: Any
-    known = False  # whether the browser knows the frame that is being set
+    at: Any
+    move: Any
 
-    def show(self, player: Player, **extra: bool) -> None:
-        """Show another player in the same place, from its first frame on."""
-        self.player = player
-        with self.silent():
-            self.frame = 0  # before the new scene, which may have fewer frames
-        self.scene = player.scene | extra | {"number": self.scene["number"] + 1}
+    def show(self, player: Player, frame: int = 0, **extra: bool) -> None:
+        """Show another player in the same place, from a frame on."""
+        number = self.scene["number"] + 1
+        # The browser is to know the place before the scene: a place that comes later would stop the player.
+        self.move = [number, frame]
+        self.player, self.scene = player, player.scene | extra | {"number": number}
 
-    @contextmanager
-    def silent(self) -> Iterator[None]:
-        """Set `frame` without a word to the browser, where it is known already."""
-        self.known = True
-        try:
-            yield
-        finally:
-            self.known = False
-
-    def check_frame(self, frame: int) -> int:
-        """Refuse a frame that the scene does not have."""
-        frames = self.scene["frames"]
-        if not 0 <= frame < frames:
-            raise MocapError(f"The player has frames 0 to {frames - 1}, not {frame}.")
-        return int(frame)
-
-    def reader_moves(self, change: dict[str, Any]) -> None:
-        """Take the frame that the browser shows, if it is one of this scene."""
-        number, frame = change["new"]
-        if number == self.scene["number"]:
-            with self.silent():
-                self.frame = frame
-
-    def python_moves(self, change: dict[str, Any]) -> None:
-        """Send the browser a frame that Python has set."""
-        if not self.known:
-            self.move = [self.scene["number"], change["new"]]
+    @property
+    def frame(self) -> int:
+        """The frame of this scene that the browser has told last, or Python before it."""
+        return int((self.at if self.at[0] == self.scene["number"] else self.move)[1])
 
     def __repr__(self) -> str:
         return f"LivePlayer({self.player.alt!r})"
 
     def _ipython_display_(self) -> None:
         display_live(self.player._repr_mimebundle_(), self)
-
-
-def linked(player: Player) -> Any:  # noqa: ANN401
-    """Link a player to Python: set its `frame` to move it, observe its `frame` to follow the reader.
-
-    Parameters
-    ----------
-    player : as from `play`.
-
-    Returns
-    -------
-    A widget with the trait `frame`; a notebook shows it as the last line of a cell.
-
-    Raises
-    ------
-    MocapError : where anywidget is not installed; later, when `frame` is set to one that does not exist.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> walk = linked(play(datasets.sample("walk_straight")))
-    >>> walk.observe(lambda change: print("now at", change.new), "frame")
-    >>> walk.frame = 12
-    now at 12
-    """
-    live = widget(LivePlayer)(scene=player.scene | {"reports": True})
-    live.player = player
-    live.observe(live.reader_moves, "at")
-    live.observe(live.python_moves, "frame")
-    return live
 
 
 def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
@@ -131,7 +70,7 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Returns
     -------
-    A linked player; its `path` is what the reader drew last, its `error` what `follow` raised there, or None.
+    A live player; its `path` is what the reader drew last, its `error` what `follow` raised there, or None.
 
     Raises
     ------
@@ -151,8 +90,8 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
     on_canvas = {"drawable": True, "follow": False, "reports": False}
     points = np.reshape(np.asarray(path, float), (-1, 2))
     player, message = _along(follow, points)
-    canvas = linked(player)
-    canvas.scene = canvas.scene | on_canvas
+    canvas = widget(LivePlayer)()
+    canvas.show(player, **on_canvas)
     canvas.path, canvas.error, canvas.message = points.tolist(), None, message
 
     def walk(change: dict[str, Any]) -> None:
@@ -201,7 +140,7 @@ class Mixer:
     >>> from mocap.datasets import sample
     >>> slow, brisk = (sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0"))
     >>> mixer = Mixer(register([slow, brisk]), [1, 0])
-    >>> mixer.player.frame = 30
+    >>> mixer.player.at = [mixer.player.scene["number"], 30]  # as the browser says where it is
     >>> mixer.sliders[0].value, mixer.sliders[1].value = 0.0, 1.0  # as a reader moves them
     >>> mixer.weights(0.0, 0.5).round(2), mixer.weights(0.0, 2.0).round(2)
     (array([1., 0.]), array([0., 1.]))
@@ -219,7 +158,8 @@ class Mixer:
         start = checked(given if given.size else np.full(count, 1 / count), count)
         self.registration, self.ease, self.start = registration, ease, frozen(start, np.float64)
         self.changes: list[tuple[float, Array]] = []  # new weights, and the blend's second when they begin
-        self.player = linked(self._played())
+        self.player = widget(LivePlayer)()
+        self.player.show(self._played(), reports=True)
         names, self.sliders = [clip.name for clip in registration.clips], []
         for number, (name, value) in enumerate(zip(names, start, strict=True), 1):
             name = f"{name} {number}" if names.count(name) > 1 else name
@@ -248,12 +188,7 @@ class Mixer:
         self.changes = [change for change in self.changes if change[0] < frame / FPS]
         self.changes.append((frame / FPS, frozen(values / values.sum(), np.float64)))
         played = self._played()
-        frame = min(frame, played.scene["frames"] - 1)
-        # The browser is to know the place before the scene: a place that comes later would stop the player.
-        self.player.move = [self.player.scene["number"] + 1, frame]
-        self.player.show(played, reports=True, autoplay=True)
-        with self.player.silent():
-            self.player.frame = frame
+        self.player.show(played, min(frame, played.scene["frames"] - 1), reports=True, autoplay=True)
 
     def __repr__(self) -> str:
         return f"Mixer({len(self.sliders)} clips)"

@@ -4,16 +4,12 @@ A motion's numbers are whole multiples of a step. They are sent channel by chann
 time, which are small and compress well; `numbersOf` in `player_scene.js` sums them up again.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.plotting.bodies import bones, head_joints

@@ -3,8 +3,6 @@
 Handles lie on the picture that an experiment draws, so the reader drags the very thing that answers.
 """
 
-from __future__ import annotations
-
 import base64
 import io
 from collections.abc import Sequence

@@ -3,8 +3,6 @@
 `watch` records each experiment that a notebook shows: the course's site runs it in the notebook's own kernel.
 """
 
-from __future__ import annotations
-
 import base64
 import io
 import json

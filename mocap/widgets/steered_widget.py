@@ -4,8 +4,6 @@ The browser asks for the next frames when it has few left, and says the command;
 steps and sends where the joints are. Nothing runs between two questions: no thread, and nothing to stop.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -10,11 +10,11 @@ import pytest
 from tests.browser.conftest import wait_until
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
-# These two have every kind of output: players, sliders, choices, an image to click on, a canvas to draw on.
+# This one has players, sliders, choices and a canvas to draw on, the next an image to click on as well.
 # The experiments of all notebooks are driven without a browser, by tests/course/driving.py.
-FIRST = ("00-quickstart", "02-matching")
+MARKS = {"00-quickstart": [], "02-matching": [pytest.mark.sweep]}
 NOTEBOOKS = [
-    pytest.param(path, id=path.stem, marks=[] if path.stem in FIRST else [pytest.mark.exhaustive])
+    pytest.param(path, id=path.stem, marks=MARKS.get(path.stem, [pytest.mark.exhaustive]))
     for path in sorted(FOLDER.glob("*.ipynb"))
 ]
 FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"

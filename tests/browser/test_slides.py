@@ -7,6 +7,7 @@ import pytest
 from mocap.course.opening import stored
 from mocap.course.teaching import build_slides
 from tests.browser.conftest import wait_until
+from tests.conftest import SWEEP
 
 TOO_FULL = """() => {
   const section = Reveal.getCurrentSlide(), parts = [...section.querySelectorAll(".inner, .inner *")];
@@ -15,16 +16,19 @@ TOO_FULL = """() => {
 }"""
 
 
+NAMES = ("00-quickstart", *(["06-pruning"] if SWEEP else []))
+
+
 @pytest.fixture(scope="module")
 def decks(tmp_path_factory):
     folder, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("slides")
-    for name in ("00-quickstart", "06-pruning"):
+    for name in NAMES:
         shutil.copy(stored() / f"{name}.ipynb", folder)
     build_slides(folder, out)
     return out
 
 
-@pytest.mark.parametrize("name", ["00-quickstart", "06-pruning"])
+@pytest.mark.parametrize("name", NAMES)
 def test_every_slide_fits(name, decks, page):
     page.set_viewport_size({"width": 1280, "height": 720})
     page.goto((decks / f"{name}.html").as_uri())

@@ -16,9 +16,9 @@ IT, MODEL = "window.it", "window.model"
 FAKE = Path(__file__).with_name("steering_model.js")
 
 
-@pytest.fixture
-def steering(page, tmp_path):
-    """Show three characters, whose Python is a script on the page; yield the page."""
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Write a page of three characters, whose Python is a script on it."""
     pytest.importorskip("anywidget")
     from mocap.widgets import steered
     from mocap.widgets.embedding import joined
@@ -26,14 +26,19 @@ def steering(page, tmp_path):
     live = steered({name: Dot() for name in ("graph", "steps", "matching")}, labels=("", "jog"))
     state = json.dumps({"scene": live.scene, "command": [0, 1.1, ""]})
     start = f"window.model = new Model({state}); window.it = new Steering(document.body.firstChild, model);"
-    file = tmp_path / "steering.html"
+    file = tmp_path_factory.mktemp("steering") / "steering.html"
     file.write_text(
         '<!doctype html><html lang="en"><meta charset="utf-8"><link rel="icon" href="data:,">'
         '<meta name="viewport" content="width=device-width"><body class="mocap-page"><div></div>'
         f'<script type="module">{joined(*live.scripts, FAKE)}\n{start}</script></body></html>',
         "utf-8",
     )
-    page.goto(file.as_uri())
+    return file.as_uri()
+
+
+@pytest.fixture
+def steering(page, written):
+    page.goto(written)
     wait_until(lambda: page.evaluate(f"{IT}?.pictures > 0"))
     return page
 
@@ -223,8 +228,7 @@ def test_names_stand_for_screen_readers_and_keys_stay_here(steering):
     assert {part.get_attribute("data-lm-suppress-shortcuts") for part in parts.all()} == {"true"}
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("wide", [390, 1200])
+@pytest.mark.parametrize(("wide", "scheme"), [(390, "dark"), (1200, "light")])
 def test_it_fits_a_phone_and_a_dark_page(steering, artefacts, wide, scheme):
     steering.set_viewport_size({"width": wide, "height": 844})
     steering.emulate_media(color_scheme=scheme)
@@ -265,6 +269,7 @@ CELLS = [
 ]
 
 
+@pytest.mark.sweep
 def test_in_jupyterlab_keys_steer_and_nothing_else(browser, lab, artefacts):
     pytest.importorskip("anywidget")
     cells = [nbformat.v4.new_code_cell(dedent(text).strip()) for text in CELLS]

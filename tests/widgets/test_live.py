@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 
 from mocap.blending import register
 from mocap.plotting.grids import distance_image
-from mocap.widgets import Mixer, explore, handles, live, play, steered
+from mocap.widgets import Mixer, draw_path, explore, handles, live, steered
 from mocap.widgets.live import LIVE, STILL, WIDGET
-from mocap.widgets.live_player import linked
 from mocap.widgets.pointing import pointer
 from tests.blending.registered import walks
 from tests.strategies import wave
@@ -21,7 +20,7 @@ pytest.importorskip("anywidget")
 
 MADE = {
     "experiment": lambda: explore(lambda n: Figure(figsize=(2, 2)), alt="Nothing at all.", n=(0, 9)),
-    "player": lambda: linked(play(wave(30))),
+    "player": lambda: draw_path(lambda path: wave(30), [[0, 0], [0, 1]]),
     "mixer": lambda: Mixer(register([walks()[1.1, 120], walks()[1.1, -120]])),
     "steered": lambda: steered({"dot": Dot()}),
 }

@@ -1,4 +1,4 @@
-"""Linked players and mixers without a browser: Python's side of the traits."""
+"""Canvases and mixers without a browser: Python's side of the traits."""
 
 import warnings
 
@@ -8,7 +8,7 @@ import pytest
 from mocap.blending import register
 from mocap.body import joint_positions, spline
 from mocap.errors import MocapError, MocapWarning
-from mocap.widgets.live_player import Mixer, draw_path, linked
+from mocap.widgets.live_player import Mixer, draw_path
 from mocap.widgets.player import play
 from tests.blending.registered import turned, walks
 from tests.strategies import wave
@@ -16,34 +16,18 @@ from tests.strategies import wave
 pytest.importorskip("anywidget")
 
 
-def test_a_frame_that_is_set_is_observed():
-    player, heard = linked(play(wave(30))), []
-    player.observe(lambda change: heard.append(change["new"]), "frame")
-    player.frame = 29
-    assert heard == [29]
-    assert repr(player) == "LivePlayer('A stick figure plays wave, 1.0 s.')"
-
-
-@pytest.mark.parametrize("frame", [-1, 30])
-def test_a_frame_that_does_not_exist_is_refused(frame):
-    player = linked(play(wave(30)))
-    with pytest.raises(MocapError, match="frames 0 to 29"):
-        player.frame = frame
-    assert player.frame == 0
-
-
 def test_frames_of_an_older_scene_do_not_count():
     canvas = draw_path(lambda path: wave(30 * len(path)), [[0, 0], [0, 1]])
-    canvas.at = [0, 12]  # as the browser sends it
-    assert (canvas.frame, canvas.move) == (12, [0, 0])
+    assert repr(canvas) == "LivePlayer('A stick figure plays wave, 2.0 s.')"
+    number = canvas.scene["number"]
+    canvas.at = [number, 12]  # as the browser sends it
+    assert canvas.frame == 12
     canvas.path = [[0, 0], [0, 1], [0, 2]]
-    assert canvas.scene["number"] == 1
-    canvas.at = [0, 40]
+    assert (canvas.scene["number"], canvas.frame) == (number + 1, 0)
+    canvas.at = [number, 40]
     assert canvas.frame == 0
-    canvas.at = [1, 40]
+    canvas.at = [number + 1, 40]
     assert canvas.frame == 40
-    canvas.frame = 50
-    assert canvas.move == [1, 50]
 
 
 def test_warnings_stand_below_the_canvas():
@@ -67,7 +51,6 @@ def test_a_drawn_path_becomes_a_walk():
     canvas = draw_path(follow, [[0, 0], [0, 1]])
     assert canvas.scene["frames"] == 40
     assert canvas.scene["drawable"]
-    canvas.frame = 39
     canvas.path = [[0.0, 0.0], [0.0, 2.0], [1.0, 2.0]]
     assert [path.shape for path in asked] == [(2, 2), (3, 2)]
     assert canvas.scene["frames"] == 60
@@ -90,7 +73,6 @@ def test_the_path_that_was_followed_is_drawn_instead_of_the_readers_line():
 
 def test_a_shorter_walk_may_come_after_a_longer_one():
     canvas = draw_path(lambda path: play(wave(90 // len(path)), sources=[(0, "wave")]), np.zeros((1, 2)))
-    canvas.frame = 80
     canvas.path = [[0, 0], [0, 1], [0, 2]]
     assert (canvas.frame, canvas.scene["frames"]) == (0, 30)
     assert canvas.scene["characters"][0]["sources"]
@@ -133,7 +115,7 @@ def test_what_was_played_stays_and_the_rest_changes(mixer):
 
 
 def test_the_player_goes_on_from_the_frame_that_it_showed(mixer):
-    mixer.player.frame = 40
+    mixer.player.at = [mixer.player.scene["number"], 40]
     mixer.sliders[1].value = 0.5
     assert mixer.player.frame == 40
     assert mixer.player.move == [mixer.player.scene["number"], 40]
@@ -142,7 +124,7 @@ def test_the_player_goes_on_from_the_frame_that_it_showed(mixer):
 
 def test_changes_after_the_frame_are_forgotten(mixer):
     for frame, value in ((60, 1.0), (20, 0.5), (25, 0.0)):
-        mixer.player.frame = frame
+        mixer.player.at = [mixer.player.scene["number"], frame]
         mixer.sliders[1].value = value
     assert [begin for begin, _ in mixer.changes] == pytest.approx([20 / 30, 25 / 30])
     assert mixer.weights(0, 9).tolist() == [1, 0]

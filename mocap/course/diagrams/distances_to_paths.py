@@ -1,7 +1,5 @@
 """Two distances from a path: to its nearest point, and to its point at equal arc length."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure

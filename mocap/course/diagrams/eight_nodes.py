@@ -1,7 +1,5 @@
 """Searches on eight nodes, step by step: Tarjan's with its low links, and branch and bound [KGP02, 4.2]."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping, Sequence
 from itertools import count, pairwise
 from math import dist, inf
@@ -14,8 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mocap.course.diagrams.pens import disc, say
-from mocap.plotting.graph_drawing import node_link
-from mocap.plotting.style import CURVES, PATH, QUIET, SOURCES
+from mocap.plotting import CURVES, PATH, QUIET, SOURCES, node_link
 
 Node = Hashable
 EIGHT_PLACES: dict[Node, tuple[float, float]] = {

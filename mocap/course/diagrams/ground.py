@@ -1,15 +1,12 @@
 """The ground seen from above: how a turn looks there, and how one clip is aligned with another."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform, heading
+from mocap.body import Motion, PlanarTransform, heading
 from mocap.course.diagrams.pens import arrow, say, trace
 from mocap.plotting.style import COLOURS, CURVES, FLOOR, QUIET, SOURCES
 

@@ -1,19 +1,14 @@
 """How one cloud of points is laid on another: means, centring, angle, shift; all seen from above."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.planar import PlanarTransform
+from mocap.body import Motion, PlanarTransform, joint_positions
 from mocap.course.diagrams.pens import require_step
 from mocap.matching.point_clouds import align, point_cloud, rms_distance
-from mocap.plotting.bodies import bones
-from mocap.plotting.style import CURVES, QUIET, SOURCES
+from mocap.plotting import CURVES, QUIET, SOURCES, bones
 
 STEPS = ("where they are, with their means", "each from its own mean", "the second turned", "shifted back")
 

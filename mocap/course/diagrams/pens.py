@@ -1,7 +1,5 @@
 """Pens that several diagrams share: arrows and words at points of a plane, legends' discs, and steps."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from matplotlib.axes import Axes

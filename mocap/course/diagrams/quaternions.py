@@ -1,7 +1,5 @@
 """How quaternions turn: two half turns, two quaternions for one rotation, and turns whose order matters."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,13 +7,9 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 
 from mocap._shared.arrays import Array
-from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
+from mocap.body import Motion, Skeleton, joint_positions, rotations
 from mocap.course.diagrams.pens import arrow, say, trace
-from mocap.plotting.stick_figures import StickFigure, ground_axes, to_picture
-from mocap.plotting.style import COLOURS, CURVES, MARK, QUIET
+from mocap.plotting import COLOURS, CURVES, MARK, QUIET, StickFigure, ground_axes, to_picture
 
 ALONG, ACROSS = 0.8, 0.8  # the two parts of the vector that `half_turns` turns
 CORNER = np.array([-1.0, 0, -0.5])  # where `turns_in_order` draws the axes of the world

@@ -1,7 +1,5 @@
 """What a window is, what Eq. 1 of [KGP02] compares, a lower bound of it, and sums along diagonals."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,9 +13,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
-from mocap.body.planar import heading
+from mocap.body import Motion, heading, joint_positions
 from mocap.course.diagrams.pens import require_step
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import distinct_joints, matching_clouds, point_cloud
