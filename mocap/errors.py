@@ -1,5 +1,6 @@
 """The errors that `mocap` raises on purpose: each is one clear sentence, and says what would help."""
 
+import warnings
 from pathlib import Path
 
 
@@ -59,3 +60,8 @@ class NoWalk(MocapError):
 
 class MocapWarning(UserWarning):
     """Something that was asked for is possible only in part; the message says how much of it."""
+
+
+def warn(sentence: str, level: int = 2) -> None:
+    """Warn by a `MocapWarning`; `level` 2 shows the line that called who warns."""
+    warnings.warn(sentence, MocapWarning, stacklevel=level + 1)

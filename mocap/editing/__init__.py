@@ -18,14 +18,13 @@ Reading order (notebooks 10 to 14)
 10. `bending`: a walk laid on any line, with feet that stand
 11. `keys`: keys, the curve through them, and warps by offsets and by scale
 12. `retiming`: time keys, and motions at moments between their frames
-13. `looping`: a cycle closed by a warp
-14. `warp_plans`: a whole warp out of a small text file
-15. `body_roles`: which joint does what
-16. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-17. `copied_motion`: every joint looks where the same joint of the other body looks
-18. `retargeting`: where the new feet may be, and all of it in one function
-19. `mirroring`: left and right swapped, by names and geometry
-20. `cycles`: the stretch of a clip that makes the best cycle, closed
+13. `warp_plans`: a whole warp out of a small text file
+14. `body_roles`: which joint does what
+15. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+16. `copied_motion`: every joint looks where the same joint of the other body looks
+17. `retargeting`: where the new feet may be, and all of it in one function
+18. `mirroring`: left and right swapped, by names and geometry
+19. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------
@@ -57,10 +56,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "stances": ["Stance", "proportioned", "stance_of", "stance_of_zero"],
         "retargeting": ["floor_pins", "retarget", "standing_like"],
         "keys": ["Key", "cardinal", "keys_around", "offsets", "scaled"],
-        "looping": ["looped", "repeated"],
         "retiming": ["old_seconds", "retime"],
         "warp_plans": ["load_plan", "warp"],
         "mirroring": ["mirror", "mirrored_name"],
-        "cycles": ["find_loop", "loop"],
+        "cycles": ["find_loop", "loop", "looped", "repeated"],
     },
 )

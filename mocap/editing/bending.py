@@ -15,7 +15,7 @@ from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept
 from mocap.editing.pins import plant_pins, with_plants
 from mocap.editing.solver import solve_quietly
 from mocap.editing.steps import Basis
-from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footskate import clean_up
 
 LIMIT = float(np.radians(60))  # per second: the fastest that a walk is turned
@@ -132,11 +132,9 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     laid = on_path(motion, line.path, ride)
     bent = Bent(_cleaned(laid), laid, path, line, ride)
     if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
-        warnings.warn(
+        warn(
             f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: where it "
             "stands, or goes to and fro, its way turns at once; bend a walk that goes on.",
-            MocapWarning,
-            stacklevel=2,
         )
     return bent
 
@@ -156,7 +154,7 @@ def _cleaned(laid: Motion) -> Motion:
         nearer = _clean(solve_quietly(laid, plant_pins(laid), [Basis(knots=0.125)]).motion)
         found, warned = max((found, warned), nearer, key=lambda pair: plants_kept(pair[0], laid))
     for warning in warned:
-        warnings.warn(warning, MocapWarning, stacklevel=3)
+        warn(warning, 3)
     return found
 
 

@@ -11,17 +11,17 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from mocap.blending.joining import inertialize, join
 from mocap.body import rotations
-from mocap.body.motion import Motion, resample
+from mocap.body.motion import Motion, concatenate, resample
 from mocap.body.planar import PlanarTransform, heading, lay_on
-from mocap.editing.looping import repeated
+from mocap.editing.displacements import Displacement, difference, displaced
 from mocap.editing.path_editing import plants_kept
-from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.matching.distance_grids import Floats, distance_grid
@@ -77,9 +77,7 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     """
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     if not SEAM <= seconds[0] <= seconds[1] < np.inf:
-        raise MocapError(
-            f"A cycle lasts from one number of seconds to a larger one, {SEAM:g} or more; got {seconds}."
-        )
+        raise MocapError(f"A cycle lasts {SEAM:g} s or more, from one bound to a larger one; got {seconds}.")
     window, least = (max(2, round(length * slow.fps)) for length in (SEAM, seconds[0]))
     most = min(round(seconds[1] * slow.fps), len(slow) - window)
     if least > most or slow.duration > LONGEST:
@@ -135,12 +133,7 @@ def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed:
 
 
 def loop(
-    motion: Motion,
-    found: Loop,
-    *,
-    way: Literal["blend", "inertialize"] = "blend",
-    straight: bool = False,
-    clean: bool = False,
+    motion: Motion, found: Loop, *, way: str = "blend", straight: bool = False, clean: bool = False
 ) -> Motion:
     """Cut a cycle out of a clip and close it.
 
@@ -183,8 +176,8 @@ def loop(
     window = max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:
         raise MocapError(
-            f"A cycle from frame {found.first} to {found.last} leaves no room for a seam of {window} frames "
-            f"in '{shortened(motion.name, 60)}', which has {len(motion)}."
+            f"A cycle from frame {found.first} to {found.last} of {len(motion)} leaves no room for a seam of "
+            f"{window} frames."
         )
     joined = {"blend": join, "inertialize": inertialize}[way](motion, found.last, motion, found.first, window)
     cycle = joined[found.first + window : found.last + window + 1]
@@ -215,10 +208,79 @@ def _cleaned(cycle: Motion) -> Motion:
         warnings.simplefilter("ignore", MocapWarning)  # of frames in all rounds
         cleaned = clean_up(rounds)[middle]
     if (kept := plants_kept(cleaned, rounds[middle])) < 1:
-        warnings.warn(
+        warn(
             f"'{shortened(cycle.name)}': {1 - kept:.0%} of the planted frames are let go: to hold them would "
             "move the root by more than 2 cm, stretch a leg or jolt a knee.",
-            MocapWarning,
-            stacklevel=3,
+            3,
         )
     return lay_on(cleaned, cycle).apply_motion(cleaned)
+
+
+def looped(motion: Motion, first: int, last: int) -> Motion:
+    """Cut out a cycle and close it: its last frame is its first one, farther on over the ground [WP95].
+
+    The first pose is laid on the last one by heading and place. What is left between them, d = first ⊖ last,
+    is added along a ramp u = 0 … 1. Ours: the ramp is straight. So speeds change by d / duration in the whole
+    cycle; a ramp that eases in and out changes them more on the way.
+
+    Parameters
+    ----------
+    motion : F frames.
+    first, last : the two frames that look alike, a stride apart, for example.
+
+    Returns
+    -------
+    last - first + 1 frames; `repeated` lays one behind the other. Feet that stand slide by as much as the gap
+    asks for; `feet.clean_up` puts them back.
+
+    Raises
+    ------
+    MocapError : for frames that are not on the clip, or not in this order.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> looped(sample("walk_straight"), 240, 377)
+    Motion('walk_straight', 138 frames at 120 Hz, 38 joints)
+
+    Notebook: 11-warping
+    """
+    if not 0 <= first < last < len(motion):
+        raise MocapError(f"'{motion.name}' has {len(motion)} frames: no cycle from {first} to {last}.")
+    cycle = motion[first : last + 1]
+    end = lay_on(cycle, cycle, len(cycle) - 1).apply_motion(cycle[:1])
+    gap = difference(end, cycle[-1:])
+    ramp = np.linspace(0, 1, len(cycle))
+    warped = displaced(cycle, Displacement(ramp[:, None] * gap.root, ramp[:, None, None] * gap.turns))
+    marks = {joint: np.append(mark[:-1], mark[0]) for joint, mark in warped.contacts.items()}
+    return replace(warped, contacts=marks)
+
+
+def repeated(cycle: Motion, times: int) -> Motion:
+    """Lay a cycle behind itself, so many times.
+
+    Parameters
+    ----------
+    cycle : its last frame is its first one, farther on, as `looped` makes it; that frame is counted once.
+    times : 1 or more.
+
+    Raises
+    ------
+    MocapError : for another number of times, and a cycle of a single frame.
+
+    Examples
+    --------
+    >>> from mocap.datasets import sample
+    >>> stride = looped(sample("walk_straight"), 240, 377)
+    >>> len(repeated(stride, 3)) == 3 * (len(stride) - 1) + 1
+    True
+
+    Notebook: 11-warping
+    """
+    if times < 1 or len(cycle) < 2:
+        raise MocapError(f"A cycle of {len(cycle)} frames cannot be repeated {times} times.")
+    copies = [cycle]
+    for _ in range(times - 1):
+        last = copies[-1]
+        copies.append(lay_on(cycle, last, len(last) - 1).apply_motion(cycle))
+    return concatenate([*(copy[:-1] for copy in copies), copies[-1][-1:]])

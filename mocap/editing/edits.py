@@ -134,8 +134,8 @@ def posed(
 
     Notebook: 11-warping
     """
-    if not (isinstance(frame, int | np.integer) and 0 <= frame < len(motion)):
-        raise MocapError(f"Frame {frame} is none of '{motion.name}', which has {len(motion)}.")
+    if not 0 <= frame < len(motion):
+        raise MocapError(f"'{motion.name}' has {len(motion)} frames, none with number {frame}.")
     pins = _standing(motion).only([frame]) if feet else Pins((), *np.zeros((2, len(motion), 0, 3)))
     for joint, place in places.items():
         free = np.isnan(place)

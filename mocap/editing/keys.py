@@ -80,10 +80,8 @@ def cardinal(
     Notebook: 11-warping
     """
     at, values = np.asarray(at, float), np.asarray(values, float)
-    if at.ndim != 1 or not len(at) or len(at) != len(values):
-        raise MocapError(f"A curve needs as many values as keys, got shapes {values.shape} and {at.shape}.")
-    if not (np.isfinite(at).all() and np.isfinite(values).all() and (np.diff(at) > 0).all()):
-        raise MocapError(f"Keys need finite values at times that rise, got times {at[:6].tolist()}.")
+    if at.ndim != 1 or len(at) != len(values) or not np.isfinite(values).all() or not (np.diff(at) > 0).all():
+        raise MocapError(f"Keys need finite values {values.shape} at as many times that rise, got {at[:6]}.")
     if not 0 <= tension <= 1:
         raise MocapError(f"A tension lies between 0 and 1, got {tension}.")
     if len(at) == 1:
@@ -126,9 +124,7 @@ def keys_around(motion: Motion, frame: int, pose: Motion, seconds: float = HALF_
     Notebook: 11-warping
     """
     if not (np.isfinite(seconds) and seconds * motion.fps >= 1):
-        raise MocapError(
-            f"A change needs a frame or more to come and go, got {seconds} s at {motion.fps:g} Hz."
-        )
+        raise MocapError(f"A change takes a frame or more to come and go, got {seconds} s.")
     half = round(seconds * motion.fps)
     keys = [Key(frame - half), Key(frame, pose), Key(frame + half)]
     return [key for key in keys if key.pose is not None or 0 <= key.frame < len(motion)]

@@ -70,10 +70,8 @@ class RoundedLine(NamedTuple):
         far = np.flatnonzero(self.moved > SEEN)
         new = (np.diff(far) > 1) & (np.diff(self.asked[far]) >= JOINED)
         parts = [part for part in np.split(far, np.flatnonzero(new) + 1) if len(part)]
-        ends = [(float(self.asked[part[0]]), float(self.asked[part[-1]])) for part in parts]
-        return [
-            Rounding(*both, float(self.moved[part].max())) for both, part in zip(ends, parts, strict=True)
-        ]
+        asked = self.asked.tolist()
+        return [Rounding(asked[part[0]], asked[part[-1]], float(self.moved[part].max())) for part in parts]
 
 
 def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> RoundedLine:

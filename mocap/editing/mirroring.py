@@ -10,9 +10,7 @@ images of its own. The method is ours.
 from __future__ import annotations
 
 import re
-import warnings
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +19,7 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.errors import MocapError, shortened, warn
 
 LOPSIDED = 0.01  # metres: by how much a bone and its partner may differ without a warning
 NEAR = np.cos(np.radians(10))  # of a plane to one of the axes, to be taken for it
@@ -31,21 +29,14 @@ ACROSS = np.array([1.0, 0.0, 0.0])  # the world is mirrored in the plane x = 0
 ENDING = "_mirrored"
 
 
-class Symmetry(NamedTuple):
-    """What is left and what is right in a skeleton.
-
-    `partners` (J,) are the joints' mirror images, a joint's own number in the middle; `across` (3,) is the
-    unit vector from right to left in the body at rest; `turns` (J, 4) are quaternions K, which lay the bones
-    of a partner on the mirror images of a joint's own.
-    """
-
-    partners: NDArray[np.intp]
-    across: Array
-    turns: Array
-
-
-def symmetry(skeleton: Skeleton) -> Symmetry:
+def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
     """Find the partners of all joints by their names, and the plane between them by where they sit.
+
+    Returns
+    -------
+    The joints' mirror images (J,), a joint's own number in the middle; the unit vector from right to left in
+    the body at rest, (3,); quaternions K (J, 4), which lay the bones of a partner on the mirror images of a
+    joint's own.
 
     Raises
     ------
@@ -54,7 +45,7 @@ def symmetry(skeleton: Skeleton) -> Symmetry:
     Examples
     --------
     >>> from mocap.datasets.generated import SKELETON
-    >>> symmetry(SKELETON).across.tolist()
+    >>> symmetry(SKELETON)[1].tolist()
     [1.0, 0.0, 0.0]
     """
     joints, above = range(len(skeleton)), skeleton.parents
@@ -74,7 +65,7 @@ def symmetry(skeleton: Skeleton) -> Symmetry:
     axis = int(np.abs(across).argmax())
     if abs(across[axis]) > NEAR:
         across = np.sign(across[axis]) * np.eye(3)[axis] + 0.0
-    return Symmetry(partners, across, _turns(skeleton, partners, across))
+    return partners, across, _turns(skeleton, partners, across)
 
 
 def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Array:
@@ -161,11 +152,9 @@ def mirror(motion: Motion) -> Motion:
     lengths = np.linalg.norm(skeleton.offsets, axis=-1)
     gaps = np.abs(lengths - lengths[partners])
     if gaps.max() > LOPSIDED:
-        warnings.warn(
+        warn(
             f"'{shortened(motion.name, 60)}': left and right bones differ by up to {1e3 * gaps.max():.0f} mm "
             f"({shortened(skeleton.names[gaps.argmax()], 40)}), so its mirror image does not reach as far.",
-            MocapWarning,
-            stacklevel=2,
         )
     before = rotations.inverse(turns[skeleton.parents])
     before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))
@@ -173,16 +162,14 @@ def mirror(motion: Motion) -> Motion:
     flipped = np.concatenate([motion.rotations[..., :1], vectors], axis=-1)
     local = rotations.multiply(before, rotations.multiply(flipped, turns))
     other = {"left": "right", "right": "left", "Left": "Right", "Right": "Left"}
+    pattern = re.compile("|".join(other))
     names = dict(zip(skeleton.names, (skeleton.names[joint] for joint in partners), strict=True))
     return replace(
         motion,
         root_positions=motion.root_positions * (1 - 2 * ACROSS),
         rotations=local[:, partners],
         name=mirrored_name(motion.name),
-        labels={
-            re.sub("[Ll]eft|[Rr]ight", lambda word: other[word[0]], label): mark
-            for label, mark in motion.labels.items()
-        },
+        labels={pattern.sub(lambda word: other[word[0]], name): mark for name, mark in motion.labels.items()},
         contacts={names[joint]: mark for joint, mark in motion.contacts.items()},
     )
 

@@ -5,7 +5,6 @@ held relative to a frame that moves along its path, and put into the frame that 
 feet slide where the path bends; `feet.clean_up` lets them stand again.
 """
 
-import warnings
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,7 +18,7 @@ from mocap.body.ground_path import CLOSEST, GroundPath
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, from_ground, on_ground
 from mocap.editing.displacements import spline_basis
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 
 # Seconds between knots: too slow for the sway, of which 4.9 to 5.1 cm stay in the motion. With 0.4 the path
 # takes half of the sway, and its heading wags by 13°; 0.9, near a stride, aliases.
@@ -231,10 +230,8 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
     if not turn:
         old, new = (frames._replace(angle=np.zeros(len(motion))) for frames in (old, new))
     if not 0.5 <= longer <= 2:
-        warnings.warn(
+        warn(
             f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.",
-            MocapWarning,
-            stacklevel=2,
         )
     return (new @ old.inverse()).apply_motion(motion)
 

@@ -5,7 +5,6 @@ for all frames at once, and solve again with more knots where something is not m
 from body to body, so that trees and rest poses may differ, and the last knots are the frames.
 """
 
-import warnings
 from collections.abc import Mapping
 
 import numpy as np
@@ -17,11 +16,11 @@ from mocap.editing.bodies import body_of
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
 from mocap.editing.edits import let_go
-from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins, with_plants
+from mocap.editing.pins import Pins, join_pins, pin_errors, plant_pins, with_plants
 from mocap.editing.solver import CLOSE, solve_quietly
 from mocap.editing.stances import Stance, stance_of, stance_of_zero
 from mocap.editing.steps import Basis
-from mocap.errors import MocapWarning, shortened
+from mocap.errors import shortened, warn
 from mocap.feet.footskate import clean_up
 
 # Less calm than an edit: with 0.2 the knees of a child with long steps straighten to 4°. Few passes are
@@ -105,11 +104,9 @@ def retarget(
     prices = dict.fromkeys((target.skeleton.names[joint] for joint in stiff), STIFF)
     worn = solve_quietly(base, wishes, RETARGET, body_of(base, wishes.joints, prices=prices)).motion
     if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
-        warnings.warn(
+        warn(
             f"'{shortened(motion.name)}': the hips move by {100 * moved:.0f} cm to take these steps, "
             f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease.",
-            MocapWarning,
-            stacklevel=2,
         )
     return let_go(worn, wishes, floor_pins(base, target))
 
@@ -144,17 +141,11 @@ def floor_pins(motion: Motion, stance: Stance, dips: Mapping[str, float] | None 
     Notebook: 13-retargeting
     """
     heights = np.reshape([stance.heights[role] for role in FEET], (2, 2))
-    floors = [
-        pin(
-            motion,
-            stance.roles[role],
-            slice(None),
-            [-np.inf, stance.heights[role] - dip, -np.inf],
-            [np.inf] * 3,
-        )
-        for role, dip in (dips or {}).items()
-    ]
-    return join_pins(*floors, plant_pins(motion, stance.legs, heights))
+    free = np.full((len(motion), len(dips or ()), 3), np.inf)
+    low = -free
+    low[..., 1] = [stance.heights[role] - dip for role, dip in (dips or {}).items()]
+    floors = Pins(tuple(stance.roles[role] for role in dips or ()), low, free)
+    return join_pins(floors, plant_pins(motion, stance.legs, heights))
 
 
 def dips_of(motion: Motion, stance: Stance) -> dict[str, float]:

@@ -11,7 +11,6 @@ is by itself: inverse kinematics. With splines for B all frames hang together: s
 and the weight in place of [Gle98]'s Lagrange multipliers are ours.
 """
 
-import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -24,7 +23,7 @@ from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.displacements import displaced
 from mocap.editing.pins import Pins, Rows, pin_errors, require_pins_of
 from mocap.editing.steps import Basis, Curve, Linear, linear
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError, warn
 
 TOLERANCE = 0.005  # metres: what the solver may leave without a warning
 MET = 5e-10  # metres: pins that are so near are met
@@ -176,11 +175,10 @@ def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> No
     errors = pin_errors(motion, pins)
     if errors.max(initial=0.0) > tolerance:
         frame, joint = np.unravel_index(errors.argmax(), errors.shape)
-        warnings.warn(
+        warn(
             f"'{motion.name}', frame {frame}: '{motion.skeleton.names[pins.joints[joint]]}' is "
             f"{1000 * errors[frame, joint]:.3g} mm off its pin, and pins of "
             f"{int((errors > tolerance).any(1).sum())} "
             "frames are missed: are they within reach, and do they agree?",
-            MocapWarning,
-            stacklevel=3,
+            3,
         )

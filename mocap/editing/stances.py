@@ -47,7 +47,7 @@ class Stance:
     >>> from mocap.datasets import sample
     >>> stance = stance_of_walk(sample("walk_straight"))
     >>> stance, round(stance.heights["left ankle"], 2)
-    (Stance(38 joints, legs 0.86 m, ankles 0.068 m and balls 0.026 m over the floor), 0.07)
+    (Stance(38 joints, legs 0.86 m), 0.07)
     """
 
     skeleton: Skeleton
@@ -65,10 +65,7 @@ class Stance:
                 )
 
     def __repr__(self) -> str:
-        return (
-            f"Stance({len(self.skeleton)} joints, legs {self.leg:.2f} m, ankles {self.height('ankle'):.3f} m "
-            f"and balls {self.height('ball'):.3f} m over the floor)"
-        )
+        return f"Stance({len(self.skeleton)} joints, legs {self.leg:.2f} m)"
 
     @cached_property
     def points(self) -> Array:

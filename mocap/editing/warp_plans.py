@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from difflib import SequenceMatcher
+from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
 
@@ -148,8 +148,13 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
             raise FormatError(plan.path, line, f"an old second up to {last:g}, the clip's last", f"{old:g}")
     moments = _by_frame(motion, plan)
     if moments:
-        wanted = {frame: _places(motion, frame, wishes) for frame, wishes in moments.items()}
-        keys = [_key(motion, plan, wanted[frame], moments[frame], feet) for frame in sorted(moments)]
+        wanted, keys = {frame: _places(motion, frame, wishes) for frame, wishes in moments.items()}, []
+        for frame, wishes in moments.items():
+            try:
+                pose = posed(motion, frame, wanted[frame], feet=feet) if wanted[frame] else None
+            except MocapError as error:
+                raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
+            keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
         motion = _through(motion, keys, window)
         if feet:
             motion = clean_up(motion)
@@ -160,27 +165,24 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     return motion
 
 
-def _frame(motion: Motion, wish: Wish) -> int:
-    return round(wish.moment * motion.fps if wish.in_seconds else wish.moment)
-
-
 def _by_frame(motion: Motion, plan: WarpPlan) -> dict[int, list[Wish]]:
     """Sort the wishes by their frames, and refuse those that the motion cannot have."""
     moments: dict[int, list[Wish]] = {}
     for wish in plan.wishes:
-        frame, names = _frame(motion, wish), motion.skeleton.names
+        frame = round(wish.moment * motion.fps if wish.in_seconds else wish.moment)
+        names = motion.skeleton.names
         if frame >= len(motion):
             last = f"{len(motion) - 1}, or second {motion.duration:g}"
             raise FormatError(plan.path, wish.line, f"a moment up to frame {last}", f"frame {frame}")
         if wish.move and wish.joint not in names:
-            known = ", ".join(sorted(names, key=lambda name, typed=wish.joint: -_likeness(typed, name)))
-            raise FormatError(plan.path, wish.line, f"a joint, one of {known}", f"'{wish.joint}'")
+            alike = ", ".join(get_close_matches(wish.joint[:80], names, cutoff=0.0))
+            raise FormatError(plan.path, wish.line, f"a joint, such as {alike}", f"'{wish.joint}'")
         for other in moments.setdefault(frame, []):
             if not (wish.move and other.move) or wish.joint == other.joint:
                 got = f"'{wish.joint}' beside '{other.joint}' of line {other.line}"
                 raise FormatError(plan.path, wish.line, f"one wish for a joint at frame {frame}", got)
         moments[frame].append(wish)
-    return moments
+    return dict(sorted(moments.items()))
 
 
 def _places(motion: Motion, frame: int, wishes: Sequence[Wish]) -> dict[str, Array]:
@@ -191,28 +193,14 @@ def _places(motion: Motion, frame: int, wishes: Sequence[Wish]) -> dict[str, Arr
     return {w.joint: at[index(w.joint)] + rotations.rotate(turn, w.move) for w in wishes if w.move}
 
 
-def _key(
-    motion: Motion, plan: WarpPlan, places: Mapping[str, Array], wishes: Sequence[Wish], feet: bool
-) -> Key:
-    """Make the key of one frame."""
-    frame, level = _frame(motion, wishes[0]), any(wish.level for wish in wishes)
-    try:
-        return Key(frame, posed(motion, frame, places, feet=feet) if places else None, level)
-    except MocapError as error:
-        raise MocapError(f"{plan.path}, line {wishes[0].line}: {error}") from None
-
-
 def _again(motion: Motion, key: Key, places: Mapping[str, Array]) -> Key:
     """Make a key for the joints that no leg carries and that carry none: the root and the legs stay."""
     skeleton = motion.skeleton
     hips = {leg.hip for leg in find_legs(skeleton)}
     trunk = {joint for hip in hips for joint in skeleton.path_to_root(hip)}
-    above = {name: skeleton.path_to_root(skeleton.index(name)) for name in places}
-    free = {
-        name: place
-        for name, place in places.items()
-        if above[name][0] not in trunk and not hips & set(above[name])
-    }
+    paths = {name: skeleton.path_to_root(skeleton.index(name)) for name in places}
+    loose = [name for name, path in paths.items() if path[0] not in trunk and not hips & set(path)]
+    free = {name: places[name] for name in loose}
     root = skeleton.names[:1]
     return key._replace(pose=posed(motion, key.frame, free, feet=False, still=root) if free else None)
 
@@ -225,7 +213,3 @@ def _through(motion: Motion, keys: Sequence[Key], window: float) -> Motion:
     ends = [Key(key.frame + way) for key, way in ((keys[0], -half), (keys[-1], half)) if key.pose is not None]
     known = [*keys, *(end for end in ends if 0 <= end.frame < len(motion))]
     return displaced(motion, offsets(motion, sorted(known, key=lambda key: key.frame)))
-
-
-def _likeness(typed: str, name: str) -> float:
-    return SequenceMatcher(None, typed.lower()[:80], name.lower()).ratio()

@@ -152,7 +152,7 @@ def test_a_file_of_another_form_names_the_line(folder, text, message):
     [
         ("at 361 same", r"line 1: expected a moment up to frame 360, or second 3, got frame 361"),
         ("at 5s same", "got frame 600"),
-        ("at 5 hand 0 0 0", r"line 1: expected a joint, one of lhand, rhand, .*got 'hand'"),
+        ("at 5 hand 0 0 0", r"line 1: expected a joint, such as rhand, lhand, .*got 'hand'"),
         (
             "at 1s same\nat 120 level",
             "line 2: expected one wish for a joint at frame 120, got 'level' beside",

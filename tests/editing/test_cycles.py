@@ -10,8 +10,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import concatenate, resample
 from mocap.body.planar import heading, lay_on
 from mocap.datasets import samples
-from mocap.editing.cycles import Loop, find_loop, loop
-from mocap.editing.looping import repeated
+from mocap.editing.cycles import Loop, find_loop, loop, repeated
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footplants import mark_plants
 from mocap.files import load_save
@@ -124,10 +123,12 @@ def test_what_cannot_be_looped_is_refused():
         with pytest.raises(MocapError, match=rf"'wave' lasts {long} s: to find a cycle takes 0\.6 to 300 s"):
             find_loop(wave(frames))
     for seconds in ((2.0, 1.0), (0.0, 1.0), (0.1, 1.0), (1.0, np.inf), (np.nan, 1.0)):
-        with pytest.raises(MocapError, match="from one number of seconds to a larger one"):
+        with pytest.raises(MocapError, match="from one bound to a larger one"):
             find_loop(wave(200), seconds=seconds)
     for first, last in ((-1, 40), (40, 40), (0, 3), (0, 195), (50, 40)):
-        with pytest.raises(MocapError, match=f"from frame {first} to {last} leaves no room for a seam of 6"):
+        with pytest.raises(
+            MocapError, match=f"from frame {first} to {last} of 200 leaves no room for a seam of 6"
+        ):
             loop(wave(200), Loop(first, last, 0, 0))
 
 

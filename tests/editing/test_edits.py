@@ -16,7 +16,6 @@ from mocap.editing.edits import edit
 from mocap.editing.pins import join_pins, pin, pin_errors, plant_pins
 from mocap.errors import MocapError, MocapWarning
 from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from tests.editing.wishes import bar, bones, captured, hand, hand_at, plants_kept, smoothness, stone, walk
 
@@ -60,15 +59,6 @@ def test_a_stone_under_any_captured_step(real_data):
     for step in range(4):
         pins = stone(clip, 0.2, step)
         check(edit(clip, pins), clip, pins, 1.13)
-
-
-def test_a_clean_up_alone_lets_plants_go_where_much_is_asked(real_data):
-    clip = captured(real_data)
-    pins = stone(clip, 0.2)
-    with pytest.warns(MocapWarning, match="they are let go"):
-        alone = clean_up(clip, pins=pins)
-    assert plants_kept(alone, clip) < 0.9
-    check(edit(clip, pins), clip, pins, 1.06)
 
 
 def test_a_bar_to_duck_under(real_data):

@@ -28,7 +28,7 @@ WALK = resample(samples.sample("walk_curve_1"), 30)[:150]
 
 def reflected(motion):
     """Return where the joints of a mirror image must be: those of the partners, with x the other way."""
-    return joint_positions(motion)[:, symmetry(motion.skeleton).partners] * [-1, 1, 1]
+    return joint_positions(motion)[:, symmetry(motion.skeleton)[0]] * [-1, 1, 1]
 
 
 def with_other_axes(motion, seed):
@@ -48,8 +48,8 @@ def with_axes(motion, axes):
 
 def naive(motion):
     """Mirror by names alone: x, and the two components of a quaternion that a reflection turns round."""
-    found = symmetry(motion.skeleton)
-    local = motion.rotations[:, found.partners] * [1, 1, -1, -1]
+    partners = symmetry(motion.skeleton)[0]
+    local = motion.rotations[:, partners] * [1, 1, -1, -1]
     return replace(motion, root_positions=motion.root_positions * [-1, 1, 1], rotations=local, contacts={})
 
 

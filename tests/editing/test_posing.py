@@ -195,8 +195,7 @@ def check_crouch(jump, half, least):
 @pytest.mark.parametrize(
     ("frame", "places", "message"),
     [
-        (999, {"lhand": [0, 1, 0]}, "Frame 999 is none of 'walk_straight', which has 120"),
-        (-1, {"lhand": [0, 1, 0]}, "Frame -1 is none of"),
+        (999, {"lhand": [0, 1, 0]}, "'walk_straight' has 120 frames"),
         (5, {"left hand": [0, 1, 0]}, "No joint 'left hand'"),
         (5, {"lhand": [0, 1]}, r"'lhand': a place is \(3,\)"),
         (5, {"lhand": [0, 6, 0]}, r"Frame 5: '\w+' would be [\d.]+ m from '\w+', the bones between reach"),
