@@ -7,9 +7,8 @@ from nbformat.v4 import new_code_cell, new_notebook
 
 from mocap import datasets
 from mocap.course.lab.blind_tests import BlindTest
-from mocap.course.lab.class_answers import class_curve, read_answers
 from mocap.course.lab.pairs import Plan, make_pairs
-from mocap.course.lab.sensitivity import d_prime
+from mocap.course.lab.sensitivity import class_curve, d_prime, read_answers
 from mocap.matching import find_transitions
 from tests.browser.conftest import wait_until
 

@@ -14,7 +14,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from mocap.course.check import Check, check_of
+from mocap.course.check import Check
 
 FILES = ("poses", "likeness", "graphs", "walks", "measures", "edits")
 
@@ -28,7 +28,7 @@ def all_checks() -> dict[str, Check]:
     found: dict[str, Check] = {}
     for file in sorted(Path(__file__).parent.glob("*.toml")):
         for name, table in tomllib.loads(file.read_text("utf-8")).items():
-            found[name] = check_of(name, table, known, file.stem.partition("-")[0])
+            found[name] = Check(name, table, known, file.stem.partition("-")[0])
     return found
 
 

@@ -4,20 +4,18 @@ Reading order (notebooks 00 to 19)
 ----------------------------------
  1. `adopting`: a student's function drives the course from the exercise on; the package's stands in before
  2. `guarding`: the place of an exercise: whose function runs there, and the guard around it
- 3. `kept_functions`: the file beside the notebooks that keeps what students wrote
- 4. `plain_source`: a function's source with its imports and helpers
- 5. `places`: a copy of `mocap.plain` in which these functions have the places of its own
- 6. `own`: a motion graph made of these functions alone, from clips to a walk along a path
- 7. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
- 8. `page`: what a question shows in a browser, and where no script runs
- 9. `asking`: quizzes with hints, and bets: what a reader thought before the answer, and what came out
-10. `choices`: which two windows are looked at, and what lies around them
-11. `scenes`: all that a page needs, as small blocks of bytes
-12. `showing`: the widget, its picture and its sentence
-13. `sensitivity`: d′ of a person, and of a class, with confidence intervals
-14. `pairs`: films with a seam, and controls without one from the same clips at the same phase
-15. `blind_tests`: the test in a notebook or on a page
-16. `class_answers`: the files that a class saves, as one curve
+ 3. `kept_functions`: the file beside the notebooks that keeps what students wrote, with all that it needs
+ 4. `places`: a copy of `mocap.plain` in which these functions have the places of its own
+ 5. `own`: a motion graph made of these functions alone, from clips to a walk along a path
+ 6. `questions`: the questions of a notebook, as its file has them, with numbers that the notebook computes
+ 7. `page`: what a question shows in a browser, and where no script runs
+ 8. `asking`: quizzes with hints, and bets: what a reader thought before the answer, and what came out
+ 9. `choices`: which two windows are looked at, and what lies around them
+10. `scenes`: all that a page needs, as small blocks of bytes
+11. `showing`: the widget, its picture and its sentence
+12. `sensitivity`: d′ of a person, and of a class as one curve, with confidence intervals
+13. `pairs`: films with a seam, and controls without one from the same clips at the same phase
+14. `blind_tests`: the test in a notebook or on a page
 
 References
 ----------
@@ -40,7 +38,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "adopting": ["mine", "whose"],
         "asking": ["bet", "bets", "quiz"],
         "blind_tests": ["blind_test"],
-        "class_answers": ["class_curve", "read_answers"],
-        "sensitivity": ["d_prime"],
+        "sensitivity": ["class_curve", "d_prime", "read_answers"],
     },
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from contextlib import redirect_stdout
 from functools import cache
@@ -9,9 +10,8 @@ from typing import Any
 
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
-from mocap.course.lab.guarding import Slot, Unseen
-from mocap.course.lab.kept_functions import keep, place, read_text, run_sections
-from mocap.course.lab.plain_source import plain_source
+from mocap.course.lab.guarding import Slot
+from mocap.course.lab.kept_functions import keep, place, plain_source, read_text, run_sections
 from mocap.errors import MocapError
 
 
@@ -61,9 +61,8 @@ def slots(*names: str) -> list[Slot]:
     ------
     MocapError : for a name that no exercise has.
     """
-    for name in names:
-        if name not in all_checks():
-            raise MocapError(f"The course has no exercise '{name[:60]}'.")
+    if unknown := [name for name in names if name not in all_checks()]:
+        raise MocapError(f"The course has no exercise '{unknown[0][:60]}'.")
     _refresh()
     return [_slots()[name] for name in names]
 
@@ -79,21 +78,23 @@ def whose(*names: str) -> str:
     Notebook: 02-matching
     """
     found = slots(*names)
-    own = ", ".join(slot.name for slot in found if slot.yours)
-    rest = ", ".join(slot.name for slot in found if not slot.yours)
-    return " · ".join(f"{part}: {of}" for part, of in ((own, "yours"), (rest, "the package's")) if part)
+    parts = []
+    for yours, of in ((True, "yours"), (False, "the package's")):
+        if some := [slot.name for slot in found if slot.yours == yours]:
+            parts.append(f"{', '.join(some)}: {of}")
+    return " · ".join(parts)
 
 
 def _take(slot: Slot, written: Callable[..., Any]) -> bool:
     """Adopt a function if it is right, and write it into the file; say whether it is right."""
     slot.written = written
-    if not all_checks()[slot.name].again(written).right:
+    if not all_checks()[slot.name].verdict(written).right:
         return False
     slot.adopt(written, kept=False)
     try:
         if file := place():
             plain = plain_source(written, all_checks())  # type: ignore[arg-type]
-            _read[0] = keep(file, slot.name, notebook_of(slot.name), plain)
+            _read[0] = keep(file, slot.name, all_checks()[slot.name].notebook, plain)
             slot.kept = True
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
@@ -129,32 +130,17 @@ def _refresh() -> None:
     for name in found.keys() - all_checks().keys():
         said.append(f"{file}: the course has no exercise '{name}'; it is not used."[:200])
     for slot in (_slots()[name] for name in found if name in all_checks()):
-        verdict, slot.written = _judged(slot.name, found[slot.name]), found[slot.name]
+        slot.written = found[slot.name]
+        try:
+            with redirect_stdout(io.StringIO()):
+                verdict = all_checks()[slot.name].verdict(slot.written)
+        except SystemExit:
+            verdict = Verdict(False, f"{slot.name}: your function ends Python.")
         slot.adopt(slot.written if verdict.right else None, kept=verdict.right)
         if not verdict.right:
             why = "does not pass its check any more, so the package's stands in."
             said.append(f"{file}: {slot.name} {why}\n{verdict}")
     print(*said, sep="\n", end="\n" * bool(said))
-
-
-def _judged(name: str, function: Callable[..., Any]) -> Verdict:
-    """Check a function of the file, without what it prints."""
-    try:
-        with redirect_stdout(Unseen()):
-            return all_checks()[name].verdict(function)
-    except SystemExit:
-        return Verdict(False, f"{name}: your function ends Python.")
-
-
-def notebook_of(name: str) -> str:
-    """Give the number of the notebook that asks for a function.
-
-    Examples
-    --------
-    >>> notebook_of("hamilton")
-    '01'
-    """
-    return all_checks()[name].notebook
 
 
 @cache

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 import json
 import zlib
 from collections.abc import Sequence
@@ -14,19 +13,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from mocap.body.motion import Motion
 from mocap.course.lab.pairs import Pair, Plan, make_pairs
 from mocap.course.lab.sensitivity import sentence
 from mocap.matching.transitions import Transitions
-from mocap.plotting.picture import Picture, few_colours, small_png
+from mocap.plotting.picture import Picture, figure_of, stack
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PICTURE, SCENE, joined
 from mocap.widgets.packing import SIDES, packed_character
 
 STEP = 0.002  # metres; coordinates of films are whole numbers of it. A pixel shows about four of them.
+ALT = "Two rows of stick figures that walk. In one of the two films is a seam; poses do not show which."
 STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
 
 
@@ -82,34 +81,20 @@ class BlindTest:
             f"blends of {self.plan.window} frames, seed {self.plan.seed}."
         )
 
-    @property
-    def alt(self) -> str:
-        """What the picture of one pair shows."""
-        return (
-            "Two rows of stick figures that walk. In one of the two films is a seam; poses do not show which."
-        )
-
     @cached_property
-    def picture(self) -> bytes:
-        """The first pair as a PNG, the left film above."""
+    def still(self) -> Picture:
+        """The first pair, the left film above."""
         seam, control, on_left, _ = self.pairs[0]
         films = [seam, control] if on_left else [control, seam]
-        rows = [Image.open(io.BytesIO(small_png(film_strip([film])))) for film in films]
-        both = Image.new("RGB", (rows[0].width, sum(row.height for row in rows)), "white")
-        for row, top in zip(rows, (0, rows[0].height), strict=True):
-            both.paste(row, (0, top))
-        return few_colours(both)
+        return stack([figure_of(film_strip([film])) for film in films], ALT)
 
     @cached_property
     def html(self) -> str:
         """The test as part of a page; where no script runs, the picture and a sentence stay."""
+        window, below, seed, _ = self.plan
         body, films, data = packed([film for pair in self.pairs for film in (pair.seam, pair.control)])
         spec = {
-            "plan": {
-                "below_cm": round(100 * self.plan.below, 3),
-                "window": self.plan.window,
-                "seed": self.plan.seed,
-            },
+            "plan": {"below_cm": round(100 * below, 3), "window": window, "seed": seed},
             "onLeft": [pair.on_left for pair in self.pairs],
             "body": body,
             "films": films,
@@ -118,7 +103,7 @@ class BlindTest:
         }
         hidden = base64.b64encode(json.dumps(spec).encode()).decode()
         here, text = Path(__file__).parent, html.escape(repr(self))
-        still, _ = Picture(self.picture, self.alt)._repr_mimebundle_()
+        still, _ = self.still._repr_mimebundle_()
         return (
             f'<div class="mocap-blind" data-spec="{hidden}" data-films="{data}"><p>{text}</p>'
             f'<p class="still">{STILL}</p>'
@@ -127,7 +112,7 @@ class BlindTest:
         )
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, str], dict[str, Any]]:
-        bundle, metadata = Picture(self.picture, self.alt)._repr_mimebundle_()
+        bundle, metadata = self.still._repr_mimebundle_()
         return bundle | {"text/html": self.html, "text/plain": f"{self!r} {STILL}"}, metadata
 
 

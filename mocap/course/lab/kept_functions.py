@@ -1,20 +1,25 @@
 """The file beside the notebooks that keeps what students wrote, so that it survives a restart of the kernel.
 
-It is plain Python: the imports, and each function under a heading with its name. Who deletes a function, or
-the file, starts anew. What is read from it counts only if it passes its check again.
+It is plain Python: the imports, and each function, with its helpers and constants, under a heading with its
+name. Who deletes a function, or the file, starts anew. What is read from it counts only if it passes its check
+again.
 """
 
 from __future__ import annotations
 
 import ast
+import inspect
 import os
 import re
-from collections.abc import Mapping
+import textwrap
+from collections.abc import Collection, Mapping
+from importlib import import_module
 from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import Any, NamedTuple
 
 from mocap._shared.atomic import write_text
-from mocap.course.lab.plain_source import Plain
+from mocap.course.names import names_of
 from mocap.errors import MocapError
 
 HEAD = '''"""My motion graph: what I wrote in the course, and what passed its check.
@@ -22,7 +27,7 @@ HEAD = '''"""My motion graph: what I wrote in the course, and what passed its ch
 The notebooks run these functions in place of the package's. Delete one of them, or this file, to start anew.
 """
 '''
-HEADING = re.compile(r"^# -+ (\w+)(?: \(.*\))? -+\n", re.MULTILINE)
+HEADING = re.compile(r"^(# -+ (\w+)(?: \(.*\))? -+\n)", re.MULTILINE)
 
 
 def place() -> Path | None:
@@ -41,29 +46,16 @@ def read_text(file: Path | None) -> str:
         raise MocapError(f"{file}: cannot be read ({error}); nothing in it is used.") from error
 
 
-class Section(NamedTuple):
-    """A part of the file: a function's name, its heading, the line of its body, and its body."""
-
-    name: str
-    heading: str
-    line: int
-    body: str
-
-
-def split(text: str) -> list[Section]:
-    r"""Split a text at its headings; the first part, the head, has no name.
+def split(text: str) -> tuple[str, list[tuple[str, str, str]]]:
+    r"""Split a text at its headings: the head, and the name, the heading and the body of each section.
 
     Examples
     --------
-    >>> [tuple(part) for part in split("import math\n# ---- f (notebook 01) ----\ndef f(): ...\n")][1]
-    ('f', '# ---- f (notebook 01) ----\n', 2, 'def f(): ...\n')
+    >>> split("import math\n# ---- f (notebook 01) ----\ndef f(): ...\n")
+    ('import math\n', [('f', '# ---- f (notebook 01) ----\n', 'def f(): ...\n')])
     """
-    found = [*HEADING.finditer(text)]
-    starts, ends = [match.end() for match in found], [*(match.start() for match in found), len(text)]
-    parts = [Section("", "", 0, text[: ends[0]])]
-    for match, start, end in zip(found, starts, ends[1:], strict=True):
-        parts.append(Section(match[1], match[0], text.count("\n", 0, start), text[start:end]))
-    return parts
+    head, *rest = HEADING.split(text)
+    return head, list(zip(rest[1::3], rest[::3], rest[2::3], strict=True))
 
 
 def run_sections(file: Path, text: str, known: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
@@ -79,27 +71,105 @@ def run_sections(file: Path, text: str, known: Mapping[str, Any]) -> tuple[dict[
     -------
     The functions by their names, and a sentence for each section that fails.
     """
-    head, *sections = split(text)
+    head, sections = split(text)
     shared: dict[str, Any] = {"__name__": "my_graph", **known}
-    said = _run(file, head, shared)
-    found: dict[str, Any] = {}
-    for section in sections:
-        space = {**shared}  # a helper of one function does not replace that of another
-        space.pop(section.name, None)
-        said += _run(file, section, space)
-        if callable(made := space.get(section.name)):
-            found[section.name] = made
+    found, said, line = dict[str, Any](), list[str](), 0
+    for name, heading, body in [("", "", head), *sections]:
+        space = {**shared} if name else shared  # a helper of one function does not replace that of another
+        space.pop(name, None)
+        line += heading.count("\n")
+        try:
+            exec(compile("\n" * line + body, str(file.resolve()), "exec"), space)
+        except (Exception, SystemExit) as error:  # students edit the file, and it may hold anything
+            at, why = getattr(error, "lineno", None) or line + 1, getattr(error, "msg", str(error))
+            said.append(f"{file}, line {at}: {type(error).__name__}, {why}; this section is not used."[:200])
+        line += body.count("\n")
+        if callable(made := space.get(name)):
+            found[name] = made
     return found, said
 
 
-def _run(file: Path, part: Section, space: dict[str, Any]) -> list[str]:
+class Plain(NamedTuple):
+    """What a function needs, as text: lines of imports, and its source after that of its helpers."""
+
+    imports: frozenset[str]
+    source: str
+
+
+def plain_source(function: FunctionType, known: Collection[str] = ()) -> Plain:
+    """Write down a function so that a new Python can run it.
+
+    Parameters
+    ----------
+    function : made in a notebook or a file.
+    known : names that are there wherever it runs, as those of the course's exercises.
+
+    Raises
+    ------
+    MocapError : where its source cannot be found, or it uses an object that has no short text.
+
+    Examples
+    --------
+    >>> sorted(plain_source(textwrap.shorten).imports)
+    ['from textwrap import TextWrapper']
+    """
+    imports: set[str] = set()
+    helpers: dict[str, str] = {}
+    _gather(inspect.unwrap(function), {*known, function.__name__}, imports, helpers)
+    return Plain(frozenset(imports), "\n\n".join([*helpers.values(), _source(function)]))
+
+
+def _gather(function: FunctionType, known: set[str], imports: set[str], helpers: dict[str, str]) -> None:
+    """Collect what a function uses, its helpers' helpers first."""
+    for name in sorted(names_of(_source(function))[1]):
+        if name in known or name not in function.__globals__:
+            continue
+        known.add(name)
+        value = function.__globals__[name]
+        own = inspect.unwrap(value) if callable(value) else None  # as it stands below its decorators
+        if isinstance(own, FunctionType) and own.__globals__ is function.__globals__:
+            _gather(own, known, imports, helpers)
+            helpers[name] = _source(own)
+        elif line := _import(name, value):
+            imports.add(line)
+        elif _is_plain(value):
+            helpers[name] = f"{name} = {value!r}\n"
+        else:
+            raise MocapError(f"It uses `{name}`, a {type(value).__name__} that no short text can make.")
+
+
+def _import(name: str, value: Any) -> str:  # noqa: ANN401
+    """Write the import that gives a name its value, or "" where none does."""
+    if isinstance(value, ModuleType):
+        room, _, leaf = value.__name__.rpartition(".")
+        line = f"from {room} import {leaf}" if room else f"import {leaf}"
+        return line if leaf == name else f"{line} as {name}"
+    module, own = getattr(value, "__module__", None), getattr(value, "__name__", None)
+    if not module or not own or module == "__main__":
+        return ""
     try:
-        exec(compile("\n" * part.line + part.body, str(file.resolve()), "exec"), space)
-    except (Exception, SystemExit) as error:  # students edit the file, and it may hold anything
-        at = getattr(error, "lineno", None) or part.line + 1
-        why = getattr(error, "msg", str(error))
-        return [f"{file}, line {at}: {type(error).__name__}, {why}; this section is not used."[:200]]
-    return []
+        found = getattr(import_module(module), own, None)
+    except ImportError:
+        return ""
+    line = f"from {module} import {own}"
+    return (line if own == name else f"{line} as {name}") if found is value else ""
+
+
+def _is_plain(value: Any) -> bool:  # noqa: ANN401
+    try:
+        return bool(ast.literal_eval(repr(value)) == value)
+    except (ValueError, SyntaxError):
+        return False
+
+
+def _source(function: FunctionType) -> str:
+    try:
+        source = textwrap.dedent(inspect.getsource(function))
+    except (OSError, TypeError) as error:
+        raise MocapError("Its source cannot be found.") from error
+    if not source.lstrip().startswith(("def ", "@")):
+        raise MocapError("It is no `def` with a name of its own.")
+    return source.rstrip() + "\n"
 
 
 def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
@@ -116,17 +186,18 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     ------
     MocapError : where the file cannot be read as Python or cannot be written; it stays as it was.
     """
-    head, *sections = split(read_text(file))
+    head, sections = split(read_text(file))
     try:
-        lines = {ast.unparse(node) for node in ast.parse(head.body).body if not isinstance(node, ast.Expr)}
+        lines = {ast.unparse(node) for node in ast.parse(head).body if not isinstance(node, ast.Expr)}
     except SyntaxError as error:
         raise MocapError(f"{file}, line {error.lineno}: {error.msg}; correct it, or delete it.") from error
-    new = Section(name, f"# ---- {name} (notebook {notebook}) ----\n", 0, f"\n{plain.source}")
-    kept = [*(part for part in sections if part.name != name), new]
-    kept.sort(key=lambda part: part.heading.partition("notebook ")[2])
+    new = name, f"# ---- {name} (notebook {notebook}) ----\n", f"\n{plain.source}"
+    kept = sorted(
+        [*(part for part in sections if part[0] != name), new], key=lambda part: part[1].partition("(")[2]
+    )
     imports = "\n".join(sorted(lines | plain.imports))
     start = f"{HEAD}\n{imports}\n" if imports else HEAD
-    text = "\n\n".join([start, *(part.heading + part.body.rstrip() + "\n" for part in kept)])
+    text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)])
     try:
         write_text(file, text)
     except OSError as error:

@@ -7,11 +7,6 @@ from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written
 
 X, Y, Z = np.eye(4)[1:]
-COUNTED = """
-def hamilton(a, b):
-    called.append(a)
-    return multiply(a, b)
-"""
 
 
 def test_before_an_exercise_is_solved_the_packages_function_stands_in(capsys, fresh):
@@ -65,16 +60,6 @@ def test_a_wrong_version_after_a_right_one_is_not_called_the_readers(capsys):
         "hamilton: yours, kept in my_graph.py; it is the one that passed, not this one.",
         "hamilton: yours, kept in my_graph.py.",
     ]
-
-
-def test_a_check_cell_calls_a_slow_function_once_for_each_input():
-    called = []
-    own = written("hamilton", others={"called": called}, source=COUNTED)
-    checks.hamilton(own)
-    lab.mine(own)
-    assert len(called) == checks.hamilton.trials
-    lab.mine(own)  # a helper of it may have changed since
-    assert len(called) == 2 * checks.hamilton.trials
 
 
 def test_the_check_judges_what_was_written_when_its_cell_runs_again(capsys):

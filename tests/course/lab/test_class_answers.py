@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.course.lab.class_answers import COLUMNS, Answer, class_curve, read_answers
-from mocap.course.lab.sensitivity import d_prime, mean_d_prime
+from mocap.course.lab.sensitivity import COLUMNS, Answer, class_curve, d_prime, mean_d_prime, read_answers
 from mocap.errors import MocapError
 from mocap.plotting import seen_beside_measured
 

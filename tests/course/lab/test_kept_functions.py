@@ -1,7 +1,6 @@
 import pytest
 
-from mocap.course.lab.kept_functions import keep, run_sections, split
-from mocap.course.lab.plain_source import Plain
+from mocap.course.lab.kept_functions import Plain, keep, run_sections, split
 from mocap.errors import MocapError
 
 ONE = Plain(frozenset(["import math"]), "def one(x):\n    return math.floor(x)\n")
@@ -14,7 +13,7 @@ def test_functions_stand_in_the_order_of_their_notebooks_with_their_imports_abov
     keep(file, "one", "02", ONE)
     text = keep(file, "two", "08b", TWO)
     assert text == file.read_text()
-    assert [part.name for part in split(text)] == ["", "one", "two"]
+    assert [name for name, *_ in split(text)[1]] == ["one", "two"]
     assert "import math\nimport numpy as np\n" in text
     found, said = run_sections(file, text, {})
     assert said == []

@@ -6,7 +6,7 @@ import pytest
 
 from mocap.body import rotations
 from mocap.body.rotations import slerp as between
-from mocap.course.lab.plain_source import plain_source
+from mocap.course.lab.kept_functions import plain_source
 from mocap.errors import MocapError
 
 EPSILON, AXES = 1e-6, ("x", "y")
