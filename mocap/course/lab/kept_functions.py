@@ -1,8 +1,8 @@
 """The file beside the notebooks that keeps what students wrote, so that it survives a restart of the kernel.
 
 It is plain Python: the imports, and each function, with its helpers and constants, under a heading with its
-name. Who deletes a function, or the file, starts anew. What is read from it counts only if it passes its check
-again.
+name. Who deletes a function, or the file, starts anew. What is read from it counts only if it passes its
+check again.
 """
 
 from __future__ import annotations
