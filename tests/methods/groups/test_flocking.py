@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapError
-from mocap.methods.groups.configurations import Configuration, compare, seen_from_itself
 from mocap.methods.groups.flocking import (
     APART,
     RATE,
@@ -40,18 +39,6 @@ def test_a_seed_gives_the_same_flock_again_and_another_gives_another():
     one, again, other = (simulate(5, 5, seed=seed).places for seed in (3, 3, 4))
     np.testing.assert_array_equal(one, again)
     assert np.abs(one - other).max() > 0.1
-
-
-def test_without_whims_it_settles_into_a_lattice():
-    """Any two configurations are then far more alike: nothing to build a graph of."""
-
-    def spread(whim):
-        walked = simulate(12, 120, rules=Flock(whim=whim))
-        seen, _, _ = seen_from_itself(Configuration(walked.places[::60], walked.velocities[::60]))
-        pairs = Configuration(seen.places[:, None], seen.velocities[:, None])
-        return np.median(compare(pairs, Configuration(seen.places[None], seen.velocities[None])).rms)
-
-    assert spread(0.0) < 0.7 * spread(0.5)
 
 
 def test_each_rule_pulls_where_it_should():

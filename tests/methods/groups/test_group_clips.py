@@ -6,11 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapWarning
-from mocap.methods.groups import group_clips
 from mocap.methods.groups.configurations import Configuration
 from mocap.methods.groups.flocking import APART, RATE, Trajectories, nearest_two
 from mocap.methods.groups.group_clips import HARDEST, accelerations, bend_to, part
-from mocap.methods.groups.group_graphs import build_group, make_clips, play_group, random_group_walk
+from mocap.methods.groups.group_graphs import build_group, play_group, random_group_walk
 from tests.methods.groups.built import flock, graph
 
 every_graph = pytest.mark.parametrize(("count", "nodes"), [(12, 8), (6, 6)])
@@ -52,22 +51,6 @@ def test_nearly_all_clips_are_kept_and_all_pairs_joined(count, nodes):
     group = graph(count, nodes)
     assert group.drawn.kept == len(group.clips) >= 0.95 * group.drawn.tried
     assert len({(clip.start, clip.end) for clip in group.clips}) == len(group.nodes) ** 2
-
-
-def test_short_clips_must_be_bent_too_hard(monkeypatch):
-    nodes = graph(6, 6).nodes[:3]
-    long = make_clips(nodes)
-    monkeypatch.setattr(group_clips, "SECONDS", 1.5)
-    with pytest.warns(MocapWarning, match="No clip joins 1 of 9 pairs"):
-        short = make_clips(nodes)
-    assert short.drawn.kept < 0.8 * short.drawn.tried and long.drawn.kept > 0.95 * long.drawn.tried
-    assert np.median(short.drawn.hardest) > 1.5 * np.median(long.drawn.hardest)
-
-
-def test_more_runs_to_choose_from_need_less_bending():
-    nodes = graph(6, 6).nodes[:3]
-    few, many = (make_clips(nodes, seeds=seeds).drawn.bent.mean() for seeds in (1, 6))
-    assert many < 0.95 * few
 
 
 @pytest.mark.exhaustive

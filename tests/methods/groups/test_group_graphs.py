@@ -33,14 +33,6 @@ def test_400_seconds_at_random_never_collide_and_seams_are_as_smooth_as_all_else
     np.testing.assert_allclose(np.abs(np.diff(played.places, axis=0)).max(), 0.15, atol=0.05)
 
 
-def test_members_that_are_not_renumbered_jump():
-    group = graph()
-    walk = random_group_walk(group, 20, seed=3)
-    same = [clip.__class__(**{**vars(clip), "order": np.arange(12)}) for clip in group.clips]
-    careless = play_group(GroupGraph(group.nodes, tuple(same), group.drawn), walk)
-    assert np.abs(np.diff(careless.places, axis=0)).max() > 2.0
-
-
 def test_a_walk_starts_where_it_is_placed():
     group = graph(6, 6)
     walk = random_group_walk(group, 3)

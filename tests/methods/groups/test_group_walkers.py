@@ -5,20 +5,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from mocap.body.ground_path import GroundPath
-from mocap.body.motion import resample
-from mocap.body.planar import from_ground, heading
+from mocap.body.planar import heading
 from mocap.errors import MocapError
-from mocap.files.load_save import load
-from mocap.graphs.compiled_graph import compile_graph
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
-from mocap.methods.groups.flocking import RATE, Trajectories, nearest_two
+from mocap.methods.groups.flocking import RATE, Trajectories
 from mocap.methods.groups.group_graphs import play_group, random_group_walk
 from mocap.methods.groups.group_walkers import walk_group
 from mocap.methods.groups.planning import Scene, plan_group
 from mocap.quality.standing_feet import ground_slides
-from mocap.steering.path_following import follow_path
 from tests.bundled import bundled
 from tests.methods.groups.built import graph
 
@@ -85,31 +78,6 @@ def test_who_stands_at_the_end_is_carried_on_all_the_same():
     places[-15:] = places[-15]
     walked = walk_group(bundled("walk_circle", "walk_curve_1"), Trajectories(places[:, :2], places[:, :2]))
     assert len(walked.motions[0]) == len(walked.wanted)
-
-
-def nearest_on(way, track):
-    """Mean distance of a track from a way, sampled every centimetre or so."""
-    fine = np.interp(np.linspace(0, len(way) - 1, 2000), np.arange(len(way)), way)
-    return np.abs(track[:, None] - fine).min(axis=1).mean()
-
-
-@pytest.mark.exhaustive
-def test_people_keep_to_the_plan_in_time_even_without_bending(real_data):
-    numbers = (*range(11, 35), 47, 58)
-    people = [resample(load(real_data / "cmu/16" / f"16_{n:02}.amc"), 30) for n in numbers]
-    motion_graph = prune(build(people, window=10, threshold=0.04))
-    assert nearest_two(plan().places).min() >= 0.6
-    compiled = compile_graph(motion_graph)
-    alone = [follow_path(compiled, GroundPath(from_ground(way))).track @ [1j, 1] for way in plan().places.T]
-    late = np.stack([track[np.minimum(np.arange(414), len(track) - 1)] for track in alone], axis=-1)
-    loose = walk_group(motion_graph, plan(), bend=False)
-    off = np.abs(late - loose.wanted[:414])  # of the bare lines, walked when it suits
-    assert off.mean() > 0.3 and nearest_two(late).min() < loose.nearest
-    beside = [nearest_on(way, track) for way, track in zip(plan().places.T, loose.tracks.T, strict=True)]
-    assert np.mean(beside) <= 0.05
-    assert loose.off.mean() <= 0.12 and np.percentile(loose.off, 95) <= 0.30 and loose.nearest >= 0.75
-    bent = walk_group(motion_graph, plan())
-    assert bent.off.mean() <= 0.05 and bent.nearest >= 0.75
 
 
 def test_a_way_of_any_length_can_be_walked():

@@ -54,12 +54,6 @@ def test_bounds_spare_most_tests():
     assert found.spared >= 0.7 * (found.spared + found.tested) > 1000
 
 
-@pytest.mark.exhaustive
-def test_a_weight_of_1_finds_nothing():
-    with pytest.raises(NoWalk, match="the limit of 4000 states"):
-        plan_group(graph(), course(1), weight=1.0)
-
-
 @pytest.mark.parametrize("depth", [4.5, 7.0])
 def test_a_plan_leaves_the_pocket_that_steering_never_leaves(depth):
     scene = pocket(depth)

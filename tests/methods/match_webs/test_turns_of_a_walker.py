@@ -11,14 +11,10 @@ from mocap.body.planar import heading
 from mocap.methods.match_webs import (
     MotionSpace,
     blend_of,
-    build_web,
-    cut_out,
     sample_space,
-    search,
     turn,
     weights_for,
 )
-from tests.methods.match_webs.conftest import judge
 
 ANGLES = (45, 90, 180, -45, -90, -180)
 AROUND = 10  # frames at 30 Hz before and after the body turns by more than 25° per second
@@ -63,28 +59,3 @@ def test_turns_are_got_as_asked_without_the_one_that_is_asked_for(walker, side, 
         known = MotionSpace(registered, made.weights[others], made.values[others], made.scale)
         off.append(degrees(blend_of(registered, weights_for(known, asked))) - float(asked[0]))
     assert np.abs(off).mean() <= 2
-
-
-@pytest.mark.exhaustive
-@pytest.mark.parametrize(
-    ("angle", "recall", "precision"),
-    [(45, 0.8, 0.3), (-45, 0.9, 0.35), (90, 0.6, 0.5), (-90, 0.35, 0.7), (180, 0.2, 0.8)],
-)
-def test_one_turn_finds_others_of_its_angle(walker, web, angle, recall, precision):
-    """In one step below 8 cm, of what turns as far as the query, to 20° or a fifth."""
-    _, turns = walker
-    truth, hits, wrong = turns[angle], 0, 0
-    for query in truth[:4]:
-        found = search(web, *query, below=0.08, steps=1)
-        own = degrees(cut_out(web, found[0]))
-        kept = [match for match in found if abs(degrees(cut_out(web, match)) - own) <= max(20, abs(own) / 5)]
-        right, other = judge(kept, truth)
-        hits, wrong = hits + right - 1, wrong + other
-    possible = len(truth[:4]) * (len(truth) - 1)
-    print(f"{angle}°: recall {hits / possible:.2f}, precision {hits / max(hits + wrong, 1):.2f}")
-    assert hits / possible >= recall and hits / (hits + wrong) >= precision
-
-
-@pytest.fixture(scope="module")
-def web(walker):
-    return build_web(walker[0], below=0.08)

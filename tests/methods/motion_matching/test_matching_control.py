@@ -1,7 +1,6 @@
 """A character by motion matching: it obeys sooner than a graph, and its cuts do not jolt."""
 
 import warnings
-from functools import cache
 
 import numpy as np
 import pytest
@@ -11,20 +10,11 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.methods.motion_matching.matching_control import MotionMatcher
 from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate
-from mocap.steering import command_headings, measure_delay, steer
+from mocap.steering import command_headings, steer
 from tests.methods.motion_matching.matched import clips, walks
 
 SPEED = 0.8
 HEADINGS = command_headings(20, 30, seed=1)
-
-
-@cache
-def delay(future=1.0):
-    return measure_delay(MotionMatcher(walks(), Wants(future=future)), speed=SPEED)
-
-
-def test_the_weight_of_the_future_buys_quickness():
-    assert delay(0.1).mean > delay(1.0).mean
 
 
 def test_offsets_die_away_so_that_it_plays_the_clips_own_poses():

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from mocap.feet.footplants import mark_plants
-from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from mocap.methods.motion_matching.matching_control import MotionMatcher
@@ -15,11 +14,10 @@ from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import WEIGHTS, tabulate
 from mocap.quality.seam_measures import jumps, spread
 from mocap.quality.standing_feet import plant_slides
-from mocap.steering import Controller, command_headings, measure_delay, steer
+from mocap.steering import command_headings, measure_delay, steer
 from tests.methods.motion_matching.matched import WALKS, clips, walks
 from tests.methods.motion_matching.people import ALL, WALKER, captured
 
-UNITS = np.where(np.arange(27) < 21, 100.0, 1.0)  # lengths in centimetres, directions as they are
 SPEED, BRISK = 0.8, 1.1  # of the generated clips, and of the captured walker
 
 
@@ -101,52 +99,9 @@ def people(real_data):
 
 
 @pytest.mark.exhaustive
-def test_a_walker_in_centimetres_or_without_directions_is_deaf(people):
-    table = tabulate(people)
-    usual = delay(table, BRISK)
-    centimetres = replace(
-        table, values=table.values * table.scale * UNITS, mean=0 * table.mean, scale=1 / UNITS
-    )
-    blind = tabulate(people, weights={**WEIGHTS, "directions ahead": 0.0})
-    assert usual.never == 0
-    for deaf in (delay(centimetres, BRISK), delay(blind, BRISK)):
-        assert deaf.mean > 1.7 * usual.mean and deaf.never >= 3
-
-
-@pytest.mark.exhaustive
-def test_a_walker_without_places_runs_off_and_without_feet_slides(people):
-    usual = Walked(MotionMatcher(tabulate(people)), BRISK)
-
-    def lacks(group):
-        return Walked(MotionMatcher(tabulate(people, weights={**WEIGHTS, group: 0.0})), BRISK)
-
-    assert lacks("places ahead").speed > 1.3 * usual.speed
-    assert lacks("feet").slide > 1.2 * usual.slide
-
-
-@pytest.mark.exhaustive
 def test_a_walker_cuts_to_its_neighbours_where_they_are_not_left_out(people):
     near, far = (Walked(MotionMatcher(tabulate(people), Wants(near=near)), BRISK) for near in (0.0, 0.2))
     assert near.cuts > 1.15 * far.cuts
-
-
-@pytest.mark.exhaustive
-def test_a_walker_s_short_fades_jolt_and_long_ones_slide(people):
-    short, usual, long = (
-        Walked(MotionMatcher(tabulate(people), Wants(fade=fade)), BRISK) for fade in (0.02, 0.1, 0.4)
-    )
-    assert short.jolting(people) > 2 and usual.jolting(people) < 0.5 and long.jolting(people) < 0.5
-    assert long.slide > 1.2 * usual.slide
-
-
-@pytest.mark.exhaustive
-def test_greedy_means_habits(people):
-    """Asked for a brisk walk it stays slower, because each single cut costs more; the graph looks ahead."""
-    table = tabulate(people)
-    slow, usual, heeding = (ahead(MotionMatcher(table, Wants(future=f)), 1.6, 30) for f in (0.25, 1.0, 4.0))
-    graph = compile_graph(prune(build(people, window=10, threshold=0.04)))
-    assert slow < usual < 1.4
-    assert heeding > 1.5 and ahead(Controller(graph), 1.6, 30) > 1.5
 
 
 @pytest.mark.exhaustive

@@ -10,19 +10,16 @@ import numpy as np
 import pytest
 
 from mocap.body.motion import resample
-from mocap.errors import MocapWarning, NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
-from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
 from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import BAD, Sampling, build_edge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space, measure_mixes
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space
 from mocap.methods.parametric_graphs.strides import cut_strides
 from mocap.quality import plant_slides
-from mocap.steering import Controller, command_headings, measure_delay, steer
+from mocap.steering import Controller, command_headings, steer
 from tests.bundled import bundled
 from tests.methods.parametric_graphs import built
 from tests.methods.parametric_graphs.built import SHARE, fresh, space, walk_anywhere
@@ -87,13 +84,6 @@ def walking(request):
     return of_homework(request.getfixturevalue("homework"), kinds)
 
 
-def test_what_is_asked_is_got(walking):
-    for tested, _, _ in walking.edges:
-        goals = draw_parameters(tested, 300, np.random.default_rng(5))
-        off = np.degrees(np.abs(measure_mixes(tested.strides, tested.weights(goals))[:, :1] - goals))
-        assert off.max() <= 1 and off.mean() <= 0.3
-
-
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside(walking):
     """A box of no width holds none of the fresh targets and seems perfect: so draw inside each one, too."""
     for source, target, edge in walking.edges:
@@ -155,16 +145,6 @@ def test_feet_slide_no_more_than_those_of_a_motion_graph_of_the_same_clips():
         assert slide(ParametricController(graph)) <= 1.3 * plain
 
 
-@pytest.mark.exhaustive
-@pytest.mark.parametrize(("kinds", "slower"), [(STRIDES, 1.7), (STEPS, 1.2)])
-def test_on_the_homeworks_clips_it_obeys_nearly_as_soon_as_the_motion_graph(homework, kinds, slower):
-    character = of_homework(homework, kinds).graph
-    graph = prune(build(list(homework), window=10, threshold=0.04))
-    plain = measure_delay(Controller(graph), speed=SPEED).mean
-    assert measure_delay(ParametricController(character), speed=SPEED).mean <= slower * plain
-    assert slide(ParametricController(character)) <= 1.3 * slide(Controller(graph))
-
-
 def test_bad_thresholds_twice_the_good_ones_cut_no_box():
     """Between T_GOOD and 1.35 T_GOOD a target may be in a box; with 2 T_GOOD none is ever cut off."""
     source = space()
@@ -172,21 +152,3 @@ def test_bad_thresholds_twice_the_good_ones_cut_no_box():
     edges = [build_edge(source, source, good=0.03, bad=bad, sampling=few) for bad in thresholds]
     widths = [(edge.high - edge.low).mean() for edge in edges]
     assert widths[0] < widths[1] <= widths[2] == pytest.approx(widths[3], rel=0.01)
-
-
-@pytest.mark.exhaustive
-def test_straight_walks_by_speed_of_subject_16_are_a_node_and_by_turn_and_speed_none(real_data):
-    """CMU 16's single turns fill no space of turns and speeds; its straight walks fill one of speeds."""
-    some = [
-        mark_plants(resample(load(real_data / "cmu" / "16" / f"16_{n:02}.amc"), 30))
-        for n in (*range(11, 35), 47, 58)
-    ]
-    cut = cut_strides(some)
-    straight = cut.take(np.abs(cut.values[:, 0]) < np.radians(10))
-    with pytest.warns(MocapWarning, match="near a speed of 1.6"):
-        by_speed = make_space(straight, 0.15, 0.95, 1.65, parameters=("speed",))
-    edge = build_edge(by_speed, by_speed, good=0.04)
-    assert edge.least < 0.03 and (edge.high - edge.low).mean() > 0.3
-    both = make_space(cut, [np.radians(14), 0.15], [-1.3, 0.8], [1.3, 1.7], parameters=("turn", "speed"))
-    with pytest.raises(NoWalk, match=r"Nothing follows a turn of 74° at 1.46 m/s below 8.0 cm"):
-        build_edge(both, both, good=0.08)

@@ -34,19 +34,6 @@ def spins():
     )
 
 
-@pytest.mark.exhaustive
-def test_nine_nodes_and_fifteen_edges_from_the_bundled_clips_in_seconds():
-    kinds = {"walk": clips(), "sneak": named("sneak"), "jog": named("jog")}
-    with pytest.warns(MocapWarning, match="strides are near a turn of"):
-        graph = build_kinds(kinds)
-    assert len(graph.graph) == 9 and graph.graph.number_of_edges() == 15
-    character = ParametricController(graph, start="walk")
-    for label in ("jog", "sneak", "walk"):
-        for _ in range(150):
-            character.step(0.3, 1.0, label)
-        assert character.chosen[-1].node == label
-
-
 def test_walk_and_jog_of_the_bundled_clips_with_both_changes():
     with pytest.warns(MocapWarning, match="of 19 strides are near a turn of"):
         graph = build_kinds({"walk": clips(), "jog": named("jog")}, sampling=SMALL)
@@ -133,55 +120,7 @@ def test_a_kind_that_cannot_follow_itself_is_refused_with_what_would_help():
         build_kinds({"faster": faster}, sampling=SMALL)
 
 
-# Real people: what their clips give, and what they cannot
-
-
-@pytest.fixture(scope="module")
-def subject16(real_data):
-    def cmu(*trials):
-        return [
-            mark_plants(resample(load(real_data / "cmu" / trial[:2] / f"{trial}.amc"), 30))
-            for trial in trials
-        ]
-
-    return cmu
-
-
-WALKS_16 = tuple(f"16_{n}" for n in (*range(11, 35), 47, 58))
-
-
-@pytest.mark.parametrize("margin", [0.38, 0.5])
-def test_runs_of_subject_16_are_no_node(subject16, margin):
-    """Nine strides in 22 short clips; the windows of the quickest run off them."""
-    runs = cut_strides(subject16(*(f"16_{n}" for n in range(35, 58) if n != 47)), margin=margin)
-    assert len(runs) < 12
-    with (
-        pytest.warns(MocapWarning),
-        pytest.raises((MocapError, NoWalk), match=r"quick ones out|needs T_GOOD"),
-    ):
-        build_kinds({"run": runs})
-
-
-def test_takes_of_single_turns_are_a_poor_node(subject16):
-    """CMU 16's walks turn once in each clip: strides need nearly 8 cm, and none turns on the spot."""
-    walks = cut_strides(subject16(*WALKS_16))
-    with pytest.warns(MocapWarning, match=r"Only \d of 25 strides are near a turn of"):
-        graph = build_kinds({"walk": walks})
-    assert 0.06 < graph.edge("walk", "walk").least < 0.1
-    with (
-        pytest.warns(MocapWarning),
-        pytest.raises(NoWalk, match=r"walk → walk: Nothing follows a turn of -?\d+° below 4.0 cm"),
-    ):
-        build_kinds({"walk": walks}, good=0.04)
-    with pytest.raises(MocapError, match=r"None of 25 strides turns on the spot.*0.79 m/s"):
-        on_the_spot(walks)
-
-
-def test_two_short_walks_of_subject_02_are_no_node(subject16):
-    with pytest.raises(MocapError, match=r"walk: A space asked by turn takes 3 strides or more, got 1"):
-        build_kinds({"walk": subject16("02_01", "02_02")})
-
-
+@pytest.mark.sweep
 def test_the_homeworks_walker_turns_on_the_spot(real_data):
     walks = [mark_plants(resample(load(path), 30)) for path in sorted((real_data / "hw3").glob("*.AMC"))]
     spot = on_the_spot(cut_strides(walks))

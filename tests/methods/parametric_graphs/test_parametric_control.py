@@ -37,13 +37,6 @@ def test_it_obeys_nearly_as_soon_as_the_motion_graph_of_the_same_clips():
     assert max(strides.slowest, steps.slowest) < 8
 
 
-def test_a_stricter_threshold_costs_quickness():
-    strict, loose = (
-        measure_delay(ParametricController(stepping(good)), speed=SPEED).mean for good in (0.02, 0.04)
-    )
-    assert strict > loose
-
-
 def test_seams_of_steps_cost_what_the_edges_promise():
     """Those of strides: `test_bars`."""
     character = ParametricController(stepping())

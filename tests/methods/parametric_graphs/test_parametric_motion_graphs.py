@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.parametric_graphs.parametric_edges import smallest_good
 from mocap.methods.parametric_graphs.parametric_motion_graphs import build_parametric
 from tests.methods.parametric_graphs.built import SMALL, space, stepping, walking
 from tests.methods.parametric_graphs.kinds import kinds, many_kinds
@@ -17,15 +16,6 @@ def test_seven_kinds_and_eleven_edges():
     assert len(graph.graph) == 7 and graph.graph.number_of_edges() == 11
     assert graph.graph.has_edge("walk to jog", "jog") and not graph.graph.has_edge("walk", "jog")
     assert graph.fps == 30
-
-
-def test_no_threshold_joins_walk_and_jog_but_a_change_does():
-    """The paper's own limit: if any source cannot, there is no edge."""
-    some = {name: kinds()[name] for name in ("walk", "walk to jog", "jog")}
-    pairs = (("walk", "jog"), ("walk", "walk to jog"), ("walk to jog", "jog"))
-    least = {(a, b): smallest_good(some[a], some[b], SMALL) for a, b in pairs}
-    assert least["walk", "jog"] > 0.12
-    assert max(least["walk", "walk to jog"], least["walk to jog", "jog"]) < 0.06
 
 
 def test_by_default_all_edges_that_can_be_had_are_there():

@@ -9,7 +9,6 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.methods.parametric_graphs.nearest_windows import near_strike
 from mocap.methods.parametric_graphs.stride_spaces import (
     StrideSpace,
-    bell_weights,
     draw_parameters,
     make_space,
     measure_mixes,
@@ -30,14 +29,6 @@ def test_what_is_asked_is_got(feet):
     tested = space(feet)
     off = asked_and_got(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
     assert off.max() <= 1.0 and off.mean() <= 0.3
-
-
-def test_a_bell_alone_is_degrees_off():
-    tested = space()
-    goals = draw_parameters(tested, 200, np.random.default_rng(5))
-    alone = bell_weights(tested.strides.values[:, :1], goals, np.radians([12]))
-    off = np.degrees(np.abs(measure_mixes(tested.strides, alone)[:, :1] - goals))
-    assert off.mean() > 10 * asked_and_got(tested, goals).mean()
 
 
 def test_two_parameters_are_met_where_clips_fill_them():

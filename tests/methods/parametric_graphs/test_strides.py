@@ -55,24 +55,6 @@ def test_it_does_not_matter_where_clips_were_captured():
         np.testing.assert_allclose(getattr(here, part), getattr(there, part), atol=1e-6)
 
 
-@pytest.mark.parametrize("turn", [45, 60])
-def test_places_mixed_instead_of_velocities_shorten_the_way(turn):
-    """Half left, half right: velocities keep the length; places lose as sin α / α says of two arcs."""
-    cut = strides()
-    pair = [int(np.abs(cut.values[:, 0] - np.radians(side)).argmin()) for side in (-turn, turn)]
-    half = np.zeros((1, len(cut)))
-    half[0, pair] = 0.5
-    zero, one = cut.ends
-    each, _ = mixed_way(cut, np.eye(len(cut))[pair])
-
-    def length(ground):
-        return np.abs(np.diff(ground[zero : one + 1])).sum()
-
-    wanted = np.mean([length(ground) for ground in each])
-    assert length(mixed_way(cut, half)[0][0]) == pytest.approx(wanted, rel=0.02)
-    assert length(each.mean(axis=0)) < 0.97 * wanted
-
-
 def test_a_straight_step_turns_by_nothing_though_the_pelvis_swings():
     left, right = strides("lr"), strides("rl")
     assert abs(np.median(left.values[:, 0])) < np.radians(4)
