@@ -17,7 +17,7 @@ from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, fingerprint
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
-from mocap.datasets.samples import SAMPLES, sample
+from mocap.datasets.samples import SAMPLES, is_bundled, sample
 from mocap.editing.mirroring import mirror
 from mocap.errors import MocapError
 from mocap.files.folders import is_clip
@@ -129,8 +129,8 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
     for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
         if name not in by_name:
             raise MocapError(f"{path} needs the clip '{name}'; given are: {', '.join(by_name) or 'none'}.")
-        if fingerprint(by_name[name]) != known:
-            now = len(by_name[name])
+        now = len(by_name[name])
+        if fingerprint(by_name[name]) != known and not (now == frames and is_bundled(by_name[name])):
             other = f"{frames} frames then, {now} now" if now != frames else "other poses, bones or units"
             raise MocapError(f"{path} was built of another '{name}': {other}. Take that clip, or build anew.")
     return MotionGraph(tuple(by_name[name] for name in found.names), found.window, found.graph)

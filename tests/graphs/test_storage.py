@@ -8,8 +8,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from mocap.body.motion import resample
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.clip_origins import Origin
+from mocap.datasets.samples import sample
 from mocap.errors import FormatError, MocapError
 from mocap.files import load_save
 from mocap.graphs import storage
@@ -53,6 +55,15 @@ def test_it_comes_back_bit_for_bit(tmp_path, graph):
     again = tmp_path / "again.npz"
     storage.save(back, again)
     assert again.read_bytes() == (tmp_path / "graph.npz").read_bytes()
+
+
+def test_a_graph_of_bundled_clips_opens_though_these_were_rounded_since(tmp_path):
+    clips = [resample(sample("walk_straight"), 30)]
+    storage.save(build(clips, window=8, threshold=0.04), tmp_path / "graph.npz")
+    path = changed(tmp_path / "graph.npz", fingerprints=np.array(["that of all digits"]))
+    assert storage.load(path, clips).clips == tuple(clips)
+    with pytest.raises(MocapError, match="built of another 'walk_straight': other poses"):
+        storage.load(path, [replace(clips[0], labels={})])
 
 
 def test_a_file_tells_something_without_its_clips(saved):
