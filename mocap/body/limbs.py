@@ -65,7 +65,12 @@ def find_legs(skeleton: Skeleton) -> tuple[Leg, ...]:
     plain = [name.rsplit(":", 1)[-1] for name in skeleton.names]
     for pair in _NAMES:
         if all(name in plain for side in pair for name in side.split()):
-            return tuple(_complete(skeleton, [plain.index(name) for name in side.split()]) for side in pair)
+            legs = [[plain.index(name) for name in side.split()] for side in pair]
+            if bare := [ankle for *_, ankle in legs if not skeleton.children(ankle)]:
+                name = skeleton.names[bare[0]]
+                raise MocapError(f"The foot '{name}' has no joint or end site that could be its ball.")
+            whole = [[*joints, skeleton.children(joints[2])[0]] for joints in legs]
+            return tuple(name_leg(skeleton, *(skeleton.names[joint] for joint in leg)) for leg in whole)
     joints, known = (", ".join(names) for names in (skeleton.names, [left for left, _ in _NAMES]))
     raise MocapError(
         f"No legs found among {shorten(joints, 38)}: tried {shorten(known, 40)}. "
@@ -100,15 +105,6 @@ def name_leg(skeleton: Skeleton, hip: str, knee: str, ankle: str, ball: str) -> 
                 f"'{skeleton.names[below]}' sits on '{skeleton.names[above]}': a bone needs a length."
             )
     return leg
-
-
-def _complete(skeleton: Skeleton, joints: list[int]) -> Leg:
-    """Add the ball, the ankle's first child, to hip, knee and ankle."""
-    hip, knee, ankle = (skeleton.names[joint] for joint in joints)
-    children = skeleton.children(joints[2])
-    if not children:
-        raise MocapError(f"The foot '{ankle}' has no joint or end site that could be its ball.")
-    return name_leg(skeleton, hip, knee, ankle, skeleton.names[children[0]])
 
 
 def legs_of(skeleton: Skeleton, legs: Sequence[Leg] | None) -> Sequence[Leg]:

@@ -67,28 +67,6 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     if not min(lengths) > 0:
         raise MocapError(f"Both bones need a length above 0, got {upper} and {lower}.")
     start, target, bend = np.broadcast_arrays(*(np.asarray(v, float) for v in (start, target, bend)))
-    reach, along, across = limb_frame(start, target, bend)
-    length = np.clip(reach, abs(upper - lower), upper + lower)
-    cosine = np.clip((upper**2 + length**2 - lower**2) / (2 * upper * length), -1, 1)
-    middle = start + upper * (cosine * along + np.sqrt(1 - cosine**2) * across)
-    end = start + length * along
-    hinge = np.cross(across, along)
-    return TwoBone(
-        middle,
-        end,
-        bone_rotation((middle - start) / upper, hinge),
-        bone_rotation((end - middle) / lower, hinge),
-        np.abs(reach - length)[..., 0] < 1e-9,
-    )
-
-
-def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, Array]:
-    """Measure the distance to the target, (..., 1), its direction, and the bend's direction across that.
-
-    Raises
-    ------
-    MocapError : if the target is at the start, or `bend` points along the limb.
-    """
     reach = np.linalg.norm(target - start, axis=-1, keepdims=True)
     if not np.all(reach > 1e-9):
         raise MocapError("A limb cannot end where it starts: move the target off the start.")
@@ -97,9 +75,13 @@ def limb_frame(start: Array, target: Array, bend: Array) -> tuple[Array, Array, 
     width = np.linalg.norm(across, axis=-1, keepdims=True)
     if not np.all(width > 1e-9):
         raise MocapError("The bend points along the limb: it does not say which way the middle joint goes.")
-    return reach, along, across / width
-
-
-def bone_rotation(direction: Array, hinge: Array) -> Array:
-    """Turn -y onto the bone's direction and +x onto the hinge."""
-    return rotations.from_matrix(np.stack([hinge, -direction, np.cross(hinge, -direction)], axis=-1))
+    across = across / width
+    length = np.clip(reach, abs(upper - lower), upper + lower)
+    cosine = np.clip((upper**2 + length**2 - lower**2) / (2 * upper * length), -1, 1)
+    middle = start + upper * (cosine * along + np.sqrt(1 - cosine**2) * across)
+    end = start + length * along
+    hinge = np.cross(across, along)
+    down = -np.stack([(middle - start) / upper, (end - middle) / lower])
+    hinge = np.broadcast_to(hinge, down.shape)
+    turns = rotations.from_matrix(np.stack([hinge, down, np.cross(hinge, down)], axis=-1))
+    return TwoBone(middle, end, *turns, np.abs(reach - length)[..., 0] < 1e-9)

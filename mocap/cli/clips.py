@@ -135,7 +135,7 @@ def convert(
     """
     pairs = files.plan(source, target, f".{to}")
     options = files.Options(reading.skeleton, reading.fps, reading.scale, widen)
-    problems = [one.problem for one in files.convert(pairs, options, bar("converting")) if one.problem]
+    problems = list(filter(None, files.convert(pairs, options, bar("converting"))))
     return tell_of_failures("converted", len(pairs), problems)
 
 

@@ -45,8 +45,13 @@ def read_amc(path: str | Path, asf: AcclaimSkeleton, *, fps: float | None = None
     check_room(path, frames * len(asf.skeleton), sum(block.size for block in numbers.values()))
     local = np.tile(rotations.IDENTITY, (frames, len(asf.skeleton), 1))
     for name in asf.needed():
-        _refuse_stretching(path, name, asf.bones[name], numbers[name])
-        local[:, asf.skeleton.index(name)] = turned(name, asf.bones[name], numbers[name], degrees)
+        bone, block = asf.bones[name], numbers[name]
+        for place, dof in enumerate(bone.dofs if name != "root" else ()):
+            if dof not in TURNS and np.any(moving := block[:, place] != 0):
+                frame, expected = int(moving.argmax()), "since bones keep their lengths"
+                got = f"{block[frame, place]:g} in frame {frame}"
+                raise FormatError(path, None, f"0 for '{dof}' of '{name}', {expected}", got)
+        local[:, asf.skeleton.index(name)] = turned(name, bone, block, degrees)
     root = asf.bones["root"]
     moves = np.zeros((len(local), 3))
     for column, move in zip(numbers["root"].T, root.dofs, strict=True):
@@ -70,14 +75,6 @@ def _in_degrees(keywords: set[str], asf: AcclaimSkeleton) -> bool:
 
 def _turning(bone: Bone) -> list[int]:
     return [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
-
-
-def _refuse_stretching(path: str | Path, name: str, bone: Bone, numbers: Array) -> None:
-    still = [place for place, dof in enumerate(bone.dofs) if dof not in TURNS and name != "root"]
-    if np.any(moving := numbers[:, still] != 0):
-        frame, place = np.argwhere(moving)[0]
-        expected = f"0 for '{bone.dofs[still[place]]}' of '{name}', since bones keep their lengths"
-        raise FormatError(path, None, expected, f"{numbers[frame, still[place]]:g} in frame {frame}")
 
 
 def turned(name: str, bone: Bone, numbers: Array, degrees: bool) -> Array:

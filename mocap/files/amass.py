@@ -71,7 +71,13 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
     -----
     MocapWarning : where the file gives the body a shape.
     """
-    arrays = _arrays(path)
+    if zipfile.is_zipfile(path):
+        with zipfile.ZipFile(path) as archive:
+            large = [entry.filename for entry in archive.infolist() if entry.file_size > MOST]
+        if large:
+            raise FormatError(path, None, f"arrays below {MOST / 1e9:.1f} GB", f"a larger '{large[0]}'")
+    keys = ("poses", "trans", "betas", *RATES)
+    arrays = open_arrays(path, "an AMASS archive with poses and trans", keys)
     poses, trans = _checked(path, arrays, "poses", WIDTH), _checked(path, arrays, "trans", 3)
     if len(poses) == 0:
         raise FormatError(path, None, "one frame or more in 'poses'", "none")
@@ -91,17 +97,6 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
     return Motion(SKELETON, roots, local, fps or _rate(path, arrays), Path(path).stem)
 
 
-def _arrays(path: str | Path) -> Arrays:
-    """Read the arrays that are needed; the others may be of any kind."""
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:
-            large = [entry.filename for entry in archive.infolist() if entry.file_size > MOST]
-        if large:
-            raise FormatError(path, None, f"arrays below {MOST / 1e9:.1f} GB", f"a larger '{large[0]}'")
-    keys = ("poses", "trans", "betas", *RATES)
-    return open_arrays(path, "an AMASS archive with poses and trans", keys)
-
-
 def _checked(path: str | Path, arrays: Arrays, key: str, width: int) -> Array:
     """Give an array of rows of at least `width` numbers, all finite."""
     if key not in arrays:
@@ -119,14 +114,14 @@ def _checked(path: str | Path, arrays: Arrays, key: str, width: int) -> Array:
 
 
 def _rate(path: str | Path, arrays: Arrays) -> float:
-    for key in RATES:
-        if key in arrays:
-            rate = arrays[key]
-            if rate.size != 1 or rate.dtype.kind not in "fiu" or not 0 < rate.item() < 1e6:
-                got = str(rate.item()) if rate.size == 1 else f"{rate.dtype}{rate.shape}"
-                raise FormatError(path, None, f"one number above 0 in '{key}'", got)
-            return float(rate.item())
-    raise FormatError(path, None, "'mocap_framerate'", "none: give fps=")
+    key = next((key for key in RATES if key in arrays), None)
+    if key is None:
+        raise FormatError(path, None, f"'{RATES[0]}'", "none: give fps=")
+    rate = arrays[key]
+    if rate.size != 1 or rate.dtype.kind not in "fiu" or not 0 < rate.item() < 1e6:
+        got = str(rate.item()) if rate.size == 1 else f"{rate.dtype}{rate.shape}"
+        raise FormatError(path, None, f"one number above 0 in '{key}'", got)
+    return float(rate.item())
 
 
 def write(motion: Motion, path: str | Path) -> None:

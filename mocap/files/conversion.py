@@ -26,14 +26,6 @@ class Options(NamedTuple):
     widen: bool = False
 
 
-class Outcome(NamedTuple):
-    """A file, the file to write, and the problem, a sentence that names one of the two, or None."""
-
-    source: Path
-    target: Path
-    problem: str | None
-
-
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
     """Pair each motion file with the one to write.
 
@@ -54,13 +46,10 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     True
     """
     source, target = Path(source), Path(target)
-    if not source.is_dir():
-        return _checked([(source, target)])
-    found = find_files([source], deep=True)
-    return _checked([(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found])
-
-
-def _checked(pairs: list[tuple[Path, Path]]) -> list[tuple[Path, Path]]:
+    pairs = [(source, target)]
+    if source.is_dir():
+        found = find_files([source], deep=True)
+        pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
     sources = {path.resolve() for path, _ in pairs}
     taken: dict[Path, Path] = {}
     for path, new in pairs:
@@ -71,7 +60,7 @@ def _checked(pairs: list[tuple[Path, Path]]) -> list[tuple[Path, Path]]:
     return pairs
 
 
-def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Progress = iter) -> list[Outcome]:
+def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Progress = iter) -> list[str]:
     """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
 
     Parameters
@@ -82,12 +71,12 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
 
     Returns
     -------
-    The outcome of each pair.
+    A sentence for each pair, which names the file where something went wrong, or is empty.
 
     Examples
     --------
-    >>> convert([(Path("gone.bvh"), Path("walk.amc"))], Options())[0].problem
-    'Cannot read gone.bvh: No such file or directory.'
+    >>> convert([(Path("gone.bvh"), Path("walk.amc"))], Options())
+    ['Cannot read gone.bvh: No such file or directory.']
     """
     if len(pairs) == 1:
         return [_convert(*pairs[0], options)]
@@ -102,12 +91,12 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
             pool.shutdown(cancel_futures=True)
 
 
-def _convert(source: Path, target: Path, options: Options) -> Outcome:
+def _convert(source: Path, target: Path, options: Options) -> str:
     try:
         motion = load(source, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
         make_folder(target.parent)
         save(motion, target, widen=options.widen)
     except MocapError as error:
         named = any(str(path) in str(error) for path in (source, target))
-        return Outcome(source, target, str(error) if named else f"{source}: {error}")
-    return Outcome(source, target, None)
+        return str(error) if named else f"{source}: {error}"
+    return ""

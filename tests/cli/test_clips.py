@@ -110,7 +110,7 @@ def test_a_single_failure_is_a_failure(folder, run, line, message):
 
 def test_what_fails_names_options_not_arguments(folder, run, monkeypatch):
     problem = "'arm' does not fit: use widen=True without skeleton=, or a .bvh file"
-    monkeypatch.setattr("mocap.files.convert", lambda *_: [type("Outcome", (), {"problem": problem})()])
+    monkeypatch.setattr("mocap.files.convert", lambda *_: [problem])
     assert "use --widen without --skeleton, or a .bvh file" in run("convert clips/a.bvh arm.amc", 2).out
 
 
@@ -144,11 +144,11 @@ def test_a_worker_that_dies_is_told(folder, monkeypatch):
 
 def test_real_folders(real_data, tmp_path):
     pairs = conversion.plan(real_data / "odd", tmp_path, ".bvh")
-    outcomes = conversion.convert(pairs, conversion.Options())
-    assert len(outcomes) == len(pairs) == 10
-    for outcome in outcomes:
-        assert (outcome.problem is None) == outcome.target.exists()
-    good = {outcome.source.name for outcome in outcomes if outcome.problem is None}
+    problems = conversion.convert(pairs, conversion.Options())
+    assert len(problems) == len(pairs) == 10
+    for (_, target), problem in zip(pairs, problems, strict=True):
+        assert (not problem) == target.exists()
+    good = {source.name for (source, _), problem in zip(pairs, problems, strict=True) if not problem}
     assert good == {"16_12.amc", "16_15.amc", "11_01_fb_comment.amc"}
 
 
