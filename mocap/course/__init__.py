@@ -37,7 +37,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submodules=["checks", "diagrams", "homework_slips", "lab", "marking", "teaching"],
     submod_attrs={
         "real_clips": ["people"],
-        "notebooks": ["read", "run", "shown_source", "tagged"],
+        "notebooks": ["read", "run"],
         "handout": ["hand_out"],
         "site": ["build_site"],
         "lite": ["build_lite"],

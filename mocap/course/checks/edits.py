@@ -173,17 +173,6 @@ def shrunk(good: Array, bad: Array, scale: Array, eps: float) -> Box:
     return low, high
 
 
-def cut_all(good: Array, bad: Array, scale: Array, eps: float) -> Box:
-    """Move the nearer side of every axis."""
-    low, high = good.min(axis=0), good.max(axis=0)
-    for sample in bad:
-        if ((sample > low - eps * scale) & (sample < high + eps * scale)).all():
-            nearer = sample - low < high - sample
-            low = np.where(nearer, sample + eps * scale, low)
-            high = np.where(nearer, high, sample - eps * scale)
-    return low, high
-
-
 def draw_box_at(rng: np.random.Generator) -> tuple[float, Array, Array, Array, int]:
     at = np.sort(rng.uniform(-75, 75, 9))
     low, high = at - rng.uniform(20, 60, 9), at + rng.uniform(20, 60, 9)

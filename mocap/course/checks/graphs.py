@@ -17,21 +17,11 @@ from mocap.plain import components
 # ---- Notebook 00
 
 
-def draw_cheapest(rng: np.random.Generator) -> tuple[Array, NDArray[np.int64]]:
-    grid = rng.uniform(size=(rng.integers(5, 20), rng.integers(5, 20)))
-    minima = np.argwhere(grid > 0.3)  # never the smallest of the whole grid
-    return grid, rng.permutation(minima)[: rng.integers(3, 12)]
-
-
 def draw_dead_ends(rng: np.random.Generator) -> tuple[list[tuple[int, int]]]:
     count = int(rng.integers(6, 12))
     ways = [(int(a), int(b)) for a, b in rng.integers(0, count, size=(count, 2))]
     # A node that no edge enters, one that no edge leaves, and one whose only edge leads to that one.
     return ([(count, 0), *ways, (0, count + 2), (count + 2, count + 1)],)
-
-
-def ends(edges: list[tuple[int, int]]) -> set[int]:
-    return {b for _, b in edges} - {a for a, _ in edges}
 
 
 # ---- Notebook 05
@@ -212,11 +202,7 @@ def draw_missing_ways(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, s
 
 
 def without_way(graph: nx.Graph, kinds: Mapping[str, set[int]]) -> set[tuple[str, str]]:
-    return {(a, b) for a, b in permutations(kinds, 2) if not way(graph, kinds[a], kinds[b])}
-
-
-def way(graph: nx.Graph, here: set[int], there: set[int]) -> bool:
-    return bool(nx.has_path(graph, min(here), min(there)))
+    return {(a, b) for a, b in permutations(kinds, 2) if not nx.has_path(graph, min(kinds[a]), min(kinds[b]))}
 
 
 def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:

@@ -84,12 +84,6 @@ def inside(grid: Array, found: NDArray[np.intp]) -> set[tuple[int, int]]:
     return {(int(r), int(c)) for r, c in found[((found > 0) & (found < last)).all(axis=1)]}
 
 
-def lowest_of_four(grid: Array, below: float) -> set[tuple[int, int]]:
-    padded = np.pad(grid, 1, constant_values=np.inf)
-    around = padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]
-    return inside(grid, np.argwhere((grid < below) & (grid < np.min(around, axis=0))))
-
-
 def same_places(given: Any, wanted: set[tuple[int, int]]) -> bool:  # noqa: ANN401
     """Compare places, which a student may list in any order and type."""
     found = np.reshape(np.asarray([tuple(place) for place in given], float), (-1, 2))
@@ -148,14 +142,6 @@ def draw_next_row(rng: np.random.Generator) -> tuple[Array, Array, Array]:
 
 def shifted(row: Array) -> Array:
     return np.append(np.inf, row[:-1])
-
-
-def right_from_any(diagonal: Array, best: Array, costs: Array) -> Array:
-    now = 2 * costs + shifted(best)
-    least = np.minimum(now, costs + diagonal)
-    for column in range(1, len(costs)):
-        least[column] = min(least[column], costs[column] + least[column - 1])
-    return np.array([now, least])
 
 
 def row_after(diagonal: Array, best: Array, costs: Array) -> Array:

@@ -76,12 +76,6 @@ def shortest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[flo
     return best
 
 
-def fewest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[float, list[int]]:
-    each = {node: {after: more + 100 for after, more in row.items()} for node, row in lengths.items()}
-    _, walk = shortest(each, start, goal, longest)
-    return sum(lengths[a][b] for a, b in pairwise(walk)) if walk else np.inf, walk
-
-
 # ---- Notebook 08
 
 
@@ -228,14 +222,6 @@ def greedy(a: Points, b: Points) -> Indices:
         i, j = divmod(int(squares.argmin()), len(b))
         order[i] = j
         squares[i], squares[:, j] = np.inf, np.inf
-    return order
-
-
-def in_turn(a: Points, b: Points) -> Indices:
-    squares, order = squared_distances(a, b), np.zeros(len(a), int)
-    for i in range(len(a)):
-        order[i] = squares[i].argmin()
-        squares[:, order[i]] = np.inf
     return order
 
 
