@@ -44,7 +44,7 @@ def symmetry(skeleton: Skeleton) -> tuple[NDArray[np.intp], Array, Array]:
 
     Examples
     --------
-    >>> from mocap.datasets.generated import SKELETON
+    >>> from mocap.datasets.samples import SKELETON
     >>> symmetry(SKELETON)[1].tolist()
     [1.0, 0.0, 0.0]
     """

@@ -8,31 +8,17 @@ import pytest
 
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import displaced
 from mocap.editing.edits import posed
 from mocap.editing.keys import Key, cardinal, keys_around, offsets
 from mocap.editing.retiming import old_seconds, retime
 from mocap.errors import MocapError
-from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
-from mocap.files import load_save
 from mocap.quality.falling import centre_of_mass, gravity
 from tests.editing.test_retiming import body
 
 UP = np.array([0.0, 1.0, 0.0])
-
-
-@pytest.fixture(scope="module")
-def captured(real_data):
-    """Load clips of subject 16, their feet cleaned; 16_15's left arm snaps in frame 1."""
-
-    def load(name: str, first: int = 0) -> Motion:
-        path = real_data / "cmu" / name[:2] / f"{name}.amc"
-        return clean_up(mark_plants(load_save.load(path)[first:]))
-
-    return {"walk": load("16_15", 12), "jump": load("16_03")}
 
 
 def accelerations(motion):
@@ -94,15 +80,6 @@ def test_a_hand_to_a_post(frame):
     assert planted(cleaned) >= 0.99 * planted(walk)
 
 
-def test_a_captured_hand_to_a_post(captured):
-    arm = [captured["walk"].skeleton.index(name) for name in ("rhand", "rradius", "thorax")]
-    warped = check_hand(captured["walk"], 238, arm)
-    assert 2 < slide(warped) < 15  # millimetres, between the keys, for the feet are pinned at the key alone
-    cleaned = clean_up(warped)
-    assert slide(cleaned) < 1e-3
-    assert planted(cleaned) >= 0.99 * planted(captured["walk"])
-
-
 def test_from_the_lower_back_up_no_foot_moves():
     walk = sample("walk_straight")[:480]
     pose = posed(walk, 238, {"rhand": post(walk, 238)}, feet=False, still=("root",))
@@ -146,29 +123,10 @@ def test_a_higher_jump_takes_more_time():
     check_jump(sample("jump"), 208, 267, (209, 266), 209)
 
 
-def test_a_higher_captured_jump_takes_more_time(captured):
-    check_jump(captured["jump"], 176, 256, (189, 243), 186)
-
-
-def test_a_parabola_of_offset_keeps_nothing_right(captured):
-    jump, a, b = captured["jump"], 176, 256
-    t = np.arange(a, b + 1)
-    up = np.zeros(len(jump))
-    up[a : b + 1] = 0.2 * (1 - ((t - (a + b) / 2) / ((b - a) / 2)) ** 2)
-    lifted_jump = replace(jump, root_positions=jump.root_positions + up[:, None] * UP)
-    assert gravity(lifted_jump, 189, 243) > 13
-    assert 120 * (np.diff(up)[a] - np.diff(up)[a - 1]) > 1.1  # m/s: a blow at take-off
-
-
 # ----------------------------------------------------------------------------------- a deeper crouch
 @pytest.mark.parametrize("half", [30, 60])
 def test_a_deeper_crouch(half):
     check_crouch(sample("jump"), half, least=1.0)
-
-
-@pytest.mark.parametrize("half", [30, 60])
-def test_a_deeper_captured_crouch(captured, half):
-    check_crouch(captured["jump"], half, least=0.99)
 
 
 def check_crouch(jump, half, least):

@@ -9,16 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap import load, load_skeleton
+from mocap import load
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion, resample
+from mocap.body.motion import Motion
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
 from mocap.editing.pins import pin, pin_errors
-from mocap.editing.retargeting import dips_of, floor_pins, retarget, standing_like
-from mocap.editing.solver import REACH, solve
+from mocap.editing.retargeting import dips_of, retarget, standing_like
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_walk
-from mocap.editing.steps import Basis
 from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
 from mocap.feet.footplants import mark_plants, runs
 from mocap.feet.footskate import clean_up
@@ -114,12 +112,6 @@ def test_bodies_made_of_the_bundled_one(name):
     held_to_the_bars(walk(), adult(), BODIES[name]())
 
 
-@pytest.mark.parametrize("fps", [30, 60])
-def test_other_rates(fps):
-    clip = clean_up(resample(walk(), fps))
-    held_to_the_bars(clip, stance_of(clip), broad())
-
-
 @settings(max_examples=5)
 @given(shares=st.tuples(*[st.floats(0.4, 1.3)] * 4))
 def test_bodies_of_any_proportions_stand(shares):
@@ -139,33 +131,11 @@ def test_onto_itself_nothing_moves():
     assert slide(worn, adult()) <= 1e-3
 
 
-def test_the_naive_ways_slide_sink_and_jolt():
-    """Copied alone, feet slide and sink; each frame brought to its pins by itself, they jolt."""
-    base = copied(walk(), adult(), broad())
-    assert slide(base, broad()) > 5
-    floating = np.median(joint_positions(base)[base.contacts["ltoes"], broad().roles["left ball"], 1])
-    assert abs(floating - broad().heights["left ball"]) > 0.005
-    pins = floor_pins(base, broad())
-    framewise = solve(base, pins, [REACH]).motion
-    smooth = solve(base, pins, [Basis(knots=0.125)]).motion
-    assert MM * pin_errors(smooth, pins).max() <= 2
-    assert jolts(framewise, base, broad()) > 1.5 > 1.1 > jolts(smooth, base, broad())
-
-
-@pytest.mark.parametrize(("gain", "smooth"), [(1.2, 1.1), (1.4, 1.2), (1.8, 1.4)])
+@pytest.mark.parametrize(("gain", "smooth"), [(1.4, 1.2)])
 def test_a_child_with_long_steps(gain, smooth):
     """Smooth to 1.35 for a captured walk, below; a generated one has less to drown a change in."""
     worn = held_to_the_bars(walk(), adult(), child(), scale=0.55 * gain, smooth=smooth)
     assert bends(worn, child().roles)[:, [0, 4]].min() > 2  # no knee straightens
-
-
-def test_a_body_of_legs_alone():
-    legs = stance_of(without(walk(), *walk().skeleton.names[13:]))
-    worn = retarget(walk(2.0), legs, adult())
-    assert slide(worn, legs) <= 1e-3
-    there = retarget(worn, adult(), legs)  # arms hang as in the stance
-    assert slide(there, adult()) <= 1e-3
-    assert np.ptp(there.rotations[:, there.skeleton.index("lradius")], axis=0).max() < 1e-9
 
 
 def test_steps_that_no_leg_takes_are_said():
@@ -261,7 +231,7 @@ def test_a_captured_walk_on_captured_bodies(real_data, name):
     held_to_the_bars(clip, source, target)
 
 
-@pytest.mark.parametrize(("gain", "smooth"), [(1.2, 1.1), (1.4, 1.15), (1.6, 1.3), (1.82, 1.35)])
+@pytest.mark.parametrize(("gain", "smooth"), [(1.2, 1.1), (1.82, 1.35)])
 def test_a_captured_walk_on_a_child_with_long_steps(real_data, gain, smooth):
     clip = captured(real_data, "cmu/16/16_15.amc", 12)
     source = stance_of(clip)
@@ -270,26 +240,10 @@ def test_a_captured_walk_on_a_child_with_long_steps(real_data, gain, smooth):
     assert bends(worn, small.roles)[:, [0, 4]].min() > 2
 
 
-def test_angles_copied_one_by_one_fold_other_bodies(real_data):
-    """Shoulders are 81° off and hips 101° on Bandai-Namco's body; on CMU 02's and 49's feet slide."""
-    clip = captured(real_data, "cmu/16/16_15.amc", 12)
-    source = stance_of(clip)
-    other = stance_in(real_data, "Bandai-Namco")
-    turns = np.tile([1.0, 0, 0, 0], (len(clip), len(other.skeleton), 1))
-    for role in source.roles.keys() & other.roles.keys():
-        turns[:, other.roles[role]] = clip.rotations[:, source.roles[role]]
-    naive = Motion(other.skeleton, clip.root_positions, turns, clip.fps)
-    off = bends(naive, other.roles) - bends(clip, source.roles)
-    knees, _, hips, shoulders = (np.sqrt((off[:, [k, k + 4]] ** 2).mean()) for k in range(4))
-    assert knees > 20
-    assert min(hips, shoulders) > 75
-    for person in ("02", "49"):
-        body = load_skeleton(real_data / f"cmu/{person}/{person}.asf")
-        same = Motion(body, clip.root_positions, clip.rotations, clip.fps, contacts=clip.contacts)
-        assert 4 < slide(same, replace(source, skeleton=body)) < 15
+SOME, OTHERS = ("16_35", "49_02"), ("16_17", "16_05", "16_03", "02_04", "127_25")
 
 
-@pytest.mark.parametrize("name", ["16_17", "16_35", "16_05", "16_03", "02_04", "127_25", "49_02"])
+@pytest.mark.parametrize("name", [*SOME, *(pytest.param(name, marks=pytest.mark.sweep) for name in OTHERS)])
 def test_turns_runs_and_jumps_on_a_child_and_on_another_tree(real_data, name):
     clip = captured(real_data, f"cmu/{name.split('_')[0]}/{name}.amc", 4, 604)
     source = stance_of(clip)
@@ -309,25 +263,3 @@ def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_
     worn, own = retarget(clip, target, source), clean_up(clip)
     assert slide(clip, source) > 1 > 1e-3 >= slide(worn, target)
     assert kept(worn, copied(clip, source, target)) == kept(own, clip) > 0.94
-
-
-def test_there_and_back_between_real_bodies(real_data):
-    clip = captured(real_data, "cmu/16/16_15.amc", 12)
-    for name, far in (("CMU 49", 0.1), ("Bandai-Namco", 10), ("puppy", 25)):
-        target = stance_in(real_data, name)
-        source = stance_of_walk(clip) if name == "Bandai-Namco" else stance_of(clip)
-        back = copied(copied(clip, source, target), target, source)
-        joints = list(source.roles.values())
-        apart = np.linalg.norm(joint_positions(back) - joint_positions(clip), axis=-1)[:, joints]
-        assert MM * np.sqrt((apart**2).mean()) <= far
-
-
-def test_a_small_body_falls_slowly(real_data):
-    """The child's jump falls at the legs' ratio of gravity; played 1 / √ratio times as fast, at gravity."""
-    clip = mark_plants(load(real_data / "cmu/16/16_03.amc"))
-    source = stance_of(clip)
-    small = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
-    base = copied(clip, source, small)
-    flight = slice(190, 240)
-    falls = [np.polyfit(np.arange(50) / 120, m.root_positions[flight, 1], 2)[0] for m in (clip, base)]
-    assert falls[1] / falls[0] == pytest.approx(0.55, abs=0.03)

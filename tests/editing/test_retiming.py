@@ -15,9 +15,6 @@ from mocap.editing.cycles import looped, repeated
 from mocap.editing.keys import cardinal
 from mocap.editing.retiming import at_frames, old_seconds, retime
 from mocap.errors import MocapError
-from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
-from mocap.matching.distance_grids import distance_grid
 from tests.strategies import random_motion
 
 WALK = sample("walk_straight")[240:721]
@@ -78,12 +75,6 @@ def test_the_marks_come_from_the_nearest_frame():
     assert slow.labels["walk"].all()
 
 
-def test_only_a_part_may_be_shown():
-    part = retime(WALK, [(5, 1), (6, 2)])
-    assert joint_positions(part)[0] == pytest.approx(joint_positions(WALK)[120], abs=1e-12)
-    assert len(part) == 121
-
-
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
     source = resample(WALK, fps)
@@ -91,16 +82,6 @@ def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
     smooth, straight = (replace(m, fps=4 * fps) for m in (at_frames(source, quarter), source.at(quarter)))
     assert acc99(smooth) < 1.1 * acc99(WALK)
     assert acc99(straight) > 1.5 * acc99(WALK)
-
-
-def test_slow_motion_of_a_captured_walk(real_data):
-    from mocap.files import load_save
-
-    captured = load_save.load(real_data / "cmu" / "16" / "16_15.amc")[12:]
-    quarter = np.arange(0, len(captured) - 1, 0.25)
-    smooth, straight = (replace(m, fps=480) for m in (at_frames(captured, quarter), captured.at(quarter)))
-    assert acc99(smooth) < 1.6 * acc99(captured)  # 16 times the frames' differences: 1.4, by slerp 2.6
-    assert acc99(straight) > 2.3 * acc99(captured)
 
 
 @pytest.mark.parametrize("frames", [1, 2, 3])
@@ -153,50 +134,6 @@ def test_a_cycle_closes_without_a_jump():
     step = at[137, 0] - at[0, 0]
     assert at[137:, 1] == pytest.approx(at[:-137, 1] + step, abs=0.05)  # the same again, farther on
     assert again.contacts["lfoot"][:137].tolist() == again.contacts["lfoot"][137:274].tolist()
-
-
-def test_the_gap_all_in_the_last_frame_jolts():
-    stride = looped(WALK, 20, 157)
-    late = replace(
-        stride,
-        rotations=np.concatenate([WALK.rotations[20:157], stride.rotations[-1:]]),
-        root_positions=np.concatenate([WALK.root_positions[20:157], stride.root_positions[-1:]]),
-    )
-    seam = slice(134, 139)
-    assert jumps(repeated(late, 2))[seam].max() > 3 * jumps(repeated(stride, 2))[seam].max()
-
-
-def test_the_feet_of_a_loop_can_be_cleaned():
-    again = clean_up(repeated(looped(WALK, 20, 157), 3))
-    at = joint_positions(again)
-    for joint, mark in again.contacts.items():
-        foot = at[:, again.skeleton.index(joint)]
-        edges = np.flatnonzero(np.diff(mark.astype(int), prepend=0, append=0)).reshape(-1, 2)
-        assert max(np.ptp(foot[a:b], axis=0).max() for a, b in edges) < 1e-6  # metres
-
-
-def test_a_captured_stride_closes(real_data):
-    from mocap.files import load_save
-
-    walk = clean_up(mark_plants(load_save.load(real_data / "cmu" / "16" / "16_15.amc")[12:]))
-    grid = distance_grid(walk[:350], walk[100:], window=12)  # windows a stride apart, or more
-    ways = [(grid[i, i + gap], i, i + 100 + gap) for i in range(20, 200, 2) for gap in range(0, 70)]
-    _, first, last = min(way for way in ways if way[2] < len(walk) - 12)
-    stride = looped(walk, first, last)
-    again, usual = repeated(stride, 2), np.percentile(jumps(walk), 99)
-    seam = slice(len(stride) - 4, len(stride) + 1)
-    assert jumps(again)[seam].max() < usual
-    assert joint_positions(again)[len(stride) - 1] == pytest.approx(joint_positions(stride)[-1], abs=1e-6)
-    late = [
-        np.concatenate([old[first:last], new[-1:]])
-        for old, new in zip(parts(walk), parts(stride), strict=True)
-    ]
-    jolting = replace(stride, root_positions=late[0], rotations=late[1])
-    assert jumps(repeated(jolting, 2))[seam].max() > 4 * jumps(again)[seam].max()
-
-
-def parts(motion):
-    return motion.root_positions, motion.rotations
 
 
 @pytest.mark.parametrize(("first", "last"), [(5, 5), (9, 3), (-1, 4), (3, 481)])
