@@ -26,19 +26,18 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "motion_graph": ["MotionGraph", "build", "from_transitions", "cut_and_join", "labels_between"],
+        "motion_graph": ["MotionGraph", "build", "from_transitions", "labels_between"],
         "components": [
             "component_numbers",
             "largest_component",
-            "largest_components",
             "numbered_edges",
             "reached",
             "NO_LABELS",
         ],
-        "pruning": ["Pruning", "Reason", "prune", "prune_graph", "notes_example"],
-        "thresholds": ["ThresholdCurve", "smallest_threshold", "threshold_curve", "velocity_gaps"],
+        "pruning": ["prune", "prune_graph", "notes_example"],
+        "thresholds": ["smallest_threshold", "threshold_curve", "velocity_gaps"],
         "choice_points": ["merge_choice_points"],
-        "graph_summary": ["Summary", "summary", "write_graphml"],
+        "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
         "edge_tables": ["EdgeTable", "edge_table", "frame_table", "require_node"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
@@ -50,7 +49,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "segment_motion",
             "segment_walk",
             "segments",
-            "shares",
         ],
     },
 )

@@ -135,22 +135,15 @@ def compile_graph(graph: MotionGraph | CompiledGraph) -> CompiledGraph:
     table = edge_table(graph, edges)
     frames = frame_table(table, graph.window)
     roots = on_ground(np.concatenate([clip.root_positions for clip in graph.clips]))
-    return CompiledGraph(
-        graph,
-        nodes,
-        edges,
-        target,
-        table.frames,
-        table.cost,
-        table.blended,
-        table.transform.turn,
-        table.transform.move,
-        *_standing(graph, np.array(nodes), roots),
-        frames,
-        _tracks(graph, table, frames, roots),
-        find_hops(table, leaves, len(nodes), graph.fps),
-        _labels(graph, frames),
-    )
+    marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
+    bears = np.array([marks[name] for name in sorted(marks)], bool).reshape(-1, len(frames.edge))
+    way = table.transform
+    of_edges = (target, table.frames, table.cost, table.blended, way.turn, way.move)
+    standing = _standing(graph, np.array(nodes), roots)
+    tracks = _tracks(graph, table, frames, roots)
+    hops = find_hops(table, leaves, len(nodes), graph.fps)
+    labels = LabelTable(sorted(marks), bears)  # in a transition those of the clip with the larger weight
+    return CompiledGraph(graph, nodes, edges, *of_edges, *standing, frames, tracks, hops, labels)
 
 
 def _standing(graph: MotionGraph, nodes: Indices, roots: Points) -> tuple[Points, Points, Array]:
@@ -180,13 +173,6 @@ def _tracks(graph: MotionGraph, edges: EdgeTable, frames: FrameTable, roots: Poi
     step = np.abs(np.diff(ground, prepend=0))
     step[first] = np.abs(ground[first] - roots[clip_rows(graph.clips, edges.leaves - np.array([0, 1]))])
     return Tracks(first, ground, step)
-
-
-def _labels(graph: MotionGraph, frames: FrameTable) -> LabelTable:
-    """List the labels of the frames; in a transition they come from the clip with the larger weight."""
-    marks = gather_marks([clip.labels for clip in graph.clips], frames.owner)
-    names = sorted(marks)
-    return LabelTable(names, np.array([marks[name] for name in names], bool).reshape(-1, len(frames.edge)))
 
 
 def walk_track(graph: CompiledGraph, edges: Indices, turn: complex, move: complex) -> tuple[Points, Indices]:

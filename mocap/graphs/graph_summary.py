@@ -1,7 +1,7 @@
 """A graph for people: what it can play, how soon a walk can turn off; and as GraphML for other tools."""
 
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
@@ -119,16 +119,15 @@ def write_graphml(motion_graph: MotionGraph, path: str | Path) -> None:
     """
     if Path(path).suffix.lower() != ".graphml":
         raise MocapError(f"This graph is written as .graphml, got '{path}'.")
-    plain = nx.MultiDiGraph()
-    names = [clip.name for clip in motion_graph.clips]
-    for clip, frame in motion_graph.graph:
+    plain = motion_graph.graph.copy()
+    for (clip, frame), fields in plain.nodes(data=True):
         seconds = frame / motion_graph.fps
-        plain.add_node(f"{names[clip]}:{frame}", clip=names[clip], frame=frame, seconds=seconds)
-    for (a, leave), (b, enter), key, edge in motion_graph.graph.edges(keys=True, data=True):
-        fields: dict[str, Any] = {**edge, "labels": "+".join(sorted(edge["labels"]))}
+        fields.update(clip=motion_graph.clips[clip].name, frame=frame, seconds=seconds)
+    for *_, edge in plain.edges(data=True):
+        edge["labels"] = "+".join(sorted(edge["labels"]))
         if edge["kind"] == "transition":
-            numbers = {"cost": edge["cost"], **fields.pop("transform")._asdict()}
-            fields |= {name: float(number) for name, number in numbers.items()}
-        plain.add_edge(f"{names[a]}:{leave}", f"{names[b]}:{enter}", key, **fields)
+            numbers = {"cost": edge["cost"], **edge.pop("transform")._asdict()}
+            edge.update((name, float(number)) for name, number in numbers.items())
+    plain = nx.relabel_nodes(plain, {node: f"{motion_graph.clips[node[0]].name}:{node[1]}" for node in plain})
     with replacing(path) as beside:
         nx.write_graphml_xml(plain, beside)

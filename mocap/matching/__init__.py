@@ -37,7 +37,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "point_clouds": [
-            "Surface",
             "align",
             "distinct_joints",
             "matching_clouds",
@@ -49,7 +48,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "other_metrics": ["Metric", "euler_grid", "file_angles", "pose_grid", "root_grid"],
         "minima": ["local_minima"],
         "lower_bound": ["Weights", "principal_directions", "whole_windows", "window_numbers"],
-        "transitions": ["Transition", "Transitions", "find_transitions"],
+        "transitions": ["Transition", "find_transitions"],
         "time_paths": ["path_mean", "path_sums", "time_path"],
     },
 )

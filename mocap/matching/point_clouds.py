@@ -1,7 +1,5 @@
 """The points that a motion drives, and the planar transform that lays one cloud of points on another best."""
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -13,14 +11,6 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 
 FARTHEST = 1e6  # metres: farther than any motion goes; squares of such numbers are still finite in 32 bits
-
-
-class Surface(NamedTuple):
-    """How to cover each bone with points: how many `along` it and `around` it, at what `radius` in metres."""
-
-    along: int = 3
-    around: int = 4
-    radius: float = 0.05
 
 
 def distinct_joints(skeleton: Skeleton) -> list[int]:
@@ -44,59 +34,27 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
     return kept
 
 
-def point_cloud(motion: Motion, surface: Surface | None = None) -> Array:
-    """Give the points a motion drives: its distinct joints, or points on the surface of its bones.
+def point_cloud(motion: Motion) -> Array:
+    """Give the points a motion drives: its distinct joints.
 
     Parameters
     ----------
     motion : F frames.
-    surface : how to cover each bone, a cylinder from a joint's parent to the joint. By default the points
-        are the joints. Points on a surface also show how a bone turns about itself.
 
     Returns
     -------
-    Shape (F, P, 3), metres: joints in the order of `distinct_joints`, or bone by bone in that order.
-
-    Raises
-    ------
-    MocapError : for a surface without points, a radius below 0, and a skeleton without bones.
+    Shape (F, P, 3), metres: joints in the order of `distinct_joints`.
 
     Examples
     --------
     >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
     >>> still = Motion(bone, [[0, 0, 0]], [[[1, 0, 0, 0], [1, 0, 0, 0]]], 30.0)
-    >>> point_cloud(still).shape, point_cloud(still, Surface(along=2, around=4)).shape
-    ((1, 2, 3), (1, 8, 3))
+    >>> point_cloud(still).shape
+    (1, 2, 3)
 
     Notebook: 02-matching
     """
-    joints = distinct_joints(motion.skeleton)
-    poses = forward_kinematics(motion)
-    if surface is None:
-        return poses.positions[:, joints]
-    parents = motion.skeleton.parents[joints[1:]]
-    local = _bone_surfaces(motion.skeleton.offsets[joints[1:]], surface)  # (B, N, 3)
-    turned = local @ np.swapaxes(poses.matrices[:, parents], -1, -2)
-    return (poses.positions[:, parents, None] + turned).reshape(len(motion), -1, 3)
-
-
-def _bone_surfaces(bones: Array, surface: Surface) -> Array:
-    """Place points around bones (B, 3) that start at the origin: shape (B, along · around, 3)."""
-    if surface.along < 1 or surface.around < 1 or not surface.radius >= 0:
-        raise MocapError(
-            f"A surface needs points along and around, and a radius of 0 or more, got {surface}."
-        )
-    if len(bones) == 0:
-        raise MocapError("A skeleton of one joint has no bones, and so no surface.")
-    # Two cross products give two directions across the bone, from any vector that is not along it.
-    across = np.cross(bones, np.eye(3)[np.abs(bones).argmin(-1)])
-    across /= np.linalg.norm(across, axis=-1, keepdims=True)
-    third = np.cross(bones, across) / np.linalg.norm(bones, axis=-1, keepdims=True)
-    amount = (np.arange(surface.along) + 0.5) / surface.along
-    angle = np.arange(surface.around) * (2 * np.pi / surface.around)
-    ring = np.cos(angle)[:, None] * across[:, None] + np.sin(angle)[:, None] * third[:, None]
-    points = bones[:, None, None] * amount[:, None, None] + surface.radius * ring[:, None]
-    return np.asarray(points.reshape(len(bones), -1, 3))
+    return forward_kinematics(motion).positions[:, distinct_joints(motion.skeleton)]
 
 
 def align(points: ArrayLike, others: ArrayLike, weights: ArrayLike | None = None) -> PlanarTransform:

@@ -26,7 +26,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "clip_flaws": ["inspect", "warn_of_size"],
-        "falling": ["SEGMENTS", "Segment", "centre_of_mass", "gravity"],
+        "falling": ["centre_of_mass", "gravity"],
         "judging": ["judge", "judgement_table"],
         "standing_feet": ["ground_slides", "plant_slides"],
         "seam_measures": ["Spread", "blend_jolts", "jumps", "knee_turns", "seam_quality", "spread"],

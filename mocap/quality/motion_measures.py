@@ -46,7 +46,7 @@ class Judged(NamedTuple):
     def at(self, values: Array, later: int = 0) -> str:
         """Say at which joint and in which frame values (F, J) are largest."""
         frame, joint = np.unravel_index(int(values.argmax()), values.shape)
-        return f"'{self.motion.skeleton.names[joint]}', frame {frame + later}"
+        return f"'{self.motion.skeleton.names[int(joint)]}', frame {frame + later}"
 
 
 def _jolt(body: Judged) -> Found:

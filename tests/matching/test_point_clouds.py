@@ -7,14 +7,11 @@ import pytest
 from hypothesis import given
 from scipy.optimize import minimize
 
-from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 from mocap.matching.point_clouds import (
-    Surface,
     align,
     distinct_joints,
     point_cloud,
@@ -22,7 +19,7 @@ from mocap.matching.point_clouds import (
     unit_weights,
 )
 from tests.oracles import squared_distance
-from tests.strategies import planar, random_motion, seeds, wave
+from tests.strategies import planar, seeds, wave
 
 
 @given(seeds)
@@ -105,39 +102,6 @@ def test_joints_coincide_within_a_nanometre(gap, points):
 def test_a_point_cloud_is_where_the_distinct_joints_are():
     motion = wave(5)
     assert np.array_equal(point_cloud(motion), joint_positions(motion)[:, distinct_joints(motion.skeleton)])
-
-
-@given(seeds)
-def test_surface_points_lie_around_their_bones(seed):
-    motion = random_motion(seed, frames=2, joints=3)
-    cloud = point_cloud(motion, Surface()).reshape(2, -1, 3, 4, 3)  # frame, bone, along, around
-    joints = joint_positions(motion)
-    for n, joint in enumerate(distinct_joints(motion.skeleton)[1:]):
-        start, end = joints[:, motion.skeleton.parents[joint]], joints[:, joint]
-        for i, amount in enumerate((1 / 6, 3 / 6, 5 / 6)):
-            ring = cloud[:, n, i] - (start + amount * (end - start))[:, None]
-            assert np.linalg.norm(ring, axis=-1) == pytest.approx(0.05)
-            assert ring.sum(1) == pytest.approx(0, abs=1e-12)
-            assert np.einsum("fpc,fc->fp", ring, end - start) == pytest.approx(0, abs=1e-12)
-
-
-def test_a_surface_feels_what_joints_do_not():
-    """A bone that turns about itself moves no joint."""
-    bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 0, 1]])
-    turns = rotations.from_rotvec([[[0, 0, 0], [0, 0, 0]], [[0, 0, 1], [0, 0, 0]]])
-    roll = Motion(bone, np.zeros((2, 3)), turns, 30.0)
-    still, turned = point_cloud(roll)
-    assert still == pytest.approx(turned)
-    still, turned = point_cloud(roll, Surface())
-    assert np.abs(still - turned).max() > 0.04
-
-
-def test_a_surface_needs_points_and_bones():
-    for surface in (Surface(along=0), Surface(around=0), Surface(radius=-1.0), Surface(radius=np.nan)):
-        with pytest.raises(MocapError, match="points along and around"):
-            point_cloud(wave(2), surface)
-    with pytest.raises(MocapError, match="no bones"):
-        point_cloud(random_motion(0, joints=1), Surface())
 
 
 def test_the_rms_distance_of_a_moved_motion_is_how_far_it_was_moved():
