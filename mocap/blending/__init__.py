@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "matched_stretches": ["draw_stretches"],
         "timewarps": ["Curve", "fit_curve"],
         "contact_matches": ["match_contacts", "plants_on_clock"],
-        "registering": ["Warp", "register"],
+        "registering": ["Registration", "Warp", "register"],
         "clocks": ["clock_speed", "frame_times"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
     },
