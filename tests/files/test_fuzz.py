@@ -135,7 +135,7 @@ DRAWING = """<svg>
 def long_ones(text):
     """Give a text with each of its words in turn replaced by long ones."""
     for number, word in enumerate(re.finditer(r"\S+", text)):
-        for long in LONG[number % 3 :: 3]:
+        for long in LONG[number % 2 :: 2]:
             yield f"{text[: word.start()]}{long}{text[word.end() :]}"
 
 
