@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,7 @@ WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
 COLOURS = 128  # of a file
 INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
-SMALL = 620  # pixels of a drawing on the sheet of all
+SMALL = (620, 440)  # pixels of a drawing on the sheet of all
 Steps = Iterator[Any]  # of figures
 
 
@@ -62,37 +63,38 @@ def _ball() -> Steps:
 def _path() -> Steps:
     corner = GroundPath([[0, 0], [0, 3], [3, 3]])
     rounded = arcs((0, 0), heading=0.0, pieces=[(1.5, 0), (0.75 * np.pi, np.pi / 2), (1.5, 0)])
-    return (diagrams.two_distances(corner, rounded, step=step) for step in (0, 3, 5, 8))
+    return _each(diagrams.two_distances, (0, 3, 5, 8), corner, rounded)
 
 
-def _tarjan(step: int) -> Any:  # noqa: ANN401
-    return diagrams.tarjan_step(graphs.notes_example(), places=diagrams.EIGHT_PLACES, step=step)
+def _tarjan() -> Steps:
+    draw = partial(diagrams.tarjan_step, places=diagrams.EIGHT_PLACES)
+    return _each(draw, (0, 4, 9, 12, 15, 18), graphs.notes_example())
 
 
+def _search() -> Steps:
+    return _each(diagrams.search_steps, (0, 2, 4, 7, 10, 13), graphs.notes_example(), 6, 2)
+
+
+def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:  # noqa: ANN401
+    return (draw(*shown, step=step) for step in steps)
+
+
+FOUR = (1, 2, 3, 4)
 BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
     "01-window": (
         "A window becomes a cloud of points",
-        lambda: (diagrams.window_cloud(_pair()[0], step=step) for step in (1, 2, 3, 4)),
+        lambda: _each(diagrams.window_cloud, FOUR, _pair()[0]),
     ),
-    "02-theta": (
-        "Four steps to the best turn and shift",
-        lambda: (diagrams.laying_on(*_pair(), step=step) for step in (1, 2, 3, 4)),
-    ),
+    "02-theta": ("Four steps to the best turn and shift", lambda: _each(diagrams.laying_on, FOUR, *_pair())),
     "03-minima": ("A grid of distances, its minima, those below a threshold", _grid),
     "04-laid-on": ("One clip laid on the end of another: turn, then shift", _laid),
-    "05-alpha": (
-        "The share α of the first clip over a window",
-        lambda: map(diagrams.blended_seam, (1, 2, 3, 4)),
-    ),
+    "05-alpha": ("The share α of the first clip over a window", lambda: map(diagrams.blended_seam, FOUR)),
     "06-slerp": ("From one rotation to another on the ball", _ball),
     "07-graph": ("Two clips become a graph", lambda: map(diagrams.nodes_and_edges, range(6))),
-    "08-tarjan": ("Tarjan's algorithm on eight nodes", lambda: map(_tarjan, (0, 4, 9, 12, 15, 18))),
-    "09-search": (
-        "Branch and bound on eight nodes",
-        lambda: (diagrams.search_steps(graphs.notes_example(), 6, 2, step=s) for s in (0, 2, 4, 7, 10, 13)),
-    ),
+    "08-tarjan": ("Tarjan's algorithm on eight nodes", _tarjan),
+    "09-search": ("Branch and bound on eight nodes", _search),
     "10-path": ("Two distances from a path: at equal arc length, to the nearest point", _path),
-    "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, (1, 2, 3))),
+    "11-pinned": ("A leg that reaches its pinned foot", lambda: map(diagrams.knee_triangle, FOUR[:3])),
 }
 
 
@@ -110,14 +112,18 @@ def write_board(out: Path, progress: Progress = iter) -> list[Path]:
     """
     make_folder(out)
     files = [_saved(board_sheet(name), out / f"{name}.png") for name in progress(list(BOARD))]
-    small = [ImageOps.contain(Image.open(file).convert("RGB"), (SMALL, SMALL), SMOOTH) for file in files]
-    rows = [small[at : at + 3] for at in range(0, len(small), 3)]
-    tops = np.cumsum([0, *(max(sheet.height for sheet in row) + GAP for row in rows)]).tolist()
-    page = Image.new("RGB", (3 * (SMALL + GAP), tops[-1]), PAPER)
-    for row, top in zip(rows, tops, strict=False):
-        for column, sheet in enumerate(row):
-            page.paste(sheet, (column * (SMALL + GAP) + GAP // 2, top + GAP // 2))
+    page = _laid_out([Image.open(file).convert("RGB") for file in files], SMALL, 3)
     return [*files, _saved(page, out / "board.png")]
+
+
+def _laid_out(pictures: list[Image.Image], room: tuple[int, int], columns: int, head: int = 0) -> Image.Image:
+    """Lay pictures on a page, row by row, each fitted into a room of pixels."""
+    wide, high = room[0] + GAP, room[1] + GAP
+    page = Image.new("RGB", (columns * wide + GAP, -(-len(pictures) // columns) * high + head + GAP), PAPER)
+    for number, picture in enumerate(pictures):
+        place = (GAP + number % columns * wide, head + number // columns * high)
+        page.paste(ImageOps.pad(picture, room, SMOOTH, PAPER), place)
+    return page
 
 
 def _saved(page: Image.Image, path: Path) -> Path:
@@ -143,18 +149,16 @@ def board_sheet(name: str) -> Image.Image:
     alone = len(figures) == 1  # one figure that shows its steps itself
     room = ((1 + alone) * PANEL[0], PANEL[1])
     columns = min(len(figures), 2 if len(figures) == 4 else 3)
-    wide, high = room[0] + GAP, room[1] + GAP
-    page = Image.new("RGB", (columns * wide + GAP, -(-len(figures) // columns) * high + HEAD + GAP), PAPER)
+    for figure in [] if alone else figures:  # the disc has the number with which a title begins
+        for text in figure.findobj(lambda artist: hasattr(artist, "set_text")):
+            text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
+    shown = [plotting.show(figure, alt=heading).picture for figure in figures]
+    pictures = [Image.open(io.BytesIO(picture)).convert("RGB") for picture in shown]
+    page = _laid_out(pictures, room, columns, HEAD)
     pen = ImageDraw.Draw(page)
     pen.text((GAP, 18), heading, INK, font_of(38, bold=True))
-    for number, figure in enumerate(figures):
-        x, y = GAP + number % columns * wide, HEAD + number // columns * high
-        if not alone:  # the disc has the number with which the title begins
-            for text in figure.findobj(lambda artist: hasattr(artist, "set_text")):
-                text.set_text(re.sub(r"^\d+\. ", "", text.get_text()))
-        picture = Image.open(io.BytesIO(plotting.show(figure, alt=heading).picture)).convert("RGB")
-        page.paste(ImageOps.pad(picture, room, SMOOTH, PAPER), (x, y))
-        if not alone:
-            pen.ellipse([x, y, x + 48, y + 48], DISC)
-            pen.text((x + 24, y + 24), str(number + 1), PAPER, font_of(28, bold=True), anchor="mm")
+    for number in range(0 if alone else len(pictures)):
+        x, y = GAP + number % columns * (room[0] + GAP), HEAD + number // columns * (room[1] + GAP)
+        pen.ellipse([x, y, x + 48, y + 48], DISC)
+        pen.text((x + 24, y + 24), str(number + 1), PAPER, font_of(28, bold=True), anchor="mm")
     return page

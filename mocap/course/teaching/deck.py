@@ -141,7 +141,8 @@ def _add_code(made: list[Slide], cell: Any, tags: list[str], *, first: bool) -> 
         elif not bet:
             slide = Slide("question" if question else "picture", slide.heading)
             made.append(slide)
-        slide.cells.append(_changed(cell, source="", outputs=[output]))
+        made_by = {**cell.metadata, "code": cell.source}
+        slide.cells.append(_changed(cell, source="", outputs=[output], metadata=made_by))
 
 
 def _cut(output: Any) -> Any:  # noqa: ANN401

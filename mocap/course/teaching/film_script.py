@@ -1,6 +1,6 @@
 """What a film of a notebook shows, for how long, above which words.
 
-Each section gives scenes: its pictures, players and recorded experiments, in order, with the section's first
+The slides of each section give scenes: pictures, players and recorded experiments, in order, with the first
 sentences or those that stand before the picture. A scene lasts as long as its words take to read. Of all
 scenes those that count most are taken, until about three minutes are full.
 """
@@ -10,13 +10,15 @@ from __future__ import annotations
 import base64
 import html
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Container, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import groupby
 from typing import Any
 
 from mocap.course.site import STILL
+from mocap.course.teaching.deck import deck_of
 from mocap.course.teaching.moving_figures import Figures, stored_figures
-from mocap.course.teaching.prose import blocks, sentences, shortened, spoken
+from mocap.course.teaching.prose import sentences, spoken
 
 SPEED = 15.0  # characters that are read per second
 WORDS = 200  # characters of a caption at most
@@ -26,7 +28,7 @@ ENDS = (".", "!", "?", ")", '"', "…")
 LEARNT = "What you learnt"
 ALT = re.compile(r' alt="([^"]*)"')
 SKIPPED = ("Read on", "Your bets", "Where to go from here")
-UNSEEN = ("ask:", "exercise:", "check:", "solution:", "slide:skip")
+NO_PROSE = ("<", "$$", "```", "|", "**", "![", "#")
 
 
 @dataclass
@@ -86,59 +88,35 @@ def script_of(notebook: Any, recorded: Mapping[str, Any]) -> list[Scene]:  # noq
     return chosen
 
 
-@dataclass
-class _Section:
-    heading: str
-    words: str = ""  # the first sentences
-    before: str = ""  # the paragraph that came last
-    scenes: list[Scene] = field(default_factory=list)
-
-    def show(self, kind: str, words: str, counts: int, **shown: Any) -> None:  # noqa: ANN401
-        self.scenes.append(Scene(kind, self.heading, words, counts, **shown))
-
-
 def _scenes(notebook: Any, recorded: Mapping[str, Any]) -> Iterator[Scene]:  # noqa: ANN401
-    """Yield what each section shows; one without a picture is a card of its words."""
-    for number, section in enumerate(_sections(notebook, recorded)):
-        if section.scenes:
-            section.scenes[0].counts = min(section.scenes[0].counts, 2) if number else 0
-        elif section.words:
-            section.show("card", section.words, 0 if section.heading == LEARNT else 3)
-        yield from section.scenes
+    """Yield what the slides of each section show; one without a picture is a card of its words."""
+    told = [one for one in deck_of(notebook) if one.kind != "exercise" and one.heading not in SKIPPED]
+    for number, (title, slides) in enumerate(groupby(told, lambda slide: slide.heading)):
+        scenes, first, before, hunted = list[Scene](), "", "", False
+        for kind, cell in ((slide.kind, cell) for slide in slides for cell in slide.cells):
+            if cell.cell_type == "markdown":
+                hunted = "**Bug hunt" in cell.source  # what is shown after it is wrong on purpose
+                scenes += [Scene("still", "", first, 1, [data]) for data in _attached(cell)]
+                if title == LEARNT:
+                    lines = (spoken(line.lstrip("- ")) for line in cell.source.splitlines())
+                    first = "\n".join(filter(None, [first, *lines]))
+                elif kind not in ("prediction", "answer") and not cell.source.startswith(NO_PROSE):
+                    before = _caption(cell.source.lstrip("-*0123456789. ")) or before
+                    first = first or before
+            elif not hunted:
+                taken = {scene.words for scene in scenes}
+                scenes += _shown(cell, before if scenes else first, taken, recorded)
+        if scenes:
+            scenes[0].counts = min(scenes[0].counts, 2) if number else 0
+        elif first:
+            scenes = [Scene("card", "", first, 0 if title == LEARNT else 3)]
+        for scene in scenes:  # a picture may stand above the first sentence
+            yield replace(scene, heading=spoken(title), words=scene.words or first)
 
 
-def _sections(notebook: Any, recorded: Mapping[str, Any]) -> list[_Section]:  # noqa: ANN401
-    made, hunted = [_Section("")], False
-    for cell in notebook.cells:
-        tags = cell.metadata.get("tags", ())
-        if any(tag.startswith(UNSEEN) for tag in tags):
-            continue
-        if cell.cell_type == "markdown":
-            hunted = "**Bug hunt" in cell.source  # what is shown after it is wrong on purpose
-            for block in blocks(cell.source):
-                if block.startswith("#"):
-                    made.append(_Section(spoken(block.lstrip("# "))))
-                elif block.startswith("![") and "attachment:" in block:
-                    data = cell.attachments[block.rpartition("attachment:")[2].rstrip(")")]["image/png"]
-                    made[-1].show("still", "", 1, pictures=[base64.b64decode(data)])
-                elif not {"answer", "prediction"} & {*tags} or made[-1].heading == LEARNT:
-                    _read(block, made[-1])
-        elif not hunted:
-            _show(cell, made[-1], recorded)
-    return [section for section in made if section.heading and section.heading not in SKIPPED]
-
-
-def _read(block: str, section: _Section) -> None:
-    """Take the first sentences of a block that are plain words, as many as can be read below a picture."""
-    if section.heading == LEARNT:
-        lines = (spoken(line.lstrip("- ")) for line in shortened(block).splitlines())
-        section.words = "\n".join(filter(None, [section.words, *lines]))
-    elif not block.startswith(("<", "$$", "```", "|", "**")):
-        section.before = _caption(block.lstrip("-*0123456789. ")) or section.before
-        if not section.words:
-            section.words = section.before
-            for scene in section.scenes:  # a picture above the first sentence
-                scene.words = section.words
+def _attached(cell: Any) -> list[bytes]:  # noqa: ANN401
+    found = re.match(r"!\[.*\]\(attachment:(.*)\)$", cell.source, re.DOTALL)
+    return [base64.b64decode(cell.attachments[found[1]]["image/png"])] if found else []
 
 
 def _caption(text: str) -> str:
@@ -150,19 +128,18 @@ def _caption(text: str) -> str:
     return words
 
 
-def _show(cell: Any, section: _Section, recorded: Mapping[str, Any]) -> None:  # noqa: ANN401
-    """Make a scene of each thing that a cell shows."""
-    known = list(section.scenes)
-    for data in (output.get("data", {}) for output in cell.get("outputs", ())):
-        page, words = data.get("text/html", ""), section.before if known else section.words
-        if any(scene.words == words for scene in known):  # its own sentence is better than one again
-            words = _caption(html.unescape("".join(ALT.findall(page)[:1]))) or words
-        if figures := stored_figures(page):
-            section.show("player", words, 1, figures=figures)
-        elif STILL in page and cell.source in recorded:
-            one = recorded[cell.source]
-            labels = [f"{one['name']}: {label}" for label in one["labels"]]
-            pictures = [base64.b64decode(picture) for picture in one["pictures"]]
-            section.show("moving", words, 1, pictures=pictures, labels=labels)
-        elif "image/png" in data:
-            section.show("still", words, 4, pictures=[base64.b64decode(data["image/png"])])
+def _shown(cell: Any, words: str, taken: Container[str], recorded: Mapping[str, Any]) -> list[Scene]:  # noqa: ANN401
+    """Make a scene of what a cell shows."""
+    (output,) = cell.outputs or [{}]
+    data, code = output.get("data", {}), cell.metadata.get("code")
+    page = data.get("text/html", "")
+    if words in taken:  # the picture's own sentence is better than one again
+        words = _caption(html.unescape("".join(ALT.findall(page)[:1]))) or words
+    if figures := stored_figures(page):
+        return [Scene("player", "", words, 1, figures=figures)]
+    if STILL in page and code in recorded:
+        one = recorded[code]
+        pictures = [base64.b64decode(picture) for picture in one["pictures"]]
+        return [Scene("moving", "", words, 1, pictures, [f"{one['name']}: {at}" for at in one["labels"]])]
+    still = [base64.b64decode(data["image/png"])] if "image/png" in data else []
+    return [Scene("still", "", words, 4, still)] if still else []
