@@ -13,26 +13,20 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from mocap.methods.match_webs.match_search import Match
-from mocap.plotting.style import ASKED, ASTRAY, COLOURS, CURVES, MARK, PATH, QUIET, source_colours
+from mocap.plotting.style import ASKED, ASTRAY, COLOURS, CURVES, PATH, QUIET, source_colours
 
 HEIGHT = 0.36  # of a bar; a clip's row has one for the left foot above one for the right
 
 
 def joint_curve(
-    values: ArrayLike,
-    *,
-    fps: float,
-    seams: ArrayLike = (),
-    labels: Sequence[str] = (),
-    ax: Axes | None = None,
+    values: ArrayLike, *, fps: float, labels: Sequence[str] = (), ax: Axes | None = None
 ) -> list[Line2D]:
-    """Draw a joint's values over time, with the seams shaded: there a curve must not jump or bend sharply.
+    """Draw a joint's values over time.
 
     Parameters
     ----------
     values : shape (F,) or (F, K), such as a joint's heights or its angles.
     fps : frames per second.
-    seams : transitions, shape (N, 2), as frames [start, end).
     labels : the names of the K curves, with their units.
     ax : axes; new ones by default.
 
@@ -43,18 +37,16 @@ def joint_curve(
     Examples
     --------
     >>> from mocap import plotting
-    >>> (curve,) = joint_curve([0.0, 2.0, 3.0, 3.0], fps=10, seams=[(1, 3)], labels=["height (cm)"])
+    >>> (curve,) = joint_curve([0.0, 2.0, 3.0, 3.0], fps=10, labels=["height (cm)"])
     >>> curve.get_xdata().tolist()  # seconds
     [0.0, 0.1, 0.2, 0.3]
-    >>> plotting.show(curve, alt="A height that rises across a seam.")
-    Picture('A height that rises across a seam.')
+    >>> plotting.show(curve, alt="A height that rises.")
+    Picture('A height that rises.')
 
     Notebook: 02-matching
     """
     ax = ax or plt.figure(figsize=(6, 2.8), layout="constrained").add_subplot()
     columns = np.reshape(values, (len(np.asarray(values)), -1))
-    for start, end in np.reshape(seams, (-1, 2)) / fps:
-        ax.axvspan(start, end, color=MARK, alpha=0.25, linewidth=1)
     curves = ax.plot(np.arange(len(columns)) / fps, columns, linewidth=1.6)
     for curve, colour, label in zip(curves, cycle(CURVES), labels or repeat(None)):
         curve.set(color=colour, label=label)
@@ -134,12 +126,7 @@ def seen_beside_measured(
 
 
 def box_chart(
-    targets: ArrayLike,
-    costs: ArrayLike,
-    box: tuple[float, float],
-    *,
-    limits: tuple[float, float],
-    ax: Axes | None = None,
+    targets: ArrayLike, costs: ArrayLike, box: tuple[float, float], *, limits: tuple[float, float]
 ) -> Axes:
     """Draw what it costs to follow one source with each target, and the box of those that may follow.
 
@@ -149,7 +136,6 @@ def box_chart(
     costs : shape (N,), centimetres.
     box : its low and its high end.
     limits : T_GOOD and T_BAD, centimetres: dots are good up to the first, bad above the second.
-    ax : axes; new ones by default.
 
     Examples
     --------
@@ -159,7 +145,7 @@ def box_chart(
 
     Notebook: 17-parametric-graphs
     """
-    ax = ax or plt.figure(figsize=(6.4, 3), layout="constrained").add_subplot()
+    ax = plt.figure(figsize=(6.4, 3), layout="constrained").add_subplot()
     good, bad = limits
     colours = [CURVES[0] if cost <= good else ASTRAY if cost > bad else QUIET for cost in np.asarray(costs)]
     ax.axvspan(*box, color=CURVES[0], alpha=0.15)
@@ -204,8 +190,8 @@ def match_tree(
     matches: Sequence[Match],
     kinds: Sequence[str],
     *,
-    wrong: Sequence[bool] | None = None,
-    order: Sequence[str] = (),
+    wrong: Sequence[bool],
+    order: Sequence[str],
     ax: Axes | None = None,
 ) -> Axes:
     """Draw a search step by step: the query at the left, and each match right of the one that found it.
@@ -222,7 +208,8 @@ def match_tree(
     --------
     >>> at = np.arange(2.0)
     >>> found = [Match(0, 0, 9, 0.0, -1, 0, at, at), Match(1, 3, 12, 0.02, 0, 1, at, at)]
-    >>> match_tree(found, ["slow", "brisk"]).collections[0].get_segments()[0].tolist()
+    >>> kinds = ["slow", "brisk"]
+    >>> match_tree(found, kinds, wrong=[False, True], order=kinds).collections[0].get_segments()[0].tolist()
     [[0.0, 0.0], [1.0, 0.0]]
 
     Notebook: 16-match-webs
@@ -236,7 +223,7 @@ def match_tree(
     links = [(places[match.via], places[n]) for n, match in enumerate(matches) if match.via >= 0]
     ax.add_collection(LineCollection(links, colors=QUIET, linewidths=0.8, zorder=0))
     ax.scatter(places[:, 0], places[:, 1], s=26, color=[colours[kind] for kind in kinds])
-    bad = places[np.zeros(len(matches), bool) if wrong is None else np.asarray(wrong, bool)]
+    bad = places[np.asarray(wrong, bool)]
     ax.scatter(bad[:, 0], bad[:, 1], s=60, color=ASTRAY, marker="x", label="wrong" if len(bad) else None)
     for kind, colour in colours.items():
         ax.plot([], [], "o", color=colour, label=kind)
@@ -269,7 +256,7 @@ def space_image(
     """
     ax = ax or plt.figure(figsize=(5.6, 4.4), layout="constrained").add_subplot()
     across, up = np.asarray(values, float).T
-    asked, given = (np.reshape(np.asarray(each, float), (-1, 2)).T for each in (wishes, got))
+    asked, given = (np.asarray(each, float).T for each in (wishes, got))
     ax.scatter(across[examples:], up[examples:], s=8, color=QUIET, label="samples")
     ax.scatter(across[:examples], up[:examples], s=42, color=COLOURS["middle"], label="examples")
     ax.scatter(asked[0], asked[1], s=70, color=ASKED, marker="+", label="asked", zorder=3)

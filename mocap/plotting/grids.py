@@ -66,36 +66,27 @@ def _centimetres(grid: Grid, cells: ArrayLike, clock: tuple[float, float], ax: A
     return image
 
 
-def web_image(
-    grid: Grid,
-    *,
-    marks: ArrayLike | None = None,
-    paths: Sequence[ArrayLike] = (),
-    rate: float = 30.0,
-    ax: Axes | None = None,
-) -> Axes:
+def web_image(grid: Grid, *, marks: ArrayLike | None = None, paths: Sequence[ArrayLike] = ()) -> Axes:
     """Draw the distances of two clips with marked cells and with paths.
 
     Parameters
     ----------
-    grid : √D, shape (n, m), metres.
+    grid : √D, shape (n, m), metres, of 30 windows per second; the axes are in seconds.
     marks : cells to mark with dots, booleans of shape (n, m), such as from `minima_1d`.
     paths : cells (row, column) of each path, shape (N, 2).
-    rate : windows per second; the axes are in seconds.
-    ax : axes; new ones by default.
 
     Examples
     --------
-    >>> ax = web_image(np.array([[0.02, 0.1], [0.1, 0.03]]), paths=[[(0, 0), (1, 1)]], rate=10)
-    >>> ax.collections[0].get_segments()[0].tolist()
-    [[0.05, 0.05], [0.15, 0.15]]
+    >>> ax = web_image(np.array([[0.02, 0.1], [0.1, 0.03]]), paths=[[(0, 0), (1, 1)]])
+    >>> ax.collections[0].get_segments()[0].round(3).tolist()
+    [[0.017, 0.017], [0.05, 0.05]]
 
     Notebook: 16-match-webs
     """
-    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
-    _centimetres(100 * np.asarray(grid), () if marks is None else np.argwhere(marks), (rate, 0.0), ax)
+    ax = plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
+    _centimetres(100 * np.asarray(grid), () if marks is None else np.argwhere(marks), (30.0, 0.0), ax)
     ax.lines[-1].set(markersize=2, markeredgewidth=0)
-    lines = [(np.asarray(path)[:, ::-1] + 0.5) / rate for path in paths]
+    lines = [(np.asarray(path)[:, ::-1] + 0.5) / 30 for path in paths]
     ax.add_collection(LineCollection(lines, colors=PATH, linewidths=2))
     ax.set(xlabel="(s)", ylabel="(s)")
     return ax
@@ -134,9 +125,7 @@ def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: A
     return ax
 
 
-def boxes_image(
-    costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike, *, ax: Axes | None = None
-) -> Axes:
+def boxes_image(costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike) -> Axes:
     """Draw what it costs that a target follows a source, for all pairs, with each source's box.
 
     Parameters
@@ -144,7 +133,6 @@ def boxes_image(
     costs : shape (S, T), centimetres, of S sources and T targets evenly spaced between the ends.
     ends : of sources and targets, such as degrees of turn.
     boxes : shape (S, 2), the low and the high end of each source's box.
-    ax : axes; new ones by default.
 
     Examples
     --------
@@ -154,7 +142,7 @@ def boxes_image(
 
     Notebook: 17-parametric-graphs
     """
-    ax = ax or plt.figure(figsize=(5.4, 4.2), layout="constrained").add_subplot()
+    ax = plt.figure(figsize=(5.4, 4.2), layout="constrained").add_subplot()
     look: dict[str, Any] = {"cmap": "cividis", "interpolation": "nearest", "aspect": "auto"}
     image = ax.imshow(np.transpose(costs), extent=(*ends, *ends), origin="lower", **look)
     ax.plot(np.linspace(*ends, len(np.asarray(boxes))), boxes, color=MARK, linewidth=2)

@@ -202,16 +202,13 @@ def stick_figure(
     return _draw_poses(motion, points, ax, [*ghosts, 1.0])
 
 
-def laid_over(
-    first: Motion, second: Motion, *, every: int = 5, ax: Axes3D | None = None
-) -> tuple[list[StickFigure], list[StickFigure]]:
+def laid_over(first: Motion, second: Motion, *, every: int = 5) -> list[list[StickFigure]]:
     """Draw two motions over each other, each in one colour, to see how well they match.
 
     Parameters
     ----------
     first, second : the motions; they stay where they are, so align them first.
     every : frames from one pose to the next.
-    ax : 3D axes; by default new ones around both.
 
     Returns
     -------
@@ -230,13 +227,13 @@ def laid_over(
     Notebook: 02-matching
     """
     clouds = [joint_positions(motion)[::every] for motion in (first, second)]
-    ax = ax or ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
+    ax = ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
     drawn = []
     for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
         drawn.append(_draw_poses(motion, points, ax, [0.7] * len(points), colour))
         ax.plot([], [], [], color=colour, linewidth=2.4, label=motion.name)
     ax.legend(loc="upper left", frameon=False)
-    return drawn[0], drawn[1]
+    return drawn
 
 
 def film_strip(motions: Sequence[Motion], *, count: int = 6) -> Figure:

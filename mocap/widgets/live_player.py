@@ -13,12 +13,13 @@ from mocap._shared.easing import quintic_step
 from mocap.blending import Registration, mix
 from mocap.blending.clocks import checked
 from mocap.body.motion import Motion
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapWarning
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.player import Player, play
 
 Follow = Callable[[Array], Motion | Player]
 FPS = 30.0  # of a mix
+EASE = 0.4  # seconds until new weights are reached
 
 
 class LivePlayer(Live):
@@ -127,12 +128,10 @@ class Mixer:
     ----------
     registration : of C clips.
     weights : those at the start, shape (C,); by default all alike.
-    ease : seconds until new weights are reached.
 
     Raises
     ------
-    MocapError : for weights that do not add up to one, an ease that is not above 0, and where anywidget is
-        not installed.
+    MocapError : for weights that do not add up to one, and where anywidget is not installed.
 
     Examples
     --------
@@ -148,15 +147,13 @@ class Mixer:
     Notebook: 15-registration
     """
 
-    def __init__(self, registration: Registration, weights: ArrayLike = (), *, ease: float = 0.4) -> None:
+    def __init__(self, registration: Registration, weights: ArrayLike = ()) -> None:
         import ipywidgets
 
-        if not (np.isfinite(ease) and ease > 0):
-            raise MocapError(f"New weights need more than 0 s to come in, got {ease} s.")
         count = len(registration.clips)
         given = np.asarray(weights, float)
         start = checked(given if given.size else np.full(count, 1 / count), count)
-        self.registration, self.ease, self.start = registration, ease, frozen(start, np.float64)
+        self.registration, self.start = registration, frozen(start, np.float64)
         self.changes: list[tuple[float, Array]] = []  # new weights, and the blend's second when they begin
         self.player = widget(LivePlayer)()
         self.player.show(self._played(), reports=True)
@@ -172,7 +169,7 @@ class Mixer:
         """Give the weights at second t of the blend, as `mix` asks for them."""
         now = np.array(self.start)
         for begin, weights in self.changes:
-            now += float(quintic_step((t - begin) / self.ease)) * (weights - now)
+            now += float(quintic_step((t - begin) / EASE)) * (weights - now)
         return now
 
     def _played(self) -> Any:  # noqa: ANN401

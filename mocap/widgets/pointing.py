@@ -110,7 +110,7 @@ class Pointer(Live):
         return picture
 
 
-def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa: ANN401
+def handles(ax: Axes, points: ArrayLike) -> Any:  # noqa: ANN401
     """Make a control of points on axes: its value is a tuple of (across, up), in the units of the axes.
 
     `explore` shows it on the picture that `draw` gives. So let `draw` move artists of the figure of these
@@ -120,7 +120,6 @@ def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa:
     ----------
     ax : linear axes, whose limits stay; no handle leaves them. Their labels name the two numbers.
     points : shape (K, 2), where the handles are at first.
-    step : how far an arrow key moves a handle, in the units of the axes; with shift ten times as far.
 
     Returns
     -------
@@ -129,7 +128,7 @@ def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa:
     Raises
     ------
     MocapError : where anywidget is not installed, for points of another shape or outside the axes, here and
-        when they are set later, for axes that are not linear, and for a step that is not above 0.
+        when they are set later, and for axes that are not linear.
 
     Examples
     --------
@@ -146,11 +145,9 @@ def handles(ax: Axes, points: ArrayLike, *, step: float = 0.05) -> Any:  # noqa:
         raise MocapError(f"Handles are rows of two numbers, got an array of shape {where.shape}.")
     if (ax.get_xscale(), ax.get_yscale()) != ("linear", "linear"):
         raise MocapError(f"Handles need linear axes, not {ax.get_xscale()} and {ax.get_yscale()} ones.")
-    if not 0 < step < np.inf:
-        raise MocapError(f"An arrow key moves a handle by a number above 0, got step={step}.")
     limits = [[float(end) for end in ends] for ends in (ax.get_xlim(), ax.get_ylim())]
     names = [label.split(" (")[0] for label in (ax.get_xlabel() or "across", ax.get_ylabel() or "up")]
-    control = widget(Handles)(limits=limits, names=names, step=float(step))
+    control = widget(Handles)(limits=limits, names=names)
     control.ax, control.count = ax, len(where)
     control.value = where
     plt.close(figure_of(ax))
@@ -163,7 +160,7 @@ class Handles(Live):
     scripts = (Path(__file__).with_name("dragging.js"),)
     shared: ClassVar = {
         **{"description": "", "picture": b"", "box": [0.0, 0.0, 1.0, 1.0]},
-        **{"limits": [], "names": [], "step": 0.0, "value": ()},
+        **{"limits": [], "names": [], "step": 0.05, "value": ()},
     }
     needs = "Handles to drag need"
     ax: Axes

@@ -21,7 +21,7 @@ FAILED = ".jp-OutputArea-output[data-mime-type='application/vnd.jupyter.error']"
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS)
-def test_it_runs_and_all_its_sliders_move(notebook, run, page, artefacts, request):
+def test_it_runs_and_all_its_sliders_move(notebook, run, page, request):
     if notebook.stem == "10-real-data":
         request.getfixturevalue("real_data")
     run(notebook.read_text("utf-8"), notebook.name)
@@ -36,4 +36,3 @@ def test_it_runs_and_all_its_sliders_move(notebook, run, page, artefacts, reques
             wait_until(lambda h=handle, e=end: h.get_attribute("aria-valuenow") == h.get_attribute(e))
             page.wait_for_timeout(300)
             assert "Error:" not in box.inner_text()
-    page.screenshot(path=artefacts / f"{notebook.stem}.png")

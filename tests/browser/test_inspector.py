@@ -158,7 +158,7 @@ def test_the_seam_plays_on_one_clock(shown):
     assert page.evaluate(f"{IT}.frame()") == frame + 1
 
 
-def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown, artefacts):
+def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown):
     graph = bundled("walk_circle", "walk_curve_1")
     edges = random_walk(graph, seconds=15, seed=3)
     page = shown(inspector(graph, walk=edges, at=0))
@@ -174,7 +174,6 @@ def test_seams_are_chosen_on_a_walk_and_lit_where_they_stand(shown, artefacts):
     page.locator(".graph").focus()
     for key in ("ArrowRight", "ArrowLeft", "ArrowUp"):
         page.keyboard.press(key)
-    page.screenshot(path=artefacts / "inspector_walk.png")
     x, z = page.evaluate(
         f"{IT}.maps.walk.place({IT}.walk?.path?.[0] ?? {IT}.scene.walk.path[{IT}.scene.walk.seams[0].frame])"
     )

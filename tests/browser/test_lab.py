@@ -113,7 +113,7 @@ def state(place):
     return place.locator(PLAYER).evaluate(frame)
 
 
-def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artefacts):
+def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook):
     page, cell = notebook
     experiment = cell("explore")
     picture = experiment.locator(".mocap-picture")
@@ -126,11 +126,9 @@ def test_a_slider_moves_the_picture_and_an_error_takes_its_place(notebook, artef
     error = experiment.get_by_text("ValueError: here the clip ends")
     wait_until(lambda: error.is_visible())
     assert not picture.is_visible()
-    page.screenshot(path=artefacts / "lab-error.png")
     page.keyboard.press("Home")
     wait_until(lambda: picture.is_visible())
     wait_until(lambda: not error.is_visible())
-    page.screenshot(path=artefacts / "lab-explore.png")
 
 
 def test_a_choice_a_slider_of_choices_and_a_box_change_the_picture(notebook):
@@ -198,7 +196,7 @@ def test_sliders_and_pictures_have_names(notebook):
     assert cell("explore").locator(".mocap-picture").get_attribute("alt") == "A stick figure at a frame."
 
 
-def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook, artefacts):
+def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook):
     page, cell = notebook
     place = cell("point")
     grid, status = place.locator(".mocap-pointing"), place.get_by_role("status")
@@ -216,11 +214,10 @@ def test_a_click_on_the_distance_image_lays_two_windows_over_each_other(notebook
     page.keyboard.press("Shift+ArrowLeft")
     wait_until(lambda: f"row {row + 1}, column {column - 10}:" in status.inner_text())
     wait_until(lambda: laid.get_attribute("src") != before)
-    page.screenshot(path=artefacts / "lab-point.png")
     assert grid.evaluate("part => getComputedStyle(part).touchAction") == "pan-y"
 
 
-def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows(notebook, artefacts):
+def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows(notebook):
     page, cell = notebook
     place = cell("drag")
     handle, status = place.get_by_role("button", name="handle 2"), place.get_by_role("status")
@@ -241,10 +238,9 @@ def test_a_handle_is_dragged_by_the_mouse_and_moved_by_keys_and_the_line_follows
     for _ in range(20):
         page.keyboard.press("Shift+ArrowUp")
     wait_until(lambda: "z 6.00" in status.inner_text())  # no handle leaves the axes
-    page.screenshot(path=artefacts / "lab-drag.png")
 
 
-def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):
+def test_a_player_plays_in_an_output_and_takes_its_keys(notebook):
     page, cell = notebook
     place = cell("play")
     wait_until(lambda: state(place) > 5)
@@ -256,10 +252,9 @@ def test_a_player_plays_in_an_output_and_takes_its_keys(notebook, artefacts):
     place.get_by_role("slider").focus()
     page.keyboard.press("ArrowRight")
     assert state(place) == 2
-    page.screenshot(path=artefacts / "lab-player.png")
 
 
-def test_a_slider_changes_a_blend_while_it_plays_and_the_body_walks_on(notebook, artefacts):
+def test_a_slider_changes_a_blend_while_it_plays_and_the_body_walks_on(notebook):
     page, cell = notebook
     place = cell("mix")
     player = place.locator(PLAYER)
@@ -276,10 +271,9 @@ def test_a_slider_changes_a_blend_while_it_plays_and_the_body_walks_on(notebook,
     assert state(place) >= 25
     later = player.evaluate("root => root.player.characters[0].path.at(-1)")
     assert np.abs(np.subtract(later, end)).max() > 0.3
-    page.screenshot(path=artefacts / "lab-mix.png")
 
 
-def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
+def test_a_path_that_is_drawn_is_walked(notebook):
     page, cell = notebook
     place = cell("draw")
     wait_until(lambda: state(place) >= 0)
@@ -297,7 +291,6 @@ def test_a_path_that_is_drawn_is_walked(notebook, artefacts):
     wait_until(lambda: place.locator(PLAYER).get_attribute("data-playing") == "true")
     wait_until(lambda: cell("drawn").get_by_text("Python was asked for").is_visible())
     cell("draw")
-    page.screenshot(path=artefacts / "lab-path.png")
     asked = place.locator(PLAYER).evaluate("root => root.player.scene.asked.length")
     assert asked > 5
     assert "The walk leaves the path once." in place.locator(".message:visible").inner_text()
@@ -348,7 +341,7 @@ def test_a_path_is_drawn_by_the_keys(notebook):
     assert player.evaluate("root => root.player.hand.pen") is False
 
 
-def test_a_notebook_that_is_opened_again_shows_pictures(ran, artefacts):
+def test_a_notebook_that_is_opened_again_shows_pictures(ran):
     page, _ = ran
     run = "jupyterapp.commands.execute"
     page.evaluate(f"{run}('docmanager:save')")
@@ -363,4 +356,3 @@ def test_a_notebook_that_is_opened_again_shows_pictures(ran, artefacts):
         wait_until(still.is_visible)
         assert "Error displaying widget" not in place.inner_text()
         assert still.locator("img, canvas").first.is_visible()
-    page.screenshot(path=artefacts / "lab-reopened.png")

@@ -64,14 +64,13 @@ def frame(page):
     return page.evaluate(f"{PLAYER}.frame()")
 
 
-def test_it_plays_by_itself_and_stops(shown, artefacts):
+def test_it_plays_by_itself_and_stops(shown):
     page = shown(play(wave(300)))
     assert page.locator(".mocap-player").get_attribute("data-playing") == "true"
     before = colours(page)
     wait_until(lambda: frame(page) > 20)
     wait_until(lambda: np.any(colours(page) != before))
     page.get_by_role("button", name="pause").click()
-    page.screenshot(path=artefacts / "page.png")
     stopped = frame(page)
     page.wait_for_timeout(200)
     assert frame(page) == stopped
@@ -236,11 +235,10 @@ def test_seams_and_stretches_off_the_path_are_marked(resting):
 
 
 @pytest.mark.parametrize(("wide", "high"), [(1200, 900), (390, 844), (844, 390)])
-def test_figure_path_and_controls_are_in_sight(resting, wide, high, page, artefacts):
+def test_figure_path_and_controls_are_in_sight(resting, wide, high, page):
     page.set_viewport_size({"width": wide, "height": high})
     player = play(wave(600), path=[(0, 0), (3, 6), (-3, 12)], follow=False)
     resting(player)
-    page.screenshot(path=artefacts / f"page-{wide}.png")
     assert page.evaluate("document.documentElement.scrollWidth") <= wide
     for part in page.locator(".mocap-player :is(canvas, .play, .scrub input)").all():
         box = part.bounding_box()
@@ -323,11 +321,10 @@ def test_names_stand_for_screen_readers_and_nothing_speaks_while_it_plays(shown)
 
 
 @pytest.mark.parametrize("media", [{"color_scheme": "dark"}, {"forced_colors": "active"}])
-def test_the_middle_of_the_body_stands_out_on_every_ground(resting, media, artefacts, page):
+def test_the_middle_of_the_body_stands_out_on_every_ground(resting, media, page):
     resting(play(wave(60)))
     page.emulate_media(reduced_motion="reduce", **media)
     page.evaluate(f"{PLAYER}.draw()")
-    page.screenshot(path=artefacts / f"page-{next(iter(media))}.png")
     ground = page.evaluate("getComputedStyle(document.querySelector('.mocap-player')).backgroundColor")
     dark = "color_scheme" in media
     assert (ground == "rgb(27, 27, 27)") == dark
@@ -343,7 +340,7 @@ def test_the_camera_follows_or_stays(resting):
     assert page.evaluate(f"{PLAYER}.target()[2]") == pytest.approx(150 * 0.02, abs=0.1)
 
 
-def test_ghosts_footprints_and_sources_are_seen(resting, artefacts):
+def test_ghosts_footprints_and_sources_are_seen(resting):
     page = resting(play(wave(300), sources=[(0, "first"), (150, "second")]))
     assert page.locator(".legend").inner_text() == "firstsecond"
     page.evaluate(f"{PLAYER}.seek(4)")
@@ -353,7 +350,6 @@ def test_ghosts_footprints_and_sources_are_seen(resting, artefacts):
     before = colours(page)
     page.get_by_label("ghosts").check()
     wait_until(lambda: np.any(colours(page) != before))
-    page.screenshot(path=artefacts / "page-ghosts.png")
     prints = page.evaluate(f"{PLAYER}.characters[0].prints.length")
     assert prints == 8  # the hand is down in half of each of 7.5 periods
 
@@ -369,13 +365,12 @@ def test_a_print_is_strong_while_the_foot_stands(resting):
     assert page.evaluate(f"[...new Set({PLAYER}.painted)]") == [0.95, 0.25]
 
 
-def test_several_characters_of_other_lengths_play_together(resting, artefacts):
+def test_several_characters_of_other_lengths_play_together(resting):
     page = resting(play(wave(90, name="a"), wave(300, phase=2, name="b"), follow=False))
     assert page.locator(".clock").inner_text().startswith("frame 0 of 300")
     assert page.locator(".legend").inner_text() == "ab"
     page.evaluate(f"{PLAYER}.seek(9)")
     assert page.evaluate(f"{PLAYER}.characters[0].pose(9)[2]") == pytest.approx(89 * 0.02, abs=0.05)
-    page.screenshot(path=artefacts / "page-two.png")
 
 
 def test_a_single_frame_is_shown(resting):
@@ -393,14 +388,13 @@ def test_every_part_that_takes_keys_keeps_them_from_jupyterlab(resting):
     assert {p.get_attribute("data-lm-suppress-shortcuts") for p in parts.all()} == {"true"}
 
 
-def test_without_scripts_the_picture_stands_there(browser, tmp_path, artefacts):
+def test_without_scripts_the_picture_stands_there(browser, tmp_path):
     file = tmp_path / "player.html"
     file.write_text(play(wave(60)).page(), "utf-8")
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto(file.as_uri())
     assert page.get_by_role("img", name="A stick figure plays wave").is_visible()
-    page.screenshot(path=artefacts / "page-without-scripts.png")
     context.close()
 
 

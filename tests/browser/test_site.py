@@ -1,6 +1,5 @@
 """The course's site, its pages opened as files: they load nothing, they play, and the search finds."""
 
-import pkgutil
 import re
 import shutil
 
@@ -12,16 +11,6 @@ from mocap.course.opening import stored
 from mocap.course.site import PAGES, build_site
 from tests.browser.conftest import wait_until, watched_page
 from tests.conftest import SWEEP
-
-
-@pytest.fixture(scope="module", autouse=True)
-def one_room():
-    """Write the reference of one room; a sweep writes all."""
-    with pytest.MonkeyPatch.context() as patch:
-        if not SWEEP:
-            rooms = [pkgutil.ModuleInfo(None, "mocap.blending", ispkg=True)]
-            patch.setattr("mocap.course.site.pkgutil.walk_packages", lambda *_: rooms)
-        yield
 
 
 @pytest.fixture(scope="module")
@@ -48,34 +37,31 @@ def test_a_page_plays_and_folds(page, site):
     assert formula.bounding_box()["height"] > 15  # the browser itself draws it
 
 
-def test_the_search_answers(page, site, artefacts):
+def test_the_search_answers(page, site):
     page.goto(site.as_uri())
     page.locator("input[name=q]").fill("footskate")
     page.locator("input[name=q]").press("Enter")
     wait_until(lambda: page.locator("#search-results li a").count() > 1)
-    page.screenshot(path=artefacts / "site-search.png")
     page.locator("#search-results li a").first.click()
     wait_until(lambda: "search.html" not in page.url)
 
 
-def test_the_menu_folds_on_a_phone(page, site, artefacts):
+def test_the_menu_folds_on_a_phone(page, site):
     page.set_viewport_size({"width": 390, "height": 844})
     page.goto(site.as_uri())
     menu, fold = page.locator(".sidebar-drawer"), page.locator(".nav-overlay-icon").first
     wait_until(lambda: menu.bounding_box()["x"] < -100)
     fold.click()
     wait_until(lambda: menu.bounding_box()["x"] >= 0)
-    page.screenshot(path=artefacts / "site-phone-menu.png")
 
 
-def test_pages_are_dark_where_the_reader_wants_it(page, site, artefacts):
+def test_pages_are_dark_where_the_reader_wants_it(page, site):
     page.emulate_media(color_scheme="dark")
     page.goto(site.as_uri())
     paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
     assert max(map(int, re.findall(r"\d+", paper))) < 60
     figure = "getComputedStyle(document.querySelector('article img')).backgroundColor"
     assert page.evaluate(figure).endswith("(255, 255, 255)")
-    page.screenshot(path=artefacts / "site-dark.png")
 
 
 EXPERIMENT = """import matplotlib.pyplot as plt
@@ -87,7 +73,7 @@ def draw(steps_taken=2):
 explore(draw, alt="A white picture, as wide as the slider says.", steps_taken=(0, 3))"""
 
 
-def test_a_recorded_experiment_moves(page, tmp_path, artefacts):
+def test_a_recorded_experiment_moves(page, tmp_path):
     still = new_output("display_data", {"text/html": '<div class="mocap-still"></div>'})
     cells = [new_markdown_cell("# One"), new_code_cell(EXPERIMENT, outputs=[still])]
     nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
@@ -102,7 +88,6 @@ def test_a_recorded_experiment_moves(page, tmp_path, artefacts):
     assert slider.get_attribute("aria-valuetext") == "3"
     slider.press("Home")
     wait_until(lambda: picture.bounding_box()["width"] < wide)
-    page.screenshot(path=artefacts / "site-moving.png")
     assert slider.bounding_box()["height"] >= 44
 
 
@@ -121,11 +106,10 @@ CUT_OR_SMALL = """() => {
 }"""
 
 
-def test_every_page_fits_a_phone(browser, site, artefacts):
+def test_every_page_fits_a_phone(browser, site):
     with watched_page(browser, **PHONE) as (page, faults):
         for file in sorted(site.parent.glob("[0-9]*.html")):
             page.goto(file.as_uri())
             assert page.evaluate("document.documentElement.scrollWidth") <= 390, file.name
             assert page.evaluate(CUT_OR_SMALL) == [], file.name
-            page.screenshot(path=artefacts / "site-phone.png")
     assert faults == []

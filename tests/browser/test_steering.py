@@ -90,7 +90,7 @@ def test_an_arrow_means_the_same_on_the_picture_from_every_side(steering):
     assert ends[0] == pytest.approx(ends[1], abs=1e-6)  # straight away from the reader
 
 
-def test_they_walk_from_the_first_command_on_and_the_way_of_a_command_is_said(steering, artefacts):
+def test_they_walk_from_the_first_command_on_and_the_way_of_a_command_is_said(steering):
     assert not steering.evaluate(f"{IT}.playing")
     press(steering, "ArrowLeft")
     wait_until(lambda: steering.evaluate(f"{IT}.ways.length"))
@@ -98,7 +98,6 @@ def test_they_walk_from_the_first_command_on_and_the_way_of_a_command_is_said(st
     assert x > 0 and abs(z) < 0.2
     wait_until(lambda: "is under way to Python" in steering.locator(".under").inner_text())
     assert "mean of 2: 1.50 s" in steering.locator("figcaption").first.inner_text()
-    steering.screenshot(path=artefacts / "steering.png")
     press(steering, " ")
     stopped = steering.evaluate(f"{IT}.time")
     steering.wait_for_timeout(200)
@@ -229,7 +228,7 @@ def test_names_stand_for_screen_readers_and_keys_stay_here(steering):
 
 
 @pytest.mark.parametrize(("wide", "scheme"), [(390, "dark"), (1200, "light")])
-def test_it_fits_a_phone_and_a_dark_page(steering, artefacts, wide, scheme):
+def test_it_fits_a_phone_and_a_dark_page(steering, wide, scheme):
     steering.set_viewport_size({"width": wide, "height": 844})
     steering.emulate_media(color_scheme=scheme)
     press(steering, "w", "a")
@@ -237,7 +236,6 @@ def test_it_fits_a_phone_and_a_dark_page(steering, artefacts, wide, scheme):
     assert steering.evaluate("document.documentElement.scrollWidth") <= wide
     box = steering.locator(".pad").bounding_box()
     assert box["y"] + box["height"] <= 844
-    steering.screenshot(path=artefacts / f"steering-{wide}-{scheme}.png")
 
 
 def test_a_picture_of_three_takes_a_small_part_of_a_sixtieth_of_a_second(steering):
@@ -270,7 +268,7 @@ CELLS = [
 
 
 @pytest.mark.sweep
-def test_in_jupyterlab_keys_steer_and_nothing_else(browser, lab, artefacts):
+def test_in_jupyterlab_keys_steer_and_nothing_else(browser, lab):
     pytest.importorskip("anywidget")
     cells = [nbformat.v4.new_code_cell(dedent(text).strip()) for text in CELLS]
     kernel = {"name": "python3", "display_name": "Python 3"}
@@ -286,7 +284,6 @@ def test_in_jupyterlab_keys_steer_and_nothing_else(browser, lab, artefacts):
         assert page.locator(".jp-CodeCell").count() == count
         wait_until(lambda: root.evaluate("root => root.steering.ways.length"))
         wait_until(lambda: "mean of" in root.locator("figcaption").first.inner_text())
-        page.screenshot(path=artefacts / "steering-lab.png")
         page.evaluate("jupyterapp.commands.execute('notebook:run-all-cells')")
         said = page.locator(".jp-CodeCell").nth(1).locator(".jp-OutputArea-output")
         wait_until(lambda: "2 [" in said.inner_text())  # the recording's two turns: the cell has made it anew

@@ -24,9 +24,9 @@ def test_the_distance_image_shows_centimetres_in_seconds():
 def test_paths_and_minima_lie_on_the_middles_of_their_cells():
     grid = np.abs(np.subtract.outer(np.arange(6.0), np.arange(8.0))) / 100
     path = np.stack([np.arange(6), np.arange(6)], axis=1)
-    ax = web_image(grid, marks=minima_1d(grid), paths=[path], rate=10)
-    assert ax.collections[0].get_segments()[0] == pytest.approx((path + 0.5) / 10)
-    marked = np.round(ax.lines[0].get_xydata() * 10 - 0.5).astype(int).tolist()
+    ax = web_image(grid, marks=minima_1d(grid), paths=[path])
+    assert ax.collections[0].get_segments()[0] == pytest.approx((path + 0.5) / 30)
+    marked = np.round(ax.lines[0].get_xydata() * 30 - 0.5).astype(int).tolist()
     assert all([n, n] in marked for n in range(6))
     assert ax.images[0].get_array().max() == pytest.approx(7)
     assert not len(web_image(grid).lines[0].get_xydata())

@@ -189,8 +189,6 @@ def test_places_outside_the_axes_are_refused(value, said):
 def test_other_nonsense_is_refused():
     with pytest.raises(MocapError, match="rows of two numbers"):
         handles(ground(), [1, 2, 3])
-    with pytest.raises(MocapError, match="by a number above 0, got step=0"):
-        handles(ground(), POINTS, step=0)
     with pytest.raises(MocapError, match="linear axes, not linear and log"):
         handles(plt.figure().add_subplot(yscale="log"), POINTS)
     with pytest.raises(MocapError, match="one control of handles"):
