@@ -90,21 +90,15 @@ def test_the_recording_shows_all_side_by_side_and_turns_as_it_says():
     np.testing.assert_allclose(starts[:, [0, 2]], [[-0.75, 0], [0.75, 0]], atol=0.05)
 
 
-def test_captured_people_leave_a_picture_and_no_numbers():
-    data, _ = steered({"dot": Dot()}, record=False).still
-    assert "data:image/png" in data["text/html"] and "<script" not in data["text/html"]
-
-
-def test_one_character_is_dark_and_several_have_colours_of_their_own(page):
+def test_captured_people_leave_a_picture_and_no_numbers_and_one_alone_is_dark(page):
+    alone = steered({"dot": Dot()}, speeds=(0.3, 0.9), record=False)
+    assert "data:image/png" in alone.still[0]["text/html"] and "<script" not in alone.still[0]["text/html"]
+    assert alone.command[1] == 0.9  # a speed that may be asked for
+    assert alone.scene["members"][0]["colour"] == "#333333"
     assert len({member["colour"] for member in page.scene["members"]}) == 2
-    assert steered({"dot": Dot()}).scene["members"][0]["colour"] == "#333333"
 
 
-@pytest.mark.parametrize("speeds", [(1.0, 1.0), (-1, 2), (0, math.inf), (math.nan, 2)])
+@pytest.mark.parametrize("speeds", [(1.0, 1.0), (-1, 2), (math.nan, 2)])
 def test_speeds_rise_from_0_on(speeds):
     with pytest.raises(MocapError, match="Speeds to ask for rise from 0 on"):
         steered({"dot": Dot()}, speeds=speeds)
-
-
-def test_it_starts_at_a_speed_that_may_be_asked_for():
-    assert steered({"dot": Dot()}, speeds=(0.3, 0.9)).command[1] == 0.9
