@@ -135,7 +135,8 @@ class Check:
         if "→" in expression:
             lines = inspect.getsource(names[right.partition("(")[0]])
             for change in expression.split("; "):
-                lines = lines.replace(*change.split(" → "))
+                old, new = change.split(" → ")
+                lines = lines.replace(old, new)
             exec(lines, names)
             expression = "right"
         expression = re.sub(r"\bright\b", lambda _: f"({right})", expression)

@@ -8,7 +8,6 @@ writes today's values into the text, and a test fails when text and output part.
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
@@ -160,18 +159,5 @@ def refreshed(text: str, values: Mapping[str, float | str]) -> str:
 def question(texts: Iterable[str]) -> str:
     """Return the code of a cell that prints the values of all marked numbers of some texts, as JSON."""
     expressions = sorted({mark.expression for text in texts for mark in marked(text)})
-    return (
-        "from mocap.course.marked_values import answer as _answer\n"
-        f"print(_answer({expressions!r}, globals()))"
-    )
-
-
-def answer(expressions: Iterable[str], names: Mapping[str, object]) -> str:
-    """Return the values of expressions as one line of JSON.
-
-    Examples
-    --------
-    >>> answer(["2 * n"], {"n": 3})
-    '{"2 * n": 6.0}'
-    """
-    return json.dumps(values_of(expressions, names))
+    work = f"marked_values.values_of({expressions!r}, globals())"
+    return f"import json\nfrom mocap.course import marked_values\nprint(json.dumps({work}))"

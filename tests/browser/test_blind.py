@@ -6,8 +6,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
 from mocap import datasets
-from mocap.course.lab.blind_tests import BlindTest
-from mocap.course.lab.pairs import Plan, make_pairs
+from mocap.course.lab.blind_tests import BlindTest, Plan, make_pairs
 from mocap.course.lab.sensitivity import class_curve, d_prime, read_answers
 from mocap.matching import find_transitions
 from tests.browser.conftest import wait_until
@@ -16,7 +15,7 @@ PLAN = Plan(window=2, below=0.06, pairs=4)
 CELL = """
 from mocap import datasets, matching
 from mocap.course.lab.blind_tests import BlindTest
-from mocap.course.lab.pairs import Plan, make_pairs
+from mocap.course.lab.blind_tests import Plan, make_pairs
 clips = [datasets.sample("walk_circle")[:2400:4]]
 found = matching.find_transitions(clips, window=10, below=0.06)
 plan = Plan(window=2, below=0.06, pairs=4)

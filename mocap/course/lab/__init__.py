@@ -14,8 +14,7 @@ Reading order (notebooks 00 to 19)
 10. `scenes`: all that a page needs, as small blocks of bytes
 11. `showing`: the widget, its picture and its sentence
 12. `sensitivity`: d′ of a person, and of a class as one curve, with confidence intervals
-13. `pairs`: films with a seam, and controls without one from the same clips at the same phase
-14. `blind_tests`: the test in a notebook or on a page
+13. `blind_tests`: the test in a notebook or on a page, and its films: with a seam, and controls without one
 
 References
 ----------

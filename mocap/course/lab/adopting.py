@@ -49,8 +49,13 @@ def mine(what: str | Callable[..., Any] | Slot) -> Slot:
     if isinstance(what, Slot):
         what = what.written if what.written is not what.stand_in else what.name
     slot = slots(what if isinstance(what, str) else what.__name__)[0]
-    passed = callable(what) and _take(slot, what)
-    print(_whose(slot, as_it_passed=callable(what) and not passed))
+    failed = callable(what) and not _take(slot, what)
+    if slot.yours:
+        kept = f", kept in {place()}" if slot.kept else ""
+        print(f"{slot.name}: yours{kept}{'; it is the one that passed, not this one' if failed else ''}.")
+    else:
+        why = f"; yours {slot.stopped}." if slot.stopped else " until yours passes its check."
+        print(f"{slot.name}: the package's stands in{why}")
     return slot
 
 
@@ -99,15 +104,6 @@ def _take(slot: Slot, written: Callable[..., Any]) -> bool:
     except MocapError as error:
         print(f"{slot.name}: adopted until this kernel ends, but not kept. {error}"[:200])
     return True
-
-
-def _whose(slot: Slot, *, as_it_passed: bool = False) -> str:
-    if slot.yours:
-        kept = f", kept in {place()}" if slot.kept else ""
-        which = "; it is the one that passed, not this one" if as_it_passed else ""
-        return f"{slot.name}: yours{kept}{which}."
-    why = f"; yours {slot.stopped}." if slot.stopped else " until yours passes its check."
-    return f"{slot.name}: the package's stands in{why}"
 
 
 _read = [""]  # what the file held when it was read last

@@ -26,7 +26,7 @@ from mocap.errors import MocapError
 
 HEADS = {"choice": "Quiz: choose one", "number": "Quiz: a number", "order": "Quiz: put in order"}
 COLUMNS = ("", "you thought", "came out", "off by")
-BET = {
+BET: dict[str, Any] = {
     "choices": [],
     "unit": "",
     "low": None,

@@ -1,4 +1,9 @@
-"""The blind test in a notebook or on a page; it needs nothing but a browser."""
+"""The blind test in a notebook or on a page: films, some with a seam, and each with its control.
+
+A control is one of the same two clips at the same phase, without a seam. Which of the two it is, is drawn for
+each pair: if it were always the first, a viewer could tell the films apart by the steps that follow. Both
+films show the same motion up to the seam, or else after it.
+"""
 
 from __future__ import annotations
 
@@ -10,20 +15,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from mocap.blending.joining import join, lay_window_on
 from mocap.body.motion import Motion
-from mocap.course.lab.pairs import Pair, Plan, make_pairs
+from mocap.body.planar import lay_on, place
 from mocap.course.lab.sensitivity import sentence
-from mocap.matching.transitions import Transitions
+from mocap.errors import MocapError
+from mocap.matching.transitions import Transition, Transitions
 from mocap.plotting.picture import Picture, figure_of, stack
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS
 from mocap.widgets.embedding import PICTURE, SCENE, joined
 from mocap.widgets.packing import SIDES, packed_character
 
+SECONDS = 2.6  # how long a film is
+AROUND = 0.3  # a seam lies within as many seconds of the middle, so that nobody knows when it comes
+MATCHED = 1 / 3  # seconds of the windows over which matches were found
+NEAR = 0.75  # matches cost at least this share of the threshold, so that tests of other thresholds differ
 STEP = 0.002  # metres; coordinates of films are whole numbers of it. A pixel shows about four of them.
 ALT = "Two rows of stick figures that walk. In one of the two films is a seam; poses do not show which."
 STILL = "The films play where scripts run, such as in JupyterLab and on the course's site."
@@ -132,3 +143,85 @@ def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]
         data += block
     body = {name: value for name, value in about.items() if name not in ("name", "frames", "low")}
     return body, each, base64.b64encode(zlib.compress(data, 9)).decode()
+
+
+class Pair(NamedTuple):
+    """Two films, the control and the one with the seam, and whether the seam is in the left one."""
+
+    seam: Motion
+    control: Motion
+    on_left: bool
+    match: Transition
+
+
+class Plan(NamedTuple):
+    """What a blind test is about: frames of a blend, the threshold in metres, a seed, and how many pairs."""
+
+    window: int = 10
+    below: float = 0.04
+    seed: int = 0
+    pairs: int = 20
+
+
+def choose(clips: Sequence[Motion], found: Transitions, plan: Plan) -> Transitions:
+    """Choose matches near the threshold at random, with enough of both clips around them.
+
+    Raises
+    ------
+    MocapError : where there are not enough.
+    """
+    lengths, fps = np.array([len(clip) for clip in clips]), clips[0].fps
+    around = np.minimum(found.leave, found.enter)  # frames of clip before a match, or after it
+    around = np.minimum(
+        around, np.minimum(lengths[found.source] - found.leave, lengths[found.target] - found.enter)
+    )
+    elsewhere = (found.source != found.target) | (
+        abs(found.leave - found.enter) > fps
+    )  # and no mere moment on
+    near = (found.cost <= plan.below) & (found.cost > NEAR * plan.below)
+    usable = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
+    if len(usable) < plan.pairs:
+        costs = f"{100 * NEAR * plan.below:.1f} to {100 * plan.below:.1f} cm"
+        room = f"{SECONDS / 2 + AROUND:.1f} s of both clips around them"
+        raise MocapError(
+            f"A blind test needs {plan.pairs} matches of {costs}, with {room}; got {len(usable)}."
+        )
+    return usable[np.random.default_rng(plan.seed).permutation(len(usable))[: plan.pairs]]
+
+
+def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[Pair]:
+    """Make the pairs of a plan; the same plan gives the same pairs.
+
+    Parameters
+    ----------
+    clips : all of the same skeleton and rate.
+    found : matches of these, as from `find_transitions`, over windows of a third of a second.
+    plan : window, threshold, seed and pairs.
+
+    Raises
+    ------
+    MocapError : for clips of several rates, a window that does not fit into a film, and too few matches.
+    """
+    if len({clip.fps for clip in clips}) != 1:
+        raise MocapError("A blind test needs clips of one rate; resample them.")
+    fps = clips[0].fps
+    if not 1 <= plan.window <= (SECONDS - 2 * AROUND) * fps:
+        raise MocapError(
+            f"A window has 1 to {int((SECONDS - 2 * AROUND) * fps)} frames here, got {plan.window}."
+        )
+    rng = np.random.default_rng([plan.seed, 1])
+    pairs = []
+    for match in choose(clips, found, plan):
+        seam_at = round((SECONDS / 2 + rng.uniform(-AROUND, AROUND)) * fps)
+        first, second = (  # films in which the middle of the matched window is at the seam
+            clips[clip][(begin := at + round(MATCHED * fps / 2) - seam_at) : begin + round(SECONDS * fps)]
+            for clip, at in ((match.source, match.leave), (match.target, match.enter))
+        )
+        start = seam_at - plan.window // 2
+        second = lay_window_on(first, start, second, start, plan.window)
+        joined = join(first, start, second, start, plan.window)
+        control = first if rng.random() < 0.5 else second
+        ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
+        seam, control = ahead.apply_motion(joined), ahead.apply_motion(control)
+        pairs.append(Pair(seam, control, bool(rng.random() < 0.5), match))
+    return pairs

@@ -131,7 +131,8 @@ def _measured(first: Motion, second: Motion, window: int) -> tuple[Array, Indice
         points = distinct_joints(first.skeleton)
         clouds = [joint_positions(clip)[:, points] for clip in (first, second)]
         windows = [sliding_window_view(cloud, window, 0).transpose(0, 3, 1, 2) for cloud in clouds]
-        grid = squared_distances(*(part.reshape(len(part), -1, 3) for part in windows), window, sums)
+        a, b = (part.reshape(len(part), -1, 3) for part in windows)
+        grid = squared_distances(a, b, window, sums)
     else:
         grid = np.asarray(distance_grid(first, second, window=window), float)
     found = np.array(list(inner(grid, np.inf)) if inner.yours else [], int).reshape(-1, 2)
@@ -168,7 +169,7 @@ def of_graph(graph: MotionGraph, at: Any) -> Choices:  # noqa: ANN401
     named = edges if at is None else [e for e in edges if isinstance(at, tuple) and at in (e, e[:2], *e[:2])]
     if not named:
         raise MocapError(f"No transition of this graph is {at!r:.60}, or leaves or enters there.")
-    few, seen = [], Counter[tuple[int, int]]()
+    few, seen = list[Edge](), Counter[tuple[int, int]]()
     for edge in edges:
         pair = edge[0][0], edge[1][0]
         seen[pair] += 1

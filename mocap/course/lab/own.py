@@ -21,7 +21,8 @@ from mocap.course.lab.places import tools as tools
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs import build, prune
 from mocap.plain import Edge, Ground, Walk
-from mocap.plotting import Picture, bodies_along, stack
+from mocap.plotting import bodies_along
+from mocap.plotting.picture import Picture, stack
 from mocap.steering import follow_path
 from mocap.synthesis import seams
 
@@ -100,8 +101,9 @@ def _place_exercises(search: Any, graph: OwnGraph, path: GroundPath, by: Tools) 
         data, track = graph.graph.edges[edge], search.tracks[edge]
         edges = [(edge[1], track, *data["lay"], SEAM * (data["kind"] == "transition"))]
         stands = walk.turn, walk.move, walk.along, walk.cost
-        ((_, *laid, along, cost),) = by.lengthen(stands, edges, path.at, least)
-        return search.look_ahead(Walk(cost, 0, along, edge[1], *laid, edge, walk))
+        ((_, turn, move, along, cost),) = by.lengthen(stands, edges, path.at, least)
+        longer = Walk(cost, 0, along, edge[1], turn, move, edge, walk)
+        return longer._replace(expected=search.look_ahead(longer).expected)
 
     def best_of(walks: list[Walk]) -> list[Walk]:
         stand = []
@@ -158,7 +160,7 @@ def steer_own(
     """
     fps = graph.clips[0].fps
     soon, pages = round(AHEAD * fps), pages_of(by, graph.window)
-    search = _search(graph, GroundPath([[0, 0], [0, 1]]), by)
+    search = _search(graph, GroundPath(np.eye(2)), by)
     node, lay, edges, frames = min(graph.graph), (1 + 0j, 0j), [], 0
     while frames < seconds * fps:
         ways, tracks = list(graph.graph.out_edges(node, keys=True)), []
@@ -177,8 +179,8 @@ def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools) -> Motion:
 
     Notebook: 08b-steering
     """
-    poses = pages_of(by, graph.window).to_motion(graph.clips, graph.graph, *walk)
-    return Motion(graph.clips[0].skeleton, *poses, graph.clips[0].fps, "my walk")
+    roots, turns = pages_of(by, graph.window).to_motion(graph.clips, graph.graph, *walk)
+    return Motion(graph.clips[0].skeleton, roots, turns, graph.clips[0].fps, "my walk")
 
 
 @dataclass(frozen=True)

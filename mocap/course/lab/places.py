@@ -138,8 +138,8 @@ class Places:
             for start, end in pairwise(frames):
                 graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, lay=(1, 0))
         for a, i, b, j, cost, lay in transitions:
-            enters = {"kind": "transition", "frames": self._window, "cost": cost, "lay": lay}
-            graph.add_edge((a, i), (b, j + self._window), **enters)
+            about = {"kind": "transition", "frames": self._window, "cost": cost, "lay": lay}
+            graph.add_edge((a, i), (b, j + self._window), **about)
         return graph
 
     def components(self, graph: nx.MultiDiGraph) -> Any:  # noqa: ANN401

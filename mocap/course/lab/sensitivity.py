@@ -225,10 +225,11 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     people: dict[float, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
     for answer in answers:
         people[float(getattr(answer, over))][answer.observer].append(answer.right)
-    curve = []
+    curve = list[ClassPoint]()
     for setting, by in sorted(people.items()):
         counts = [(sum(right), len(right)) for right in by.values()]
         each = [d_prime(*count) for count in counts]
         seen = each[0] if len(each) == 1 else mean_d_prime([one.value for one in each])
-        curve.append(ClassPoint(setting, len(each), *map(sum, zip(*counts, strict=True)), seen))
+        right, of = (sum(some) for some in zip(*counts, strict=True))
+        curve.append(ClassPoint(setting, len(each), right, of, seen))
     return curve

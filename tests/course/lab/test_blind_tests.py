@@ -11,8 +11,7 @@ import pytest
 from mocap import datasets
 from mocap.body import joint_positions
 from mocap.course import lab
-from mocap.course.lab.blind_tests import STEP, BlindTest, packed
-from mocap.course.lab.pairs import Plan, choose, make_pairs
+from mocap.course.lab.blind_tests import STEP, BlindTest, Plan, choose, make_pairs, packed
 from mocap.errors import MocapError
 from mocap.matching import find_transitions
 from mocap.plotting import bones
