@@ -11,8 +11,7 @@ Reading order
 3. `student`: the student's side: run cells, call functions
 4. `keeper`: the limits of that process, and the end of all that it started
 5. `sealed`: the marker's side: start, ask, stop in time
-6. `marks`: judge each exercise of each notebook
-7. `tables`: marks as .csv
+6. `marks`: judge each exercise of each notebook, and write the marks as .csv
 """
 
 import lazy_loader
@@ -20,8 +19,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "marks": ["Mark", "mark"],
+        "marks": ["Mark", "mark", "to_csv", "to_table"],
         "sealed": ["offline"],
-        "tables": ["to_csv", "to_table"],
     },
 )
