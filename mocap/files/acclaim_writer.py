@@ -75,7 +75,9 @@ def to_acclaim(skeleton: Skeleton, *, scale: float = UNIT) -> AcclaimSkeleton:
     bones: dict[str, Bone] = {}
     children: dict[str, list[str]] = defaultdict(list)
     for joint in sorted(set(range(len(names))) - ends):
-        name, end = names[joint], _common_end(skeleton, joint)
+        name, starts = names[joint], skeleton.offsets[skeleton.children(joint)]
+        together = joint > 0 and len(starts) > 0 and np.all(starts == starts[0])
+        end = starts[0] if together else np.zeros(3)  # where all children start
         axis = skeleton.axes[joint] if joint else rotations.IDENTITY
         turns = tuple(f"r{letter}" for letter in skeleton.dofs[joint])
         bones[name] = Bone(end, axis, turns if joint else MOVES + turns)
@@ -100,20 +102,12 @@ def _check_name(name: str) -> None:
 def _ends(skeleton: Skeleton) -> set[int]:
     """Find the leaves that need no bone of their own, because reading adds them with the same names."""
     ends = set()
-    for joint in range(1, len(skeleton)):
-        parent = int(skeleton.parents[joint])
+    for joint, parent in enumerate(skeleton.parents.tolist()):
         alone = parent > 0 and skeleton.children(parent) == [joint] and not skeleton.children(joint)
         named = skeleton.names[joint] == f"{skeleton.names[parent]}_end" and not skeleton.dofs[joint]
         if alone and named and skeleton.offsets[joint].any():
             ends.add(joint)
     return ends
-
-
-def _common_end(skeleton: Skeleton, joint: int) -> Array:
-    """Give the place where all children of a joint start; zero if there are several such places."""
-    starts = skeleton.offsets[skeleton.children(joint)]
-    together = joint > 0 and len(starts) > 0 and np.all(starts == starts[0])
-    return starts[0] if together else np.zeros(3)
 
 
 def to_asf(asf: AcclaimSkeleton, name: str) -> str:
@@ -208,7 +202,14 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
             if lost.max() > tolerance:
                 losses.append((float(lost.max()), name, int(lost.argmax())))
     if losses:
-        raise _too_stiff(motion, asf, losses)
+        degrees, name, frame = max(losses, key=itemgetter(0))
+        axes = " ".join(dof for dof in asf.bones.get(name, FIXED).dofs if dof in TURNS) or "no axis"
+        more = f", and {len(losses) - 1} more bones less" if len(losses) > 1 else ""
+        raise MocapError(
+            f"'{shortened(motion.name, 32)}' does not fit its bones: '{shortened(name, 32)}', which turns "
+            f"about {axes}, would lose {degrees:.2g}° in frame {frame}{more}. Use widen=True without "
+            "skeleton=, or a .bvh file."
+        )
     _add_moves(motion, asf, numbers["root"])
     values = rounded(np.hstack([numbers[name] for name in asf.needed()]), precision, motion.name)
     rows = [" ".join([name, *[f"%.{precision}f"] * len(asf.bones[name].dofs)]) for name in asf.needed()]
@@ -252,15 +253,3 @@ def _add_moves(motion: Motion, asf: AcclaimSkeleton, numbers: Array) -> None:
                 f"The skeleton file gives its root no {move}: '{shortened(motion.name, 40)}' would lose "
                 f"{lost.max():.2g} m in frame {lost.argmax()}. Leave skeleton= out to write a new one."
             )
-
-
-def _too_stiff(motion: Motion, asf: AcclaimSkeleton, losses: list[tuple[float, str, int]]) -> MocapError:
-    """Name the bone that loses most, of (degrees, bone, frame)."""
-    degrees, name, frame = max(losses, key=itemgetter(0))
-    axes = " ".join(dof for dof in asf.bones.get(name, FIXED).dofs if dof in TURNS) or "no axis"
-    more = f", and {len(losses) - 1} more bones less" if len(losses) > 1 else ""
-    return MocapError(
-        f"'{shortened(motion.name, 32)}' does not fit its bones: '{shortened(name, 32)}', which turns about "
-        f"{axes}, would lose {degrees:.2g}° in frame {frame}{more}. Use widen=True without skeleton=, or a "
-        ".bvh file."
-    )

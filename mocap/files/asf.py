@@ -23,7 +23,6 @@ Line = tuple[int, list[str]]  # its number, from 1, and its words
 Fields = dict[str, Line]  # lines by their first words
 
 INCH, SHORTEST = 0.0254, 1e-6  # metres; the smallest `:units length`
-SEVERAL = ("name", "direction", "length", "axis", "dof", "order", "position", "orientation", "angle")
 TURNS, MOVES = ("rx", "ry", "rz"), ("tx", "ty", "tz")
 
 
@@ -75,9 +74,9 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
     for key in (":root", ":bonedata", ":hierarchy"):
         if key not in sections:
             raise FormatError(path, None, f"a {key} section", f"only {' '.join(sections)}")
-    unit, degrees = _units(path, _fields(path, sections.get(":units", [])))
+    unit, degrees = _units(path, _fields(sections.get(":units", [])))
     unit = scale or unit
-    bones = {"root": _root(path, _fields(path, sections[":root"]), unit, degrees)}
+    bones = {"root": _root(path, _fields(sections[":root"]), unit, degrees)}
     for block in _blocks(path, sections[":bonedata"]):
         line, words = _field(path, block, "name")
         if len(words) != 1 or words[0] in bones:
@@ -119,30 +118,22 @@ def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
     return sections
 
 
-def _fields(path: str | Path, lines: Iterable[Line]) -> Fields:
-    fields: Fields = {}
-    for number, (key, *words) in lines:
-        if key.lower() in fields and key.lower() in SEVERAL:
-            raise FormatError(path, number, f"one '{key}' line", "a second one")
-        fields[key.lower()] = number, words
-    return fields
+def _fields(lines: Iterable[Line]) -> Fields:
+    return {key.lower(): (number, words) for number, (key, *words) in lines}
 
 
 def _blocks(path: str | Path, lines: list[Line]) -> Iterator[Fields]:
     """Cut lines at `begin` and `end`."""
-    block: list[Line] | None = None
+    block: list[Line] = []
     for number, words in lines:
         word = words[0].lower()
-        if (block is None) != (word == "begin"):
-            raise FormatError(path, number, "'begin'" if block is None else "'end' first", f"'{words[0]}'")
-        if block is None:
-            block = [(number, words)]
-        elif word == "end":
-            yield _fields(path, block)
-            block = None
-        else:
-            block.append((number, words))
-    if block is not None:
+        if bool(block) == (word == "begin"):
+            raise FormatError(path, number, "'end' first" if block else "'begin'", f"'{words[0]}'")
+        block.append((number, words))
+        if word == "end":
+            yield _fields(block[:-1])
+            block = []
+    if block:
         raise FormatError(path, block[0][0], "'end' to this 'begin'", "the end of the section")
 
 

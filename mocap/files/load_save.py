@@ -1,6 +1,7 @@
 """Read and write motions; the suffix of the file's name decides the format."""
 
 import math
+from contextlib import suppress
 from pathlib import Path
 from typing import TypedDict, Unpack
 
@@ -257,21 +258,15 @@ def _skeleton_for(path: Path) -> Path:
     """Choose among the `.asf` files beside an AMC file."""
     counts = amc.first_frame(path)
     beside = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
-    fitting = [file for file in beside if _fits(file, counts)]
-    for stem in (path.stem, path.stem.split("_")[0]):
-        for file in fitting:
-            if file.stem.lower() == stem.lower():
-                return file
-    if len(fitting) == 1:
-        return fitting[0]
+    fitting = []
+    for file in beside:
+        with suppress(MocapError):
+            asf = read_skeleton(file)
+            fitting += [file] if amc.fits(counts, asf.dofs(), asf.needed()) else []
+    stems = [path.stem.lower(), path.stem.lower().split("_")[0]]
+    named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
+    if named or len(fitting) == 1:
+        return (named or fitting)[0]
     found = ", ".join(file.name for file in fitting or beside)
     problem = f"{'several that fit' if fitting else 'none that fits'} ({found})" if beside else "none"
     raise FormatError(path, None, "its .asf file beside it, or named by skeleton=", problem)
-
-
-def _fits(file: Path, counts: dict[str, int]) -> bool:
-    try:
-        asf = read_skeleton(file)
-    except MocapError:
-        return False
-    return amc.fits(counts, asf.dofs(), asf.needed())

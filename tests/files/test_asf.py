@@ -35,7 +35,6 @@ def test_joints_remember_how_their_file_tells_angles(write):
         ("0 0 90 XYZ", "0 90 XYZ", "line 28: expected 3 numbers for 'axis'"),
         ("length 2", "length two", "line 27: expected 1 number for 'length'"),
         ("     length 2\n", "", "line 23: expected a 'length' line"),
-        ("length 2", "length 2\nlength 3", "line 28: expected one 'length' line"),
         ("name thigh", "name hip", "line 25: expected a new bone's name"),
         ("length 0.0254", "length 0", "line 6: expected a length of"),
         ("angle deg", "angle grad", "line 7: expected angle deg or rad"),
