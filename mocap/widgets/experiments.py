@@ -26,7 +26,7 @@ from matplotlib.image import AxesImage
 from PIL import Image
 
 from mocap.errors import MocapError
-from mocap.plotting.picture import Picture, few_colours, figure_of
+from mocap.plotting.picture import Picture, figure_of, tiled
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.pointing import Handles, Pointer, pointer
 
@@ -76,12 +76,10 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     for name, control in controls.items():
         if name not in defaults:
             raise MocapError(f"'{draw.__name__}' takes no '{name}'; it takes: {', '.join(defaults)}.")
-        if (one := _widget(control, defaults[name])) is None:
-            raise MocapError(
-                f"The control {name}={control!r} is no range, choice or widget, such as (0, 10)."
-            )
-        one.description = name.replace("_", " ")
-        made[name] = one
+        made[name] = _widget(control, defaults[name])
+        if made[name] is None:
+            raise MocapError(f"The control {name}={control!r} is no range, choice or widget.")
+        made[name].description = name.replace("_", " ")
     if sum(isinstance(control, Handles) for control in made.values()) > 1:
         raise MocapError("An experiment has one control of handles: put all points into it.")
     return Experiment(draw, alt, made)
@@ -203,12 +201,8 @@ class Experiment:
     def still(self) -> tuple[dict[str, str], dict[str, Any]]:
         """Return what stands where no Python runs: the images to click on and the picture, as one PNG."""
         drawn = self._dragged.with_handles() if self._dragged else Image.open(io.BytesIO(self.png))
-        parts = [*(image.with_ring() for image in self._images), drawn]
-        lefts = np.cumsum([0, *(part.width for part in parts)]).tolist()
-        row = Image.new("RGB", (lefts[-1], max(part.height for part in parts)), "white")
-        for part, left in zip(parts, lefts, strict=False):
-            row.paste(part, (left, 0))
-        return Picture(few_colours(row), self.alt)._repr_mimebundle_()
+        row = tiled([*(image.with_ring() for image in self._images), drawn], down=False)
+        return Picture(row, self.alt)._repr_mimebundle_()
 
     def _ipython_display_(self) -> None:
         display_live(self.still(), self.box)

@@ -74,10 +74,9 @@ def save_animation(
     if suffix == ".mp4":
         require_ffmpeg()
     with replacing(path) as beside:
-        if suffix == ".html":
-            beside.write_text(play(*motions, discs=discs).page(), "utf-8")
-        elif suffix == ".png":
-            beside.write_bytes(play(*motions, discs=discs).picture)
+        if suffix in (".html", ".png"):
+            player = play(*motions, discs=discs)
+            beside.write_bytes(player.page().encode() if suffix == ".html" else player.picture)
         else:
             write = write_mp4 if suffix == ".mp4" else _write_gif
             write(_pictures(motions, discs, fps, progress), beside, fps)
@@ -162,5 +161,5 @@ def require_ffmpeg() -> None:
         import imageio_ffmpeg  # noqa: F401
     except ImportError as error:
         raise MocapError(
-            "An .mp4 needs imageio-ffmpeg: pip install 'mocap[video]'; .gif and .html need nothing."
+            "An .mp4 needs imageio-ffmpeg: pip install 'mocap[video]'; a .gif does not."
         ) from error

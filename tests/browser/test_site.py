@@ -11,6 +11,7 @@ from mocap.course.opening import stored
 from mocap.course.site import PAGES, build_site
 from tests.browser.conftest import wait_until, watched_page
 from tests.conftest import SWEEP
+from tests.course.test_site import dead, pages
 
 
 @pytest.fixture(scope="module")
@@ -21,6 +22,11 @@ def site(tmp_path_factory):
     for name in ("00-quickstart.ipynb", "04b-feet.ipynb", *(f"{page}.md" for page in PAGES)):
         shutil.copy(stored() / name, folder)
     return build_site(folder, tmp_path_factory.mktemp("site"))
+
+
+@pytest.mark.sweep
+def test_no_link_of_the_whole_course_is_dead(site):
+    assert list(dead(pages(site.parent))) == []
 
 
 def test_a_page_plays_and_folds(page, site):

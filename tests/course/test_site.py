@@ -78,11 +78,6 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
     assert "L. Kovar, M. Gleicher" in reference
 
 
-@pytest.mark.sweep
-def test_no_link_of_the_whole_course_is_dead(tmp_path):
-    assert list(dead(pages(build_site(stored(), tmp_path / "out").parent))) == []
-
-
 def test_the_menu_lists_the_pages_and_the_sections_of_its_own(site):
     text = (site / "00-quickstart.html").read_text("utf-8")
     assert '<a class="reference internal" href="#the-clips">The clips</a>' in text
