@@ -25,6 +25,7 @@ from mocap import datasets, graphs
 from mocap._shared.arrays import Array, runs
 from mocap.body import GroundPath, joint_positions
 from mocap.editing import LIMIT
+from mocap.editing.path_editing import plants_kept
 from mocap.graphs import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
 from mocap.steering import BentWalk, Followed, follow_path
@@ -106,7 +107,7 @@ def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, Bent
         bent.seams_per_second,
         1000 * slide(bent.motion()),
         accelerations(bent.motion()) / accelerations(before),
-        bent.bent.kept,
+        plants_kept(bent.bent.motion, bent.bent.laid),
         bent.seconds / min(took),
     )
     return row, plain, bent

@@ -15,20 +15,18 @@ Reading order (notebooks 08, 12, 17, 18)
  2. `layered_search`: many walks as arrays, lengthened together
  3. `path_search`: what walks along a path cost, and which of them go on
  4. `followed`: what was found along a path, and how well it follows the path
- 5. `path_following`: find a walk along a path
+ 5. `path_following`: find a walk along a path, in layers and by the paper's branch and bound
  6. `bent_following`: any line with any walk: a walk that turns little beyond its clips, laid on its path
- 7. `paper_search`: the same as in 5 by the paper's branch and bound
- 8. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
- 9. `moments`: a pose at a place, and the frames of a graph that look like it
-10. `two_sided_search`: walks from the start and from the end that meet half-way
-11. `end_bending`: a walk bent and stretched so that it ends where it must
-12. `held_ends`: the last differences faded out, and feet that stand where the poses put them
-13. `in_betweens`: from one pose to another, at its place and in time: 9 to 12 in one function
-14. `characters`: the protocol, the pose that a step gives, and how soon a steered character obeys
-15. `graph_control`: a character on a motion graph, and how it looks ahead
-16. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-17. `pursuit`: lead a character along a path
-18. `judged_control`: one protocol for all characters
+ 7. `waypoints_and_crowds`: places, labels and times to pass; many characters that keep apart
+ 8. `moments`: a pose at a place, and the frames of a graph that look like it
+ 9. `two_sided_search`: walks from the start and from the end that meet half-way
+10. `end_bending`: a walk bent and stretched so that it ends where it must
+11. `held_ends`: the last differences faded out, and feet that stand where the poses put them
+12. `in_betweens`: from one pose to another, at its place and in time: 8 to 11 in one function
+13. `characters`: the protocol, the pose that a step gives, and how soon a steered character obeys
+14. `graph_control`: a character on a motion graph, and how it looks ahead
+15. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
+16. `judged_control`: one protocol for all characters, and a path along which they are led
 
 References
 ----------
@@ -44,9 +42,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "path_objective": ["Settings", "Wishes"],
         "layered_search": ["States", "select"],
         "followed": ["Followed"],
-        "path_following": ["follow_path"],
+        "path_following": ["follow_as_2002", "follow_path"],
         "bent_following": ["BentWalk"],
-        "paper_search": ["follow_as_2002"],
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
         "end_bending": ["Limits"],
         "in_betweens": ["in_between"],
@@ -54,7 +51,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "characters": ["Character", "Pose", "measure_delay", "steer"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
-        "pursuit": ["pursue"],
-        "judged_control": ["command_headings", "judge_control"],
+        "judged_control": ["command_headings", "judge_control", "pursue"],
     },
 )

@@ -1,4 +1,4 @@
-"""Find a walk along a path on the ground [KGP02, 5.1]."""
+"""Find a walk along a path on the ground: in layers, and by the paper's branch and bound [KGP02, 5.1]."""
 
 import warnings
 from collections.abc import Callable, Sequence
@@ -16,8 +16,10 @@ from mocap.graphs.motion_graph import MotionGraph
 from mocap.steering.bent_following import plan_bending
 from mocap.steering.followed import Followed, account
 from mocap.steering.layered_search import States, start_states
-from mocap.steering.path_objective import Route, Settings, Wishes, make_route
+from mocap.steering.path_objective import Route, Settings, Wishes, least_progress, make_route
 from mocap.steering.path_search import Found, find_walk
+from mocap.synthesis.bounded_search import Budget, Problem, SearchEdge, search_ahead
+from mocap.synthesis.ground_walks import GroundWalks, Stand
 
 AGAIN = 1.25  # a repeated search multiplies or divides the price of a seam by this
 
@@ -72,7 +74,7 @@ def follow_path(
     >>> followed.progress, bool(followed.off.mean() < 0.05)
     (1.0, True)
     >>> bent = follow_path(graph, body.circle(1.2), bend=1.0)  # radians per second
-    >>> bool(bent.off.max() < 0.08), bent.bent.kept > 0.95
+    >>> bent.progress > 0.97, bool(bent.off.max() < 0.08)
     (True, True)
 
     Notebook: 08-path-synthesis
@@ -136,3 +138,78 @@ def _require_labels(graph: CompiledGraph, labels: Sequence[str], starts: Indices
         if not (nodes := {end for _, end, edge in edges if label in edge["labels"]}):
             can = ", ".join(sorted({name for _, _, edge in edges for name in edge["labels"]})) or "none"
             raise NoWalk(f"No walk comes to the label '{label}' from there; it can reach: {can}.")
+
+
+class PathCost(GroundWalks):
+    """g(w, e) = Σ_i ‖P'(s(e_i)) - P(s(e_i))‖² [KGP02, Eq. 9]; a walk ends when P' is as long as P.
+
+    `cost` and `done` are the `step` and the `done` of a `synthesis.Problem`.
+    """
+
+    def __init__(self, graph: CompiledGraph, route: Route) -> None:
+        super().__init__(graph)
+        self.route, self.progress = route, least_progress(graph, route)
+
+    def cost(self, stand: Stand, edge: SearchEdge) -> tuple[float, Stand]:
+        """Give the cost of an edge after a walk that stands so, and where it leads."""
+        points, after = self.step(stand, edge)
+        along = stand.along + np.cumsum(self.progress[self.rows(edge)])
+        off = np.abs(points - self.route.at(along))
+        return float((off**2).sum()), after._replace(along=float(along[-1]))
+
+    def done(self, stand: Stand) -> bool:
+        """Say whether the walk has reached the end of the path."""
+        return stand.along >= self.route.length
+
+
+def follow_as_2002(
+    graph: MotionGraph | CompiledGraph,
+    path: GroundPath,
+    wishes: Wishes,
+    *,
+    look: tuple[int, int] = (90, 28),
+    budget: Budget | None = None,
+) -> Followed:
+    """Follow a path by the paper's branch and bound, to compare with `follow_path` [KGP02, Eq. 9].
+
+    Parameters
+    ----------
+    graph, path : as for `steering.follow_path`.
+    wishes : give a `start`, else the walk starts at the first node; labels and times are ignored.
+    look : n and m, the frames to look ahead and the frames to keep; as for `synthesis.search_ahead`.
+    budget : of each stretch of the search.
+
+    Returns
+    -------
+    The walk, and how well it follows the path.
+
+    Raises
+    ------
+    NoWalk, MocapError : as for `steering.follow_path`, and where the budget ends before the first step.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets, graphs
+    >>> clips = [body.resample(datasets.sample(name), 30) for name in ("walk_circle", "walk_curve_1")]
+    >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
+    >>> path, wishes = body.GroundPath([[0, 0], [0, 1]]), Wishes(start=(0, 10))
+    >>> followed = follow_as_2002(graph, path, wishes, budget=Budget(nodes=100))
+    >>> followed.progress, followed.found.stopped
+    (1.0, 'out of nodes')
+
+    Notebook: 08-path-synthesis
+    """
+    compiled = compile_graph(graph)
+    route = make_route(compiled, path, wishes)
+    start = start_of(compiled, route, wishes)
+    stand = Stand(complex(start.turn[0]), complex(start.move[0]))
+    walks = PathCost(compiled, route)
+    problem = Problem(compiled.source.graph, walks.cost, walks.done)
+    result = search_ahead(problem, compiled.nodes[int(start.node[0])], stand, look=look, budget=budget)
+    if not result.walk:
+        raise NoWalk(f"The search was {result.stopped} before its first step.")
+    edges = np.array([walks.number[edge] for edge in result.walk])
+    along = np.cumsum(np.concatenate([walks.progress[walks.rows(edge)] for edge in result.walk]))
+    counts = result.expanded, result.cut, result.stopped
+    found = Found(edges, stand.turn, stand.move, along, result.cost, *counts)
+    return account(compiled, path, route, found)

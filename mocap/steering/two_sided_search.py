@@ -100,7 +100,13 @@ class TwoSided:
         middle = States.join(there.arrived or [there.history[0].take(slice(0))])
         middle = middle.take(np.argsort(middle.cost, kind="stable")[:MEET])
         behind = States.join(back.history)
-        one, other = _meetings(middle.node, behind.node)
+        # Pair every walk of one side with those of the other that stand at the same node, `PAIRS` at most.
+        order = np.argsort(behind.node, kind="stable")
+        first_of, stop = (
+            np.searchsorted(behind.node[order], middle.node, side) for side in ("left", "right")
+        )
+        count = np.where(np.cumsum(stop - first_of) > PAIRS, 0, stop - first_of)
+        one, other = np.repeat(np.arange(len(count)), count), order[ranges(first_of, count)]
         price = self.prices(middle.take(one), behind.take(other))
         order = np.argsort(price, kind="stable")
         order = order[np.isfinite(price[order])]
@@ -215,12 +221,3 @@ def steps_between(graph: CompiledGraph, starts: Choices, ends: Choices) -> State
     metres, row = np.concatenate([[0.0], np.cumsum(graph.tracks.step)]), graph.tracks.first[edge]
     along = metres[row + stop] - metres[row + begin]
     return States(entered, graph.turn[edge], graph.move[edge], along, stop - begin, cost, left, edge)
-
-
-def _meetings(one: Indices, other: Indices) -> tuple[Indices, Indices]:
-    """Pair every row of one with the rows of the other that hold the same node, `PAIRS` of them at most."""
-    order = np.argsort(other, kind="stable")
-    first, stop = (np.searchsorted(other[order], one, side=side) for side in ("left", "right"))
-    count = stop - first
-    count[np.cumsum(count) > PAIRS] = 0
-    return np.repeat(np.arange(len(one)), count), order[ranges(first, count)]

@@ -4,8 +4,7 @@ import pytest
 
 from mocap.body.ground_path import GroundPath, s_curve
 from mocap.errors import MocapWarning, NoWalk
-from mocap.steering.paper_search import follow_as_2002
-from mocap.steering.path_following import follow_path
+from mocap.steering.path_following import follow_as_2002, follow_path
 from mocap.steering.path_objective import Wishes
 from mocap.synthesis.bounded_search import Budget
 from tests.bundled import walking

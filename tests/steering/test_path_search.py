@@ -9,8 +9,7 @@ from mocap.graphs.compiled_graph import AHEAD, compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.steering import path_search
 from mocap.steering.layered_search import States, start_states
-from mocap.steering.paper_search import PathCost
-from mocap.steering.path_following import follow_path, start_of
+from mocap.steering.path_following import PathCost, follow_path, start_of
 from mocap.steering.path_objective import Settings, Wishes, make_route
 from mocap.steering.path_search import PathSearch
 from mocap.synthesis.bounded_search import Problem, branch_and_bound
