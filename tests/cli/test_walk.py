@@ -11,8 +11,7 @@ from mocap.errors import NoWalk
 from mocap.files import load_save
 from mocap.graphs import storage
 from mocap.methods.groups.group_graphs import Placed
-from mocap.methods.groups.planning import plan_group
-from mocap.methods.groups.scenes import Scene
+from mocap.methods.groups.planning import Scene, plan_group
 from tests.bundled import bundled
 from tests.files.glb_reader import Glb
 from tests.methods.groups.built import graph

@@ -18,10 +18,9 @@ Reading order (notebook 19)
 3. `group_clips`: clips that lead from node to node
 4. `group_graphs`: the graph, and what a walk through it plays
 5. `group_files`: save and load it
-6. `scenes`: where to go, and what stands in the way
-7. `planning`: a search for the way
-8. `group_steering`: the same without a plan, to compare with
-9. `group_walkers`: a character of a motion graph for each member
+6. `planning`: where to go, what stands in the way, and a search for the way
+7. `group_steering`: the same without a plan, to compare with
+8. `group_walkers`: a character of a motion graph for each member
 
 References
 ----------
@@ -47,8 +46,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "random_group_walk",
         ],
         "group_files": ["load_group", "save_group"],
-        "scenes": ["Scene"],
-        "planning": ["GroupWalk", "plan_group"],
+        "planning": ["GroupWalk", "Scene", "plan_group"],
         "group_steering": ["clearances", "steer_group"],
         "group_walkers": ["walk_group"],
     },

@@ -8,7 +8,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError
 from mocap.methods.groups.flocking import RATE, Configuration, Flock, Trajectories, advance, stacked, whims
-from mocap.methods.groups.scenes import Scene
+from mocap.methods.groups.planning import Scene
 
 
 def steer_group(

@@ -10,13 +10,10 @@ Reading order (notebooks 16)
 ----------------------------
 1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere
 2. `grid_pieces`: the same in a grid that is too large to hold
-3. `webs`: `MatchWeb`, all paths of a set of clips
-4. `web_files`: save a web, load it again
-5. `match_search`: what is like the query, and what is like that
-6. `motion_measures`: numbers to ask a motion for
-7. `random_blends`: weights of random blends
-8. `motion_spaces`: blends of examples, sampled and measured
-9. `wishes`: from a wish back to weights
+3. `webs`: `MatchWeb`, all paths of a set of clips, found, saved and loaded
+4. `match_search`: what is like the query, and what is like that
+5. `motion_spaces`: blends of examples, drawn at random and measured
+6. `wishes`: from a wish back to weights
 
 References
 ----------
@@ -37,12 +34,17 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "local_alignment": ["apart", "local_paths", "minima_1d"],
-        "webs": ["MatchWeb", "build_web"],
-        "web_files": ["load_web", "save_web"],
+        "webs": ["build_web", "load_web", "save_web"],
         "match_search": ["Match", "cut_out", "search"],
-        "motion_measures": ["hand_target", "mean_speed", "turn"],
-        "random_blends": ["random_weights"],
-        "motion_spaces": ["MotionSpace", "blend_of", "sample_space"],
+        "motion_spaces": [
+            "MotionSpace",
+            "blend_of",
+            "hand_target",
+            "mean_speed",
+            "random_weights",
+            "sample_space",
+            "turn",
+        ],
         "wishes": ["neighbour_weights", "weights_for"],
     },
 )

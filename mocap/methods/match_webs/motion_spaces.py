@@ -1,4 +1,8 @@
-"""A space of motions: blends of registered examples, sampled, to be asked for what they do [KG04]."""
+"""A space of motions: blends of registered examples, sampled, to be asked for what they do [KG04].
+
+Any function of a `Motion` that gives one number or a few can be the measure of a space; here are three: how
+far it turns, how fast it goes, and where the hand reaches.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +11,138 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial.distance import cdist
 
 from mocap._shared.arrays import Array, frozen
 from mocap.blending.clocks import checked
 from mocap.blending.mixing import mix
 from mocap.blending.registering import Registration
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.errors import MocapError, shortened
-from mocap.methods.match_webs.random_blends import random_weights
+
+
+def turn(motion: Motion) -> float:
+    """Measure how far the body turns from the first frame to the last, radians, to the left.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> round(np.degrees(turn(sample("walk_5m_0.8_120"))) / 10)
+    11
+
+    Notebook: 16-match-webs
+    """
+    headings = np.unwrap(heading(motion.rotations[:, 0]))
+    return float(headings[-1] - headings[0])
+
+
+def mean_speed(motion: Motion) -> float:
+    """Measure how fast the root goes over the ground on average, metres per second.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> round(mean_speed(sample("walk_5m_1.4_0")), 1)
+    1.4
+
+    Notebook: 16-match-webs
+    """
+    way = np.abs(np.diff(on_ground(motion.root_positions))).sum()
+    return float(way / max(motion.duration, 1 / motion.fps))
+
+
+def hand_target(motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus") -> Array:
+    """Measure where a hand is when the arm is longest, from where the body stands and faces at the start.
+
+    Parameters
+    ----------
+    motion : such as a punch.
+    hand, shoulder : names of joints; by default those of the right arm in Acclaim files.
+
+    Returns
+    -------
+    Metres to the left, above the ground, and ahead, shape (3,).
+
+    Raises
+    ------
+    MocapError : for a joint that is not there.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import sample
+    >>> hand_target(sample("walk_straight")[:120]).shape
+    (3,)
+
+    Notebook: 16-match-webs
+    """
+    tip, root = (motion.skeleton.index(name) for name in (hand, shoulder))
+    points = joint_positions(motion)
+    longest = np.linalg.norm(points[:, tip] - points[:, root], axis=-1).argmax()
+    x, _, z = motion.root_positions[0]
+    away = points[longest, tip] - [x, 0, z]
+    return PlanarTransform(-float(heading(motion.rotations[0, 0])), 0.0, 0.0).apply_points(away)
+
+
+def random_weights(
+    values: ArrayLike, count: int, *, spread: float = 0.1, near: int | None = None, seed: int = 0
+) -> Array:
+    """Draw the weights of random blends of d + 1 examples each, for a measure of d numbers.
+
+    In the paper: [KG04, accessible region].
+
+    One example is drawn at random, and d of those nearest to it. Their weights are even on the simplex, which
+    is then stretched about its middle: w = (1 + (d + 1) δ) Dirichlet(1, …, 1) - δ. So they add up to one, and
+    none is below -δ; a draw with one above 1 + δ is drawn again [KG04 samples so too, as far as recalled; the
+    stretch is ours]. Even numbers divided by their sum would crowd in the middle, and weights cut off at
+    -δ … 1 + δ would not add up to one.
+
+    Parameters
+    ----------
+    values : shape (C, d), the measure of each example.
+    count : of blends.
+    spread : δ, not negative.
+    near : from how many of the nearest examples the others are drawn, d or more; from all by default.
+    seed : another one gives other blends.
+
+    Returns
+    -------
+    Shape (count, C), rows that add up to one, each weight in [-δ, 1 + δ].
+
+    Raises
+    ------
+    MocapError : for fewer than d + 1 examples, values that are not finite, and a spread below 0.
+
+    Examples
+    --------
+    >>> weights = random_weights([[0.8], [1.1], [1.4]], 100, spread=0.1)
+    >>> weights.shape, bool(np.allclose(weights.sum(axis=1), 1)), int((weights != 0).sum(axis=1).max())
+    ((100, 3), True, 2)
+
+    Notebook: 16-match-webs
+    """
+    measured = np.asarray(values, float)
+    if measured.ndim != 2 or not np.isfinite(measured).all():
+        raise MocapError(f"Examples need finite values of shape (C, d), got shape {measured.shape}.")
+    examples, numbers = measured.shape
+    if examples < numbers + 1:
+        raise MocapError(f"A measure of {numbers} numbers needs {numbers + 1} examples, got {examples}.")
+    if not 0 <= spread < np.inf:
+        raise MocapError(f"Weights spread by 0 or more beyond 0 and 1, got {spread}.")
+    rng = np.random.default_rng(seed)
+    width = measured.std(axis=0)
+    scaled = measured / np.where(width > 0, width, 1)
+    ranked = cdist(scaled, scaled).argsort(axis=1, kind="stable")
+    weights = np.zeros((count, examples))
+    for row in weights:
+        first = rng.integers(examples)
+        others = ranked[first][ranked[first] != first][:near]
+        chosen = np.append(first, rng.choice(others, numbers, replace=False))
+        while row.max() > 1 + spread or not row.any():
+            row[chosen] = (1 + len(chosen) * spread) * rng.dirichlet(np.ones(len(chosen))) - spread
+    return weights
+
 
 FPS = 30.0  # of the blends that are measured
 Measure = Callable[[Motion], ArrayLike]
@@ -74,7 +202,7 @@ def sample_space(
     --------
     >>> from mocap.blending import registering
     >>> from mocap.datasets.samples import sample
-    >>> from mocap.methods.match_webs.motion_measures import mean_speed
+    >>> from mocap.methods.match_webs.motion_spaces import mean_speed
     >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> sample_space(registering.register(walks), mean_speed, count=10)
     MotionSpace(2 examples, 12 samples of 1 numbers)

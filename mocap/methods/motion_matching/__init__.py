@@ -6,11 +6,10 @@ obeys sooner; it knows nothing of what comes later.
 
 Reading order (notebook 18)
 ---------------------------
-1. `frame_features`: what a frame is like, in 27 numbers
+1. `pose_database`: what a frame is like, in 27 numbers, and all frames side by side
 2. `springs`: how a wish, and the offset after a cut, come and go
-3. `pose_database`: all frames side by side, standardised
-4. `nearest_frames`: which frame is most like the one asked for?
-5. `matching_control`: a character that searches, cuts, and lets what differs die away
+3. `nearest_frames`: which frame is most like the one asked for?
+4. `matching_control`: a character that searches, cuts, and lets what differs die away
 
 References
 ----------
@@ -24,9 +23,8 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "frame_features": ["GROUPS", "features"],
         "springs": ["spring", "spring_way"],
-        "pose_database": ["PoseDatabase", "WEIGHTS", "standardise", "tabulate"],
+        "pose_database": ["GROUPS", "PoseDatabase", "WEIGHTS", "features", "standardise", "tabulate"],
         "nearest_frames": ["Wants", "foresee"],
         "matching_control": ["MotionMatcher"],
     },

@@ -9,9 +9,8 @@ from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.motion_matching.frame_features import FUTURE
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
-from mocap.methods.motion_matching.pose_database import PoseDatabase
+from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
 from mocap.methods.motion_matching.springs import fade
 from mocap.steering.characters import Pose, place_frames, require_command
 

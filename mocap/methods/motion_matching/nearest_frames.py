@@ -6,8 +6,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.motion_matching.frame_features import AHEAD, FUTURE, ahead_columns
-from mocap.methods.motion_matching.pose_database import PoseDatabase
+from mocap.methods.motion_matching.pose_database import AHEAD, FUTURE, PoseDatabase, ahead_columns
 from mocap.methods.motion_matching.springs import spring, spring_way
 
 

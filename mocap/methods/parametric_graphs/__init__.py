@@ -8,13 +8,12 @@ Reading order (notebook 17)
 ---------------------------
 1. `strides`: strides and steps, all on one grid of phases
 2. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
-3. `made_strides`: strides made out of mixes, frame by frame
-4. `nearest_windows`: where to leave one stride and enter another
-5. `parametric_edges`: boxes of targets that may follow
-6. `parametric_motion_graphs`: spaces and edges, under names
-7. `kinds_of_strides`: from clips to a graph in one call, with changes from kind to kind
-8. `parametric_files`: save and load a graph
-9. `parametric_control`: a character that decides once per stride
+3. `made_strides`: strides made out of mixes, and where to leave one and enter another
+4. `parametric_edges`: boxes of targets that may follow
+5. `parametric_motion_graphs`: spaces and edges, under names
+6. `kinds_of_strides`: from clips to a graph in one call, with changes from kind to kind
+7. `parametric_files`: save and load a graph
+8. `parametric_control`: a character that decides once per stride
 
 References
 ----------
@@ -33,8 +32,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "strides": ["Strides", "cut_strides", "mixed_way"],
         "stride_spaces": ["StrideSpace", "bell_weights", "make_space", "measure_mixes", "neighbours"],
-        "made_strides": ["make_stride"],
-        "nearest_windows": ["optimal_transitions"],
+        "made_strides": ["make_stride", "optimal_transitions"],
         "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
         "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
         "kinds_of_strides": ["build_kinds", "on_the_spot"],

@@ -1,12 +1,20 @@
-"""Strides made out of mixes, frame by frame: near their strikes, or one as a whole."""
+"""Strides made out of mixes, frame by frame, and where to leave one and enter another [HG07, 3.1].
+
+All pairs of 50 × 1000 generated clips are compared at once. With windows flattened to one vector each,
+centred over the ground, D of [KGP02, Eq. 1] is S + S' - 2 Σ y y' - 2 |Σ g g'*|: two products of matrices, as
+in `matching.distance_grids`.
+"""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array, Mask
+from mocap._shared.arrays import Array, Mask, Points
 from mocap.body import rotations
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
+from mocap.errors import MocapError
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, measure_mixes, neighbours
 from mocap.methods.parametric_graphs.strides import mixed_way
 
@@ -96,3 +104,104 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     marks = dict(zip(strides.contact_names, contacts.T, strict=True))
     motion = Motion(strides.skeleton, roots, turns, strides.fps, "stride", contacts=marks)
     return MadeStride(motion, phases, facing, values)
+
+
+HALF = 5  # a window is 11 frames, a third of a second at 30 Hz, about its centre
+WINDOW = 2 * HALF + 1
+SPAN = 3  # frames around a strike at which a transition may be centred
+ROWS = 8  # sources compared in one product
+
+
+class OptimalTransitions(NamedTuple):
+    """For M sources and N targets, (M, N) each: the RMS distance in metres, when to leave and to enter."""
+
+    cost: Array
+    leave: Array
+    enter: Array
+
+
+def near_strike(space: StrideSpace, asked: Array, phase: float) -> tuple[Array, Array]:
+    """Generate clips only in the F frames around one of their strikes.
+
+    Parameters
+    ----------
+    space : of strides.
+    asked : shape (M, d), parameters.
+    phase : of the strike: 0 or 1.
+
+    Returns
+    -------
+    Points (M, F, P, 3) in metres, and their phases (M, F).
+
+    Raises
+    ------
+    MocapError : for windows that run off the margins by more than a frame; they would hold the last frame.
+    """
+    strides, rate, reach = space.strides, space.strides.fps, HALF + SPAN
+    seconds = space.weights(asked) @ strides.seconds
+    centre = np.array([round(np.interp(phase, strides.grid, clock) * rate) for clock in seconds])
+    times = (centre[:, None] + np.arange(-reach, reach + 1)) / rate
+    off = np.maximum(seconds[:, 0] - times[:, 0], times[:, -1] - seconds[:, -1])
+    if off.max() > 1 / rate:
+        raise MocapError(
+            f"A window runs {off.max():.2f} s off a stride of {np.ptp(seconds[off.argmax()]):.2f} s, margins "
+            "and all: cut strides with a larger margin, or leave quick ones out."
+        )
+    phases = np.array([np.interp(t, clock, strides.grid) for t, clock in zip(times, seconds, strict=True)])
+    roots, turns, *_ = mixed_frames(space, asked, phases)
+    motion = Motion(strides.skeleton, roots.reshape(-1, 3), turns.reshape(-1, *turns.shape[2:]), rate)
+    return joint_positions(motion)[:, strides.joints].reshape(*phases.shape, -1, 3), phases
+
+
+def _windows(points: Array) -> tuple[Points, Array, Array]:
+    """List all windows of M clips: ground (W, K) complex and centred, heights, both by √K, and sizes (W,)."""
+    count, joints = points.shape[1] - WINDOW + 1, points.shape[2]
+    cloud = points[:, np.arange(count)[:, None] + np.arange(WINDOW)].reshape(-1, WINDOW * joints, 3)
+    cloud = cloud / np.sqrt(WINDOW * joints)
+    ground = cloud[..., 2] + 1j * cloud[..., 0]
+    ground -= ground.mean(axis=-1, keepdims=True)
+    return ground, cloud[..., 1], (np.abs(ground) ** 2).sum(axis=-1)
+
+
+def optimal_transitions(source: StrideSpace, target: StrideSpace, at: Array, to: Array) -> OptimalTransitions:
+    """Find for each pair of clips the windows that are nearest [HG07, 3.1].
+
+    Windows of 11 frames, centred up to 3 frames from the source's last strike and the target's first.
+
+    Parameters
+    ----------
+    source, target : spaces of one skeleton and rate.
+    at, to : parameters (M, d) of sources and (N, d') of targets.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> space = make_space(strides, 0.4, -0.8, 0.8)
+    >>> found = optimal_transitions(space, space, np.array([[0.6]]), np.array([[0.6], [-0.6]]))
+    >>> bool(found.cost[0, 0] < found.cost[0, 1])
+    True
+
+    Notebook: 17-parametric-graphs
+    """
+    (points, leaving), (others, entering) = near_strike(source, at, 1.0), near_strike(target, to, 0.0)
+    first, second = _windows(points), _windows(others)
+    level = first[1].mean(axis=0)  # heights from here are small enough for 32 bits
+    a, b = (
+        (ground.astype(np.complex64), (heights - level).astype(np.float32), sizes)
+        for ground, heights, sizes in (first, second)
+    )
+    sizes = [part[2] + (part[1] ** 2).sum(axis=-1) for part in (a, b)]
+    count, cost, best = 2 * SPAN + 1, np.empty((len(at), len(to))), np.empty((len(at), len(to)), int)
+    for start in range(0, len(at), ROWS):
+        rows, part = slice(start * count, (start + ROWS) * count), slice(start, start + ROWS)
+        shared = np.abs(a[0][rows] @ b[0].conj().T) + a[1][rows] @ b[1].T
+        square = np.maximum(sizes[0][rows, None] + sizes[1] - 2 * shared, 0)
+        grid = np.sqrt(square).reshape(-1, count, len(to), count).transpose(0, 2, 1, 3)
+        flat = grid.reshape(*grid.shape[:2], -1)  # all pairs of windows of two clips
+        best[part], cost[part] = flat.argmin(axis=-1), flat.min(axis=-1)
+    i, j = np.divmod(best, count)
+    leave = np.take_along_axis(leaving[:, HALF : HALF + count], i, 1)
+    return OptimalTransitions(cost, leave, entering[np.arange(len(to)), HALF + j])

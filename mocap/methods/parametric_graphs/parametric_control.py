@@ -14,8 +14,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.methods.parametric_graphs.made_strides import make_stride
-from mocap.methods.parametric_graphs.nearest_windows import HALF, WINDOW
+from mocap.methods.parametric_graphs.made_strides import HALF, WINDOW, make_stride
 from mocap.methods.parametric_graphs.parametric_edges import Way
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace

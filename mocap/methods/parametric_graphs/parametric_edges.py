@@ -7,7 +7,7 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.parametric_graphs.nearest_windows import OptimalTransitions, optimal_transitions
+from mocap.methods.parametric_graphs.made_strides import OptimalTransitions, optimal_transitions
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, neighbours, said
 
 BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box

@@ -1,4 +1,4 @@
-"""Plans pass all points and clear all obstacles; a pocket holds who only steers."""
+"""Plans pass all points and clear all obstacles; a pocket holds who only steers; odd scenes are refused."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,7 @@ from mocap.errors import MocapError, NoWalk
 from mocap.methods.groups.flocking import APART, RATE, Trajectories, nearest_two
 from mocap.methods.groups.group_graphs import Placed, play_group
 from mocap.methods.groups.group_steering import clearances, steer_group
-from mocap.methods.groups.planning import plan_group
-from mocap.methods.groups.scenes import Scene
+from mocap.methods.groups.planning import Exits, Obstacles, Scene, plan_group
 from tests.methods.groups.built import course, graph, pocket
 
 
@@ -147,3 +146,50 @@ def test_a_member_that_starts_on_a_disc_is_named():
     spot = complex(graph().nodes[0].places[3])
     with pytest.raises(NoWalk, match=r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least"):
         plan_group(graph(), Scene((9 + 0j,), ((spot, 0.2),)))
+
+
+@pytest.mark.parametrize(
+    ("scene", "sentence"),
+    [
+        (Scene(()), "finite points z .* to pass, one or more"),
+        (Scene(((3, 3),)), r"finite points z \+ ix to pass, one or more, from a start; got \(\(3, 3\),\)"),
+        (Scene((complex(np.nan),)), "finite points"),
+        (Scene((9j,), ((5j, 0.0),)), "a radius above 0"),
+        (Scene((9j,), ((complex(np.inf), 1.0),)), "An obstacle has a centre"),
+        (Scene((9j,), ((0.2 + 0.1j, 1.0),)), "starts inside the obstacle at x=0.1, z=0.2"),
+    ],
+)
+def test_scenes_that_make_no_sense_are_refused(scene, sentence):
+    with pytest.raises(MocapError, match=sentence):
+        plan_group(graph(), scene)
+    with pytest.raises(MocapError, match=sentence):
+        steer_group(graph().nodes[0], scene)
+
+
+def free_one_by_one(group, at, frame, scene):
+    """Lay each clip on the ground, and look at all members in all frames; `Obstacles` looks at once."""
+    kept = []
+    for row, number in enumerate(group.leaving(at.node)):
+        places = at.turn * group.clips[number].places + at.move
+        clear = all((np.abs(places - spot) >= size + scene.body).all() for spot, size in scene.discs)
+        for other in scene.others:
+            there = other[np.minimum(frame + np.arange(len(places)), len(other) - 1)]
+            clear = clear and (np.abs(places[:, :, None] - there[:, None]) >= APART).all()
+        if clear:
+            kept.append(row)
+    return kept
+
+
+def test_all_clips_at_once_are_as_free_as_one_by_one():
+    random, group, found = np.random.default_rng(0), graph(), []
+    others = (np.linspace(20, 0, 150)[:, None] + np.array([1j, -1j]),)
+    scene = Scene((9 + 0j,), course(5).discs, others=others)
+    exits = [Exits.of(group, node) for node in range(len(group.nodes))]
+    for _ in range(40):
+        node, frame = int(random.integers(len(group.nodes))), int(random.integers(200))
+        spot = random.choice(scene.discs)[0] + random.normal(0, 5)
+        at = Placed(node, np.exp(1j * random.uniform(-3, 3)), spot)
+        rows = Obstacles(scene).free(exits[node], at, frame).tolist()
+        assert rows == free_one_by_one(group, at, frame, scene)
+        found.append(len(rows))
+    assert min(found) < 10 and max(found) == 40

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError
-from mocap.methods.motion_matching.frame_features import FUTURE, features
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
+from mocap.methods.motion_matching.pose_database import FUTURE, features
 from tests.methods.motion_matching.matched import walks
 
 

@@ -1,4 +1,4 @@
-"""The table of all frames: one scale per group, ends left out, what makes no sense refused."""
+"""Features belong to the body; the table of all frames has one scale per group."""
 
 from dataclasses import replace
 
@@ -8,11 +8,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.motion import concatenate
+from mocap.body.planar import heading, place
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.methods.motion_matching.frame_features import GROUPS, features
-from mocap.methods.motion_matching.pose_database import WEIGHTS, standardise, tabulate, turn_speeds
+from mocap.methods.motion_matching.pose_database import (
+    AHEAD,
+    GROUPS,
+    WEIGHTS,
+    body_track,
+    features,
+    standardise,
+    tabulate,
+    turn_speeds,
+)
 from tests.methods.motion_matching.matched import clips, walks
+from tests.strategies import wave
 
 
 @given(st.fixed_dictionaries({name: st.floats(0.1, 10) for name in GROUPS}))
@@ -86,3 +96,38 @@ def test_clips_of_two_rates_or_skeletons_are_refused():
         tabulate([sample("walk_circle"), clip])
     with pytest.raises(SkeletonMismatch):
         tabulate([clip, replace(clip, skeleton=replace(clip.skeleton, offsets=clip.skeleton.offsets * 1.1))])
+
+
+def test_they_are_the_same_wherever_a_clip_is_placed():
+    (clip,) = clips("walk_curve_1")
+    moved = place(clip, 2.5, [100.0, -30.0])
+    np.testing.assert_allclose(features(moved), features(clip), atol=1e-9)
+
+
+def test_they_say_where_the_body_will_be():
+    """Placed by the track, the places ahead are the track itself some frames later."""
+    (clip,) = clips("walk_circle")
+    (ground, facing), values = body_track(clip), features(clip)
+    ahead = values[:, GROUPS["places ahead"]].reshape(-1, 3, 2) @ [1j, 1]
+    frames = np.arange(len(clip) - 30)
+    for number, later in enumerate(np.round(AHEAD * 30).astype(int)):
+        there = ground[frames] + np.exp(1j * facing[frames]) * ahead[frames, number]
+        np.testing.assert_allclose(there, ground[frames + later], atol=1e-9)
+
+
+def test_the_smoothed_track_does_not_sway():
+    """Walking straight, the pelvis turns to and fro by 8 degrees; the track by half of it."""
+    (clip,) = clips("walk_straight")
+    swings = [np.ptp(track[30:200]) for track in (heading(clip.rotations[:, 0]), body_track(clip)[1])]
+    assert swings[1] < 0.6 * swings[0]
+
+
+def test_feet_on_the_left_are_left():
+    (clip,) = clips("walk_straight")
+    feet = features(clip)[:, GROUPS["feet"]]
+    assert feet[:, 0].mean() > 0.03 > -0.03 > feet[:, 3].mean()
+
+
+def test_a_body_without_legs_is_refused():
+    with pytest.raises(MocapError, match="No legs found"):
+        features(wave(40))

@@ -6,7 +6,7 @@ import numpy as np
 
 from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
-from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
+from mocap.methods.parametric_graphs.made_strides import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import Sampling
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, make_space

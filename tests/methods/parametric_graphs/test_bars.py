@@ -12,7 +12,7 @@ import pytest
 from mocap.body.motion import resample
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
-from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
+from mocap.methods.parametric_graphs.made_strides import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import BAD, Sampling, build_edge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric

@@ -1,4 +1,6 @@
-"""A graph of kinds from clips in one call, turns on the spot among them, and refusals that help."""
+"""A graph of kinds from clips in one call, changes and turns on the spot among them."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -7,14 +9,20 @@ from walking import generate_walk
 from mocap.body import arcs
 from mocap.body.motion import resample
 from mocap.datasets import samples
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
-from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, changing_strides, on_the_spot
+from mocap.methods.parametric_graphs.kinds_of_strides import (
+    _pairs,
+    build_kinds,
+    changing_strides,
+    on_the_spot,
+)
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import Sampling
 from mocap.methods.parametric_graphs.strides import cut_strides
 from tests.methods.parametric_graphs.built import SMALL, clips, strides
+from tests.methods.parametric_graphs.kinds import cut
 
 SPIN = ((0.1, 0.1), (0.15, 0.15), (0.2, 0.2), (0.3, 0.2))  # metres, m/s
 
@@ -129,3 +137,47 @@ def test_the_homeworks_walker_turns_on_the_spot(real_data):
     with pytest.warns(MocapWarning):
         graph = build_kinds({"walk": walks, "spot": spot}, good=0.12, sampling=few)
     assert len(graph.graph) == 4 and graph.graph.number_of_edges() == 6
+
+
+def test_it_starts_as_the_first_kind_and_ends_as_the_second():
+    walk, jog = cut("walk"), cut("jog")
+    change = changing_strides(walk, jog)
+    zero, one = change.ends
+    for kind, phase in ((walk, zero), (jog, one)):
+        heights = change.heights[:, phase]
+        assert (
+            kind.heights[:, phase].min() - 1e-9
+            <= heights.min()
+            <= heights.max()
+            <= kind.heights[:, phase].max()
+        )
+    pace = np.abs(change.speeds) / np.gradient(change.seconds, change.grid, axis=1)
+    assert pace[:, zero].mean() < 1.5 < 2.0 < pace[:, one].mean()
+    np.testing.assert_allclose(np.linalg.norm(change.poses, axis=-1), 1, atol=1e-12)
+
+
+def test_a_kind_changed_into_itself_is_itself():
+    walk = cut("walk")
+    same = changing_strides(walk, walk)
+    rows, _ = _pairs(walk, walk)
+    np.testing.assert_allclose(same.heights, walk.heights[rows], atol=1e-9)
+    np.testing.assert_allclose(same.seconds, walk.seconds[rows], atol=0.01)
+
+
+def test_time_goes_on():
+    change = changing_strides(cut("walk"), cut("sneak"))
+    assert (np.diff(change.seconds, axis=1) > 0).all()
+    assert np.abs(change.seconds[:, change.ends[0]]).max() == 0
+
+
+def test_kinds_that_do_not_fit_are_refused():
+    walk, jog = cut("walk"), cut("jog")
+    with pytest.raises(MocapError, match="over the same strikes"):
+        changing_strides(walk, strides("lr"))
+    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
+        changing_strides(walk, replace(jog, fps=60.0))
+    with pytest.raises(MocapError, match="no turn in common"):
+        changing_strides(walk, replace(jog, values=jog.values + 9))
+    bones = replace(jog.skeleton, offsets=1.1 * jog.skeleton.offsets)
+    with pytest.raises(SkeletonMismatch):
+        changing_strides(walk, replace(jog, skeleton=bones))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
-from mocap.methods.parametric_graphs.nearest_windows import optimal_transitions
+from mocap.methods.parametric_graphs.made_strides import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_edges import Sampling, build_edge, shrink_box, smallest_good
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, make_space, measure_mixes
 from tests.methods.parametric_graphs.built import SMALL, fresh, space, stepping, strides, walking

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.parametric_graphs.nearest_windows import near_strike
+from mocap.methods.parametric_graphs.made_strides import near_strike
 from mocap.methods.parametric_graphs.stride_spaces import (
     StrideSpace,
     draw_parameters,
