@@ -37,7 +37,9 @@ class _Text(argparse.HelpFormatter):
 def add_commands(parsers: Any, commands: Mapping[str, Run | Group]) -> None:  # noqa: ANN401 (of argparse)
     """Make a parser for each command, and name it in its options: an error shows its usage."""
     for name, run in commands.items():
-        text, _, notes = (inspect.getdoc(run) if callable(run) else run.text).partition("\n\nNotes\n-----\n")
+        text, _, notes = (f"{inspect.getdoc(run)}" if callable(run) else run.text).partition(
+            "\n\nNotes\n-----\n"
+        )
         about, _, parameters = text.partition("\n\nParameters\n----------\n")
         first, _, more = about.partition("\n\n")
         texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": more or first}
@@ -55,7 +57,7 @@ def add_commands(parsers: Any, commands: Mapping[str, Run | Group]) -> None:  # 
             add_commands(below, run.commands)
 
 
-def _parameters(made: Run) -> Iterator[inspect.Parameter]:
+def _parameters(made: Any) -> Iterator[inspect.Parameter]:  # noqa: ANN401 (or a dataclass)
     """Yield the parameters of a function; instead of one that takes a dataclass, its fields, as options."""
     for parameter in inspect.signature(made).parameters.values():
         if is_dataclass(kind := parameter.annotation):
@@ -68,7 +70,7 @@ def _add_argument(
     parser: argparse.ArgumentParser, parameter: inspect.Parameter, metavar: str = "", text: str = ""
 ) -> None:
     """Say to argparse what an annotation says; `Annotated` adds a reader, a help text, further settings."""
-    name, default, kind, extras = parameter.name, parameter.default, parameter.annotation, ()
+    name, default, kind, extras = parameter.name, parameter.default, parameter.annotation, list[Any]()
     if get_origin(kind) is Annotated:
         kind, *extras = get_args(kind)
     needed = default is parameter.empty
@@ -98,12 +100,10 @@ def _add_argument(
         parser.add_argument(name, **settings | many)
 
 
-def call(made: Callable[..., Any], options: argparse.Namespace) -> Any:  # noqa: ANN401
+def call(made: Any, options: argparse.Namespace) -> Any:  # noqa: ANN401
     """Call a command, or make a dataclass, with the values that its options were given."""
-    kinds = {name: one.annotation for name, one in inspect.signature(made).parameters.items()}
-    return made(
-        **{
-            name: call(kind, options) if is_dataclass(kind) else getattr(options, name)
-            for name, kind in kinds.items()
-        }
-    )
+    values: dict[str, Any] = {}
+    for name, parameter in inspect.signature(made).parameters.items():
+        kind = parameter.annotation
+        values[name] = call(kind, options) if is_dataclass(kind) else getattr(options, name)
+    return made(**values)

@@ -59,7 +59,7 @@ class Student:
 
     def _run(self, number: int) -> None:
         self.ran.add(number)
-        done = self.shell.run_cell(self.cells[number].source)
+        done = self.shell.run_cell(self.cells[number].source)  # type: ignore[no-untyped-call,unused-ignore]
         if error := done.error_before_exec or done.error_in_exec:
             self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
 

@@ -61,7 +61,8 @@ class Figures:
         pen = _Pen(canvas, target + np.array([0, 0.9, 0]), self.distance)
         for off in range(-REACH, REACH + 1):
             for line in ([[off, 0, -REACH], [off, 0, REACH]], [[-REACH, 0, off], [REACH, 0, off]]):
-                pen.line(np.linspace(*np.round(target) + line, 29), "#DDDDDD", TWICE)
+                start, end = np.round(target) + line
+                pen.line(np.linspace(start, end, 29), "#DDDDDD", TWICE)
         pen.line(np.insert(np.reshape(self.scene["asked"], (-1, 2)), 1, 0.0, axis=1), "#BBBBBB", 6 * TWICE)
         for character, cloud in zip(self.scene["characters"], self.points, strict=True):
             self._draw(pen, character, cloud, time)
