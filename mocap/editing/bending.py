@@ -134,7 +134,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
         warn(
             f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: where it "
-            "stands, or goes to and fro, its way turns at once; bend a walk that goes on.",
+            "stands, or goes to and fro, its way turns at once; bend a walk that goes on."
         )
     return bent
 

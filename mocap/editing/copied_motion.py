@@ -61,9 +61,9 @@ def copied(motion: Motion, source: Stance, target: Stance, *, scale: float | Non
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> from mocap.editing.stances import stance_of_walk
+    >>> from mocap.editing.stances import stance_of
     >>> walk = sample("walk_straight")
-    >>> stance = stance_of_walk(walk)
+    >>> stance = stance_of(walk)
     >>> same = copied(walk, stance, stance)
     >>> bool(abs(joint_positions(same) - joint_positions(walk)).max() < 1e-12)
     True

@@ -44,12 +44,7 @@ class Key(NamedTuple):
 
 
 def cardinal(
-    at: ArrayLike,
-    values: ArrayLike,
-    frames: ArrayLike,
-    *,
-    tension: float = 0.0,
-    flat: Sequence[int] = (),
+    at: ArrayLike, values: ArrayLike, frames: ArrayLike, *, tension: float = 0.0, flat: Sequence[int] = ()
 ) -> Array:
     """Run a cardinal spline through keys: smooth, constant outside [WP95, splines].
 

@@ -154,7 +154,7 @@ def mirror(motion: Motion) -> Motion:
     if gaps.max() > LOPSIDED:
         warn(
             f"'{shortened(motion.name, 60)}': left and right bones differ by up to {1e3 * gaps.max():.0f} mm "
-            f"({shortened(skeleton.names[gaps.argmax()], 40)}), so its mirror image does not reach as far.",
+            f"({shortened(skeleton.names[gaps.argmax()], 40)}), so its mirror image does not reach as far."
         )
     before = rotations.inverse(turns[skeleton.parents])
     before[0] = rotations.from_matrix(_reflection(ACROSS) @ _reflection(across))

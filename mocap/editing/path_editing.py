@@ -230,9 +230,7 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
     if not turn:
         old, new = (frames._replace(angle=np.zeros(len(motion))) for frames in (old, new))
     if not 0.5 <= longer <= 2:
-        warn(
-            f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.",
-        )
+        warn(f"'{motion.name}' takes steps {longer:.2f} times as long on this path: plants are let go.")
     return (new @ old.inverse()).apply_motion(motion)
 
 

@@ -57,10 +57,7 @@ class Pins:
             object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
         shape = (len(self.low), len(self.joints), 3)
         if self.low.shape != shape or self.high.shape != shape or len(set(self.joints)) < len(self.joints):
-            raise MocapError(
-                f"{len(self.joints)} different joints need low and high (F, {len(self.joints)}, 3), "
-                f"got {self.low.shape} and {self.high.shape} for the joints {self.joints[:8]}."
-            )
+            raise MocapError(f"{len(self.joints)} different joints need boxes {shape}, got {self.low.shape}.")
         wrong = ~(self.low <= self.high) | (self.low == np.inf) | (self.high == -np.inf)
         if wrong.any():
             frame, pin, axis = at = tuple(np.argwhere(wrong)[0])

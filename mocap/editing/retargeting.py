@@ -106,7 +106,7 @@ def retarget(
     if (moved := np.abs(worn.root_positions - base.root_positions).max()) > MOST * target.leg:
         warn(
             f"'{shortened(motion.name)}': the hips move by {100 * moved:.0f} cm to take these steps, "
-            f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease.",
+            f"with legs of {100 * target.leg:.0f} cm: no leg takes them at ease."
         )
     return let_go(worn, wishes, floor_pins(base, target))
 

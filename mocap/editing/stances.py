@@ -7,6 +7,7 @@ along one line. So two bodies are compared as they stand: feet flat, heading +z.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -45,7 +46,7 @@ class Stance:
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> stance = stance_of_walk(sample("walk_straight"))
+    >>> stance = stance_of(sample("walk_straight"))
     >>> stance, round(stance.heights["left ankle"], 2)
     (Stance(38 joints, legs 0.86 m), 0.07)
     """
@@ -98,12 +99,18 @@ class Stance:
         return np.asarray(self.points[self.roles[end]] - self.points[self.roles[start]])
 
 
-def stance_of(motion: Motion) -> Stance:
+def stance_of(motion: Motion, *, mean: bool = False) -> Stance:
     """Take the stance of a motion's skeleton: its rest pose where that stands, else the mean over the motion.
+
+    The mean needs no rest pose that means anything. The idea is ours: each joint's mean turn against the
+    body's heading, which is square to the hips' line; a foot's own, while it stands flat, against where it
+    points. The mean of rotations is SciPy's, which does not depend on the signs of their quaternions.
 
     Parameters
     ----------
-    motion : a walk, where the rest pose means nothing; its feet give the heights in any case.
+    motion : a walk, where the rest pose means nothing; its feet give the heights in any case. Its plants are
+        marked if they are not yet.
+    mean : take the mean, even where the rest pose stands.
 
     Raises
     ------
@@ -118,12 +125,24 @@ def stance_of(motion: Motion) -> Stance:
     Notebook: 13-retargeting
     """
     who = roles(motion.skeleton)
-    motion = with_plants(motion, legs_among(who))
+    legs = legs_among(who)
+    motion = with_plants(motion, legs)
     heights = standing_heights(motion, who)
-    try:
-        return stance_of_zero(motion.skeleton, heights)
-    except MocapError:
-        return stance_of_walk(motion)
+    if not mean:
+        with suppress(MocapError):
+            return stance_of_zero(motion.skeleton, heights)
+    pose = forward_kinematics(motion)
+    world = np.swapaxes(rotations.from_matrix(pose.matrices), 0, 1)  # (J, F, 4)
+    heading = heading_by_hips(pose.positions, who)
+    turns = rotations.mean(rotations.multiply(rotations.about_y(-heading), world))
+    for leg in legs:
+        foot = [leg.ankle, leg.ball]
+        flat = np.logical_and(*(motion.contacts[motion.skeleton.names[joint]] for joint in foot))
+        if flat.any():
+            along = (pose.positions[:, leg.ball] - pose.positions[:, leg.ankle])[flat]
+            back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
+            turns[foot] = rotations.mean(rotations.multiply(back, world[foot][:, flat]))
+    return Stance(motion.skeleton, who, turns, heights)
 
 
 def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> Stance:
@@ -140,7 +159,7 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
     Raises
     ------
     MocapError : for a rest pose that does not stand: hips not level with the left one at +x, or thighs that
-        do not hang; such files need `stance_of_walk` of a clip.
+        do not hang; such files need `stance_of` a clip.
 
     Examples
     --------
@@ -157,7 +176,7 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
     if level > LEVEL or hanging > HANGING:
         raise MocapError(
             f"The rest pose of {skeleton!r} does not stand: its hips are {level:.0f}° off level, its thighs "
-            f"{hanging:.0f}° off hanging; give stance_of_walk of a clip."
+            f"{hanging:.0f}° off hanging; give stance_of a walk."
         )
     bones = {side: rest.bone(f"{side} ankle", f"{side} ball") for side in SIDES}
     if not isinstance(heights, Mapping):
@@ -174,45 +193,6 @@ def stance_of_zero(skeleton: Skeleton, heights: Mapping[str, float] | float) -> 
 
 def _degrees(vector: Array, other: list[int]) -> float:
     return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(vector, other)), np.dot(vector, other))))
-
-
-def stance_of_walk(motion: Motion) -> Stance:
-    """Take the mean over a walk as the stance of its skeleton; this needs no rest pose that means anything.
-
-    The idea is ours: each joint's mean turn against the body's heading, which is square to the hips' line; a
-    foot's own, while it stands flat, against where it points. The mean of rotations is SciPy's, which does
-    not depend on the signs of their quaternions.
-
-    Parameters
-    ----------
-    motion : upright, with feet that stand flat at times; its plants are marked if they are not yet.
-
-    Raises
-    ------
-    MocapError : for a clip in which an ankle or a ball never stands.
-
-    Examples
-    --------
-    >>> from mocap.datasets import sample
-    >>> stance = stance_of_walk(sample("walk_straight"))
-    >>> rotations.rotate(stance.turns[0], [0, 0, 1]).round(1) + 0.0  # the pelvis looks ahead
-    array([0., 0., 1.])
-    """
-    who = roles(motion.skeleton)
-    legs = legs_among(who)
-    motion = with_plants(motion, legs)
-    pose = forward_kinematics(motion)
-    world = np.swapaxes(rotations.from_matrix(pose.matrices), 0, 1)  # (J, F, 4)
-    heading = heading_by_hips(pose.positions, who)
-    turns = rotations.mean(rotations.multiply(rotations.about_y(-heading), world))
-    for leg in legs:
-        foot = [leg.ankle, leg.ball]
-        flat = np.logical_and(*(motion.contacts[motion.skeleton.names[joint]] for joint in foot))
-        if flat.any():
-            along = (pose.positions[:, leg.ball] - pose.positions[:, leg.ankle])[flat]
-            back = rotations.about_y(-np.arctan2(along[:, 0], along[:, 2]))
-            turns[foot] = rotations.mean(rotations.multiply(back, world[foot][:, flat]))
-    return Stance(motion.skeleton, who, turns, standing_heights(motion, who))
 
 
 def heading_by_hips(positions: Array, who: Mapping[str, int]) -> Array:
@@ -273,7 +253,7 @@ def proportioned(
     Examples
     --------
     >>> from mocap.datasets import sample
-    >>> adult = stance_of_walk(sample("walk_straight"))
+    >>> adult = stance_of(sample("walk_straight"))
     >>> child = proportioned(adult, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
     >>> round(child.leg / adult.leg, 3)
     0.55

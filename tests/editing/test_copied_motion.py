@@ -11,7 +11,7 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.editing.copied_motion import copied
-from mocap.editing.stances import proportioned, stance_of, stance_of_walk
+from mocap.editing.stances import proportioned, stance_of
 from mocap.errors import MocapError, SkeletonMismatch
 from tests.editing.bodies import LONG, adult, along_x, bends, child, renamed, rested, walk, without
 
@@ -51,7 +51,7 @@ def test_the_rest_pose_does_not_matter():
     """Bones along +x at rest, as in Bandai-Namco's files; copied angle by angle the figure would fold."""
     other = rested(walk(), along_x(walk().skeleton))
     onto = stance_of(other)
-    assert farthest(copied(walk(), stance_of_walk(walk()), onto), walk()) < 1e-12
+    assert farthest(copied(walk(), stance_of(walk(), mean=True), onto), walk()) < 1e-12
     who = adult().roles
     apart = bends(copied(walk(), adult(), onto), who) - bends(walk(), who)
     assert rms(apart) < 5  # the rest pose against the mean over the walk, at the elbows

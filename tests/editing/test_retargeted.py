@@ -15,8 +15,8 @@ from mocap.body.motion import Motion
 from mocap.editing.body_roles import FEET
 from mocap.editing.copied_motion import copied
 from mocap.editing.pins import pin, pin_errors
-from mocap.editing.retargeting import dips_of, retarget, standing_like
-from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_walk
+from mocap.editing.retargeting import dips_of, floor_pins, retarget, standing_like
+from mocap.editing.stances import Stance, proportioned, stance_of
 from mocap.errors import MocapError, MocapWarning, SkeletonMismatch
 from mocap.feet.footplants import mark_plants, runs
 from mocap.feet.footskate import clean_up
@@ -186,7 +186,7 @@ def test_short_clips(frames):
 
 
 def test_bad_input():
-    with pytest.raises(MocapError, match=r"does not stand.*give stance_of_walk"):
+    with pytest.raises(MocapError, match=r"does not stand.*give stance_of a walk"):
         retarget(walk(), rested(walk(), along_x(walk().skeleton)).skeleton)
     with pytest.raises(MocapError, match="No legs found"):
         retarget(walk(), renamed(walk(), {"lfoot": "fin"}).skeleton)
@@ -227,7 +227,7 @@ def test_a_captured_walk_on_captured_bodies(real_data, name):
         pytest.skip(f"no {REAL_BODIES[name]} among the real clips")
     clip = captured(real_data, "cmu/16/16_15.amc", 12)
     target = stance_in(real_data, name)
-    source = stance_of_walk(clip) if name == "Bandai-Namco" else stance_of(clip)
+    source = stance_of(clip, mean=True) if name == "Bandai-Namco" else stance_of(clip)
     held_to_the_bars(clip, source, target)
 
 
@@ -249,7 +249,7 @@ def test_turns_runs_and_jumps_on_a_child_and_on_another_tree(real_data, name):
     source = stance_of(clip)
     small = proportioned(source, legs=0.55, trunk=0.62, arms=0.58, head=0.85)
     held_to_the_bars(clip, source, small, smooth=1.07, deep=10)
-    walked = stance_of_walk(captured(real_data, "cmu/16/16_15.amc", 12))
+    walked = stance_of(captured(real_data, "cmu/16/16_15.amc", 12), mean=True)
     other = stance_in(real_data, "Bandai-Namco")
     upright = Stance(clip.skeleton, source.roles, walked.turns, source.heights)
     held_to_the_bars(clip, upright, other, smooth=1.07, deep=10)
@@ -263,3 +263,48 @@ def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_
     worn, own = retarget(clip, target, source), clean_up(clip)
     assert slide(clip, source) > 1 > 1e-3 >= slide(worn, target)
     assert kept(worn, copied(clip, source, target)) == kept(own, clip) > 0.94
+
+
+def test_plants_are_held_at_the_heights_of_the_stance_a_flat_foot_apart():
+    thick = {
+        role: height + (0.02 if role.endswith("ankle") else 0.01) for role, height in child().heights.items()
+    }
+    stance = replace(child(), heights=thick)
+    base = copied(walk(), adult(), stance)
+    pins = floor_pins(base, stance)
+    for side, (ankle, ball) in enumerate([(0, 1), (2, 3)]):
+        both = pins.held[:, [ankle, ball], 0].all(axis=1)
+        assert both.any()
+        apart = np.linalg.norm(pins.low[both][:, ankle] - pins.low[both][:, ball], axis=-1)
+        assert np.allclose(apart, stance.legs[side].lengths(stance.skeleton)[2])
+    for column, role in enumerate(FEET):
+        held = pins.held[:, column, 1]
+        assert np.allclose(pins.low[held, column, 1], thick[role])
+        assert np.array_equal(held, base.contacts[base.skeleton.names[stance.roles[role]]])
+
+
+def test_a_body_that_stands_meets_its_pins():
+    assert pin_errors(walk(), floor_pins(walk(), adult())).max() < 5e-9  # as the clip is stored
+
+
+def test_a_floor_bounds_feet_in_all_other_frames():
+    plants = floor_pins(walk(), adult())
+    assert not plants.asked.all()
+    floor = floor_pins(walk(), adult(), dict.fromkeys(FEET, 0.01))
+    assert floor.asked.all()
+    swings = ~floor.held[:, 0, 1]
+    assert np.allclose(floor.low[swings, 0, 1], adult().heights["left ankle"] - 0.01)
+    assert np.array_equal(floor.held, plants.held)
+    sunk = replace(walk(), root_positions=walk().root_positions - [0, 0.05, 0])
+    assert pin_errors(sunk, floor).max() == pytest.approx(0.05)
+    assert dips_of(sunk, adult())["left ball"] == pytest.approx(0.05 + dips_of(walk(), adult())["left ball"])
+
+
+def test_marks_are_needed():
+    with pytest.raises(MocapError, match="does not say when these joints stand"):
+        floor_pins(replace(walk(), contacts={}), adult())
+
+
+def test_a_step_is_brought_down_to_the_level_floor():
+    higher = replace(walk(), root_positions=walk().root_positions + np.array([0, 0.2, 0]))
+    assert np.array_equal(floor_pins(higher, adult()).low, floor_pins(walk(), adult()).low)

@@ -15,14 +15,14 @@ from mocap.editing.body_roles import FEET, roles
 from mocap.editing.stances import (
     Stance,
     heading_by_hips,
+    proportioned,
     stance_of,
-    stance_of_walk,
     stance_of_zero,
     standing_heights,
 )
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
-from tests.editing.bodies import adult, along_x, rested, walk
+from tests.editing.bodies import adult, along_x, rested, walk, without
 
 
 def degrees_apart(a, b):
@@ -63,7 +63,7 @@ def test_a_number_stands_for_both_balls():
 
 
 def test_a_walk_gives_the_stance_that_the_rest_pose_gives():
-    mean = stance_of_walk(walk())
+    mean = stance_of(walk(), mean=True)
     arms_and_legs = [
         joint for role, joint in mean.roles.items() if role.split()[-1] not in ("elbow", "wrist")
     ]
@@ -78,18 +78,16 @@ def test_a_walk_gives_the_stance_that_the_rest_pose_gives():
 @given(angle=st.floats(-3, 3), x=st.floats(-9, 9))
 def test_where_a_walk_heads_does_not_matter(angle, x):
     moved = PlanarTransform(angle, x, 1.0).apply_motion(walk(2.0))
-    here, there = stance_of_walk(walk(2.0)), stance_of_walk(moved)
+    here, there = stance_of(walk(2.0), mean=True), stance_of(moved, mean=True)
     assert degrees_apart(here.turns, there.turns).max() < 1e-5
 
 
 def test_a_rest_pose_that_means_nothing_is_not_believed():
     clip = rested(walk(), along_x(walk().skeleton))
-    with pytest.raises(
-        MocapError, match=r"does not stand: its hips are .*; give stance_of_walk of a clip"
-    ) as error:
+    with pytest.raises(MocapError, match=r"does not stand: its hips are .*; give stance_of a walk") as error:
         stance_of_zero(clip.skeleton, 0.03)
     assert len(str(error.value)) <= 200
-    assert np.allclose(stance_of(clip).points, stance_of_walk(walk()).points)
+    assert np.allclose(stance_of(clip).points, stance_of(walk(), mean=True).points)
     backwards = np.tile(rotations.about_y(np.pi), (len(walk().skeleton), 1))
     with pytest.raises(MocapError, match="180° off level"):
         stance_of_zero(rested(walk(), backwards).skeleton, 0.03)
@@ -116,7 +114,7 @@ def test_feet_that_never_stand_flat_and_feet_that_never_stand():
     apart = {**walk().contacts, "ltoes": walk().contacts["ltoes"] & ~walk().contacts["lfoot"]}
     loose = replace(walk(), contacts=apart)
     assert standing_heights(loose, adult().roles)["left ball"] == pytest.approx(0.026, abs=0.003)
-    assert np.isfinite(stance_of_walk(loose).turns).all()
+    assert np.isfinite(stance_of(loose, mean=True).turns).all()
 
 
 def test_the_hips_say_where_the_body_heads():
@@ -146,3 +144,39 @@ def test_which_rest_poses_stand(real_data, name, stands):
             stance_of_zero(clip.skeleton, 0.03)
         assert zero.height("ankle") == pytest.approx(0.117, abs=0.002)
         assert zero.height("ball") == pytest.approx(0.042, abs=0.002)
+
+
+def lengths(stance, *roles):
+    return [np.linalg.norm(stance.skeleton.offsets[stance.roles[role]]) for role in roles]
+
+
+def test_each_part_has_its_share():
+    new = proportioned(adult(), legs=0.5, trunk=0.6, arms=0.7, head=0.8)
+    for share, parts in {
+        0.5: ["left knee", "right ankle", "right ball"],
+        0.6: ["chest", "left shoulder", "left hip"],
+        0.7: ["left elbow", "right wrist"],
+        0.8: ["head"],
+    }.items():
+        assert lengths(new, *parts) == pytest.approx(share * np.array(lengths(adult(), *parts)))
+    assert new.heights == pytest.approx({role: 0.5 * height for role, height in adult().heights.items()})
+    assert new.leg == pytest.approx(0.5 * adult().leg)
+
+
+def test_whole_numbers_are_numbers():
+    assert np.allclose(
+        proportioned(adult(), trunk=1, legs=0.5).skeleton.offsets[2:4],
+        adult().skeleton.offsets[2:4] * [[1], [0.5]],
+    )
+
+
+def test_a_body_without_a_neck_has_its_head_on_the_trunk():
+    body = without(walk(), "lowerneck", "upperneck")
+    new = proportioned(stance_of(body), head=0.5, trunk=0.9)
+    assert lengths(new, "head") == pytest.approx(0.9 * np.array(lengths(stance_of(body), "head")))
+
+
+@pytest.mark.parametrize("share", [0, -1, np.nan, np.inf])
+def test_bad_shares(share):
+    with pytest.raises(MocapError, match="The share of the arms must be above 0"):
+        proportioned(adult(), arms=share)
