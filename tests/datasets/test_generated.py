@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bundled_clips import bundled_clips
 from scipy.signal import find_peaks
-from walking import generate_walk, generated
+from walking import generate_walk
 from walking.walking_body import FOOT, SKELETON
 
 import mocap
@@ -16,7 +16,6 @@ from mocap._shared.arrays import runs
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
-from mocap.body.planar import heading
 from mocap.datasets import samples
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError
@@ -221,17 +220,6 @@ def test_the_short_walks_are_what_the_figures_give():
         check_stored(sample(name), made()[name])
 
 
-@pytest.mark.parametrize("name", ["walk_circle", "walk_curve_1", "walk_curve_2"])
-def test_the_winding_walks_turn_both_ways_in_a_small_place(name):
-    motion = sample(name)
-    turning = np.gradient(np.unwrap(heading(motion.rotations[:, 0]))) * motion.fps
-    smooth = np.convolve(turning, np.ones(150) / 150, "valid")
-    assert (smooth > 0.3).mean() > 0.3
-    assert (smooth < -0.3).mean() > 0.3
-    assert np.ptp(motion.root_positions[:, [0, 2]], axis=0).max() < 3.6
-    assert 37 < motion.duration < 43
-
-
 @pytest.mark.parametrize(("label", "least", "most"), [("jog", 0.5, 0.8), ("walk", 0.0, 0.2)])
 def test_a_jog_flies_and_a_walk_does_not(label, least, most):
     for motion in parts(sample("jog"), label):
@@ -290,29 +278,12 @@ def test_stop_and_go_stands_four_times_with_both_feet_side_by_side():
     assert apart.max() < 0.16
 
 
-@pytest.mark.parametrize("style", generated.GAITS)
-def test_a_walk_follows_its_path(style):
-    motion = generate_walk([[0, 0], [0, 5], [0, 10]], style=style, seed=3)
-    root = motion.root_positions
-    assert np.abs(root[:, 0]).max() < 0.06
-    assert root[0, 2] == pytest.approx(0, abs=0.05)
-    assert root[-1, 2] == pytest.approx(10, rel=0.1)
-    assert np.abs(heading(motion.rotations[:, 0])).max() < 0.15
-    assert motion.labels[style].all()
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: generated.generate("waltz"), "No bundled clip 'waltz'; there are: walk_circle, "),
         (lambda: sample("waltz"), "No bundled clip 'waltz'; there are: walk_circle, .*, walk_6m_1.65_180"),
-        (
-            lambda: generate_walk([[0, 0], [0, 5]], style="hop"),
-            "No style 'hop'; there are: walk, sneak, jog",
-        ),
-        (lambda: generate_walk([[0, 0], [0, 5]], speed=0), "speed above 0, got 0"),
+        (lambda: generate_walk([[0, 0], [0, 5]], style="hop"), "there are: walk, sneak, jog"),
         (lambda: generate_walk([[0, 0], [0, 50]], speed=6), "longer than the legs"),
-        (lambda: generate_walk([[0, 0]]), "two points"),
     ],
 )
 def test_bad_wishes_are_told(call, message):

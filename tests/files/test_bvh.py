@@ -321,12 +321,6 @@ def test_rates_that_would_not_read_back_are_refused(tmp_path, fps):
         bvh.write(motion, tmp_path / "a.bvh")
 
 
-def test_marks_do_not_matter_and_precision_does(tmp_path, write):
-    motion = bvh.read(write(BVH))
-    bvh.write(motion, tmp_path / "b.bvh", precision=2)
-    assert "0.00 100.00 50.00" in (tmp_path / "b.bvh").read_text()
-
-
 def test_world_positions_that_others_found(real_data):
     folder = real_data / "bvh/olaf_bvh_toolbox"
     motion = bvh.read(folder / "walk01.bvh", scale=1.0)
