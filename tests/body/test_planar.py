@@ -15,26 +15,23 @@ from tests.strategies import planar, random_motion, seeds
 POINTS = np.random.default_rng(0).normal(size=(4, 5, 3))
 
 
-@given(planar, planar)
-def test_after_is_one_then_the_other(second, first):
-    assert (second @ first).apply_points(POINTS) == pytest.approx(
-        second.apply_points(first.apply_points(POINTS)), abs=1e-9
-    )
-
-
-@given(planar)
-def test_the_inverse_undoes(transform):
-    for both in (transform @ transform.inverse(), transform.inverse() @ transform):
-        assert both == pytest.approx(IDENTITY, abs=1e-9)
-
-
-@given(planar)
-def test_heights_and_distances_stay(transform):
-    moved = transform.apply_points(POINTS)
+@given(planar, planar, planar)
+def test_transforms_form_a_group_and_keep_heights_and_distances(a, b, c):
+    moved = b.apply_points(POINTS)
+    assert (a @ b).apply_points(POINTS) == pytest.approx(a.apply_points(moved), abs=1e-9)
     assert moved[..., 1] == pytest.approx(POINTS[..., 1])
-    assert np.linalg.norm(moved[0] - moved[1], axis=-1) == (
-        pytest.approx(np.linalg.norm(POINTS[0] - POINTS[1], axis=-1))
-    )
+    apart, before = (np.linalg.norm(points[0] - points[1], axis=-1) for points in (moved, POINTS))
+    assert apart == pytest.approx(before)
+    for both in (a @ a.inverse(), a.inverse() @ a):
+        assert both == pytest.approx(IDENTITY, abs=1e-9)
+    left, right = (a @ b) @ c, a @ (b @ c)
+    assert left.apply_points(POINTS) == pytest.approx(right.apply_points(POINTS), abs=1e-9)
+    for same in (a @ IDENTITY, IDENTITY @ a):
+        assert same.apply_points(POINTS) == pytest.approx(a.apply_points(POINTS), abs=1e-9)
+    assert a.turn * on_ground(POINTS) + a.move == pytest.approx(on_ground(a.apply_points(POINTS)), abs=1e-9)
+    both = PlanarTransform.from_complex(a.turn * b.turn, a.turn * b.move + a.move)
+    assert both.apply_points(POINTS) == pytest.approx((a @ b).apply_points(POINTS), abs=1e-9)
+    assert from_ground(on_ground(POINTS)) == pytest.approx(POINTS[..., [0, 2]])
 
 
 @given(st.floats(-3.1, 3.1), st.floats(-1.2, 1.2))
@@ -64,14 +61,6 @@ lean = st.builds(
 )
 
 
-@given(planar, planar, planar)
-def test_composition_is_associative_and_the_identity_neutral(a, b, c):
-    left, right = (a @ b) @ c, a @ (b @ c)
-    assert left.apply_points(POINTS) == pytest.approx(right.apply_points(POINTS), abs=1e-9)
-    for same in (a @ IDENTITY, IDENTITY @ a):
-        assert same.apply_points(POINTS) == pytest.approx(a.apply_points(POINTS), abs=1e-9)
-
-
 @given(planar, seeds)
 def test_a_moved_motion_puts_its_joints_where_its_moved_points_are(transform, seed):
     motion = random_motion(seed)
@@ -80,22 +69,13 @@ def test_a_moved_motion_puts_its_joints_where_its_moved_points_are(transform, se
     )
 
 
-@given(st.floats(-3.1, 3.1), lean)
-def test_heading_is_the_turn_beside_any_lean(angle, lean):
-    assert heading(rotations.multiply(rotations.about_y(angle), lean)) == pytest.approx(angle, abs=1e-9)
-
-
 @given(st.floats(-3.1, 3.1), lean, planar)
-def test_turning_a_body_turns_its_heading_even_where_it_lies_down(angle, lean, transform):
+def test_heading_is_the_turn_beside_any_lean_and_turns_with_the_body(angle, lean, transform):
     body = rotations.multiply(rotations.about_y(angle), lean)
+    for same in (body, -body):
+        assert heading(same) == pytest.approx(angle, abs=1e-9)
     turned = heading(transform.apply_orientations(body))
     assert np.exp(1j * turned) == pytest.approx(np.exp(1j * (angle + transform.angle)), abs=1e-9)
-
-
-@given(seeds)
-def test_heading_is_the_same_for_both_quaternions_of_a_rotation(seed):
-    quaternions = random_motion(seed).rotations
-    assert heading(-quaternions) == pytest.approx(heading(quaternions), abs=1e-12)
 
 
 def test_looking_up_the_homework_s_heading_is_lost_and_heading_is_not():
@@ -104,10 +84,7 @@ def test_looking_up_the_homework_s_heading_is_lost_and_heading_is_not():
     assert abs(homework_heading(on_the_side) - homework_heading(nearly)) > 0.1
     assert heading(on_the_side) == pytest.approx(0.7)
     assert heading(nearly) == pytest.approx(0.7)
-
-
-def test_upside_down_there_is_no_heading_and_it_is_0():
-    assert heading([0.0, 1.0, 0.0, 0.0]) == 0
+    assert heading([0.0, 1.0, 0.0, 0.0]) == 0  # upside down there is none
 
 
 @given(seeds, st.floats(-3.1, 3.1), st.floats(-50, 50), st.floats(-50, 50))
@@ -123,14 +100,6 @@ def test_a_placed_motion_stands_and_faces_where_it_should(seed, angle, x, z):
 def test_a_place_must_be_one(angle, position):
     with pytest.raises(MocapError, match="finite direction and position"):
         place(random_motion(0), angle, position)
-
-
-@given(planar, planar)
-def test_as_complex_numbers_a_transform_is_a_product_and_a_sum(a, b):
-    assert a.turn * on_ground(POINTS) + a.move == pytest.approx(on_ground(a.apply_points(POINTS)), abs=1e-9)
-    both = PlanarTransform.from_complex(a.turn * b.turn, a.turn * b.move + a.move)
-    assert both.apply_points(POINTS) == pytest.approx((a @ b).apply_points(POINTS), abs=1e-9)
-    assert from_ground(on_ground(POINTS)) == pytest.approx(POINTS[..., [0, 2]])
 
 
 @given(seeds, seeds)

@@ -1,6 +1,5 @@
 """The generated jump: it falls freely, its feet stand, and it keeps to the limits of joints."""
 
-
 import numpy as np
 import pytest
 from jumping import generate_jump, plan_jump
