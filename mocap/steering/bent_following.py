@@ -146,13 +146,14 @@ def plan_bending(
     if not len(walks):
         raise MocapError("The clips of this graph only stand: no walk of theirs can be laid on a path.")
     straight = np.arange(0.0, path.length + 1.0, float(np.median(walks)))  # at the clips' usual pace
-    pace = Ride(GroundPath([[0.0, 0.0], [0.0, straight[-1]]]), straight, np.zeros((4, 2)))
+    pace = Ride(GroundPath(np.array([[0.0, 0.0], [0.0, straight[-1]]])), straight, np.zeros((4, 2)))
     line = round_line(path, pace, graph.fps, limit)
 
-    labels, times = (
-        [(float(np.interp(where, line.asked, line.along)), what) for where, what in asked]
-        for asked in (wishes.labels, wishes.times)
-    )
+    def rounded(where: float) -> float:
+        return float(np.interp(where, line.asked, line.along))
+
+    labels = [(rounded(where), label) for where, label in wishes.labels]
+    times = [(rounded(where), seconds) for where, seconds in wishes.times]
     wishes = replace(wishes, labels=labels, times=times, slide=0.0)
     points = line.path.points
     way = points[-1] - points[-2]

@@ -254,5 +254,6 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
     took, waited, blended = np.transpose(delays) / fps
     # The first step looks ahead from the start without any frame to do so before; games do it while loading.
     cost = 1e3 * np.array(costs[1:])
-    means = [float(some.mean()) for some in (took, cost, waited, blended)]
-    return Delay(means[0], float(np.percentile(took, 95)), means[1], float(cost.max()), *means[2:], never)
+    mean, step, waiting, blending = (float(some.mean()) for some in (took, cost, waited, blended))
+    slowest, worst = float(np.percentile(took, 95)), float(cost.max())
+    return Delay(mean, slowest, step, worst, waiting, blending, never)

@@ -89,9 +89,9 @@ class LookAhead:
             walks.frames[of] + hops.frames[hop],
             walks.cost[of] + cost,
         )
-        walks = WalksAhead(*(np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True)))
+        walks = WalksAhead._make(np.concatenate([a[~short], b]) for a, b in zip(walks, longer, strict=True))
         best = np.argsort(walks.cost / walks.frames)[:WIDTH]
-        return WalksAhead(*(values[best] for values in walks))
+        return WalksAhead._make(values[best] for values in walks)
 
 
 class Controller:
@@ -121,6 +121,8 @@ class Controller:
     >>> controller.step(heading=0.0, speed=1.0).rotations.shape
     (38, 4)
     """
+
+    walks: WalksAhead  # from the end of the hop under way
 
     def __init__(self, graph: MotionGraph | CompiledGraph, *, start: Node | None = None) -> None:
         self.graph = compile_graph(graph)

@@ -70,7 +70,7 @@ def _hold_end(held: Array, places: Array, marks: Mask, fps: float) -> None:
     """
     away = places - places[:, ::-1]  # of each joint from the other one
     span, length = least_frames(fps), np.linalg.norm(away[0, 0])
-    stands, begin = runs(marks.any(axis=0)), len(places) - span - 1
+    stands, begin = runs(marks[0] | marks[1]), len(places) - span - 1
     if len(stands) and stands[-1][1] > len(places) - max(span, round(NEAR * fps)):
         first, begin = stands[-1].tolist()
         for kind in sorted((0, 1), key=lambda kind: not marks[kind, begin - 1]):

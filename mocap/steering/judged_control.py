@@ -119,7 +119,8 @@ def judge_control(
     limit = np.percentile(usual.within(1), USUAL)
     return ControlReport(
         measure_delay(make(), speed=speed, seed=seed),
-        *slides,
+        slides[0],
+        slides[1],
         planted[1] / planted[0],
         float((jumps(motion)[0] > limit).mean()),
         _wags(motion, headings),

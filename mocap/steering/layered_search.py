@@ -48,9 +48,9 @@ class States(NamedTuple):
 
         The longer walks' `trail` are the rows of those that they go on from, their `hop` is the step's.
         """
-        turn, move = self.turn[of], self.move[of] + self.turn[of] * steps.move
-        sums = (mine[of] + more for mine, more in zip(self[3:6], steps[3:6], strict=True))
-        return States(steps.node, turn * steps.turn, move, *sums, of, steps.hop)
+        turn, move = self.turn[of] * steps.turn, self.move[of] + self.turn[of] * steps.move
+        along, frames = self.along[of] + steps.along, self.frames[of] + steps.frames
+        return States(steps.node, turn, move, along, frames, self.cost[of] + steps.cost, of, steps.hop)
 
     @staticmethod
     def join(parts: Sequence[States]) -> States:

@@ -94,10 +94,10 @@ def hard(motion):
 
 def test_the_root_does_not_jolt_where_the_pivot_goes_from_foot_to_foot(monkeypatch):
     """There the root turned about a foot behind it, and turns about one ahead: at once, this is a jolt."""
-    motion, straight, _ = turned_and_not(BUNDLED, zigzag(60))
+    motion, straight, _ = turned_and_not(BUNDLED, zigzag(30))
     assert hard(motion) < 1.6 * hard(straight)
     monkeypatch.setattr(foot_turning, "EASE", 1e-6)
-    motion, straight, _ = turned_and_not(BUNDLED, zigzag(60))
+    motion, straight, _ = turned_and_not(BUNDLED, zigzag(30))
     assert hard(motion) > 1.9 * hard(straight)
 
 
@@ -133,10 +133,8 @@ def test_it_turns_no_faster_than_asked_about_a_point_that_stays(rate, seed):
 def test_one_who_stands_is_not_turned():
     noted = Noted(graphs.compile_graph(bundled("stop_and_go")))
     steer(FootTurner(noted), np.full(240, np.pi / 2), speed=0.0)
-    x, _, z = noted.character.step(0.0, 0.0).root_position
     turns = np.unwrap(np.angle([turn for turn, _ in noted.places]))
     assert np.abs(np.diff(turns[-60:])).max() < np.radians(40) / 30 + 1e-12
-    assert np.isfinite([x, z]).all()
 
 
 def test_nonsense_is_refused():
