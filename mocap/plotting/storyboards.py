@@ -96,14 +96,19 @@ def _draw_where(ax: Axes, shot: Shot) -> str:
 
 
 def _draw_windows(ax: Axes, shot: Shot) -> str:
-    """Draw the first, middle and last frames of both windows from the side, with threads between them."""
-    pair, last = (shot.windows[0], shot.fit.apply_motion(shot.windows[1])), shot.window - 1
-    points = [joint_positions(_facing(shot).apply_motion(motion))[..., [2, 1]] for motion in pair]
+    draw_matched(ax, shot.windows[0], shot.fit.apply_motion(shot.windows[1]))
+    return f"aligned, RMS distance {100 * shot.distance:.1f} cm"
+
+
+def draw_matched(ax: Axes, *pair: Motion) -> None:
+    """Draw the first, middle and last frames of two windows from the side, with threads between them."""
+    last, joints = len(pair[0]) - 1, distinct_joints(pair[0].skeleton)
+    points = [joint_positions(_facing(pair[0]).apply_motion(motion))[..., [2, 1]] for motion in pair]
     for place, (frame, words) in enumerate([(0, "first frame"), (last // 2, "middle"), (last, "last frame")]):
         poses = [cloud[frame] + [1.1 * place - points[0][frame, 0, 0], 0.0] for cloud in points]
         for number, pose in enumerate(poses):
             _draw_pose(ax, pose, pair[number], dashed=number == 1)
-        threads = np.stack([pose[distinct_joints(shot.first.skeleton)] for pose in poses], axis=1)
+        threads = np.stack([pose[joints] for pose in poses], axis=1)
         ax.add_collection(LineCollection(list(threads), colors="#000000", linewidths=1.2, zorder=3))
         ax.annotate(words, (1.1 * place, -0.12), ha="center", va="top", fontsize=9)
     ax.axhline(0, color=QUIET, linewidth=0.8, zorder=0)
@@ -112,7 +117,6 @@ def _draw_windows(ax: Axes, shot: Shot) -> str:
         ax.plot([], [], color=INK, linestyle=style, label=motion.name)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0.04), ncols=2, frameon=False, fontsize=9)
     _bare(ax)
-    return f"aligned, RMS distance {100 * shot.distance:.1f} cm"
 
 
 def _draw_seam(ax: Axes, shot: Shot) -> str:
@@ -120,7 +124,7 @@ def _draw_seam(ax: Axes, shot: Shot) -> str:
     joined = join(shot.first, shot.i, shot.second, shot.j, shot.window)
     begin, end = min(shot.before, shot.i), min(shot.before, shot.i) + shot.window - 1
     seam = joined[shot.i - begin : shot.i + shot.window + shot.after]
-    points = joint_positions(_facing(shot).apply_motion(seam))[..., [2, 1]]
+    points = joint_positions(_facing(shot.windows[0]).apply_motion(seam))[..., [2, 1]]
     for frame in dict.fromkeys([0, begin // 2, begin, end, (end + len(seam)) // 2, len(seam) - 1]):
         _draw_pose(ax, points[frame], seam, alpha=1.0 if begin <= frame <= end else 0.4)
     ax.plot(points[:, 0, 0], 0 * points[:, 0, 0], color=PATH, linewidth=2)
@@ -132,9 +136,9 @@ def _draw_seam(ax: Axes, shot: Shot) -> str:
     return "the seam; its window is shaded"
 
 
-def _facing(shot: Shot) -> PlanarTransform:
-    """Give the turn after which the first window's middle heads along z, from left to right of a panel."""
-    return PlanarTransform(-float(heading(shot.first.rotations[shot.i + shot.window // 2, 0])), 0.0, 0.0)
+def _facing(window: Motion) -> PlanarTransform:
+    """Give the turn after which a window's middle heads along z, from the left to the right of a panel."""
+    return PlanarTransform(-float(heading(window.rotations[len(window) // 2, 0])), 0.0, 0.0)
 
 
 def _draw_pose(ax: Axes, points: Array, motion: Motion, alpha: float = 1.0, dashed: bool = False) -> None:

@@ -6,21 +6,18 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Rectangle
 from mpl_toolkits.mplot3d import Axes3D
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, heading, joint_positions
 from mocap.course.diagrams.pens import require_step
 from mocap.errors import MocapError
-from mocap.matching.point_clouds import distinct_joints, matching_clouds, point_cloud
+from mocap.matching.point_clouds import point_cloud, rms_distance
 from mocap.plotting.stick_figures import StickFigure, ground_axes, keep_inside, to_picture
+from mocap.plotting.storyboards import draw_matched
 from mocap.plotting.style import COLOURS, FLOOR, QUIET, SOURCES
-
-DASHED: Any = (0, (2, 1))  # the lines of the second body
 
 
 def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
@@ -59,9 +56,9 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
 
 
 def matched_windows(first: Motion, second: Motion) -> Figure:
-    """Draw two aligned windows at their first and last frame, with a thread from each joint to its partner.
+    """Draw two aligned windows from the side at three frames, with a thread from each joint to its partner.
 
-    Left and right keep their colours, so that feet which are exchanged are seen.
+    Left and right keep their colours, so that feet which are exchanged are seen; the second body is dashed.
 
     Parameters
     ----------
@@ -71,30 +68,16 @@ def matched_windows(first: Motion, second: Motion) -> Figure:
     --------
     >>> from mocap import datasets, resample
     >>> walk = resample(datasets.sample("walk_straight"), 30)
-    >>> [ax.get_title() for ax in matched_windows(walk[:10], walk[:10]).axes]
-    ['first frame: 0.0 cm RMS', 'last frame: 0.0 cm RMS']
+    >>> matched_windows(walk[:10], walk[:10]).axes[0].get_title()
+    'RMS distance 0.0 cm; blue is left, orange right'
 
     Notebook: 02b-distance-grids
     """
-    clouds = matching_clouds(point_cloud(first), point_cloud(second))
-    gaps = 100 * np.sqrt(((clouds[0] - clouds[1]) ** 2).sum(-1).mean(-1))  # cm, (F,)
-    points = np.stack([joint_positions(motion) for motion in (first, second)])
-    figure = Figure(figsize=(8.4, 4.6))
-    for panel, (frame, words) in enumerate([(0, "first frame"), (len(first) - 1, "last frame")]):
-        here, panels = points[:, frame], (panel / 2, 0.06, 0.5, 0.86)
-        ax = _beside(figure.add_axes(panels, projection="3d"), first[frame : frame + 1], here)
-        threads = to_picture(here[:, distinct_joints(first.skeleton)].swapaxes(0, 1))
-        ax.add_collection3d(Line3DCollection(threads, colors=QUIET, linewidths=1.0, zorder=2))
-        StickFigure(first.skeleton, ax).pose(here[0])
-        other = StickFigure(second.skeleton, ax, 0.75)
-        other.bones.set(linestyle=DASHED, linewidth=1.8)
-        other.pose(here[1])
-        ax.set_title(f"{words}: {gaps[frame]:.1f} cm RMS", fontsize=11)
-    looks: dict[str, dict[str, Any]] = {side: {"color": COLOURS[side]} for side in ("left", "right")}
-    looks |= {first.name: {"color": COLOURS["middle"]}, "joint to joint": {"color": QUIET, "lw": 1}}
-    keys = [Line2D([], [], label=label, **look) for label, look in looks.items()]
-    keys.insert(3, Line2D([], [], label=second.name, color=COLOURS["middle"], linestyle=DASHED))
-    figure.legend(handles=keys, loc="lower center", ncols=5, frameon=False, fontsize=9)
+    figure = Figure(figsize=(6.4, 4.2), layout="constrained")
+    ax = figure.add_subplot()
+    draw_matched(ax, first, second)
+    apart = 100 * rms_distance(first, second)
+    ax.set_title(f"RMS distance {apart:.1f} cm; blue is left, orange right", fontsize=11)
     return figure
 
 
