@@ -18,6 +18,11 @@ from mocap.methods.groups.flocking import APART, RATE, Disc
 from mocap.methods.groups.group_clips import GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph, Placed
 
+PACE = 1.05  # m/s, at which a group is expected to go on
+TURNING = 1.3  # seconds per radian still to turn
+CELL, SECTOR = 0.7, 0.3  # metres and radians: groups that stand nearer than this are one state
+MOST = 4000  # states to expand
+
 
 class Scene(NamedTuple):
     """Where a group should go, and what stands in its way.
@@ -41,12 +46,8 @@ class Scene(NamedTuple):
     def check(self, start: complex) -> None:
         """Raise MocapError for what makes no sense, and for a start nowhere or inside a disc."""
         if not self.points or np.ndim(self.points) != 1 or not np.isfinite([start, *self.points]).all():
-            raise MocapError(
-                f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"[
-                    :190
-                ]
-                + f" from {start}."
-            )
+            says = f"A scene has finite points z + ix to pass, one or more, from a start; got {self.points}"
+            raise MocapError(f"{says[:160]} from {start}.")
         for centre, radius in self.discs:
             if not (np.isfinite(centre) and 0 < radius < np.inf):
                 raise MocapError(f"An obstacle has a centre and a radius above 0, got {centre}, {radius}.")
@@ -114,12 +115,6 @@ class Obstacles:
                 self.tested += 1
                 free[row] = np.abs(exits.places[row][:, :, None] - members[:, None]).min() >= APART
         return np.flatnonzero(free)
-
-
-PACE = 1.05  # m/s, at which a group is expected to go on
-TURNING = 1.3  # seconds per radian still to turn
-CELL, SECTOR = 0.7, 0.3  # metres and radians: groups that stand nearer than this are one state
-MOST = 4000  # states to expand
 
 
 class GroupWalk(NamedTuple):

@@ -22,6 +22,10 @@ from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
 from mocap.errors import MocapError, shortened
 
+FPS = 30.0  # of the blends that are measured
+Measure = Callable[[Motion], ArrayLike]
+"""Reads one number or a few off a motion."""
+
 
 def turn(motion: Motion) -> float:
     """Measure how far the body turns from the first frame to the last, radians, to the left.
@@ -142,11 +146,6 @@ def random_weights(
         while row.max() > 1 + spread or not row.any():
             row[chosen] = (1 + len(chosen) * spread) * rng.dirichlet(np.ones(len(chosen))) - spread
     return weights
-
-
-FPS = 30.0  # of the blends that are measured
-Measure = Callable[[Motion], ArrayLike]
-"""Reads one number or a few off a motion."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -29,6 +29,14 @@ GROUPS = {
     "directions ahead": slice(21, 27),
 }
 FUTURE = slice(15, 27)  # places and directions ahead
+WEIGHTS = {  # [Hol20]
+    "feet": 0.75,
+    "foot velocities": 1.0,
+    "hip velocity": 1.0,
+    "places ahead": 1.0,
+    "directions ahead": 1.5,
+}
+END = 1.0  # seconds before a clip's end from which no frame is found: its future is not known
 
 
 def body_track(motion: Motion) -> tuple[Points, Array]:
@@ -99,16 +107,6 @@ def _seen(vectors: Array, back: Points, origin: Points | float = 0.0) -> Array:
     """See vectors (F, 3) from the body, which is turned back: to its left, up, ahead."""
     seen = (on_ground(vectors) - origin) * back
     return np.stack([seen.imag, vectors[:, 1], seen.real], axis=-1)
-
-
-WEIGHTS = {  # [Hol20]
-    "feet": 0.75,
-    "foot velocities": 1.0,
-    "hip velocity": 1.0,
-    "places ahead": 1.0,
-    "directions ahead": 1.5,
-}
-END = 1.0  # seconds before a clip's end from which no frame is found: its future is not known
 
 
 @dataclass(frozen=True, eq=False)

@@ -81,7 +81,11 @@ def build_kinds(
     strides: dict[str, Strides] = {}
     for name, kind in kinds.items():
         with _naming(name):
-            strides[name] = kind if isinstance(kind, Strides) else _cut(name, kind)
+            if isinstance(kind, Strides):
+                strides[name] = kind
+            else:
+                label = name if any(name in clip.labels for clip in kind) else ""
+                strides[name] = cut_strides(kind, label=label)
     edges = [(name, name) for name in strides]
     for one, other in permutations(strides, 2) if changes is None else changes:
         if unknown := {one, other} - set(kinds):
@@ -129,10 +133,6 @@ def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -
         f"None of {len(strides)} strides turns on the spot, by {np.degrees(turns):.0f}° or more at {slow:g} "
         f"m/s at most; {nearest}: add clips of such turns."
     )
-
-
-def _cut(name: str, clips: Sequence[Motion]) -> Strides:
-    return cut_strides(clips, label=name if any(name in clip.labels for clip in clips) else "")
 
 
 def _space(name: str, strides: Strides, widest: float, *, warn: bool) -> StrideSpace:

@@ -18,6 +18,11 @@ from mocap.errors import MocapError
 from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, measure_mixes, neighbours
 from mocap.methods.parametric_graphs.strides import mixed_way
 
+HALF = 5  # a window is 11 frames, a third of a second at 30 Hz, about its centre
+WINDOW = 2 * HALF + 1
+SPAN = 3  # frames around a strike at which a transition may be centred
+ROWS = 8  # sources compared in one product
+
 
 @dataclass(frozen=True, eq=False)
 class MadeStride:
@@ -104,12 +109,6 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     marks = dict(zip(strides.contact_names, contacts.T, strict=True))
     motion = Motion(strides.skeleton, roots, turns, strides.fps, "stride", contacts=marks)
     return MadeStride(motion, phases, facing, values)
-
-
-HALF = 5  # a window is 11 frames, a third of a second at 30 Hz, about its centre
-WINDOW = 2 * HALF + 1
-SPAN = 3  # frames around a strike at which a transition may be centred
-ROWS = 8  # sources compared in one product
 
 
 class OptimalTransitions(NamedTuple):

@@ -9,7 +9,6 @@ import pytest
 from mocap import datasets, resample
 from mocap._shared.arrays import runs
 from mocap.body import find_legs, joint_positions
-from mocap.feet import mark_plants
 from mocap.methods.match_webs import build_web
 
 BUNDLED = ("walk_straight", "walk_circle", "sneak", "jog", "stop_and_go")
@@ -68,30 +67,13 @@ def bundled():
 
 @pytest.fixture(scope="session")
 def subject16(real_data):
-    """All 58 trials of subject 16, with a web below 12 cm, their walking cycles and their jumps."""
+    """All 58 trials of subject 16, with a web below 12 cm, and their jumps."""
     trials = datasets.trials(16)
     clips = [datasets.cmu(trial.name) for trial in trials]
-    names = [trial.name for trial in trials]
-    walking = {n for n, trial in enumerate(trials) if "walk" in trial.description}
-    running = {n for n, trial in enumerate(trials) if "run" in trial.description}
     jumping = [n for n, trial in enumerate(trials) if "jump" in trial.description]
-    steps = [(n, part) for n in sorted(walking) for part in cycles(mark_plants(clips[n]), 0.75, 5 / 3)]
     jumps = [(n, part) for n in jumping for part in flights(clips[n])]
-
-    def cut_off(match):
-        """A cycle that the clip's start or end cuts off, in a trial of that kind."""
-        return match.clip in walking and (match.start <= 12 or match.stop >= len(clips[match.clip]) - 16)
-
-    return SimpleNamespace(
-        clips=clips,
-        names=names,
-        web=build_web(clips),
-        steps=steps,
-        jumps=jumps,
-        running=running,
-        walking=walking,
-        cut_off=cut_off,
-    )
+    names = [trial.name for trial in trials]
+    return SimpleNamespace(clips=clips, names=names, web=build_web(clips), jumps=jumps)
 
 
 @pytest.fixture(scope="session")

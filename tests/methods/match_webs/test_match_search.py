@@ -162,33 +162,6 @@ def test_hostile_queries_are_one_sentence(bundled, clip, frames, settings, messa
 
 
 @pytest.mark.exhaustive
-def test_one_step_finds_a_few_walking_cycles_and_all_steps_find_all(subject16):
-    web, truth = subject16.web, subject16.steps
-    assert len(truth) == 50
-
-    def ask(name, number, below, steps):
-        clip = subject16.names.index(name)
-        query = [part for n, part in truth if n == clip][number]
-        return search(web, clip, query, below=below, steps=steps)
-
-    one, every = ask("16_27", 0, 0.05, 1), ask("16_27", 0, 0.05, None)
-    assert judge(one, truth, 0.6, subject16.cut_off)[0] <= 5
-    assert judge(every, truth, 0.6, subject16.cut_off) == (50, 0)
-    hit, wrong = judge(ask("16_15", 1, 0.04, None), truth, 0.6, subject16.cut_off)
-    assert hit >= 40 and wrong == 0
-    all_of_them = ask("16_15", 1, 0.06, None)
-    assert {match.clip for match in all_of_them} == subject16.walking
-    starts = {n: [part.start for m, part in truth if m == n] for n in subject16.walking}
-    for generation in (1, 2, 3):
-        off = [
-            np.abs(np.array(starts[match.clip]) - match.start).min() / 120
-            for match in all_of_them
-            if match.generation == generation and starts[match.clip] and not subject16.cut_off(match)
-        ]
-        assert np.median(off) <= 0.05
-
-
-@pytest.mark.exhaustive
 def test_a_jump_finds_the_others_and_a_leak_finds_hundreds_of_other_things(subject16):
     truth = subject16.jumps
     assert len(truth) == 9

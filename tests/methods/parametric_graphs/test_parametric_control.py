@@ -45,6 +45,7 @@ def test_seams_of_steps_cost_what_the_edges_promise():
     assert cost.max() <= 1.35 * 0.03 + 0.01 and (cost > 1.35 * 0.03).mean() <= 0.02
 
 
+@pytest.mark.sweep
 def test_seams_between_kinds_cost_what_their_edges_promise():
     """Each is left when its own edge says so: left when the first of them may, one costs 10 cm."""
     random, character = np.random.default_rng(0), ParametricController(many_kinds())
@@ -87,13 +88,6 @@ def test_frames_left_count_down_to_a_decision():
         decided.append(len(character.chosen) > before)
     assert all(decided[frame] == (left[frame] == 0) for frame in range(80))
     assert sum(decided) >= 2
-
-
-def test_most_steps_only_read():
-    """One stride of work per stride: the rest are look-ups, counted by how many strides are made."""
-    character = ParametricController(walking())
-    steer(character, command_headings(20, 30, seed=1), SPEED)
-    assert len(character.chosen) <= 600 / 20
 
 
 def test_it_goes_from_kind_to_kind_by_the_changes_between():

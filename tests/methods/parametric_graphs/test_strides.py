@@ -145,13 +145,6 @@ def test_a_joint_turned_by_half_a_circle_keeps_its_sign_from_phase_to_phase():
     assert ((poses[:, 1:] * poses[:, :-1]).sum(-1) > 0).all()
 
 
-def test_some_of_the_examples_can_be_taken():
-    cut = strides()
-    some = cut.take(np.arange(len(cut)) < 5)
-    assert len(some) == 5
-    np.testing.assert_array_equal(some.poses, cut.poses[:5])
-
-
 def test_only_strides_with_a_label_are_cut():
     clip = resample(sample("sneak"), 30)
     sneaks, all_ = cut_strides([clip], label="sneak"), cut_strides([clip])
