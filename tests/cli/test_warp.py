@@ -80,11 +80,6 @@ def test_the_motion_is_as_it_was_outside_the_window_unless_the_plan_says_from_wh
     assert len(changed("at 90 same\nat 100 same")) == 0
 
 
-def test_the_last_second_may_be_rounded_up(folder):
-    clip = WALK[:359]  # 2.983 s
-    assert len(warp(clip, plan(folder, "time 0 0\ntime 2 2.985"), feet=False)) == 241
-
-
 def test_several_joints_at_one_moment(folder):
     both = plan(folder, "at 1.5s lhand 0 0.1 0\nat 180 rhand 0 0.12 0")
     right = WALK.skeleton.index("rhand")
@@ -120,17 +115,12 @@ def test_between_two_level_poses_the_hand_stays(folder):
         ("at 5 same\nmove lhand", "line 2: expected 'at MOMENT JOINT LEFT UP AHEAD .*got 'move lhand'"),
         ("at 5", "line 1: expected 'at MOMENT .*got 'at 5'"),
         ("at 5 lhand", "line 1: .*got 'at 5 lhand'"),
-        ("at 5 lhand 1 2", "line 1: .*got 'at 5 lhand 1 2'"),
         ("at 5 same 1 2 3", "line 1: .*got 'at 5 same 1 2 3'"),
-        ("at 5 same level", "line 1: .*got 'at 5 same level'"),
         ("at 5 lhand 1 2 level", "line 1: expected LEFT UP AHEAD.*got 'level' as number 3"),
         ("at", "line 1: .*got 'at'"),
-        ("at level", "line 1: .*got 'at level'"),
         ("at -5 same", "line 1: .*got 'at -5 same'"),
-        ("at 5m same", "line 1: .*got 'at 5m same'"),
         (f"at {'9' * 400} same", "line 1: expected a moment, all below 1e[+]09"),
         ("\n\nat 5 lhand 1 nan 3", "line 3: expected LEFT UP AHEAD, in metres.*got 'nan' as number 2"),
-        ("time 1", "line 1: .*got 'time 1'"),
         ("time 1 x", "line 1: expected time NEW OLD, in seconds, got 'x' as number 2"),
         ("time 0 0", "line 1: expected two lines or more about time, got one"),
         (
@@ -190,16 +180,6 @@ def test_any_words_are_a_plan_or_one_sentence(tmp_path_factory, text):
     except MocapError as error:
         assert "\n" not in str(error)
         assert len(str(error)) <= 200 + len(str(path))
-
-
-def test_where_nothing_can_be_written_nothing_is_done(folder, monkeypatch, capsys):
-    monkeypatch.chdir(folder)
-    (folder / "k.txt").write_text("at 5 same")
-    before = {path: path.read_bytes() for path in folder.iterdir()}
-    for out, message in (("new.txt", "is written as .bvh, .glb or .amc, got"), ("walk.bvh", "files to read")):
-        assert main(["warp", "walk.bvh", "--keys", "k.txt", "-o", out]) == 2
-        assert message in capsys.readouterr().err
-    assert {path: path.read_bytes() for path in folder.iterdir()} == before
 
 
 def test_a_clip_of_a_file_that_holds_hinges_only_says_how_it_can_be_written(
