@@ -172,6 +172,7 @@ def test_experiments_move_through_recorded_positions(tmp_path, monkeypatch):
     assert len(set(recorded["pictures"])) == 4
 
 
+@pytest.mark.sweep
 def test_a_notebook_that_does_not_run_is_not_recorded(tmp_path):
     folder = write_course(tmp_path / "in", new_markdown_cell("# One"), new_code_cell("1 / 0"))
     with pytest.raises(MocapError, match=r"00-one.ipynb: a cell fails with ZeroDivisionError"):

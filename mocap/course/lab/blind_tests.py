@@ -179,14 +179,15 @@ def choose(clips: Sequence[Motion], found: Transitions, plan: Plan) -> Transitio
         abs(found.leave - found.enter) > fps
     )  # and no mere moment on
     near = (found.cost <= plan.below) & (found.cost > NEAR * plan.below)
-    usable = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
+    usable: Transitions = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
     if len(usable) < plan.pairs:
         costs = f"{100 * NEAR * plan.below:.1f} to {100 * plan.below:.1f} cm"
         room = f"{SECONDS / 2 + AROUND:.1f} s of both clips around them"
         raise MocapError(
             f"A blind test needs {plan.pairs} matches of {costs}, with {room}; got {len(usable)}."
         )
-    return usable[np.random.default_rng(plan.seed).permutation(len(usable))[: plan.pairs]]
+    chosen: Transitions = usable[np.random.default_rng(plan.seed).permutation(len(usable))[: plan.pairs]]
+    return chosen
 
 
 def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[Pair]:

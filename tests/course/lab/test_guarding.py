@@ -53,18 +53,7 @@ def test_what_a_function_prints_is_dropped_with_one_sentence(capsys):
     assert chatty.yours
 
 
-def test_a_function_that_never_ends_is_stopped(monkeypatch, capsys):
-    monkeypatch.setattr(guarding, "SECONDS", 0.05)
-
-    def forever(a, b):
-        while True:
-            pass
-
-    assert slot("hamilton", forever)(*np.eye(4)[:2]).tolist() == [0, 1, 0, 0]
-    assert "yours did not end within 0.05 s; the package's" in capsys.readouterr().out
-
-
-def test_a_function_that_never_ends_and_catches_exceptions_is_stopped(monkeypatch, capsys):
+def test_a_function_that_never_ends_is_stopped_though_it_catches_exceptions(monkeypatch, capsys):
     monkeypatch.setattr(guarding, "SECONDS", 0.05)
 
     def forever(a, b):
@@ -75,7 +64,7 @@ def test_a_function_that_never_ends_and_catches_exceptions_is_stopped(monkeypatc
             except Exception:
                 continue
 
-    slot("hamilton", forever)(*np.eye(4)[:2])
+    assert slot("hamilton", forever)(*np.eye(4)[:2]).tolist() == [0, 1, 0, 0]
     assert "yours did not end within 0.05 s; the package's" in capsys.readouterr().out
 
 

@@ -186,63 +186,47 @@ def test_names_are_those_of_the_caller():
 # All files, and the notebooks
 
 
-NUMBER, TEXT = (int, float, str), str
-FIELDS = {  # the types of what each kind has, and of what it may have
-    "choice": (
-        {"question": TEXT, "right": TEXT, "wrong": dict, "because": TEXT},
-        {"holds": TEXT, "place": int},
-    ),
-    "number": (
-        {
-            "question": TEXT,
-            "answer": NUMBER,
-            "tolerance": (int, float),
-            "too_low": TEXT,
-            "too_high": TEXT,
-            "because": TEXT,
-        },
-        {"unit": TEXT, "slips": list},
-    ),
-    "order": ({"question": TEXT, "steps": list, "hints": list, "because": TEXT}, {}),
-    "bet": (
-        {"ask": TEXT, "came_out": NUMBER},
-        {"low": (int, float), "high": (int, float), "step": (int, float), "holds": TEXT, "unit": TEXT}
-        | {"choices": list, "real": bool},
-    ),
+FIELDS = {  # what each kind has, and what it may have
+    "choice": ("question right wrong because", "holds place"),
+    "number": ("question answer tolerance too_low too_high because", "unit slips"),
+    "order": ("question steps hints because", ""),
+    "bet": ("ask came_out", "choices unit low high step holds real"),
 }
 
 
 def faults(one):
     """Say what is wrong with a question: no hint for a wrong answer, no answer, the same choice twice."""
-    kind = one.get("kind", "bet")
-    must, may = FIELDS[kind]
-    given = one.keys() - {"kind"}
-    if must.keys() - given or given - must.keys() - may.keys():
-        yield f"it lacks {must.keys() - given}, or should not have {given - must.keys() - may.keys()}"
-    for field in given & {*must, *may}:
-        if not isinstance(one[field], (must | may)[field]) or (one[field] == "" and field != "unit"):
-            yield f"{field} cannot be {one[field]!r}"
-    if kind == "choice":
-        texts, different = [*one["wrong"], *one["wrong"].values()], [one["right"], *one["wrong"]]
-        whole = one["wrong"] and 0 <= one.get("place", 0) <= 1 + len(one["wrong"])
-    elif kind == "number":
-        texts, different = [hint for _, hint in one.get("slips", [])], []
-        whole = one["tolerance"] > 0 and all(isinstance(number, NUMBER) for number, _ in one.get("slips", []))
-    elif kind == "order":
-        texts, different = [*one["steps"], *one["hints"]], one["steps"]
-        whole = len(one["steps"]) >= 3 and len(one["hints"]) == len(one["steps"]) - 1
-    else:
-        bet = BET | one
-        texts = different = bet["choices"]
-        whole = not different or (len(different) >= 2 and one["came_out"] in different)
-        whole &= bet["step"] > 0 and (bet["low"] is None) == (bet["high"] is None)
-        whole &= (bet["high"] or 1) > (bet["low"] or 0)
-    if not whole:
-        yield "it has no right answer, or too few wrong ones, hints or places"
-    if not all(isinstance(text, str) and text.strip() for text in texts) or len({*different}) < len(
-        different
+    kind, nothing = one.get("kind", "bet"), {"wrong": {}, "slips": [], "steps": [], "hints": [], "place": 0}
+    table = BET | nothing | one
+    must, may = (set(names.split()) for names in FIELDS[kind])
+    if not must <= one.keys() - {"kind"} <= must | may:
+        yield f"it needs {must}, and may have {may}"
+    different = [
+        *table["choices"],
+        *table["steps"],
+        *table["wrong"],
+        *[one.get("right")] * (kind == "choice"),
+    ]
+    texts = [one[name] for name in must - {"answer", "came_out", "tolerance", "wrong", "steps", "hints"}]
+    texts += [*different, *table["wrong"].values(), *table["hints"], *(hint for _, hint in table["slips"])]
+    if not all(isinstance(text, str) and text.strip() for text in texts):
+        yield "something is empty"
+    if len({*different}) < len(different):
+        yield "something is there twice"
+    low, high, choices = table["low"], table["high"], table["choices"]
+    if (
+        not {
+            "choice": 0 <= table["place"] <= 1 + len(table["wrong"]) > 1,
+            "number": one.get("tolerance", 0) > 0,
+            "order": len(table["steps"]) == len(table["hints"]) + 1 >= 3,
+            "bet": (not choices or one.get("came_out") in choices)
+            and len(choices) != 1
+            and table["step"] > 0,
+        }[kind]
+        or (low is None) != (high is None)
+        or (high or 1) <= (low or 0)
     ):
-        yield "something is empty, or there twice"
+        yield "it has no right answer, or too few wrong ones, hints or places"
 
 
 def test_what_is_not_whole_is_found():
