@@ -16,7 +16,7 @@ import os
 import re
 import textwrap
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
@@ -158,37 +158,36 @@ def run(path: Path, figures: Path) -> None:
             cell.attachments[name] = {"image/png": base64.b64encode((figures / name).read_bytes()).decode()}
     texts = [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
     notebook.cells.append(nbformat.v4.new_code_cell(marked_values.question(texts)))
-    _execute(notebook, path)
+    execute(notebook, path)
     _refresh(notebook, path, notebook.cells.pop().outputs)
     settle(notebook)
     write_text(path, nbformat.writes(notebook) + "\n")
 
 
-def execute(notebook: Any, folder: Path, seconds: int, started: Callable[..., object] | None = None) -> None:  # noqa: ANN401
+def execute(notebook: Any, path: Path, seconds: int = 120) -> None:  # noqa: ANN401
     """Run a notebook as if nobody had solved anything, by a kernel that does not warn of its connection.
 
     Parameters
     ----------
     notebook : from `read`; it takes the outputs.
-    folder : where its cells find files.
+    path : its file, beside which its cells find others.
     seconds : that a cell may take.
-    started : called with `cell` and `cell_index` when a cell starts.
+
+    Raises
+    ------
+    MocapError : if a cell fails; it says which.
     """
     from nbclient import NotebookClient
-
-    place, quiet = {"metadata": {"path": folder}}, ["--log-level=ERROR"]
-    more: dict[str, Any] = {"resources": place, "extra_arguments": quiet, "on_cell_start": started}
-    NotebookClient(notebook, timeout=seconds, **more).execute(env={**os.environ, "MOCAP_MINE": ""})
-
-
-def _execute(notebook: Any, path: Path) -> None:  # noqa: ANN401
     from nbclient.exceptions import CellExecutionError
 
     at = [0]
+    options: dict[str, Any] = {"resources": {"metadata": {"path": path.parent}}, "timeout": seconds}
+    client: Any = NotebookClient(notebook, extra_arguments=["--log-level=ERROR"], **options)
+    client.on_cell_start = lambda cell, cell_index: at.append(cell_index)
     try:
-        execute(notebook, path.parent, 120, lambda cell, cell_index: at.append(cell_index))
+        client.execute(env={**os.environ, "MOCAP_MINE": ""})
     except CellExecutionError as error:
-        raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue}") from error
+        raise MocapError(f"{path}, cell {at[-1]}: {error.ename}: {error.evalue:.99}") from error
 
 
 def _refresh(notebook: Any, path: Path, answer: list[Any]) -> None:  # noqa: ANN401

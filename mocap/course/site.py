@@ -119,17 +119,11 @@ def prepared(file: Path, *, moving: bool) -> tuple[str, Any]:
 
 def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
     """Run a copy of a notebook, and give the recording of each experiment by the source of its cell."""
-    from nbclient.exceptions import CellExecutionError
-    from nbformat.v4 import new_code_cell
-
     with tempfile.TemporaryDirectory() as folder:
         again = copy.deepcopy(notebook)
         watching = f"from mocap.widgets import recording\nrecording.watch({folder!r})"
-        again.cells.insert(0, new_code_cell(watching))
-        try:
-            execute(again, file.parent, 600)
-        except CellExecutionError as error:
-            raise MocapError(f"{file}: a cell fails with {error.ename}: {error.evalue:.99}") from error
+        again.cells[0] = library().v4.new_code_cell(watching)  # in place of the heading
+        execute(again, file, 600)
         recorded = [json.loads(kept.read_text("utf-8")) for kept in sorted(Path(folder).iterdir())]
     for one in recorded:
         if "error" in one:
