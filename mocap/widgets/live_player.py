@@ -88,34 +88,29 @@ def draw_path(follow: Follow, path: ArrayLike) -> Any:  # noqa: ANN401
 
     Notebook: 08-path-synthesis
     """
-    on_canvas = {"drawable": True, "follow": False, "reports": False}
-    points = np.reshape(np.asarray(path, float), (-1, 2))
-    player, message = _along(follow, points)
     canvas = widget(LivePlayer)()
-    canvas.show(player, **on_canvas)
-    canvas.path, canvas.error, canvas.message = points.tolist(), None, message
 
-    def walk(change: dict[str, Any]) -> None:
+    def walk(path: Array, **extra: bool) -> None:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", MocapWarning)
+            made = follow(path)
+        player = made if isinstance(made, Player) else play(made)
+        player = player if len(player.path) else replace(player, path=path)
+        canvas.show(player, drawable=True, follow=False, reports=False, **extra)
+        canvas.error = None
+        canvas.message = "\n".join([player.alt, *(str(warning.message) for warning in caught)])
+
+    def redraw(change: dict[str, Any]) -> None:
         try:
-            player, message = _along(follow, np.array(change["new"], float))
-            canvas.show(player, **on_canvas, autoplay=True)
-            canvas.error, canvas.message = None, message
+            walk(np.array(change["new"], float), autoplay=True)
         except Exception as error:  # of any kind: it comes from a student's function
             canvas.error, canvas.message = error, f"{type(error).__name__}: {error}"
 
-    canvas.observe(walk, "path")
+    points = np.reshape(np.asarray(path, float), (-1, 2))
+    walk(points)
+    canvas.path = points.tolist()
+    canvas.observe(redraw, "path")
     return canvas
-
-
-def _along(follow: Follow, path: Array) -> tuple[Player, str]:
-    """Follow a path; return the player, and what stands below the canvas: its `alt`, and all warnings."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", MocapWarning)
-        made = follow(path)
-    player = made if isinstance(made, Player) else play(made)
-    if not len(player.path):
-        player = replace(player, path=path)
-    return player, "\n".join([player.alt, *(str(warning.message) for warning in caught)])
 
 
 class Mixer:

@@ -57,9 +57,10 @@ def record(experiment: Experiment, *, room: int = ROOM) -> dict[str, Any] | None
         rest = control.value
         at = next(number for number, (_, value) in enumerate(positions) if value == rest)
         try:
-            pictures = [_picture(experiment.set(**{name: value})) for _, value in positions]
+            stills = [experiment.set(**{name: value}).still()[0]["image/png"] for _, value in positions]
         finally:
             experiment.set(**{name: rest})
+        pictures = [Image.open(io.BytesIO(base64.b64decode(png))).convert("RGB") for png in stills]
         kept, small = _fitting(pictures, at, room)
         return {
             "name": name.replace("_", " "),
@@ -98,10 +99,6 @@ def _spread(count: int, at: int, most: int) -> list[int]:
         inner = places[1:-1] if len(places) > 2 else places
         places[np.flatnonzero(places == inner[np.abs(inner - at).argmin()])] = at
     return [int(place) for place in np.sort(places)]
-
-
-def _picture(experiment: Experiment) -> Image.Image:
-    return Image.open(io.BytesIO(base64.b64decode(experiment.still()[0]["image/png"]))).convert("RGB")
 
 
 def _fitting(pictures: list[Image.Image], at: int, room: int) -> tuple[list[int], list[bytes]]:
