@@ -6,11 +6,10 @@ transition may leave its clip later than before, or enter the other clip earlier
 walk of the old graph has its counterpart in the new one, and no frame of a clip is lost.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
@@ -19,6 +18,8 @@ from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.transitions import Transition
 
 Ends = tuple[Node, Node]
+
+AT_ONCE = 2048  # transitions measured together, to limit the memory
 
 
 def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: float) -> MotionGraph:
@@ -60,14 +61,12 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
         for a, b, edge in edges
         if edge["kind"] == "transition"
     }
-    clouds = [point_cloud(clip) for clip in clips]
     goals = _goals(list(ways), within)
     old, measured = list(ways), dict(ways)
     while True:  # each round sends at least one point back, or is the last
         new = [(goals[a], goals[b]) for a, b in old]
-        for ends in new:
-            if ends not in measured and _fits(clips, window, *ends):
-                measured[ends] = _measured(clouds, window, *ends)
+        fresh = [ends for ends in dict.fromkeys(new) if ends not in measured and _fits(clips, window, *ends)]
+        measured.update(_measured(clips, window, fresh))
         bad = [
             ends
             for ends, moved in zip(old, new, strict=True)
@@ -101,11 +100,19 @@ def _fits(clips: Sequence[Motion], window: int, leave: Node, enter: Node) -> boo
     return inside and (leave[0] != enter[0] or abs(enter[1] - window - leave[1]) >= window)
 
 
-def _measured(clouds: Sequence[Array], window: int, leave: Node, enter: Node) -> Transition:
-    """Align the windows of a transition from node to node, and measure the RMS distance that remains."""
-    (clip, first), (other, last) = leave, enter
-    points = clouds[clip][first : first + window].reshape(-1, 3)
-    others = clouds[other][last - window : last].reshape(-1, 3)
-    there = PlanarTransform(*map(float, align(points, others)))
-    cost = float(np.sqrt(((points - there.apply_points(others)) ** 2).sum(-1).mean()))
-    return Transition(clip, first, other, last - window, cost, there)
+def _measured(
+    clips: Sequence[Motion], window: int, ends: Sequence[Ends]
+) -> Iterator[tuple[Ends, Transition]]:
+    """Align the windows of transitions from node to node, and measure the RMS distance that remains."""
+    clouds = [point_cloud(clip).reshape(len(clip), -1) for clip in clips]
+    for first in range(0, len(ends), AT_ONCE):
+        part = ends[first : first + AT_ONCE]
+        points, others = (
+            np.stack([clouds[clip][start : start + window].reshape(-1, 3) for clip, start in starts])
+            for starts in ([a for a, _ in part], [(clip, frame - window) for _, (clip, frame) in part])
+        )  # (N, window · P, 3)
+        there = np.stack(align(points, others), axis=-1)  # (N, 3)
+        laid = PlanarTransform(*there.T[..., None]).apply_points(others)
+        costs = np.sqrt(((points - laid) ** 2).sum(-1).mean(-1))
+        for (a, b), cost, numbers in zip(part, costs.tolist(), there.tolist(), strict=True):
+            yield (a, b), Transition(a[0], a[1], b[0], b[1] - window, cost, PlanarTransform(*numbers))

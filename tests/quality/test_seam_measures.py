@@ -233,8 +233,9 @@ def beyond(usual: Spread, largest: np.ndarray) -> np.ndarray:
     return 100 * (largest[:, None] > limits).mean(axis=0) - (100 - SHARES)
 
 
+@pytest.mark.sweep
 @pytest.mark.filterwarnings("ignore:.*let go")
-@pytest.mark.parametrize("seed", [0, *(pytest.param(n, marks=pytest.mark.sweep) for n in (1, 2))])
+@pytest.mark.parametrize("seed", range(3))
 def test_two_hundred_seams_of_real_walks_are_as_smooth_as_the_clips(captured, seed):
     clips, usual, good, _ = captured
     some = np.random.default_rng(seed).permutation(len(good))[:200]
