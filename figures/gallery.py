@@ -254,10 +254,12 @@ def draw_seam() -> Figure:
     ankles = [walk.skeleton.index(name) for name in ("lfoot", "rfoot")]
     heights = 100 * joint_positions(walk)[:, ankles, 1]
     seams = [(seam.frame, seam.frame + WINDOW) for seam in synthesis.seams(graph, edges)]
-    curves = plotting.joint_curve(heights, fps=30, seams=seams)
+    curves = plotting.joint_curve(heights, fps=30)
     for curve, side in zip(curves, ("left", "right"), strict=True):
         curve.set(color=COLOURS[side], label=f"{side} ankle")
     ax = curves[0].axes
+    for start, end in np.array(seams) / 30:
+        ax.axvspan(start, end, color=MARK, alpha=0.25, linewidth=1)
     ax.set_ylabel("height (cm)")
     ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2)
     return plt.gcf()

@@ -66,7 +66,9 @@ def _centimetres(grid: Grid, cells: ArrayLike, clock: tuple[float, float], ax: A
     return image
 
 
-def web_image(grid: Grid, *, marks: ArrayLike | None = None, paths: Sequence[ArrayLike] = ()) -> Axes:
+def web_image(
+    grid: Grid, *, marks: ArrayLike | None = None, paths: Sequence[ArrayLike] = (), ax: Axes | None = None
+) -> Axes:
     """Draw the distances of two clips with marked cells and with paths.
 
     Parameters
@@ -74,6 +76,7 @@ def web_image(grid: Grid, *, marks: ArrayLike | None = None, paths: Sequence[Arr
     grid : √D, shape (n, m), metres, of 30 windows per second; the axes are in seconds.
     marks : cells to mark with dots, booleans of shape (n, m), such as from `minima_1d`.
     paths : cells (row, column) of each path, shape (N, 2).
+    ax : axes; new ones by default.
 
     Examples
     --------
@@ -83,7 +86,7 @@ def web_image(grid: Grid, *, marks: ArrayLike | None = None, paths: Sequence[Arr
 
     Notebook: 16-match-webs
     """
-    ax = plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
+    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
     _centimetres(100 * np.asarray(grid), () if marks is None else np.argwhere(marks), (30.0, 0.0), ax)
     ax.lines[-1].set(markersize=2, markeredgewidth=0)
     lines = [(np.asarray(path)[:, ::-1] + 0.5) / 30 for path in paths]
