@@ -120,20 +120,6 @@ def test_what_no_walk_gives_is_bent_and_still_met():
             assert words in found.report()
 
 
-def test_without_bending_the_best_walk_misses_by_decimetres():
-    """The naive way: play what the search found as it is."""
-    graph, lacks = walking(), []
-    for seed in range(4):
-        start, end, seconds = asked_anywhere(graph, seed)
-        near = [choices(graph, moment, way=way, limit=np.inf) for moment, way in ((start, 1), (end, -1))]
-        frames = round(seconds * graph.fps)
-        best = TwoSided(graph, (near[0], near[1]), frames, Limits()).best(1)[0]
-        walk = to_motion(graph.source, [graph.edges[edge] for edge in best.edges], place=best.place)
-        last = walk[: best.first + best.frames + 1].root_positions[-1]
-        lacks.append(np.linalg.norm((last - end.placed().root_positions[0])[[0, 2]]))
-    assert np.median(lacks) > 0.3
-
-
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 def test_poses_of_a_clip_that_is_not_in_the_graph_are_met(fps):
     clip = resample(samples.sample("walk_straight"), fps)
