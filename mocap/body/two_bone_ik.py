@@ -83,5 +83,5 @@ def two_bone(start: ArrayLike, target: ArrayLike, lengths: tuple[float, float], 
     hinge = np.cross(across, along)
     down = -np.stack([(middle - start) / upper, (end - middle) / lower])
     hinge = np.broadcast_to(hinge, down.shape)
-    turns = rotations.from_matrix(np.stack([hinge, down, np.cross(hinge, down)], axis=-1))
-    return TwoBone(middle, end, *turns, np.abs(reach - length)[..., 0] < 1e-9)
+    thigh, shank = rotations.from_matrix(np.stack([hinge, down, np.cross(hinge, down)], axis=-1))
+    return TwoBone(middle, end, thigh, shank, np.abs(reach - length)[..., 0] < 1e-9)
