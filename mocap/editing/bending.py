@@ -60,7 +60,7 @@ class Bent:
     def rounded(self) -> Mask:
         """Whether the line is rounded where the walk is in each frame, shape (F,)."""
         parts = [(r.start <= self.along) & (self.along <= r.end) for r in self.line.roundings]
-        return np.any([np.zeros(len(self.along), bool), *parts], axis=0)
+        return np.asarray(np.any([np.zeros(len(self.along), bool), *parts], axis=0))
 
     @cached_property
     def turned(self) -> Array:

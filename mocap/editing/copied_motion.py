@@ -123,11 +123,10 @@ def _bone_turns(source: Stance, target: Stance) -> dict[int, tuple[int, Array]]:
     looks = {}
     for joint, name in enumerate(target.skeleton.names):
         role = role_of.get(joint)
+        own = source.roles.get(role or "")
         if role is None and name in source.skeleton.names:
             own = source.skeleton.index(name)
-        elif role in source.roles:
-            own = source.roles[role]
-        else:
+        if own is None:
             continue
         above = target.skeleton.path_to_root(joint)
         role = next((f"{side} elbow" for side in SIDES if target.roles.get(f"{side} wrist") in above), role)

@@ -7,8 +7,6 @@ the body moves there, so that a clip of somebody who mostly stands still gives a
 is large for a held pose, and for half a stride. Method and measure are ours.
 """
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 from typing import NamedTuple

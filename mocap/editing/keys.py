@@ -1,7 +1,5 @@
 """Keys, the curve through them, and warps by offsets, θ(t) + b(t), and by scale, a(t) θ(t) [WP95]."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise

@@ -7,8 +7,6 @@ their own x. So each joint gets a fixed turn K besides, which lays the bones of 
 images of its own. The method is ours.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

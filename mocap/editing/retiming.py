@@ -5,8 +5,6 @@ the motion runs backwards for a while. Here g is PCHIP [ours], the piecewise cub
 Carlson (1980), which rises wherever its keys rise.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

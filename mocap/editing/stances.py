@@ -4,8 +4,6 @@ A rest pose says little. Some files rest with the arms out, some with the arms d
 along one line. So two bodies are compared as they stand: feet flat, heading +z.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace

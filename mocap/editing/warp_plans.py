@@ -1,7 +1,5 @@
 """A warp written down in a small text file: which joints are moved when, and which moments happen when."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -82,7 +80,8 @@ def load_plan(path: str | Path) -> WarpPlan:
     ...     load_plan(file).wishes[0].move
     (0.1, 0.25, 0.0)
     """
-    wishes, times = [], []
+    wishes: list[Wish] = []
+    times: list[tuple[int, float, float]] = []
     for number, words in lines(read_text(path)):
         found = POSE.fullmatch(" ".join(words))
         if found:

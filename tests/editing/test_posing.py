@@ -1,4 +1,4 @@
-"""Whole warps: a hand to a post, a higher jump, a deeper crouch, on generated and on captured clips."""
+"""Whole warps: a hand to a post, a higher jump, a deeper crouch, on generated clips."""
 
 import warnings
 from dataclasses import replace

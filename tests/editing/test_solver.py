@@ -94,7 +94,7 @@ def by_scipy(clip, pins, body, basis, weight):
     return least_squares(residuals, start, slopes, tr_solver="lsmr", x_scale="jac", max_nfev=60).cost * 2
 
 
-@pytest.mark.parametrize("real", [False, True])
+@pytest.mark.parametrize("real", [False, pytest.param(True, marks=pytest.mark.sweep)])
 def test_the_cost_is_scipys(real, request):
     clip = (captured(request.getfixturevalue("real_data")) if real else walk())[130:250]
     pins = stone(clip, 0.1, 0)
