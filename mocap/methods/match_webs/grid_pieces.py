@@ -1,18 +1,16 @@
 """The paths in a grid that is too large to hold: it is made and searched piece by piece."""
 
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from itertools import pairwise
 
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.progress import Progress
-from mocap._shared.tasks import run_in_order
 from mocap.matching.distance_grids import Cloud, cloud_distances, tiles
 from mocap.methods.match_webs.local_alignment import apart, local_paths, minima_1d
 
-ROWS, COLUMNS = 600, 4000  # windows on the sides of the part of the grid that a worker gets at a time
+ROWS, COLUMNS = 600, 4000  # windows on the sides of the part of the grid that is worked on at a time
 OVERLAP = 300  # windows that two parts of a long clip share, 10 s: no query is longer
 SLOPE = 2  # frames of one clip at most in a row that lie on one frame of the other
 LEAST = 9  # frames that a path advances in each clip, 0.3 s
@@ -20,15 +18,7 @@ NEAR = 3  # frames; a path of which more than half lies so close to a better one
 OFF_MINIMUM = 0.5  # by how much a cell that is no one-dimensional minimum costs more, in units of `below`
 
 
-def find_paths(  # noqa: PLR0913 (a grid, a limit, and how to work)
-    cloud: Cloud,
-    starts: Indices,
-    taper: Array,
-    below: float,
-    *,
-    progress: Progress,
-    executor: Executor | None,
-) -> list[Array]:
+def find_paths(cloud: Cloud, starts: Indices, taper: Array, below: float, progress: Progress) -> list[Array]:
     """Find the paths above the diagonal, each of shape (K, 3): two windows and their RMS distance.
 
     Parameters
@@ -37,7 +27,7 @@ def find_paths(  # noqa: PLR0913 (a grid, a limit, and how to work)
     starts : where each clip begins, and where the last ends.
     taper : shape (k,), the weights of a window's frames.
     below : the mean distance that a path may have, metres.
-    progress, executor : as for `build_web`.
+    progress : as for `build_web`.
     """
     rows, columns = (pieces(starts.tolist(), most, OVERLAP) for most in (ROWS, COLUMNS))
     pairs = [
@@ -47,13 +37,10 @@ def find_paths(  # noqa: PLR0913 (a grid, a limit, and how to work)
         if column.stop > row.start
     ]
     last = len(cloud.sizes) - len(taper) + 1
-    tasks = (
-        (*(cloud.part(slice(part.start, min(part.stop, last))) for part in pair), corner, taper, below)
-        for pair in progress(pairs)
-        for corner in [(pair[0].start, pair[1].start)]
-    )
     found = []
-    for cells in run_in_order(paths_between, tasks, executor):
+    for pair in progress(pairs):
+        a, b = (cloud.part(slice(part.start, min(part.stop, last))) for part in pair)
+        cells = paths_between(a, b, (pair[0].start, pair[1].start), taper, below)
         ends = np.flatnonzero(np.diff(cells[:, 0])) + 1
         found += [path for path in np.split(cells[:, 1:], ends) if len(path)]
     if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
@@ -89,7 +76,7 @@ def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
 
 
 def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], taper: Array, below: float) -> Array:
-    """Find the paths in the grid of two pieces: what one worker does at a time.
+    """Find the paths in the grid of two pieces.
 
     Parameters
     ----------

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -94,7 +93,6 @@ def build_web(
     below: float = 0.12,
     window: int = 5,
     progress: Progress = iter,
-    executor: Executor | None = None,
 ) -> MatchWeb:
     """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
@@ -109,7 +107,6 @@ def build_web(
     below : the mean RMS distance that a path may have, metres. A search can ask for less, but not for more.
     window : frames in a window, two or more, at the web's rate of 30 Hz.
     progress : wraps the pairs of pieces as they are worked through, to show a bar.
-    executor : where to work: threads, processes or a cluster, as for `find_transitions`.
 
     Returns
     -------
@@ -147,7 +144,7 @@ def build_web(
     weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, window))
     ready = join_clouds([clip for clip, use in zip(low, long, strict=True) if use], weights, 0, np.float32)
     starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
-    paths = find_paths(ready, np.unique(starts), weights.taper, below, progress=progress, executor=executor)
+    paths = find_paths(ready, np.unique(starts), weights.taper, below, progress)
     cells = np.concatenate([np.empty((0, 3)), *paths])
     offsets = np.cumsum([0, *map(len, paths)])
     return MatchWeb(
