@@ -128,7 +128,9 @@ def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: A
     return ax
 
 
-def boxes_image(costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike) -> Axes:
+def boxes_image(
+    costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike, *, ax: Axes | None = None
+) -> Axes:
     """Draw what it costs that a target follows a source, for all pairs, with each source's box.
 
     Parameters
@@ -136,6 +138,7 @@ def boxes_image(costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike) -
     costs : shape (S, T), centimetres, of S sources and T targets evenly spaced between the ends.
     ends : of sources and targets, such as degrees of turn.
     boxes : shape (S, 2), the low and the high end of each source's box.
+    ax : axes; new ones by default.
 
     Examples
     --------
@@ -145,7 +148,7 @@ def boxes_image(costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike) -
 
     Notebook: 17-parametric-graphs
     """
-    ax = plt.figure(figsize=(5.4, 4.2), layout="constrained").add_subplot()
+    ax = ax or plt.figure(figsize=(5.4, 4.2), layout="constrained").add_subplot()
     look: dict[str, Any] = {"cmap": "cividis", "interpolation": "nearest", "aspect": "auto"}
     image = ax.imshow(np.transpose(costs), extent=(*ends, *ends), origin="lower", **look)
     ax.plot(np.linspace(*ends, len(np.asarray(boxes))), boxes, color=MARK, linewidth=2)
