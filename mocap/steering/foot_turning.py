@@ -125,7 +125,7 @@ class FootTurner:
             self.feet = feet
         moved = np.abs(feet - self.feet)
         self.turned[moved > STANDING / self.fps] = 0
-        pivot = complex(feet[moved.argmin()])
+        pivot = complex(feet[moved.round(6).argmin()])  # all of a flat foot stands: then the ankle
         if abs(pivot - self.pivot) > APART:
             self.angle = 0.0
         self.feet, self.pivot = feet, pivot
