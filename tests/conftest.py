@@ -3,6 +3,7 @@
 import os
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -18,11 +19,16 @@ settings.register_profile(
 )
 settings.load_profile("house")
 
+# What takes a second or more, by `pytest --durations=0`, and the longest notebooks: a sweep runs them.
+LONG = frozenset(Path(__file__).with_name("long.txt").read_text("utf-8").split())
 ASKED_FOR = ("benchmark", "exhaustive", *(() if SWEEP else ("sweep", "tools")))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out what takes long, unless `-m` or a sweep asks for it."""
+    for item in items:
+        if LONG & {item.nodeid.partition("[")[0], item.nodeid.partition("::")[0]}:
+            item.add_marker(pytest.mark.sweep)
     names = [name for name in ASKED_FOR if name not in config.option.markexpr]
     out = [item for item in items if any(item.get_closest_marker(name) for name in names)]
     items[:] = [item for item in items if item not in out]

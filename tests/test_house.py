@@ -191,3 +191,9 @@ def test_types():
 def test_floors():
     """Who may import whom stands in pyproject.toml."""
     run("importlinter.cli", "--no-cache")
+
+
+def test_what_takes_long_is_there():
+    for line in (ROOT / "tests" / "long.txt").read_text("utf-8").split():
+        file, _, name = line.partition("::")
+        assert f"def {name}(" in (ROOT / file).read_text("utf-8") or not name, line
