@@ -123,12 +123,18 @@ def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
     marks: list[marking.Mark] = []
     try:
         for one in marking.mark(folder, bar("marking")):
+            if marks and one.handed_in != marks[-1].handed_in:
+                _write_marks(marks, out, table)  # so that a kill loses one notebook's marks
             marks.append(one)
     finally:  # so that Ctrl-C keeps the marks made so far
-        if marks:
-            write_text(out, marking.to_csv(marks))
-            write_text(table, marking.to_table(marks))
+        _write_marks(marks, out, table)
     print(f"wrote {out} and {table}: {sum(one.right for one in marks)} of {len(marks)} are right")
+
+
+def _write_marks(marks: "list[marking.Mark]", out: Path, table: Path) -> None:
+    if marks:
+        write_text(out, marking.to_csv(marks))
+        write_text(table, marking.to_table(marks))
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:
