@@ -66,19 +66,21 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
            [7., 4.]])
     """
     totals, steps = np.empty_like(costs), np.empty(costs.shape, np.int8)
-    begins = np.zeros(costs.shape, bool)
+    begins, some = np.zeros(costs.shape, bool), starts.any(axis=1)
     # The states of a row and of the one above, shape (2 W + 1, m): A, V₁ … V_W, H₁ … H_W.
     row, above = np.full((2, 2 * slope + 1, costs.shape[1]), np.inf, costs.dtype)
     least = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right
     for i, cost in enumerate(costs):
-        begins[i] = starts[i] & (least[:-1] >= 0)
-        row[0] = np.where(begins[i], 0, least[:-1]) + cost + cost
-        row[1 : slope + 1] = above[:slope] + cost
-        row[slope + 1, 1:] = row[0, :-1] + cost[1:]
+        before, later = least[:-1], cost[1:]
+        if some[i]:
+            begins[i] = starts[i] & (before >= 0)
+            before = np.where(begins[i], 0, before)
+        np.add(before + cost, cost, out=row[0])
+        np.add(above[:slope], cost, out=row[1 : slope + 1])
+        np.add(row[0, :-1], later, out=row[slope + 1, 1:])
         for k in range(slope + 2, 2 * slope + 1):
-            row[k, 1:] = row[k - 1, :-1] + cost[1:]
-        steps[i], totals[i] = row.argmin(0), row.min(0)
-        least[1:] = totals[i]
+            np.add(row[k - 1, :-1], later, out=row[k, 1:])
+        steps[i], least[1:] = row.argmin(0), np.minimum.reduce(row, out=totals[i])
         row, above = above, row
     return PathSums(totals, steps, begins, slope)
 
