@@ -1,0 +1,82 @@
+"""The benchmark: its frame on a toy task, and what every task must have."""
+
+from importlib import import_module
+from types import SimpleNamespace
+
+import benchmark
+import numpy as np
+import pytest
+import tasks
+
+import mocap
+from mocap.errors import MocapError
+from tests.loops import for_each
+
+CASES = [tasks.Case("toys", f"toy-{n}", {"start": [[n]]}, 2.0 * n) for n in range(1, 6)]
+
+
+def refuses_the_first(case):
+    if case.truth == 2:
+        raise MocapError("Not this one.")
+    return np.array([[case.truth - 1.0]])
+
+
+TOY = SimpleNamespace(
+    MEASURES={"off": True, "guessed": False},
+    BASELINES=("start", "nothing"),
+    METHODS={
+        "start": lambda case: np.array(case.given["start"]),
+        "nothing": lambda case: np.zeros((1, 1)),
+        "guess": refuses_the_first,
+    },
+    score=lambda case, answer: (abs(answer[0, 0] - case.truth), answer[0, 0]),
+)
+
+
+def test_methods_are_compared_with_the_best_baseline_case_by_case():
+    lines, lost = benchmark.tables(TOY, list(benchmark.run(TOY, CASES)))
+    assert lines[0] == "| | | off ↓ | guessed ↑ |"
+    assert lines[2] == "| toys (5) | *start* | 3.0 [2.0, 4.0] | 3.0 [2.0, 4.0] |"
+    # Off by 1 in four cases: better than n in three of them, as good in none but the first, which is refused.
+    assert lines[4] == "|  | guess, refuses 1 | 1.0 [1.0, 1.0]; 4 : 1 | 6.0 [4.5, 7.5]; 4 : 1 |"
+    assert not lost
+    TOY.METHODS["worse"] = lambda case: np.array([[case.truth + 9.0]])
+    try:
+        assert benchmark.tables(TOY, list(benchmark.run(TOY, CASES)))[1] == [
+            "toys: worse by off (start 5 : 0)"
+        ]
+    finally:
+        del TOY.METHODS["worse"]
+
+
+def test_an_answer_of_another_program_is_scored_as_those_of_methods(tmp_path):
+    for case in CASES[1:]:
+        (tmp_path / f"{case.name}.csv").write_text(f"{case.truth - 1}\n")
+    rows = list(benchmark.run(TOY, CASES, tmp_path))
+    values = {
+        method: [row.value for row in rows if row.method == method] for method in ("guess", benchmark.ENTERED)
+    }
+    assert np.array_equal(values["guess"], values[benchmark.ENTERED], equal_nan=True)  # the first is missing
+
+
+@for_each(tasks.TASKS)
+def test_every_task_names_its_clips_measures_and_baselines(name):
+    task = import_module(f"tasks.{name}")
+    assert task.__doc__ and set(task.BASELINES) < set(task.METHODS) and len(task.MEASURES) <= 6
+    assert all(isinstance(less, bool) for less in task.MEASURES.values())
+    for collection, names in task.CLIPS.items():
+        assert names == tuple(dict.fromkeys(names)), collection
+        own = benchmark.clips([one for one in names if "/" not in one], ())
+        assert collection != "bundled clips" or len(own) == len(names)
+
+
+def test_a_perfect_copy_comes_back_from_its_files_with_the_least_errors(tmp_path):
+    task = import_module("tasks.in_betweening")
+    clips = benchmark.clips(task.CLIPS["bundled clips"], ())
+    case = next(case for case in task.cases("bundled clips", clips) if case.name.endswith("-15"))
+    benchmark.write(tmp_path, case)
+    assert {"past.bvh", "next.bvh", "frames.csv"} < {path.name for path in (tmp_path / case.name).iterdir()}
+    mocap.save(case.truth[0], tmp_path / f"{case.name}.bvh")
+    assert task.score(case, benchmark.read(tmp_path, case)) == pytest.approx((0, 0, 0), abs=1e-4)
+    other = task.METHODS["linear"](case)
+    assert min(task.score(case, other)) > 1e-3
