@@ -91,6 +91,27 @@ def walk(
     return 130 if followed.found.stopped else 0
 
 
+def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = None) -> None:
+    """Make a page on which a figure walks along any line that is drawn.
+
+    The page is one file that holds the motion graph and needs no network: it can be sent, or put on a site.
+
+    Parameters
+    ----------
+    graph : an .npz file from `mocap graph`, whose clips are where they were.
+    out : file to write, .html.
+
+    Notes
+    -----
+    Example: mocap page graph.npz -o walk.html
+    """
+    options.check_out("page", out, (".html",))
+    made = widgets.walk_page(options.load_graph(graph, skeleton))
+    with replacing(out) as beside:
+        beside.write_text(made, "utf-8")
+    tell(wrote=f"{out}, {len(made) / 1e6:.2f} MB")
+
+
 def _seconds(text: str) -> float:
     """Read a duration.
 

@@ -15,9 +15,13 @@ from pathlib import Path
 from typing import Any
 
 import mocap
+from mocap import graphs
 from mocap._shared.atomic import make_folder, write_text
+from mocap.body.motion import resample
 from mocap.course.notebooks import execute, library, notebooks_in, read
+from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError
+from mocap.widgets.walk_page import walk_page
 
 HERE = Path(__file__).parent
 MOVING = HERE / "moving.js"
@@ -41,6 +45,10 @@ RUN = (
 )
 DARK = '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
 INDEX = """# Motion graphs
+
+<iframe src="walk.html" title="Draw a line. It walks." style="width: 100%; height: 70vh; border: 0"></iframe>
+
+<p><a href="walk.html">Draw in the whole window</a></p>
 
 ```{{toctree}}
 :caption: The course
@@ -107,6 +115,8 @@ def build_site(
         index = INDEX.format("\n".join([*titles, *PAGES]), "\n".join(_write_reference(Path(folder))))
         write_text(Path(folder, "index.md"), index)
         _run_sphinx(Path(folder), out)
+    clips = [resample(sample(name), 30) for name in SAMPLES]
+    write_text(out / "walk.html", walk_page(graphs.prune(graphs.build(clips, window=10, threshold=0.04))))
     return out / f"{files[0].stem}.html"
 
 

@@ -1,0 +1,80 @@
+// Lines on the ground: what a hand drew becomes smooth points 1 cm apart, {z, x}; and a line as a short word.
+
+const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+const STRIDE = 0.25, TURN = (Math.PI * 0.72) / 32; // a letter goes 25 cm, and turns by up to 31 times 4°
+
+export function even(points, gap) { // points [z, x] at equal distances
+  const out = [points[0]];
+  let [z, x] = points[0];
+  for (const [toZ, toX] of points.slice(1)) {
+    for (let far = Math.hypot(toZ - z, toX - x); far >= gap; far = Math.hypot(toZ - z, toX - x)) {
+      z += ((toZ - z) / far) * gap;
+      x += ((toX - x) / far) * gap;
+      out.push([z, x]);
+    }
+  }
+  return out;
+}
+
+export function smooth(points, metres) { // three means over twice `metres`; the ends stay
+  let line = even(points, 0.02);
+  const most = Math.round(metres / 0.02);
+  for (let pass = 0; pass < 3; pass++) {
+    const sums = [[0, 0]];
+    for (const [z, x] of line) sums.push([sums.at(-1)[0] + z, sums.at(-1)[1] + x]);
+    line = line.map((_, i) => {
+      const reach = Math.min(most, i, line.length - 1 - i), [a, b] = [sums[i - reach], sums[i + reach + 1]];
+      return [(b[0] - a[0]) / (2 * reach + 1), (b[1] - a[1]) / (2 * reach + 1)];
+    });
+  }
+  return even(line, 0.01);
+}
+
+function sharpest(line) { // turn per metre, over 30 cm
+  const way = (i) => Math.atan2(line[i + 10][1] - line[i - 10][1], line[i + 10][0] - line[i - 10][0]);
+  let most = 0;
+  for (let i = 10; i + 40 < line.length; i += 5) {
+    const turn = way(i + 30) - way(i);
+    most = Math.max(most, Math.abs(Math.atan2(Math.sin(turn), Math.cos(turn))) / 0.3);
+  }
+  return most;
+}
+
+// Nobody walks on a circle of less than 80 cm: smooth a line until it asks for none.
+export function walkable(points) {
+  let line = smooth(points, 0.12);
+  for (let reach = 0.17; sharpest(line) > 1 / 0.8 && reach < 0.9; reach *= 1.35) line = smooth(points, reach);
+  return line;
+}
+
+export const arrays = (line) => ({ z: Float64Array.from(line, (p) => p[0]), x: Float64Array.from(line, (p) => p[1]) });
+
+export function written(line) { // the first direction in two letters, then a letter for each 25 cm
+  const points = even(line, 0.02), ahead = points[Math.min(10, points.length - 1)];
+  let [z, x] = points[0], k = 0, text = "";
+  const first = Math.floor((Math.atan2(ahead[1] - x, ahead[0] - z) / (2 * Math.PI) + 1) * 4096) % 4096;
+  let angle = (first / 4096) * 2 * Math.PI;
+  while (k < points.length - 8) {
+    while (k < points.length - 1 && Math.hypot(points[k][0] - z, points[k][1] - x) < STRIDE) k++;
+    const wanted = Math.atan2(points[k][1] - x, points[k][0] - z) - angle;
+    const turn = Math.max(-31, Math.min(31, Math.round(Math.atan2(Math.sin(wanted), Math.cos(wanted)) / TURN)));
+    angle += turn * TURN;
+    z += STRIDE * Math.cos(angle);
+    x += STRIDE * Math.sin(angle);
+    text += LETTERS[turn + 31];
+  }
+  return LETTERS[first >> 6] + LETTERS[first & 63] + text;
+}
+
+export function read(text) { // null where the word is no line
+  const numbers = [...text].map((letter) => LETTERS.indexOf(letter));
+  if (numbers.length < 6 || numbers.length > 2000 || numbers.includes(-1)) return null;
+  let angle = ((numbers[0] * 64 + numbers[1]) / 4096) * 2 * Math.PI;
+  const points = [[0, 0]];
+  for (const number of numbers.slice(2)) {
+    angle += (number - 31) * TURN;
+    const [z, x] = points.at(-1);
+    points.push([z + STRIDE * Math.cos(angle), x + STRIDE * Math.sin(angle)]);
+  }
+  return smooth(points, 0.12);
+}
