@@ -78,3 +78,9 @@ export function read(text) { // null where the word is no line
   }
   return smooth(points, 0.12);
 }
+
+export function firstLine() { // loops, as a pen tries them
+  const points = [];
+  for (let t = -1.2; t <= 13.4; t += 0.02) points.push([1.55 * Math.cos(t) * (1 - 0.02 * t), 0.62 * t - 1.5 * Math.sin(t) - 3.8]);
+  return smooth(points, 0.1);
+}

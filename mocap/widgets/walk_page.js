@@ -2,12 +2,13 @@
 
 import { prepare, unpack, Walk, nearest } from "./walk_search.js";
 import { bodyAt, edgeAt, footprints } from "./walk_body.js";
-import { arrays, even, read, smooth, walkable, written } from "./walk_line.js";
+import { arrays, even, firstLine, read, smooth, written } from "./walk_line.js";
 import { Camera } from "./walk_camera.js";
-import { LOOKS, rgb, Scene } from "./walk_scene.js";
+import { Hands } from "./walk_hands.js";
+import { COLOURS, LOOKS, rgb, Scene } from "./walk_scene.js";
+import { drawSmall } from "./walk_small.js";
 import { bvh, download, gif } from "./walk_saving.js";
 
-const COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"]; // after Okabe and Ito
 const LAG = 34, MOST = 12; // frames from figure to figure of the parade
 const $ = (id) => document.getElementById(id), clamp = (value, low, high) => Math.max(low, Math.min(value, high));
 const asked = (query) => matchMedia(query).matches;
@@ -18,8 +19,9 @@ async function loaded() {
   return prepare(unpack(about, new Uint8Array(await new Response(stream).arrayBuffer())));
 }
 
-class Page {
+class Page extends Hands {
   constructor(graph) {
+    super();
     const { labels, figure } = graph.about, begun = Math.max(0, labels.indexOf("walk"));
     Object.assign(this, { graph, about: graph.about, kind: begun, figures: 1, time: 0, playing: !asked("(prefers-reduced-motion: reduce)") });
     Object.assign(this, { canvas: $("stage"), camera: new Camera(), look: LOOKS[asked("(prefers-color-scheme: dark)") ? "dark" : "light"] });
@@ -175,7 +177,7 @@ class Page {
       }
     }
     scene.draw(seen, look, this.stroke ? [] : this.bodies());
-    if ((this.ticks = (this.ticks ?? 0) + 1) % 4 === 1) this.drawSmall();
+    if ((this.ticks = (this.ticks ?? 0) + 1) % 4 === 1) drawSmall(this, $("small"));
   }
 
   drawGhost(half, colour) { // the best walk of a search that is under way
@@ -196,126 +198,6 @@ class Page {
   seams() {
     const { walk } = this;
     return walk.edges.flatMap((edge, at) => (edge.seam ? [{ at, frame: walk.begins[at] + 5 }] : [])).filter(({ frame }) => frame < walk.frames);
-  }
-
-  // The line with the figure on it, and the clips as bars: what plays is lit, the last seams are arcs.
-  drawSmall() {
-    const canvas = $("small"), ratio = Math.min(devicePixelRatio, 2), width = canvas.clientWidth * ratio, height = canvas.clientHeight * ratio, pen = canvas.getContext("2d"), { walk } = this;
-    if (canvas.width !== width) Object.assign(canvas, { width, height });
-    pen.clearRect(0, 0, width, height);
-    if (!walk.frames || this.stroke) return;
-    const { z, x } = this.line, size = width * 0.9, [z0, z1, x0, x1] = [Math.min(...z), Math.max(...z), Math.min(...x), Math.max(...x)], scale = size / Math.max(z1 - z0, x1 - x0, 0.1);
-    const put = (pz, px) => [width / 2 + (px - (x0 + x1) / 2) * scale, width / 2 + (pz - (z0 + z1) / 2) * scale];
-    pen.lineWidth = width / 50; pen.lineCap = pen.lineJoin = "round"; pen.strokeStyle = this.look.line;
-    pen.beginPath();
-    for (let i = 0; i < z.length; i += 6) pen.lineTo(...put(z[i], x[i]));
-    pen.stroke();
-    pen.fillStyle = this.look.ink;
-    pen.beginPath(); pen.arc(...put(...this.place()), width / 24, 0, 7); pen.fill();
-    const { clips } = this.about, longest = Math.max(...clips.map((clip) => clip.frames)), row = (height - width) / (clips.length + 0.5), top = width + row / 2;
-    const spot = (clip, frame) => [(frame / longest) * width * 0.96 + width * 0.02, top + clip * row];
-    clips.forEach((clip, n) => {
-      pen.globalAlpha = 0.35; pen.lineWidth = row * 0.35; pen.strokeStyle = COLOURS[n % 7];
-      pen.beginPath(); pen.moveTo(...spot(n, 0)); pen.lineTo(...spot(n, clip.frames)); pen.stroke();
-    });
-    const [now, come] = edgeAt(walk, this.time);
-    for (let at = Math.max(0, now - 40); at <= now; at++) {
-      const edge = walk.edges[at], fade = clamp(1 - (this.time - walk.begins[at] - edge.frames) / 120, 0, 1), colour = COLOURS[edge.start.clip % 7];
-      pen.globalAlpha = fade; pen.strokeStyle = edge.seam ? this.look.ink : colour; pen.lineWidth = edge.seam ? row * 0.12 : row * 0.6;
-      pen.beginPath(); pen.moveTo(...spot(edge.start.clip, edge.start.frame));
-      if (edge.seam) {
-        const [ax, ay] = spot(edge.start.clip, edge.start.frame), [bx, by] = spot(edge.end.clip, edge.end.frame);
-        pen.quadraticCurveTo((ax + bx) / 2 + row, (ay + by) / 2, bx, by);
-      } else pen.lineTo(...spot(edge.start.clip, edge.start.frame + Math.min(edge.frames, at === now ? come : Infinity)));
-      pen.stroke();
-    }
-    pen.globalAlpha = 1;
-  }
-
-  // ---- hands ----
-
-  listen() {
-    const { canvas } = this, on = (name, act) => canvas.addEventListener(name, act);
-    on("contextmenu", (event) => event.preventDefault());
-    on("pointerdown", (event) => {
-      this.touches.set(event.pointerId, event);
-      canvas.setPointerCapture(event.pointerId);
-      if (this.touches.size > 1 || event.button === 2 || event.shiftKey) { this.stroke = null; this.turning = [event.clientX, event.clientY]; return; }
-      const point = this.camera.ground(event.clientX, event.clientY);
-      if (point) this.stroke = [point];
-    });
-    on("pointermove", (event) => this.move(event));
-    for (const name of ["pointerup", "pointercancel"]) on(name, (event) => this.lift(event));
-    canvas.addEventListener("wheel", (event) => {
-      this.camera.hand.zoom = clamp(this.camera.hand.zoom * Math.exp(event.deltaY / 900), 0.35, 4);
-      event.preventDefault();
-    }, { passive: false });
-    on("keydown", (event) => this.key(event));
-    addEventListener("resize", () => { this.sharp = 1; this.fit(); });
-    addEventListener("hashchange", () => this.fromAddress());
-  }
-
-  move(event) {
-    const before = this.touches.get(event.pointerId), { hand } = this.camera;
-    if (!before) return;
-    if (this.turning) {
-      const others = [...this.touches.values()].filter((touch) => touch.pointerId !== event.pointerId), far = (touch) => Math.hypot(touch.clientX - others[0].clientX, touch.clientY - others[0].clientY);
-      if (others.length) hand.zoom = clamp((hand.zoom * far(before)) / Math.max(far(event), 1), 0.35, 4);
-      hand.yaw -= (event.clientX - before.clientX) / 180;
-      hand.pitch += (event.clientY - before.clientY) / 250;
-    } else if (this.stroke) {
-      for (const part of event.getCoalescedEvents?.().length ? event.getCoalescedEvents() : [event]) {
-        const point = this.camera.ground(part.clientX, part.clientY), last = this.stroke.at(-1);
-        if (point && Math.hypot(point[0] - last[0], point[1] - last[1]) > 0.01) this.stroke.push(point);
-      }
-    }
-    this.touches.set(event.pointerId, event);
-  }
-
-  lift(event) {
-    const { stroke } = this;
-    this.touches.delete(event.pointerId);
-    if (!this.touches.size) this.turning = null;
-    if (!stroke || event.type === "pointercancel") { this.stroke = null; return; }
-    this.stroke = null;
-    const length = stroke.reduce((sum, [z, x], i) => sum + (i ? Math.hypot(z - stroke[i - 1][0], x - stroke[i - 1][1]) : 0), 0);
-    if (length < 0.3) { this.tap(stroke[0]); return; }
-    if (length < 1) { this.say("Draw a longer line: a metre or more."); return; }
-    this.set(walkable(stroke));
-    this.view(false);
-  }
-
-  tap(point) { // on a seam: the two moments that it joins, side by side; anywhere else, walk on
-    const near = this.shown ? [] : this.seams().map((seam) => ({ ...seam, off: Math.hypot(...this.placeAt(seam.frame).map((value, c) => value - point[c])) })).sort((a, b) => a.off - b.off);
-    $("moments").hidden = true;
-    this.shown = null;
-    if (!near.length || near[0].off > 0.35) return;
-    const { walk, about } = this, edge = walk.edges[near[0].at], moment = (clip, frame) => `${about.clips[clip].name.replaceAll("_", " ")}, ${(frame / about.fps).toFixed(1)} s`;
-    const still = (start, lay) => bodyAt({ graph: walk.graph, edges: [{ start, end: start, frames: 1, seam: false }], lays: [lay], begins: [0], frames: 1 }, 0);
-    const [c, s, z, x] = walk.lays[near[0].at], [d, t, y, w] = edge.lay, aside = 0.5, from = { clip: edge.start.clip, frame: edge.start.frame + 5 }, to = { clip: edge.end.clip, frame: edge.end.frame - 5 };
-    const other = [c * d - s * t, s * d + c * t, c * y - s * w + z, s * y + c * w + x];
-    const { right } = this.camera, shift = (lay, sign) => [lay[0], lay[1], lay[2] + sign * aside * right[2], lay[3] + sign * aside * right[0]];
-    this.shown = { bodies: [still(from, shift(walk.lays[near[0].at], -1)), still(to, shift(other, 1))] };
-    this.time = near[0].frame;
-    $("moments").textContent = `Two moments that are alike: ${moment(from.clip, from.frame)} and ${moment(to.clip, to.frame)}. Here the walk passes from one into the other. Tap to walk on.`;
-    $("moments").hidden = false;
-  }
-
-  key(event) {
-    const turn = { ArrowLeft: 0.26, ArrowRight: -0.26, ArrowUp: 0 }[event.key];
-    if (turn !== undefined) {
-      if (!this.stroke) { this.pen = this.camera.at.yaw + Math.PI; this.stroke = [this.walk.frames ? this.place() : [0, 0]]; }
-      this.pen += turn;
-      const [z, x] = this.stroke.at(-1);
-      this.stroke.push([z + 0.3 * Math.cos(this.pen), x + 0.3 * Math.sin(this.pen)]);
-    } else if (event.key === "Enter" && this.stroke?.length > 4) {
-      const points = walkable(this.stroke);
-      this.stroke = null;
-      this.set(points);
-    } else if (event.key === "Escape") this.stroke = this.shown = null;
-    else if (event.key === " ") this.play(!this.playing);
-    else return;
-    event.preventDefault();
   }
 
   play(on) {
@@ -367,12 +249,6 @@ class Page {
     this.time = time;
     download(gif(pictures, width, height, 8), "walk.gif");
   }
-}
-
-function firstLine() { // loops, as a pen tries them
-  const points = [];
-  for (let t = -1.2; t <= 13.4; t += 0.02) points.push([1.55 * Math.cos(t) * (1 - 0.02 * t), 0.62 * t - 1.5 * Math.sin(t) - 3.8]);
-  return smooth(points, 0.1);
 }
 
 loaded().then((graph) => { window.page = new Page(graph); });

@@ -23,7 +23,10 @@ from mocap.widgets.walk_figure import feet, figure
 HERE = Path(__file__).parent
 Node = tuple[int, int]
 STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
-SCRIPTS = tuple(f"walk_{part}.js" for part in ("search", "body", "line", "camera", "scene", "saving", "page"))
+SCRIPTS = tuple(
+    f"walk_{part}.js"
+    for part in ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
+)
 
 
 def numbers(values: ArrayLike, order: int = 0) -> bytes:

@@ -45,6 +45,7 @@ const SHADERS = {
 };
 const LAYOUTS = { floor: ["corner 2"], shadow: ["corner 2", "a 4", "b 4", "left 4", "side 1"], ribbon: ["place 4", "tint 4"], limb: ["corner 4", "a 4", "b 4", "left 4", "side 1"] };
 
+export const COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"]; // after Okabe and Ito
 export const LOOKS = {
   light: { ground: "#ece6da", sky: "#faf7f0", shade: "#8a8290", line: "#e2502a", middle: "#3b5a8c", near: "#4a6fa8", far: "#304a76", ink: "#2b2f3d", night: 0 },
   dark: { ground: "#1a1d26", sky: "#2a2e3b", shade: "#3c3f4c", line: "#ff7a4f", middle: "#d8cdb8", near: "#e9dfcb", far: "#c3b8a4", ink: "#f0e9dc", night: 1 },
