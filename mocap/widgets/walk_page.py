@@ -23,10 +23,17 @@ from mocap.widgets.walk_figure import feet, figure
 HERE = Path(__file__).parent
 Node = tuple[int, int]
 STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
-SCRIPTS = tuple(
-    f"walk_{part}.js"
-    for part in ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
-)
+PARTS = (
+    "search",
+    "body",
+    "line",
+    "camera",
+    "scene",
+    "saving",
+    "small",
+    "hands",
+    "page",
+)  # what each uses first
 
 
 def numbers(values: ArrayLike, order: int = 0) -> bytes:
@@ -119,13 +126,11 @@ def walk_page(graph: MotionGraph) -> str:
     about, data = pack_graph(graph)
     squeeze = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = base64.b64encode(squeeze.compress(data) + squeeze.flush()).decode()
-    parts = [
-        re.sub(r"^import .*\n|^export ", "", (HERE / name).read_text("utf-8"), flags=re.M) for name in SCRIPTS
-    ]
+    scripts = [(HERE / f"walk_{part}.js").read_text("utf-8") for part in PARTS]
     filled = {
         "ABOUT": json.dumps(about, separators=(",", ":")).replace("</", "<\\/"),
         "GRAPH": packed,
-        "SCRIPT": "\n".join(parts),
+        "SCRIPT": re.sub(r"^import .*\n|^export ", "", "\n".join(scripts), flags=re.M),
     }
     html = (HERE / "walk.html").read_text("utf-8")
     return re.sub("ABOUT|GRAPH|SCRIPT", lambda found: filled[found[0]], html)
