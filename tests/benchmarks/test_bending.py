@@ -14,6 +14,7 @@ from mocap.datasets.samples import sample
 from mocap.editing.bending import LIMIT, bend
 from mocap.editing.path_editing import on_path, ride_of
 from mocap.steering.path_following import follow_path
+from mocap.steering.path_objective import Settings
 from tests.benchmarks.timing import least
 from tests.bundled import walking
 from tests.steering.test_bent_following import quietly, straight_walker
@@ -49,7 +50,7 @@ def test_any_line_with_any_walk_takes_a_hundredth_of_its_duration(graph, line):
     compiled, path = graph(), line()
     followed = quietly(compiled, path)
     share = least(lambda: quietly(compiled, path), 5) / followed.seconds
-    plain = least(lambda: follow_path(compiled, path, tries=1), 3) / followed.seconds
+    plain = least(lambda: follow_path(compiled, path, settings=Settings(tries=1)), 3) / followed.seconds
     print(f"\n{line.__name__}: 1/{1 / share:.0f} of the duration, at {np.degrees(LIMIT):.0f}°/s", end="")
     print(f"; one search without bending 1/{1 / plain:.0f}")
     assert share <= 0.01

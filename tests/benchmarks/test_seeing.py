@@ -117,7 +117,7 @@ def test_the_player_shows_55_pictures_a_second_of_twelve(page, tmp_path, view): 
 
 
 STEERED = """
-from mocap import motion_matching, parametric_graphs
+from mocap.methods import motion_matching, parametric_graphs
 from mocap.steering import Controller
 from mocap.widgets import steered
 from tests.bundled import walking
