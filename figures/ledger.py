@@ -1,9 +1,9 @@
 """Which line of which paper is where: a page with a row for each equation or step of each paper's method.
 
-`papers.toml` says what must have a row, and what departs from the paper there. The rest is found: functions
-by the citations in their docstrings, such as [KGP02, Eq. 5], tests by the same citations, else by the
-functions that they use, and cells of notebooks by their `source:` tags, else by what they call. Run it as
-`python figures/ledger.py` after a change of any of these.
+`papers.toml` says what must have a row, and what departs from the paper there; a row that is `missing` has no
+code. The rest is found: functions and tests by the citations in their docstrings, such as [KGP02, Eq. 5], and
+cells of notebooks by their `source:` tags, else by what they call. A row is held only by a test that cites
+it; else it is untested. Run it as `python figures/ledger.py` after a change of any of these.
 """
 
 from __future__ import annotations
@@ -14,8 +14,6 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
-
-import networkx as nx
 
 from mocap._shared.atomic import write_text
 from mocap.course.notebooks import read, tagged
@@ -125,7 +123,8 @@ def ledger(root: Path) -> list[Row]:
     ----------
     root : a checkout: the folder with the folders mocap, tests and notebooks.
     """
-    known, tests, cells = functions(root / "mocap"), _tests(root / "tests"), _cells(root / "notebooks")
+    known, tests = functions(root / "mocap"), list(_tests(root / "tests"))
+    cells = _cells(root / "notebooks")
     rows = []
     for key, paper in papers().items():
         for row in paper["rows"]:
@@ -133,53 +132,23 @@ def ledger(root: Path) -> list[Row]:
             places = {(key, place) for place in _one_by_one(row["place"])}
             first = [one for one in known if one.first & places]  # their own, else all that cite it
             chosen = (first or [one for one in known if one.cites & places])[:SHOWN]
-            held = [test.said for test in tests if test.cites & places]
+            held = [said for said, cites in tests if cites & places]
             shown = [cell for one in chosen if (cell := _cell_of(one, notebook, cells))]
             if not shown and "through" in row:
                 shown = [_calling(row["through"], [notebook], cells)]
-            lists = ([one.public for one in chosen], held or [_test_of(one, tests) for one in chosen], shown)
+            lists = ([one.public for one in chosen], held, shown)
             found = (tuple(dict.fromkeys(filter(None, some))) for some in lists)
             rows.append(Row(key, row["place"], row["says"], row["departs"], *found))
     return rows
 
 
-class _Test(NamedTuple):
-    """A test: its file, its name as a sentence, all that it and its helpers use, and what it cites."""
-
-    file: Path
-    said: str
-    uses: set[str]
-    cites: frozenset[tuple[str, str]]
-
-
-def _tests(folder: Path) -> list[_Test]:
-    found = []
+def _tests(folder: Path) -> Iterator[tuple[str, frozenset[tuple[str, str]]]]:
+    """Yield each test as a sentence, with what its docstring cites."""
     for path in sorted(folder.rglob("test_*.py")):
-        body, file = ast.parse(path.read_text("utf-8")).body, path.relative_to(folder)
-        nodes = {node.name: node for node in body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
-        uses = nx.DiGraph((name, used) for name, node in nodes.items() for used in _names(node))
-        uses.add_nodes_from(nodes)
-        for name in (name for name in nodes if name.startswith("test_")):
-            said = f"{name.removeprefix('test_').replace('_', ' ')} (`{file.as_posix()}`)"
-            cites = cited(ast.get_docstring(nodes[name]) or "")
-            found.append(_Test(file, said, nx.descendants(uses, name) | {name}, cites))
-    return found
-
-
-def _names(node: ast.AST) -> Iterator[str]:
-    """Yield all names that some code uses, the fixtures that it asks for among them."""
-    for one in ast.walk(node):
-        for kind, field in ((ast.Name, "id"), (ast.Attribute, "attr"), (ast.arg, "arg")):
-            if isinstance(one, kind):
-                yield getattr(one, field)
-
-
-def _test_of(function: Function, tests: Sequence[_Test]) -> str:
-    """Name a test that uses a function: in the tests of its file, else of its room."""
-    room, *_, file = function.module.split(".")
-    name = function.name.rpartition(".")[2]
-    using = [test for test in tests if test.file.parts[0] == room and name in test.uses]
-    return min(using, key=lambda test: test.file.stem != f"test_{file}").said if using else ""
+        for node in ast.parse(path.read_text("utf-8")).body:
+            if isinstance(node, ast.FunctionDef) and (cites := cited(ast.get_docstring(node) or "")):
+                said = node.name.removeprefix("test_").replace("_", " ")
+                yield f"{said} (`{path.relative_to(folder).as_posix()}`)", cites
 
 
 class _Cell(NamedTuple):
@@ -231,15 +200,18 @@ def _calling(name: str, notebooks: Sequence[str], cells: Sequence[_Cell]) -> str
 
 def page(rows: Sequence[Row]) -> str:
     """Write the rows as a page of tables, one for each paper after one of all papers, in Markdown."""
-    tables = ["| paper | how we know it | rows | as the paper says |\n|---|---|---|---|"]
+    head = "| paper | how we know it | rows | as the paper says | missing | held by a test |"
+    tables = [head + "\n" + "|---" * 6 + "|"]
     for key, paper in papers().items():
         own = [row for row in rows if row.key == key]
-        same = sum(row.departs.startswith("nothing") for row in own)
-        tables[0] += f"\n| [{paper['title']}](#{_slug(key, paper)}) | {paper['read']} | {len(own)} | {same} |"
+        same, missing = (sum(row.departs.startswith(word) for row in own) for word in ("nothing", "missing"))
+        counts = f"{len(own)} | {same} | {missing} | {sum(bool(row.tests) for row in own)}"
+        tables[0] += f"\n| [{paper['title']}](#{_slug(key, paper)}) | {paper['read']} | {counts} |"
         lines = ["| in the paper | here | test | what departs, and why |", "|---|---|---|---|"]
         for row in own:
             code = [f"`{name}`" for name in row.functions]
-            lists = ["<br>".join(some) for some in ([*code, *row.cells], row.tests)]
+            lists = ["<br>".join(some) for some in ([*code, *row.cells], row.tests or ["untested"])]
+            lists = ["", ""] if row.departs.startswith("missing") else lists
             lines.append("| " + " | ".join([f"**{row.place}** {row.says}", *lists, row.departs]) + " |")
         tables.append(f"## {key} {paper['title']}\n\n{paper['cite']}.\n\n" + "\n".join(lines))
     return "\n\n".join([PAPERS.with_suffix(".md").read_text("utf-8").rstrip(), *tables]) + "\n"

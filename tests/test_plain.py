@@ -80,6 +80,7 @@ def test_align(clips):
 
 
 def test_slerp_and_weights():
+    """As in [KGP02, Eq. 7]."""
     random = np.random.default_rng(1)
     p, q = (rotations.from_rotvec(3 * random.normal(size=(99, 3))) for _ in range(2))
     share = random.uniform(size=(99, 1))
@@ -96,6 +97,7 @@ def played(slow, quick):
 
 
 def test_join(clips):
+    """As in [KGP02, Eqs. 5 and 6]."""
     a, b = clips
     played(plain.join(a, 12, b, 7), blending.join(a, 12, b, 7, K))
 

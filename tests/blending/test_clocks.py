@@ -15,6 +15,7 @@ def pair():
 
 
 def test_the_two_means_of_the_paces_1_and_2():
+    """As in [KG03, clock]."""
     assert clock_speed([1, 2], [0.5, 0.5]) == pytest.approx(2 / 3)
     assert clock_speed([1, 2], [0.5, 0.5], "rates") == pytest.approx(3 / 4)
 

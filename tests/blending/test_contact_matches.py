@@ -37,12 +37,14 @@ def test_times_are_those_of_the_common_clock():
 
 
 def test_a_plant_that_a_clip_lacks_is_dropped():
+    """As in [KG03, constraint matches]."""
     assert matched(standing((0.2, 0.8), (2, 2.5)), standing((0.3, 0.9))) == [([0.2, 0.3], [0.8, 0.9])]
     assert matched(standing((0.2, 0.8)), standing((1.0, 1.5))) == []
     assert matched(standing((0.2, 0.8)), standing((0.3, 0.9), joint="other")) == []
 
 
 def test_a_plant_beside_two_is_split_where_the_two_pause():
+    """As in [KG03, constraint matches]."""
     one, two = standing((0.2, 1.9)), standing((0.1, 0.9), (1.1, 2.0))
     assert matched(one, two) == [([0.2, 0.1], [1.0, 0.9]), ([1.0, 1.1], [1.9, 2.0])]
     assert matched(one, two, one) == [([0.2, 0.1, 0.2], [1.0, 0.9, 1.0]), ([1.0, 1.1, 1.0], [1.9, 2.0, 1.9])]

@@ -20,6 +20,7 @@ def registration(request):
 
 
 def test_it_starts_as_the_one_and_ends_as_the_other(registration):
+    """As in [KG03, transition]."""
     made = crossfade(registration)
     first, second = registration.clips
     assert largest_gap(made[:60], first[:60]) < 1e-9

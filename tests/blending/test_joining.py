@@ -51,6 +51,7 @@ def test_a_clip_joined_to_itself_where_it_is_goes_on(way):
 
 
 def test_a_join_is_the_blend_of_the_two_windows_and_any_weights_may_be_given():
+    """As in [WP95, joining]."""
     laid = lay_window_on(A, LEAVE, B, ENTER, 8)
     for weights in (linear_weights, lambda window: np.full(window, 0.3)):
         joined = join(A, LEAVE, B, ENTER, 8, weights=weights)

@@ -59,6 +59,7 @@ def quarter_circles(frames=181, radius=2.0):
 
 
 def test_a_left_and_a_right_quarter_make_a_straight_line_as_long_as_they_are():
+    """As in [KG03, blend]."""
     turns, centres = quarter_circles()
     course = ground_course(turns, centres, np.full((181, 2), 0.5))
     assert abs(course.centres[-1]) == pytest.approx(np.pi, abs=2e-5)
@@ -93,6 +94,7 @@ def test_a_clip_with_all_the_weight_comes_back(which):
 
 
 def test_a_blend_does_not_depend_on_where_its_clips_were_captured():
+    """As in [KG03, blend]."""
     a, b = (walks()[which] for which in LEFT_AND_RIGHT)
     blend = mix(register([a, b]), HALF)
     moved = mix(register([a, PlanarTransform(2.0, 100.0, -50.0).apply_motion(b)]), HALF)

@@ -50,6 +50,7 @@ def test_a_known_warp_comes_back(real_data, amount, ms, degrees):
 
 
 def test_a_clip_and_itself_turned_and_moved_are_registered_exactly():
+    """As in [KG03, alignment]."""
     clip = walks()[1.1, 120]
     registration = register([clip, PlanarTransform(2.5, 80.0, -40.0).apply_motion(clip)], slack=0)
     u = np.linspace(*registration.span, 100)

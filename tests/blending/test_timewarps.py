@@ -18,6 +18,7 @@ def random_curve(seed, count=7):
 
 @given(seeds, st.integers(3, 12))
 def test_curves_are_the_uniform_quadratic_splines_of_scipy(seed, count):
+    """As in [KG03, timewarp]."""
     curve = random_curve(seed, count)
     knots = curve.start + curve.step * np.arange(-2, count + 1)
     spline = BSpline(knots, curve.coefficients, 2)
@@ -43,6 +44,7 @@ def test_the_inverse_undoes_an_increasing_curve(seed):
 
 @given(seeds, st.floats(0.05, 2))
 def test_slopes_stay_within_bounds_and_no_curve_within_them_fits_better(seed, spacing):
+    """As in [KG03, timewarp]."""
     rng = np.random.default_rng(seed)
     times = np.sort(rng.uniform(0, 4, 30))
     values = np.cumsum(rng.random(30) < 0.5) / 5

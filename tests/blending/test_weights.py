@@ -25,6 +25,7 @@ def slope_and_curve(weights, window):
 
 
 def test_the_slopes_at_the_ends_are_those_promised():
+    """As in [KGP02, Eq. 7]."""
     many = 20_000
     assert slope_and_curve(linear_weights, many)[0] == pytest.approx(-1)
     assert slope_and_curve(cubic_weights, many) == (pytest.approx(0, abs=1e-3), pytest.approx(-6, abs=1e-2))

@@ -32,6 +32,7 @@ def straight_parts(bent):
 @pytest.mark.parametrize("name", CLIPS)
 @pytest.mark.parametrize("path", [s_curve(12), circle(2.5), letter_s(1.6)], ids=["S", "circle", "letter"])
 def test_a_walk_keeps_to_any_line(name, path):
+    """As in [Gle01, 5]."""
     bent = bend(clip(name), path)
     some = straight_parts(bent) if name != "jog" else bent.off  # a jogger is too fast for 1.6 m
     assert some.mean() <= 0.025 or name == "jog"

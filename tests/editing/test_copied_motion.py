@@ -31,7 +31,7 @@ def test_onto_itself_nothing_moves():
 @settings(max_examples=5)
 @given(share=st.floats(0.2, 3))
 def test_onto_a_scaled_copy_all_places_are_scaled(share):
-    """About the ground below the hips of the first frame."""
+    """About the ground below the hips of the first frame. As in [Gle98, scaled start]."""
     smaller = proportioned(adult(), legs=share, trunk=share, arms=share, head=share)
     there = joint_positions(copied(walk(1.0), adult(), smaller))
     here = joint_positions(walk(1.0))

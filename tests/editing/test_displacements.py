@@ -23,6 +23,7 @@ def random_change(seed, frames=5, joints=6, most=3.0):
 
 @given(seeds, seeds)
 def test_adding_and_taking_the_difference_undo_each_other(motion, change):
+    """As in [LS99, displacement map]."""
     base, change = random_motion(motion), random_change(change)
     again = difference(displaced(base, change), base)
     np.testing.assert_allclose(again.root, change.root, atol=1e-14)
@@ -53,6 +54,7 @@ def test_what_is_not_turned_keeps_its_numbers_to_the_last_bit():
 
 
 def test_a_basis_has_the_values_of_uniform_cubic_splines():
+    """As in [Gle98, smooth change]."""
     rows = spline_basis(11, 5).toarray()
     np.testing.assert_allclose(rows[0], [1 / 6, 4 / 6, 1 / 6, 0, 0], atol=1e-15)
     np.testing.assert_allclose(rows[5], [0, 1 / 6, 4 / 6, 1 / 6, 0], atol=1e-15)

@@ -15,6 +15,7 @@ from tests.strategies import seeds
 
 
 def test_the_fit_of_one_datum_and_of_two_has_the_papers_values():
+    """As in [LS99, scattered data]."""
     basis = spline_basis(11, 5)
     one = scattered_fit(basis, np.array([[1.0]]), np.array([5]))
     np.testing.assert_allclose(one[1:4, 0], [1 / 3, 4 / 3, 1 / 3], atol=1e-12)
@@ -52,6 +53,7 @@ def test_the_fit_is_the_sum_over_the_data_and_bounded_by_them(seed, count, spaci
 
 @pytest.mark.parametrize("fps", [120.0, 30.0])
 def test_each_level_more_than_halves_what_a_stone_leaves(fps):
+    """As in [LS99, levels]."""
     clip = walk(fps)
     pins = stone(clip, 0.15)
     motion, told = hierarchy(clip, pins)
@@ -75,6 +77,7 @@ def test_each_level_more_than_halves_what_a_captured_walk_leaves(real_data):
 
 
 def test_a_hand_listens_to_its_own_frames_only():
+    """As in [LS99, levels]."""
     clip = walk()
     pins = hand_at(clip, (180, 240, 300))
     assert hierarchy(clip, pins)[1][-1].worst < 0.002

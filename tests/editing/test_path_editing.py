@@ -83,6 +83,7 @@ def sway(motion, stride=1.2):
 
 # ---------------------------------------------------------------------------------------------- the path
 def test_the_path_is_the_least_squares_spline():
+    """As in [Gle01, 3]."""
     motion, ride = straight()
     basis = spline_basis(len(motion), 1.2 * motion.fps).toarray()
     expected = np.linalg.lstsq(basis, motion.root_positions[:, [0, 2]], rcond=None)[0]
@@ -93,6 +94,7 @@ def test_the_path_is_the_least_squares_spline():
 
 
 def test_a_handle_moves_the_path_within_two_knots():
+    """As in [Gle01, 3]."""
     motion, ride = straight()
     handles = ride.handles.copy()
     handles[4] += [0.5, 0]
@@ -130,6 +132,7 @@ def test_the_heading_is_calm_while_the_body_stands(real_data):
 # ------------------------------------------------------------------------------------------- the transform
 @pytest.mark.parametrize("name", CLIPS)
 def test_on_its_own_path_nothing_changes(name):
+    """As in [Gle01, 4]."""
     motion = clip(name)
     same = on_path(motion, ride_of(motion).path)
     assert np.abs(joint_positions(same) - joint_positions(motion)).max() <= 1e-12
@@ -184,6 +187,7 @@ def test_a_path_that_comes_back_on_itself_has_a_heading_everywhere():
 @pytest.mark.parametrize("name", CLIPS)
 @pytest.mark.parametrize("radius", [4, 2, 1, 0.75])
 def test_bent_walks_stand_as_before_and_keep_to_the_path(name, radius):
+    """As in [Gle01, 4]."""
     motion = clip(name)
     ride = ride_of(motion)
     path = start_at(arcs((0, 0), 0, [(ride.path.length, ride.path.length / radius)]), ride)

@@ -109,6 +109,7 @@ BODIES = {
 
 @pytest.mark.parametrize("name", BODIES)
 def test_bodies_made_of_the_bundled_one(name):
+    """As in [Gle98, method]."""
     held_to_the_bars(walk(), adult(), BODIES[name]())
 
 
@@ -133,7 +134,10 @@ def test_onto_itself_nothing_moves():
 
 @pytest.mark.parametrize(("gain", "smooth"), [(1.4, 1.2)])
 def test_a_child_with_long_steps(gain, smooth):
-    """Smooth to 1.35 for a captured walk, below; a generated one has less to drown a change in."""
+    """Smooth to 1.35 for a captured walk, below; a generated one has less to drown a change in.
+
+    As in [Gle98, method].
+    """
     worn = held_to_the_bars(walk(), adult(), child(), scale=0.55 * gain, smooth=smooth)
     assert bends(worn, child().roles)[:, [0, 4]].min() > 2  # no knee straightens
 

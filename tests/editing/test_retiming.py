@@ -49,6 +49,7 @@ rising = st.lists(st.floats(0.01, 10), min_size=1, max_size=6).map(lambda gaps: 
 
 @given(st.tuples(rising, rising))
 def test_time_always_rises_and_meets_its_keys(both):
+    """As in [WP95, time warp]."""
     count = min(map(len, both))
     new, old = (seconds[:count] for seconds in both)
     keys = list(zip(new, old, strict=True))
@@ -57,6 +58,7 @@ def test_time_always_rises_and_meets_its_keys(both):
 
 
 def test_one_pace_is_the_clip_itself_and_back_again_is_where_it_began():
+    """As in [WP95, time warp]."""
     same = retime(WALK, [(0, 0), (WALK.duration, WALK.duration)])
     assert joint_positions(same) == pytest.approx(joint_positions(WALK), abs=1e-9)
     keys = [(0, 0), (3, 2), (4.5, 4)]

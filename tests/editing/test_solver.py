@@ -96,6 +96,7 @@ def by_scipy(clip, pins, body, basis, weight):
 
 @pytest.mark.parametrize("real", [False, pytest.param(True, marks=pytest.mark.sweep)])
 def test_the_cost_is_scipys(real, request):
+    """As in [Gle98, objective]."""
     clip = (captured(request.getfixturevalue("real_data")) if real else walk())[130:250]
     pins = stone(clip, 0.1, 0)
     solved = solve(clip, pins, [SPLINES])
@@ -105,6 +106,7 @@ def test_the_cost_is_scipys(real, request):
 
 
 def test_frames_with_pins_meet_them_and_the_others_stay_to_the_last_bit():
+    """As in [LS99, inverse kinematics]."""
     clip = walk()
     few = stone(clip, 0.3).only(slice(200, 300))
     solved = solve(clip, few, [REACH], body_of(clip, few.joints))
@@ -131,6 +133,7 @@ def test_each_frame_by_itself_jolts_and_all_at_once_do_not(fps, least):
 
 
 def test_few_knots_leave_centimetres_and_many_jolt(real_data):
+    """As in [Gle98, smooth change]."""
     clip = captured(real_data)
     pins = stone(clip, 0.2)
     solved = {}

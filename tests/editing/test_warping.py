@@ -151,6 +151,7 @@ def away(motion, joint, about=None):
 
 
 def test_a_scale_stretches_the_swing_about_the_mean():
+    """As in [WP95, scale]."""
     reference, before = away(WALK, "lhumerus")
     wide = scaled(WALK, "lhumerus", 1.5)
     assert away(wide, "lhumerus", reference)[1] == pytest.approx(1.5 * before)

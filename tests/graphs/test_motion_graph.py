@@ -35,6 +35,7 @@ transitions = st.lists(
 
 
 def test_an_edge_for_every_transition_and_every_stretch():
+    """As in [KGP02, 3]."""
     graph = from_transitions(CLIPS, [Transition(0, 30, 1, 20, 0.02, IDENTITY)], window=WINDOW)
     assert sorted(graph.graph.edges(data="kind")) == [
         ((0, 0), (0, 30), "clip"),

@@ -67,6 +67,7 @@ def quietly(graph, **settings):
 
 @given(edges, st.booleans())
 def test_brute_force_keeps_the_same(rows, by_labels):
+    """As in [KGP02, 3.4]."""
     sets = {labels for _, _, labels, *_ in rows} if by_labels else {frozenset()}
     best = {s: best_by_brute_force([r for r in rows if not by_labels or r[2] == s]) for s in sets}
     best = {labels: parts for labels, parts in best.items() if parts}
@@ -133,6 +134,7 @@ def test_what_is_reached(rows, start):
 
 
 def test_the_graph_of_the_notes():
+    """As in [KGP02, 3.4]."""
     graph = notes_example()
     found = prune_graph(graph)
     assert set(found.components[frozenset()]) == {1, 2, 3, 6, 7, 8}

@@ -28,6 +28,7 @@ def random_points(seed, frames, points=6, reach=1.0):
 
 @given(seeds, st.integers(1, 7))
 def test_the_grid_is_the_loop_over_windows(seed, window):
+    """As in [KGP02, Eq. 1]."""
     a, b = random_points(seed, 9), random_points(seed + 1, 7)
     assert distance_grid(a, b, window=window) == pytest.approx(distance_oracle(a, b, window), abs=1e-12)
 
@@ -81,6 +82,7 @@ def test_the_grid_of_motions_is_that_of_their_points():
 
 @given(seeds, planar)
 def test_a_clip_is_at_no_distance_from_itself_moved_anywhere(seed, transform):
+    """As in [KGP02, 3.1]."""
     motion = random_motion(seed)
     grid = distance_grid(motion, transform.apply_motion(motion), window=3)
     assert np.sqrt(grid.diagonal()) == pytest.approx(0, abs=1e-6)

@@ -24,6 +24,7 @@ def minima_by_loops(grid, below):
 
 @given(seeds, st.integers(1, 7), st.integers(1, 7), st.sampled_from([1, 2, 2.5, np.inf]))
 def test_minima_are_lower_than_all_neighbours_and_ties_go_to_the_first(seed, rows, columns, below):
+    """As in [KGP02, 3.2]."""
     grid = np.random.default_rng(seed).integers(0, 5, (rows, columns))
     assert local_minima(grid, below).tolist() == minima_by_loops(grid, below)
 

@@ -67,6 +67,7 @@ def test_a_valley_of_twice_the_pace_is_followed():
 
 @given(seeds, sides, sides, slopes)
 def test_no_path_has_a_lower_sum(seed, rows, columns, slope):
+    """As in [KG03, time path]."""
     grid = random_grid(seed, rows, columns)
     best = least_sum(grid, slope)
     if not np.isfinite(best):
@@ -82,6 +83,7 @@ def test_no_path_has_a_lower_sum(seed, rows, columns, slope):
 
 @given(seeds, st.integers(4, 8), st.integers(4, 8), slopes)
 def test_free_ends_give_the_least_mean_of_all_ends(seed, rows, columns, slope):
+    """As in [KG03, time path]."""
     grid, slack = random_grid(seed, rows, columns), 2
     begins = [(i, 0) for i in range(slack + 1)] + [(0, j) for j in range(1, slack + 1)]
     means = []

@@ -23,6 +23,7 @@ CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
 
 @pytest.mark.parametrize("window", [1, 2, 8])
 def test_transitions_are_the_minima_of_every_pair_both_ways(window):
+    """As in [KGP02, 3.2]."""
     found = find_transitions(CLIPS, window=window, below=0.1)
     for a, b in ((0, 0), (0, 1), (1, 1)):
         minima = local_minima(distance_grid(CLIPS[a], CLIPS[b], window=window), 0.01)

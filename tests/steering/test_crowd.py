@@ -23,6 +23,7 @@ def apart(a, b):
 
 
 def test_who_would_collide_gives_way():
+    """As in [KGP02, 5.3]."""
     alone = [follow_path(GRAPH, path, settings=Settings(width=100)) for path in CROSSING]
     crowd = walk_crowd(GRAPH, CROSSING)
     assert apart(*(walk.track for walk in alone)) < 0.3

@@ -50,6 +50,7 @@ def test_poses_are_those_of_a_recorded_run():
 
 
 def test_it_goes_where_it_is_told():
+    """As in [KGP02, 5.3]."""
     controller = Controller(GRAPH)
     for heading in (0.0, 1.0, 2.0):
         played(controller, 120, heading, 1.0)

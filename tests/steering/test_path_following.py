@@ -58,7 +58,7 @@ def test_what_it_tells_is_what_the_motion_does():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_distance_at_equal_arc_length_is_that_of_eq_9():
-    """As written down in [KGP02]: s grows by the root's step, or by the least progress where that is more."""
+    """As in [KGP02, Eq. 9]: s grows by the root's step, or by the least progress where that is more."""
     path = s_curve()
     followed = follow_path(GRAPH, path)
     steps = np.hypot(*np.diff(followed.track, axis=0).T)
@@ -71,7 +71,10 @@ def test_distance_at_equal_arc_length_is_that_of_eq_9():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_with_every_term_off_the_cost_is_eq_9():
-    """Then the search sums the squares of the distance at equal arc length, and nothing else."""
+    """Then the search sums the squares of the distance at equal arc length, and nothing else.
+
+    As in [KGP02, Eq. 9].
+    """
     plain = Settings(seam=0, match=0, stray=0, width=30, rescue=0, tries=1)
     followed = follow_path(GRAPH, s_curve(10), Wishes(slide=0), settings=plain)
     assert followed.found.cost == pytest.approx((followed.off_at_length**2).sum(), rel=1e-6)

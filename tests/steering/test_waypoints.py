@@ -13,6 +13,7 @@ from tests.steering.test_bent_following import straight_walker
 
 @pytest.mark.filterwarnings("ignore:The walk leaves")
 def test_places_and_times_are_kept():
+    """As in [KGP02, 5.3]."""
     points = [Waypoint(0, 0), Waypoint(0.5, 4, seconds=5.0), Waypoint(-0.5, 8, seconds=10.0)]
     found = through_waypoints(walking(), points)
     for point, arrival in zip(points, found.arrivals, strict=True):

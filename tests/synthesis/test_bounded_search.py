@@ -46,6 +46,7 @@ def every_walk(problem, node, walk=(), cost=0.0):
 
 @given(seeds, st.integers(1, 6))
 def test_it_finds_the_best_of_all_walks(seed, length):
+    """As in [KGP02, Eq. 8]."""
     problem = problem_on(random_graph(seed), length)
     found = branch_and_bound(problem, 0, ())
     costs = [cost for cost, _ in every_walk(problem, 0)]
@@ -132,7 +133,10 @@ def line_of(edges):
 
 @pytest.mark.parametrize(("keep", "expanded"), [(1, 3 + 3 + 3 + 3 + 2 + 1), (2, 3 + 3 + 2), (3, 3 + 3)])
 def test_each_stretch_looks_ahead_and_keeps_as_much_as_asked(keep, expanded):
-    """Six edges without a choice: each stretch looks three frames ahead, or to the end."""
+    """Six edges without a choice: each stretch looks three frames ahead, or to the end.
+
+    As in [KGP02, 4.2].
+    """
     found = search_ahead(problem_on(line_of(6), 6), 0, (), look=(3, keep))
     assert (found.expanded, found.cut, found.cost, found.complete) == (expanded, 0, 6.0, True)
 

@@ -21,6 +21,7 @@ GRAPH = prune(build(CLIPS, window=8, threshold=0.05))
 
 
 def test_the_pieces_are_the_whole():
+    """As in [KGP02, 5.3]."""
     whole = to_motion(GRAPH, random_walk(GRAPH, seconds=60, seed=5))
     pieces = list(stream(GRAPH, seconds=60, seed=5, piece=7))
     assert len(pieces) > 6

@@ -119,6 +119,7 @@ def one_by_one(graph, walk, place=IDENTITY):
 
 @given(seeds, planar)
 def test_all_at_once_is_what_edge_by_edge_is(seed, place):
+    """As in [KGP02, 4.1]."""
     walk = random_walk(GRAPH, seconds=8, seed=seed, settle=0.0)
     motion, expected = to_motion(GRAPH, walk, place=place), one_by_one(GRAPH, walk, place)
     assert motion.root_positions == pytest.approx(expected.root_positions, abs=1e-9)

@@ -116,6 +116,7 @@ def test_a_group_that_stands_has_no_direction(velocities, speed):
 
 @pytest.mark.parametrize(("count", "nodes", "covered"), [(12, 8, 0.85), (6, 6, 0.85)])
 def test_few_nodes_cover_most_of_a_simulation(count, nodes, covered):
+    """As in [LCF05, nodes]."""
     found = cluster(flock(count, 300.0), nodes=nodes)
     assert len(found.nodes) <= nodes and found.covered >= covered
     near = (found.distances[found.frames // 10] < 0.5).any(axis=0)
@@ -123,6 +124,7 @@ def test_few_nodes_cover_most_of_a_simulation(count, nodes, covered):
 
 
 def test_the_first_node_has_the_most_others_near():
+    """As in [LCF05, nodes]."""
     found = cluster(flock(6, 120.0), nodes=3)
     assert (found.distances < 0.5).sum(axis=1).argmax() == found.frames[0] // 10
 

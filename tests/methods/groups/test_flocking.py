@@ -42,6 +42,7 @@ def test_a_seed_gives_the_same_flock_again_and_another_gives_another():
 
 
 def test_each_rule_pulls_where_it_should():
+    """As in [LCF05, simulation]."""
     quiet = dict.fromkeys(("separate", "gather", "align", "steer", "keep"), 0.0)
     two = Trajectories(np.array([0j, 1 + 0j]), np.array([1 + 0j, 1j]))
     wish = np.array([1 + 0j, 1 + 0j])

@@ -33,7 +33,7 @@ def passed(flock, scene):
     ids=["four", "twelve"],
 )
 def test_courses_are_found_and_every_one_is_clear(seeds, least):
-    """Ten of twelve; in seed 0 discs close every way from the start."""
+    """Ten of twelve; in seed 0 discs close every way from the start. As in [LCF05, search]."""
     found = 0
     for seed in seeds:
         scene = course(seed)
@@ -49,6 +49,7 @@ def test_courses_are_found_and_every_one_is_clear(seeds, least):
 
 
 def test_bounds_spare_most_tests():
+    """As in [LCF05, search]."""
     found = plan_group(graph(), course(5))
     assert found.spared >= 0.7 * (found.spared + found.tested) > 1000
 

@@ -48,6 +48,7 @@ def lowest_sum(costs, slope):
 
 @given(st.integers(0, 10_000), st.integers(1, 3))
 def test_the_first_path_has_the_lowest_sum_of_all(seed, slope):
+    """As in [KG04, chains and bridges]."""
     costs = np.random.default_rng(seed).normal(0.4, 1, (9, 11))
     paths = list(local_paths(costs, slope=slope, least=0))
     assert path_sum(costs, paths[0]) == pytest.approx(lowest_sum(costs, slope))
@@ -61,6 +62,7 @@ def test_the_first_path_has_the_lowest_sum_of_all(seed, slope):
 
 
 def test_a_path_crosses_a_gap_that_it_has_earned_and_no_longer_one():
+    """As in [KG04, chains and bridges]."""
     costs = np.full((30, 30), 1.0)
     valley = np.arange(30)
     costs[valley, valley] = -0.2
@@ -89,6 +91,8 @@ def test_an_infinite_cell_is_never_crossed():
     )
 )
 def test_minima_are_no_higher_than_both_neighbours_along_the_row_or_the_column(grid):
+    """As in [KG04, minima]."""
+
     def value(i, j):
         return grid[i, j] if 0 <= i < grid.shape[0] and 0 <= j < grid.shape[1] else np.inf
 

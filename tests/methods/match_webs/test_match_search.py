@@ -183,6 +183,7 @@ def test_a_jump_finds_the_others_and_a_leak_finds_hundreds_of_other_things(subje
 
 
 def test_a_punch_finds_all_nine_by_way_of_those_in_between(real_data):
+    """As in [KG04, search in steps]."""
     clips = [datasets.cmu(trial.name) for trial in datasets.trials(2)]
     web = build_web(clips, below=0.16)
     truth = [(4, slice(4 * (peak - 18), 4 * (peak + 18))) for peak in PUNCHES]

@@ -77,6 +77,7 @@ VALUES = np.random.default_rng(3).normal(size=(9, 2)) * [20, 0.3]
 
 @given(st.integers(1, 4), st.integers(0, 6), st.floats(0, 0.5), st.integers(0, 99))
 def test_weights_add_up_to_one_and_stay_within_the_spread(numbers, more, spread, seed):
+    """As in [KG04, accessible region]."""
     values = np.random.default_rng(seed).normal(size=(numbers + 1 + more, numbers))
     weights = random_weights(values, 30, spread=spread, seed=seed)
     assert np.allclose(weights.sum(axis=1), 1, atol=1e-12)

@@ -41,6 +41,7 @@ def test_weights_add_up_to_one_and_stay_in_range_for_every_wish(numbers, seed, m
 
 
 def test_convex_weights_are_exact_for_a_linear_measure_and_those_of_neighbours_are_not():
+    """As in [KG04, request]."""
     made = linear_space()
     rng = np.random.default_rng(5)
     off = {method: [] for method in METHODS}
