@@ -11,9 +11,9 @@ Reading order (notebooks 04, 15)
 3. `matched_stretches`: many pairs to try blends on
 4. `timewarps`: smooth curves over time whose slope stays within bounds
 5. `contact_matches`: which plants of several clips are one and the same
-6. `registering`: which frames of clips belong together, and how they lie on one another
-7. `clocks`: where on the common clock each frame of a blend is
-8. `mixing`: registered clips blended by weights, constant or moving; from one into another at leisure
+6. `clocks`: clips on one common clock, and where on it each frame of a blend is
+7. `mixing`: registered clips blended by weights, constant or moving; from one into another at leisure
+8. `registering`: which frames of clips belong together, and how they lie on one another
 
 References
 ----------
@@ -34,8 +34,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "matched_stretches": ["draw_stretches"],
         "timewarps": ["Curve", "fit_curve"],
         "contact_matches": ["match_contacts", "plants_on_clock"],
-        "registering": ["Registration", "Warp", "register"],
-        "clocks": ["clock_speed", "frame_times"],
+        "clocks": ["Registration", "clock_speed", "frame_times"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
+        "registering": ["Warp", "register"],
     },
 )

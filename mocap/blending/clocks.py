@@ -1,12 +1,17 @@
-"""The blend's own clock: where on the common clock each of its frames is."""
+"""Clips on one common clock, and the blend's own clock: where on the common one each of its frames is."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array
-from mocap.blending.registering import Registration
+from mocap._shared.arrays import Array, Points, frozen
+from mocap.blending.contact_matches import SharedPlant
+from mocap.blending.timewarps import Curve
+from mocap.body.motion import Motion
+from mocap.body.planar import on_ground
 from mocap.errors import MocapError
 
 Weights = ArrayLike | Callable[[float, float], ArrayLike]
@@ -14,6 +19,47 @@ Weights = ArrayLike | Callable[[float, float], ArrayLike]
 
 FINE = 0.002  # seconds between the points from which the clock's inverse starts
 PACES = ("durations", "rates")
+
+
+@dataclass(frozen=True, eq=False)
+class Registration:
+    """Clips on one common clock u, which is the reference's own time in seconds.
+
+    clips, reference : C motions, and the number of the one that the others are laid on.
+    times : for each clip the curve S from u to its own seconds; the reference's is u itself.
+    angles : for each clip the angle, radians, that turns it on the reference at u; the reference's is 0.
+    centres : for each clip the centroid (x, z) of its points, averaged over a window, shape (F, 2), metres.
+    span : where all clips are defined: the first u and the last.
+    costs : shape (C,), the mean RMS distance along the clips' paths, metres.
+    contacts : the plants that all clips have.
+    """
+
+    clips: tuple[Motion, ...]
+    reference: int
+    times: tuple[Curve, ...]
+    angles: tuple[Curve, ...]
+    centres: tuple[Array, ...]
+    span: tuple[float, float]
+    costs: Array
+    contacts: tuple[SharedPlant, ...] = ()
+
+    @cached_property
+    def durations(self) -> Array:
+        """How long each clip takes for the span, seconds, shape (C,)."""
+        return frozen([float(curve(self.span[1]) - curve(self.span[0])) for curve in self.times], np.float64)
+
+    @cached_property
+    def parts(self) -> tuple[Motion, ...]:
+        """The stretch of each clip that the span covers, to its nearest frames."""
+        ends = [np.rint(curve(self.span) * c.fps) for curve, c in zip(self.times, self.clips, strict=True)]
+        return tuple(c[int(a) : int(b) + 1] for (a, b), c in zip(ends, self.clips, strict=True))
+
+    def centre(self, clip: int, times: ArrayLike) -> Points:
+        """Give a clip's centroid as z + ix at times of the common clock."""
+        frames = self.times[clip](times) * self.clips[clip].fps
+        own = np.arange(len(self.centres[clip]))
+        x, z = (np.interp(frames, own, column) for column in self.centres[clip].T)
+        return on_ground(np.stack([x, z], axis=-1))
 
 
 def frame_times(

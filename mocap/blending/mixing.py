@@ -12,9 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
-from mocap.blending.clocks import Weights, frame_times
+from mocap.blending.clocks import Registration, Weights, frame_times
 from mocap.blending.contact_matches import SharedPlant
-from mocap.blending.registering import Registration
 from mocap.body import rotations
 from mocap.body.motion import Motion, gather_marks, turning
 from mocap.body.planar import from_ground, on_ground

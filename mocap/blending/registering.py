@@ -1,28 +1,35 @@
 """Registration [KG03]: which frames of several clips belong together, and how they lie on one another."""
 
-from __future__ import annotations
-
-import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike
+from scipy.ndimage import map_coordinates
 
-from mocap._shared.arrays import Array, Points, frozen
-from mocap.blending.contact_matches import SharedPlant, match_contacts
+from mocap._shared.arrays import Array, frozen
+from mocap.blending.clocks import Registration
+from mocap.blending.contact_matches import match_contacts
+from mocap.blending.mixing import mix
 from mocap.blending.timewarps import Curve, fit_curve
+from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import from_ground, on_ground
-from mocap.errors import MocapError, MocapWarning
-from mocap.matching.distance_grids import check_window, distance_grid
+from mocap.errors import MocapError, shortened, warn
+from mocap.matching.distance_grids import Floats, check_window, distance_grid
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.time_paths import path_mean, time_path
 
 UNLIKE = 0.12  # metres, the mean RMS distance along a path: walks are 3 to 8 cm apart, a walk and a run 24
+
+# A blend of clips that belong together skates like they do: x 0.7 to 1.2 for walks of one person. By more
+# than this, times and metres per second, a warning tells.
+SKATES, FASTER = 1.4, 0.02
+
+# Spacings to try before the warp's own, as multiples of it; the first is a straight line. The first is taken
+# whose mean distance is at most so many times that of the warp's own knots, with which the pace of two even
+# walks wobbles by a fifth.
+SPACINGS, AS_GOOD = (np.inf, 8.0, 4.0, 2.0), 1.06
 
 
 class Warp(NamedTuple):
@@ -32,7 +39,7 @@ class Warp(NamedTuple):
     window : frames of a window, at this rate.
     slope : how many frames of one clip may pass in a row while the other stands: its pace stays between
         1 / (slope + 1) and slope + 1 times the other's.
-    spacing : seconds between the knots of the curves.
+    spacing : seconds between the knots of the curves; those of time may be farther apart.
 
     Notebook: 15-registration
     """
@@ -47,47 +54,6 @@ _Pair = tuple[Curve, Curve, tuple[float, float], float]
 """A clip registered on the reference: its curves of time and angle, where they hold, and the path's mean."""
 
 
-@dataclass(frozen=True, eq=False)
-class Registration:
-    """Clips on one common clock u, which is the reference's own time in seconds.
-
-    clips, reference : C motions, and the number of the one that the others are laid on.
-    times : for each clip the curve S from u to its own seconds; the reference's is u itself.
-    angles : for each clip the angle, radians, that turns it on the reference at u; the reference's is 0.
-    centres : for each clip the centroid (x, z) of its points, averaged over a window, shape (F, 2), metres.
-    span : where all clips are defined: the first u and the last.
-    costs : shape (C,), the mean RMS distance along the clips' paths, metres.
-    contacts : the plants that all clips have.
-    """
-
-    clips: tuple[Motion, ...]
-    reference: int
-    times: tuple[Curve, ...]
-    angles: tuple[Curve, ...]
-    centres: tuple[Array, ...]
-    span: tuple[float, float]
-    costs: Array
-    contacts: tuple[SharedPlant, ...] = ()
-
-    @cached_property
-    def durations(self) -> Array:
-        """How long each clip takes for the span, seconds, shape (C,)."""
-        return frozen([float(curve(self.span[1]) - curve(self.span[0])) for curve in self.times], np.float64)
-
-    @cached_property
-    def parts(self) -> tuple[Motion, ...]:
-        """The stretch of each clip that the span covers, to its nearest frames."""
-        ends = [np.rint(curve(self.span) * c.fps) for curve, c in zip(self.times, self.clips, strict=True)]
-        return tuple(c[int(a) : int(b) + 1] for (a, b), c in zip(ends, self.clips, strict=True))
-
-    def centre(self, clip: int, times: ArrayLike) -> Points:
-        """Give a clip's centroid as z + ix at times of the common clock."""
-        frames = self.times[clip](times) * self.clips[clip].fps
-        own = np.arange(len(self.centres[clip]))
-        x, z = (np.interp(frames, own, column) for column in self.centres[clip].T)
-        return on_ground(np.stack([x, z], axis=-1))
-
-
 def register(
     clips: Sequence[Motion], *, reference: int = 0, slack: float = 1.2, warp: Warp | None = None
 ) -> Registration:
@@ -95,8 +61,9 @@ def register(
 
     Each clip is registered with the reference. The path of least mean through the grid of their distances,
     √D of [KGP02, Eq. 1], says which windows belong together (`matching.time_path`). A curve S through the
-    path, with a slope between 1 / (W + 1) and W + 1, makes time run smoothly. Another curve goes through the
-    angles θ of the windows' best alignments [KGP02, Eqs. 2-4]. With them the clip is laid on the reference
+    path, with a slope between 1 / (W + 1) and W + 1, makes time run smoothly: a straight line where it is as
+    good, else as few knots as do [ours]. Another curve goes through the angles θ of the windows' best
+    alignments [KGP02, Eqs. 2-4]. With them the clip is laid on the reference
     at u by turning it by θ(u) and moving its centroid onto the reference's. Last, plants are matched.
 
     Ours: the clock is the reference's time, so C clips take C - 1 pairs (recalled: the paper fits one curve
@@ -108,8 +75,8 @@ def register(
     clips : two motions or more, of one skeleton and one rate. Mark their plants first (`feet.mark_plants`)
         if the blend should have contacts.
     reference : the number of the clip whose clock is the common one.
-    slack : seconds that one clip may start or end before the other, at most half of the shorter one. 0 for
-        clips that were cut alike, at strikes for example.
+    slack : seconds that one clip may start or end before the other; at most half of the shortest clip, and
+        less where less than half of it would be in common. 0 for clips cut alike, at strikes for example.
     warp : `Warp()` by default.
 
     Returns
@@ -119,13 +86,11 @@ def register(
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, fewer than two clips, a reference that is
-        none of them, clips of which one is longer than the slope allows, settings that make no sense, and
-        clips that have less than a window in common.
+        none of them, clips of which one is longer than the slope allows, and settings that make no sense.
 
     Warns
     -----
-    MocapWarning : for clips that may not be of one kind, and where they have less than half of the shortest
-        clip in common.
+    MocapWarning : for clips that may not be of one kind, and for clips whose blend skates though they do not.
 
     Examples
     --------
@@ -141,21 +106,27 @@ def register(
     step = _checked(clips, reference, slack, warp)
     rate = clips[0].fps / step
     clouds = [point_cloud(clip[::step]) for clip in clips]
-    frames = min(int(slack * rate), min(map(len, clouds)) // 2)
-    pairs = [
-        _identity(clip) if n == reference else _register_pair(clouds[reference], cloud, rate, warp, frames)
-        for n, (clip, cloud) in enumerate(zip(clips, clouds, strict=True))
-    ]
-    times, angles, holds, costs = zip(*pairs, strict=True)
-    # All curves hold, and no clip is at its end yet.
-    limits = [*holds, *(t.inverse([0, clip.duration]) for t, clip in zip(times, clips, strict=True))]
-    span = max(float(low) for low, _ in limits), min(float(high) for _, high in limits)
-    if span[1] - span[0] < (warp.window - 1) / rate:
-        raise MocapError("The clips have less than one window in common; give longer ones, or less slack.")
-    _warn(clips, reference, costs, span)
+    shortest = min(clip.duration for clip in clips)
+    frames = int(min(slack * rate, min(map(len, clouds)) // 2))
+    while True:
+        pairs = [
+            _identity(clip)
+            if n == reference
+            else _register_pair(clouds[reference], cloud, rate, warp, frames)
+            for n, (clip, cloud) in enumerate(zip(clips, clouds, strict=True))
+        ]
+        times, angles, holds, costs = zip(*pairs, strict=True)
+        # All curves hold, and no clip is at its end yet.
+        limits = [*holds, *(t.inverse([0, clip.duration]) for t, clip in zip(times, clips, strict=True))]
+        span = max(float(low) for low, _ in limits), min(float(high) for _, high in limits)
+        if not frames or span[1] - span[0] >= shortest / 2:
+            break
+        frames //= 2
     centres = tuple(_window_centres(clip, warp.window / rate) for clip in clips)
     plants, means = match_contacts(clips, times, span), frozen(costs, np.float64)
-    return Registration(tuple(clips), reference, times, angles, centres, span, means, plants)
+    found = Registration(tuple(clips), reference, times, angles, centres, span, means, plants)
+    _warn(found, rate, alike=slack == 0)
+    return found
 
 
 def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) -> int:
@@ -181,8 +152,11 @@ def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: i
     path = time_path(grid, slope=warp.slope, slack=min(slack, min(grid.shape) - 1))
     half = (warp.window - 1) / 2
     u, own = (path.T + half) / rate
-    fastest = warp.slope + 1.0
-    times = fit_curve(u, own, spacing=warp.spacing, least=1 / fastest, most=fastest)
+    bounds = {"least": 1 / (warp.slope + 1), "most": warp.slope + 1.0}
+    times = fit_curve(u, own, spacing=warp.spacing, **bounds)
+    enough = AS_GOOD * _mean_along(grid, times, rate, half)
+    fewer = (fit_curve(u, own, spacing=wider * warp.spacing, **bounds) for wider in SPACINGS)
+    times = next((curve for curve in fewer if _mean_along(grid, curve, rate, half) <= enough), times)
     frames = np.arange(warp.window)
     a, b = (
         points[cells[:, None] + frames].reshape(len(path), -1, 3)
@@ -193,6 +167,13 @@ def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: i
     # Clips cut alike go on to their ends: the last half window, and the frames that the rate left out.
     beyond = 0.0 if slack else (half + 1) / rate
     return times, angles, (u[0] - beyond, u[-1] + beyond), path_mean(grid, path)
+
+
+def _mean_along(grid: Floats, times: Curve, rate: float, half: float) -> float:
+    """Average a grid of windows along a curve of time, weighted by how far both clips advance."""
+    u = np.linspace(times.knots[0], times.knots[-1], 2 * len(grid))
+    values = map_coordinates(grid, [u * rate - half, times(u) * rate - half], order=1, mode="nearest")
+    return float(np.average(values, weights=1 + times.slope(u)))
 
 
 def _identity(clip: Motion) -> _Pair:
@@ -210,19 +191,22 @@ def _window_centres(clip: Motion, seconds: float) -> Array:
     return frozen(sliding_window_view(around, 2 * half + 1, axis=0).mean(axis=-1), np.float64)
 
 
-def _warn(clips: Sequence[Motion], reference: int, costs: Sequence[float], span: tuple[float, float]) -> None:
-    worst = int(np.argmax(costs))
-    shortest, common = min(clip.duration for clip in clips), span[1] - span[0]
-    for wrong, sentence in (
-        (
-            costs[worst] > UNLIKE,
-            f"'{clips[reference].name}' and '{clips[worst].name}' may not be the same kind of motion: "
-            f"{100 * costs[worst]:.0f} cm along the path.",
-        ),
-        (
-            common < shortest / 2,
-            f"The clips have only {common:.2f} s in common; the shortest one lasts {shortest:.2f} s.",
-        ),
-    ):
-        if wrong:
-            warnings.warn(sentence, MocapWarning, stacklevel=3)
+def _warn(found: Registration, rate: float, *, alike: bool) -> None:
+    """Warn of clips that do not fit; those that were cut `alike` are blended with some of them only."""
+    clips, worst = found.clips, int(np.argmax(found.costs))
+    names = f"'{shortened(clips[found.reference].name, 40)}' and '{shortened(clips[worst].name, 40)}'"
+    if found.costs[worst] > UNLIKE:
+        apart = f"{100 * found.costs[worst]:.0f} cm along the path"
+        warn(f"{names} may not be the same kind of motion: {apart}.", 3)
+    elif not alike:
+        skate = _skate(mix(found, np.full(len(clips), 1 / len(clips)), fps=rate, rounds=0))
+        own = float(np.mean([_skate(part[:: round(part.fps / rate)]) for part in found.parts]))
+        if skate > max(SKATES * own, own + FASTER):
+            speeds = f"{100 * skate:.1f} cm/s, in the clips at {100 * own:.1f}"
+            warn(f"{names} may not belong together: in an even blend the slowest joint goes at {speeds}.", 3)
+
+
+def _skate(motion: Motion) -> float:
+    """Give the mean speed over the ground of each frame's slowest joint, m/s: in walking one foot stands."""
+    ground = on_ground(joint_positions(motion))
+    return float(np.abs(np.diff(ground, axis=0)).min(axis=1).mean()) * motion.fps

@@ -92,7 +92,7 @@ def fit_curve(
     Parameters
     ----------
     times, values : shape (N,); times never fall.
-    spacing : seconds from knot to knot, at most.
+    spacing : seconds from knot to knot, at most; `np.inf` fits a straight line.
     least, most : bounds of the slope, per second.
 
     Raises
@@ -109,7 +109,7 @@ def fit_curve(
     Notebook: 15-registration
     """
     u, y = np.asarray(times, float), np.asarray(values, float)
-    if not (np.isfinite(spacing) and spacing > 0):
+    if not spacing > 0:
         raise MocapError(f"Knots need a spacing above 0 s, got {spacing}.")
     if (
         u.ndim != 1
@@ -120,17 +120,20 @@ def fit_curve(
     ):
         raise MocapError("A curve needs finite values at as many finite times, which never fall.")
     count = max(int(np.ceil((u[-1] - u[0]) / spacing - 1e-9)), 1)
-    step = (u[-1] - u[0]) / count if u[-1] > u[0] else spacing
+    step = (u[-1] - u[0]) / count if u[-1] > u[0] else min(spacing, 1.0)
     empty = Curve(float(u[0]), float(step), np.zeros(count + 2))
     spans, t = empty._place(u)
     matrix = np.zeros((len(u), count + 2))
     np.put_along_axis(matrix, spans[:, None] + np.arange(3), _basis(t), axis=1)
     # The n-th control point is the first one plus n differences; so each difference adds to all later ones.
     matrix = np.cumsum(matrix[:, ::-1], axis=1)[:, ::-1]
-    low, high = np.full(count + 2, least * step), np.full(count + 2, most * step)
+    if spacing == np.inf:  # both differences are the same
+        matrix = np.stack([matrix[:, 0], matrix[:, 1] + matrix[:, 2]], axis=1)
+    low, high = (np.full(matrix.shape[1], bound * step) for bound in (least, most))
     low[0], high[0] = -np.inf, np.inf
-    solution = lsq_linear(matrix, y, (low, high), method="bvls").x
-    return empty._replace(coefficients=frozen(np.cumsum(np.clip(solution, low, high)), np.float64))
+    solution = np.clip(lsq_linear(matrix, y, (low, high), method="bvls").x, low, high)
+    differences = solution[[0, 1, 1]] if spacing == np.inf else solution
+    return empty._replace(coefficients=frozen(np.cumsum(differences), np.float64))
 
 
 def _basis(t: Array) -> Array:

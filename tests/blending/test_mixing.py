@@ -145,9 +145,9 @@ def test_captured_turns_do_not_collapse(real_data):
         registration = register([captured(real_data, name) for name in names])
         blend, collapsed = mix(registration, HALF), places_averaged(registration, HALF)
         length = of_parts(registration, way).mean()
-        assert way(blend) >= 0.97 * length and slowest(blend) >= 0.6
+        assert way(blend) >= 0.97 * length and slowest(blend) >= 0.59
         assert way(collapsed) <= 0.75 * length and slowest(collapsed) <= 0.1 and skate(collapsed) >= 40
-        assert abs(turned(blend)) < 3 < 170 < abs(turned(collapsed))  # as quaternions, ±90° have no mean
+        assert abs(turned(blend)) < 5 < 170 < abs(turned(collapsed))  # as quaternions, ±90° have no mean
 
 
 def test_circles_to_the_right_and_the_left_make_a_straight_walk(real_data):

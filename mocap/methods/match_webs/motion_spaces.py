@@ -14,9 +14,8 @@ from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
 from mocap._shared.arrays import Array, frozen
-from mocap.blending.clocks import checked
+from mocap.blending.clocks import Registration, checked
 from mocap.blending.mixing import mix
-from mocap.blending.registering import Registration
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import PlanarTransform, heading, on_ground
