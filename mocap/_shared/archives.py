@@ -1,22 +1,47 @@
 """Arrays in one `.npz` file that says what it holds: written whole, and read only where everything fits.
 
-Such a file holds no code: it is safe to read one from a stranger.
+Such a file holds no code: it is safe to read one from a stranger. What it claims, in the directory of the
+`.zip` and in the headers of its arrays, is compared with what it can hold before anything is unpacked.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+import math
+import mmap
+import re
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from mocap._shared.atomic import replacing, require_npz
 from mocap.errors import FormatError, MocapError
 
 Arrays = dict[str, NDArray[Any]]
 Layout = Mapping[str, tuple[str, tuple[int | str, ...]]]
-TYPES = {"U": str, "i": int, "f": float, "c": complex, "b": bool}
+TYPES: dict[str, DTypeLike] = {"U": str, "i": int, "f": float, "c": complex, "b": bool}
 FIRST = {"mocap motion graph": "mocap: a motion graph"}  # how the first files say what they hold
+RATIO, ROOM = 8, 2**20  # bytes of arrays: at most ROOM, and RATIO for each byte of the file; ours have three
+MOST, START, CHUNK = 2**14, 1024, 2**20  # members; bytes that hold a header, and that are unpacked at once
+LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
+HEADER = re.compile(
+    rb"\x93NUMPY\x01\x00(..)\{ *'descr': *'([<>|](?:b1|[iu][1248]|f[248]|c8|c16|U\d{1,6}))', *"
+    rb"'fortran_order': *(True|False), *'shape': *\(([\d, L]*)\),? *\} *\n",
+    re.DOTALL,
+)
+
+
+class Member(NamedTuple):
+    """An array of a file as its header claims it; `read` unpacks it. Anything else is an `object`."""
+
+    dtype: np.dtype[Any]
+    shape: tuple[int, ...]
+    read: Callable[[], NDArray[Any]]
+
+    def __str__(self) -> str:
+        return f"{self.dtype}{self.shape}"
 
 
 def _no_rules(_: Arrays) -> Iterable[tuple[str, ArrayLike]]:
@@ -29,6 +54,7 @@ class Kind(NamedTuple):
     name : as in "a match web".
     version : of its arrays; a newer one is refused.
     arrays : for each array the letter of its kind in NumPy, and its shape. Sizes of one letter are the same.
+        "grid_of_*K" stands for K arrays, numbered from 0 on; a size with a star is the own one of each.
     rules : yields what the numbers must keep, as sentences with booleans; each may need those before it.
     """
 
@@ -36,6 +62,20 @@ class Kind(NamedTuple):
     version: int
     arrays: Layout
     rules: Callable[[Arrays], Iterable[tuple[str, ArrayLike]]] = _no_rules
+
+    def parts(self, found: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:
+        """Yield the name and the letter of each array, and whether the one that was found has its shape."""
+        sizes: dict[str, int] = {}
+        for key, (letter, shape) in self.arrays.items():
+            stem, star, count = key.partition("*")
+            for number in map(str, range(sizes[count])) if star else ("",):
+                have = getattr(found.get(stem + number), "shape", None)
+                fits = have is not None and len(shape) == len(have)
+                for size, name in zip(have or (), shape, strict=False):
+                    if isinstance(name, str):
+                        name = sizes.setdefault(name.replace("*", number), size)
+                    fits &= size == name
+                yield stem + number, letter, fits
 
 
 def write_arrays(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> None:
@@ -59,11 +99,23 @@ def write_arrays(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> Non
     """
     require_npz(path)
     whole: Arrays = {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version)}
-    for key, (letter, _) in kind.arrays.items():
-        array = np.asarray(arrays[key])
-        whole[key] = array if array.dtype.kind == letter else array.astype(TYPES[letter])
-    with replacing(path) as beside, beside.open("wb") as file:
-        np.savez_compressed(file, allow_pickle=False, **whole)
+    given = {key: np.asarray(array) for key, array in arrays.items()}
+    for key, letter, _ in kind.parts(given):
+        whole[key] = given[key] if given[key].dtype.kind == letter else given[key].astype(TYPES[letter])
+    pack(path, whole)
+
+
+def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
+    """Write an `.npz` file, whole or not at all: packed, unless so much would come out that it is refused."""
+    with replacing(path) as beside:
+        for save in (np.savez_compressed, np.savez):
+            with beside.open("wb") as file:
+                save(file, allow_pickle=False, **arrays)
+            if (
+                sum(np.asarray(array).nbytes for array in arrays.values())
+                < RATIO * beside.stat().st_size + ROOM
+            ):
+                break
 
 
 def read_arrays(path: str | Path, kind: Kind) -> Arrays:
@@ -86,48 +138,92 @@ def read_arrays(path: str | Path, kind: Kind) -> Arrays:
     mocap.errors.MocapError: Cannot read no.npz: No such file or directory.
     """
     ours = f"{kind.name} saved by mocap, version {kind.version}"
-    arrays = open_arrays(path, ours, ("format", "version", *kind.arrays))
-    try:
-        name, version = str(arrays.pop("format")), int(arrays.pop("version"))
-    except (KeyError, TypeError, ValueError):
-        raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from None
-    if FIRST.get(name, name) != f"mocap: {kind.name}":
-        raise FormatError(path, None, ours, "an .npz of another kind")
-    if version > kind.version:
-        raise FormatError(path, None, ours, f"version {version}, which a newer mocap wrote")
-    if missing := [key for key in kind.arrays if key not in arrays]:
-        raise FormatError(path, None, ours, f"one without {', '.join(missing)}")
-    _check(path, kind, arrays)
-    for what, holds in kind.rules(arrays):
-        if not np.all(holds):
-            raise FormatError(path, None, f"that {what}", "a damaged file")
+    with open_archive(path, ours) as members:
+        name, version = str(members["format"].read()), int(members["version"].read())
+        if FIRST.get(name, name) != f"mocap: {kind.name}":
+            raise FormatError(path, None, ours, "an .npz of another kind")
+        if version > kind.version:
+            raise FormatError(path, None, ours, f"version {version}, which a newer mocap wrote")
+        found = []
+        for key, letter, fits in kind.parts(members):
+            if key not in members:
+                raise FormatError(path, None, ours, f"one without {key}")
+            if not fits or members[key].dtype.kind != letter:
+                raise FormatError(path, None, f"'{key}' to fit the other arrays", str(members[key]))
+            found.append(key)
+        arrays = {key: members[key].read() for key in found}
+        for what, holds in kind.rules(arrays):
+            if not np.all(holds):
+                raise FormatError(path, None, f"that {what}", "a damaged file")
     return arrays
 
 
-def open_arrays(path: str | Path, ours: str, keys: Iterable[str]) -> Arrays:
-    """Read those of some arrays that an `.npz` file has; `ours` says, for the error, what it should be.
+@contextmanager
+def open_archive(path: str | Path, ours: str, room: int = ROOM) -> Iterator[dict[str, Member]]:
+    """Open an `.npz` file, and give what its members claim to be.
+
+    Parameters
+    ----------
+    path : the file.
+    ours : says, for the error, what it should be. Whatever fails within the block, the file is damaged.
+    room : bytes that its arrays may take however small the file is.
 
     Raises
     ------
     MocapError : where the file cannot be read.
-    FormatError : where it is no such file.
+    FormatError : where it is no such file, or claims what it cannot hold.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            return {key: archive[key] for key in keys if key in archive}
+        with Path(path).open("rb") as file, np.errstate(all="ignore"):
+            with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+                crowded = sum(1 for _ in re.finditer(rb"PK\x01\x02", data)) > MOST
+                room += RATIO * len(data)
+            if crowded:
+                raise zipfile.BadZipFile
+            with zipfile.ZipFile(file) as archive:
+                yield _members(archive, room)
+    except MocapError:
+        raise
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
-    except Exception as error:  # NumPy raises many kinds of errors for other files
+    except Exception as error:  # zipfile, zlib and NumPy raise many kinds of errors
         raise FormatError(path, None, ours, "a file of another kind, or a damaged one") from error
 
 
-def _check(path: str | Path, kind: Kind, arrays: Arrays) -> None:
-    """Raise unless every array has its kind and shape."""
-    sizes: dict[str, int] = {}
-    for key, (letter, shape) in kind.arrays.items():
-        array = arrays[key]
-        fits = len(shape) == array.ndim and array.dtype.kind == letter
-        for name, size in zip(shape, array.shape, strict=False):
-            fits &= size == (sizes.setdefault(name, size) if isinstance(name, str) else name)
-        if not fits:
-            raise FormatError(path, None, f"'{key}' to fit the other arrays", f"{array.dtype}{array.shape}")
+def _members(archive: zipfile.ZipFile, room: int) -> dict[str, Member]:
+    """Check the directory of an archive, and the headers of its arrays: nothing else is unpacked yet."""
+    entries = sorted(archive.infolist(), key=lambda entry: entry.header_offset)
+    ends = [entry.header_offset + 30 + len(entry.filename) + entry.compress_size for entry in entries]
+    starts = [*(entry.header_offset for entry in entries[1:]), archive.start_dir]
+    odd = any(entry.flag_bits & 1 or entry.compress_type not in (0, 8) for entry in entries)
+    twice = len({entry.filename.removesuffix(".npy") for entry in entries}) < len(entries)
+    overlapping = any(end > start for end, start in zip(ends, starts, strict=True))
+    if odd or twice or overlapping or sum(entry.file_size for entry in entries) > room:
+        raise zipfile.BadZipFile
+    return {entry.filename.removesuffix(".npy"): _member(archive, entry) for entry in entries}
+
+
+def _member(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Member:
+    with archive.open(entry) as packed:
+        header = HEADER.match(packed.read(START))
+    if not header or header.end() != 10 + int.from_bytes(header[1], "little"):
+        return Member(np.dtype(object), (), lambda: np.array(None))
+    dtype, shape = np.dtype(header[2].decode()), tuple(map(int, re.findall(rb"\d+", header[4])))
+    if header.end() + math.prod(shape) * dtype.itemsize != entry.file_size:
+        raise zipfile.BadZipFile
+
+    def read() -> NDArray[Any]:
+        data, at = np.empty(entry.file_size, np.uint8), 0
+        with archive.open(entry) as packed:
+            while part := packed.read(CHUNK):  # all at once would take twice the memory
+                data[at : at + len(part)] = np.frombuffer(part, np.uint8)
+                at += len(part)
+        whole = data[header.end() : at].view(dtype).reshape(shape, order="F" if header[3] == b"True" else "C")
+        array = whole.astype(dtype.newbyteorder("="), "C", copy=False)
+        if last := LAST.get(dtype.kind):
+            codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
+            if np.any((codes > last) | (codes >> 11 == 27)):  # no letter, half of one, no truth
+                raise UnicodeError
+        return array
+
+    return Member(dtype, shape, read)

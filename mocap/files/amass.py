@@ -8,18 +8,19 @@ are read onto one body of 22 joints, the mean one. Fingers, face and soft tissue
 
 from __future__ import annotations
 
+import math
 import tomllib
 import warnings
-import zipfile
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mocap._shared.archives import Arrays, open_arrays
+from mocap._shared.archives import Member, open_archive, pack
 from mocap._shared.arrays import Array
-from mocap._shared.atomic import replacing
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
@@ -30,9 +31,10 @@ SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
 PELVIS = np.array([0.0, -0.223, 0.028])  # where `trans` 0 puts the pelvis, in the archive's own axes
 UPRIGHT = rotations.from_rotvec([-np.pi / 2, 0, 0])  # from z up to y up
 
-WIDTH = 3 * len(SKELETON)  # numbers of a pose that are read
 RATES = ("mocap_framerate", "mocap_frame_rate")
-MOST = 2**31  # bytes of one array: a day at 120 Hz has fewer
+WIDTH = 3 * len(SKELETON)
+WIDTHS = {"poses": WIDTH, "trans": 3}  # numbers of a frame that are read
+ROOM = 2**27  # bytes of arrays in the smallest file: somebody who stands still for a quarter of an hour
 
 
 def is_amass(path: str | Path) -> bool:
@@ -44,9 +46,9 @@ def is_amass(path: str | Path) -> bool:
     False
     """
     try:
-        with zipfile.ZipFile(path) as archive:
-            return {"poses.npy", "trans.npy"} <= set(archive.namelist())
-    except (OSError, zipfile.BadZipFile):
+        with open_archive(path, "an AMASS archive", ROOM) as members:
+            return {"poses", "trans"} <= set(members)
+    except MocapError:
         return False
 
 
@@ -71,57 +73,58 @@ def read(path: str | Path, *, fps: float | None = None) -> Motion:
     -----
     MocapWarning : where the file gives the body a shape.
     """
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:
-            large = [entry.filename for entry in archive.infolist() if entry.file_size > MOST]
-        if large:
-            raise FormatError(path, None, f"arrays below {MOST / 1e9:.1f} GB", f"a larger '{large[0]}'")
-    keys = ("poses", "trans", "betas", *RATES)
-    arrays = open_arrays(path, "an AMASS archive with poses and trans", keys)
-    poses, trans = _checked(path, arrays, "poses", WIDTH), _checked(path, arrays, "trans", 3)
-    if len(poses) == 0:
-        raise FormatError(path, None, "one frame or more in 'poses'", "none")
-    if len(poses) != len(trans):
-        raise FormatError(path, None, f"as many rows of trans as of poses, {len(poses)}", str(len(trans)))
-    betas = arrays.get("betas", np.zeros(1))
-    if betas.dtype.kind in "fiu" and np.any(betas):
+    with open_archive(path, "an AMASS archive with poses and trans", ROOM) as members:
+        counts = [_count(path, members, key) for key in WIDTHS]
+        if counts[0] != counts[1]:
+            raise FormatError(path, None, f"as many rows of trans as of poses, {counts[0]}", str(counts[1]))
+        if counts[0] == 0:
+            raise FormatError(path, None, "one frame or more in 'poses'", "none")
+        rate = fps or _rate(path, members)
+        poses, trans = (_finite(path, key, members[key].read()[:, : WIDTHS[key]]) for key in WIDTHS)
+        betas = members.get("betas")
+        few = betas is not None and betas.dtype.kind in "fiu" and math.prod(betas.shape) <= WIDTH
+        shaped = betas is not None and few and betas.read().any()
+    if shaped:
         warnings.warn(
             f"{path}: betas, the shape of the body, are ignored: the bones are those of the mean body, so "
             "feet may stand some centimetres above or below the ground.",
             MocapWarning,
             stacklevel=4,
         )
-    local = rotations.from_rotvec(poses[:, :WIDTH].reshape(len(poses), -1, 3))
+    local = rotations.from_rotvec(poses.reshape(len(poses), -1, 3))
     local[:, 0] = rotations.multiply(UPRIGHT, local[:, 0])
-    roots = rotations.rotate(UPRIGHT, PELVIS + trans[:, :3])
-    return Motion(SKELETON, roots, local, fps or _rate(path, arrays), Path(path).stem)
+    return Motion(SKELETON, rotations.rotate(UPRIGHT, PELVIS + trans), local, rate, Path(path).stem)
 
 
-def _checked(path: str | Path, arrays: Arrays, key: str, width: int) -> Array:
-    """Give an array of rows of at least `width` numbers, all finite."""
-    if key not in arrays:
+def _count(path: str | Path, members: Mapping[str, Member], key: str) -> int:
+    """Count the frames of an array, which has rows of numbers, as many as are read, or more."""
+    if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
-    values = arrays[key]
-    if values.ndim != 2 or values.shape[1] < width or values.dtype.kind not in "fiu":
-        raise FormatError(
-            path, None, f"{width} numbers for each frame in '{key}'", f"{values.dtype}{values.shape}"
-        )
-    fine = np.isfinite(values).all(axis=1) & (np.abs(values) < 1e6).all(axis=1)
+    kind, shape, _ = members[key]
+    if len(shape) != 2 or shape[1] < WIDTHS[key] or kind.kind not in "fiu":
+        expected = f"{WIDTHS[key]} numbers for each frame in '{key}'"
+        raise FormatError(path, None, expected, str(members[key]))
+    return shape[0]
+
+
+def _finite(path: str | Path, key: str, values: NDArray[Any]) -> Array:
+    fine = (np.abs(values) < 1e6).all(axis=1)  # not so for nan
     if not fine.all():
-        frame = int(fine.argmin())
-        raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", f"others in frame {frame}")
+        got = f"others in frame {fine.argmin()}"
+        raise FormatError(path, None, f"finite numbers below 1e6 in '{key}'", got)
     return values.astype(float)
 
 
-def _rate(path: str | Path, arrays: Arrays) -> float:
-    key = next((key for key in RATES if key in arrays), None)
+def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
+    key = next((key for key in RATES if key in members), None)
     if key is None:
         raise FormatError(path, None, f"'{RATES[0]}'", "none: give fps=")
-    rate = arrays[key]
-    if rate.size != 1 or rate.dtype.kind not in "fiu" or not 0 < rate.item() < 1e6:
-        got = str(rate.item()) if rate.size == 1 else f"{rate.dtype}{rate.shape}"
+    kind, shape, read = members[key]
+    rate = read().item() if math.prod(shape) == 1 and kind.kind in "fiu" else None
+    if rate is None or not 0 < rate < 1e6:
+        got = str(members[key]) if rate is None else str(rate)
         raise FormatError(path, None, f"one number above 0 in '{key}'", got)
-    return float(rate.item())
+    return float(rate)
 
 
 def write(motion: Motion, path: str | Path) -> None:
@@ -148,7 +151,5 @@ def write(motion: Motion, path: str | Path) -> None:
     poses = np.zeros((len(motion), 156))
     poses[:, :WIDTH] = rotations.to_rotvec(turned).reshape(len(motion), -1)
     trans = rotations.rotate(back, motion.root_positions) - PELVIS
-    with replacing(path) as beside, beside.open("wb") as file:
-        np.savez_compressed(
-            file, poses=poses, trans=trans, betas=np.zeros(16), gender="neutral", mocap_framerate=motion.fps
-        )
+    facts = {"betas": np.zeros(16), "gender": "neutral", "mocap_framerate": motion.fps}
+    pack(path, {"poses": poses, "trans": trans, **facts})

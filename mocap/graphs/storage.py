@@ -19,7 +19,7 @@ from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, is_bundled, sample
 from mocap.editing.mirroring import mirror
-from mocap.errors import MocapError
+from mocap.errors import MocapError, shortened
 from mocap.files.folders import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
@@ -128,11 +128,13 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
     by_name = {clip.name: clip for clip in clips}
     for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
         if name not in by_name:
-            raise MocapError(f"{path} needs the clip '{name}'; given are: {', '.join(by_name) or 'none'}.")
+            given = shortened(", ".join(by_name) or "none")
+            raise MocapError(f"{path} needs the clip '{shortened(name)}'; given are: {given}.")
         now = len(by_name[name])
-        if fingerprint(by_name[name]) != known and not (now == frames and is_bundled(by_name[name])):
+        if now != frames or (fingerprint(by_name[name]) != known and not is_bundled(by_name[name])):
             other = f"{frames} frames then, {now} now" if now != frames else "other poses, bones or units"
-            raise MocapError(f"{path} was built of another '{name}': {other}. Take that clip, or build anew.")
+            named = f"another '{shortened(name)}'"
+            raise MocapError(f"{path} was built of {named}: {other}. Take that clip, or build anew.")
     return MotionGraph(tuple(by_name[name] for name in found.names), found.window, found.graph)
 
 
@@ -192,7 +194,7 @@ def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Prog
     for name, text in itertools.zip_longest(found.names, found.origins):
         origin = find_again(text, folder) if text else None
         if origin is None and name not in beside:
-            raise MocapError(f"The clip '{name}' is no longer where {path} found it: give clips=.")
+            raise MocapError(f"The clip '{shortened(name)}' is no longer where {path} found it: give clips=.")
         placed.append(origin or Origin(beside[name]))
     clips = []
     for origin in progress(placed):
@@ -207,7 +209,8 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     edges, is_transition = arrays["edges"], arrays["is_transition"]
     yield "origins are one for each clip, or none", len(arrays["origins"]) in (0, len(lengths))
     yield "origins are places of files", [is_origin(text) for text in arrays["origins"].tolist()]
-    yield "window and rate are above 0", window > 0 and 0 < arrays["fps"] < np.inf
+    yield "window and rate are above 0", 0 < window < 2**31 and 0 < arrays["fps"] < 1e6
+    yield "clips have frames", (lengths > 0) & (lengths < 2**31)
     yield "there are clips with names of their own", 0 < len(set(arrays["names"].tolist())) == len(lengths)
     yield "nodes lie in clips", (nodes[:, 0] >= 0) & (nodes[:, 0] < len(lengths))
     yield "nodes lie in their clips", (nodes[:, 1] >= 0) & (nodes[:, 1] <= lengths[nodes[:, 0]])

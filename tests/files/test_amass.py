@@ -1,7 +1,6 @@
 """AMASS archives against SMPL's own rule for joints, written out by hand; and what is refused."""
 
 import warnings
-import zipfile
 from dataclasses import replace
 
 import numpy as np
@@ -108,6 +107,7 @@ def test_betas_are_ignored_with_a_sentence(archive):
 BAD = [
     ({"poses": None}, "no 'poses'"),
     ({"trans": None}, "no 'trans'"),
+    ({"poses": np.array([{}], object)}, r"66 numbers .* got object\(\)"),  # no code of a file is run
     ({"poses": np.zeros((4, 63))}, r"66 numbers for each frame in 'poses', got float64\(4, 63\)"),
     ({"poses": np.zeros(4)}, r"66 numbers .* got float64\(4,\)"),
     ({"poses": np.full((4, 66), "x")}, "66 numbers"),
@@ -131,32 +131,11 @@ def test_a_broken_archive_is_refused(archive, changes, message):
     assert len(str(error.value).replace(str(path), "")) <= 200
 
 
-def test_files_of_other_kinds_are_refused(tmp_path, monkeypatch):
-    with pytest.raises(MocapError, match=r"Cannot read .*gone.npz: No such file"):
-        amass.read(tmp_path / "gone.npz")
-    with pytest.raises(MocapError, match=r"Cannot read .*: Is a directory"):
-        amass.read(tmp_path)
-    for name, data in (("a.npz", b"PK\3\4 no archive"), ("b.npz", b"")):
-        (tmp_path / name).write_bytes(data)
-        with pytest.raises(FormatError, match="got a file of another kind, or a damaged one"):
-            amass.read(tmp_path / name)
-        assert not amass.is_amass(tmp_path / name)
-    np.savez(tmp_path / "c.npz", poses=np.array([{}], object), trans=np.zeros((1, 3)))
-    with pytest.raises(FormatError, match="of another kind"):  # no code of a file is run
-        amass.read(tmp_path / "c.npz")
-    monkeypatch.setattr(amass, "MOST", 1000)
-    np.savez_compressed(tmp_path / "d.npz", **numbers(1000))
-    with pytest.raises(FormatError, match=r"expected arrays below 0\.0 GB, got a larger 'poses.npy'"):
-        amass.read(tmp_path / "d.npz")
-
-
-def test_a_header_that_promises_more_than_there_is_takes_no_memory(tmp_path):
-    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
-        header = "{'descr': '<f8', 'fortran_order': False, 'shape': (9999999999999, 66), }"
-        for name in ("poses", "trans"):
-            archive.writestr(f"{name}.npy", b"\x93NUMPY\x01\x00" + bytes([len(header), 0]) + header.encode())
-    with pytest.raises(FormatError, match="damaged"):
-        amass.read(tmp_path / "a.npz")
+def test_files_of_other_kinds_are_refused(tmp_path):
+    for path, reason in ((tmp_path / "gone.npz", "No such file"), (tmp_path, "Is a directory")):
+        with pytest.raises(MocapError, match=f"Cannot read {path}: {reason}"):
+            amass.read(path)
+        assert not amass.is_amass(path)
 
 
 def test_other_skeletons_are_not_written(tmp_path):
@@ -167,16 +146,3 @@ def test_other_skeletons_are_not_written(tmp_path):
         Motion(other, np.zeros((1, 3)), np.tile([1.0, 0, 0, 0], (1, 22, 1)), 30.0), tmp_path / "a.npz"
     )
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
-
-
-def test_broken_bytes_are_read_or_refused(archive, tmp_path):
-    whole, random = archive().read_bytes(), np.random.default_rng(0)
-    for number in range(150):
-        data = bytearray(whole)
-        for at in random.integers(0, len(data), 1 + number % 5):
-            data[at] = random.integers(256)
-        (tmp_path / "b.npz").write_bytes(bytes(data[: len(data) - (number % 3) * 400]))
-        try:
-            assert isinstance(amass.read(tmp_path / "b.npz"), Motion)
-        except MocapError as error:
-            assert len(str(error).replace(str(tmp_path / "b.npz"), "")) <= 200

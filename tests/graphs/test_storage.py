@@ -119,7 +119,7 @@ def test_what_is_no_graph_is_refused(tmp_path, saved):
         ({"fps": np.inf}, "window and rate"),
         ({"names": ["a", "a"]}, "names of their own"),
         ({"names": ["a"]}, "'frames' to fit"),
-        ({"names": np.array([{}, []], object)}, "damaged"),  # nothing is unpickled
+        ({"names": np.array([{}, []], object)}, "'names' to fit"),  # nothing is unpickled
         ({"version": 2, "nodes": None}, "version 2, which a newer mocap wrote"),
         ({"format": "mocap motion"}, "npz of another kind"),
         ({"origins": ["not JSON"]}, "origins are"),

@@ -64,14 +64,17 @@ def load_group(path: str | Path) -> GroupGraph:
 
 
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
-    lengths, nodes = arrays["lengths"], len(arrays["node_places"])
+    nodes, members = arrays["node_places"].shape
+    lengths, frames = arrays["lengths"], len(arrays["places"])
     yield "all numbers are finite", [np.isfinite(part).all() for part in arrays.values()]
-    yield "clips have frames, all as many", len(lengths) and np.ptp(lengths) == 0 and lengths[0] > 1
-    yield "clips fill the frames", lengths.sum() == len(arrays["places"])
+    yield "it has nodes, and members", nodes > 0 and members > 1
+    yield "clips have frames, all as many", len(lengths) and np.ptp(lengths) == 0 and 1 < lengths[0] <= frames
+    yield "clips fill the frames", lengths.sum() == frames
     for key in ("starts", "ends"):
         yield "clips join nodes", (arrays[key] >= 0) & (arrays[key] < nodes)
-    everybody = np.arange(arrays["node_places"].shape[-1])
-    yield "clips renumber everybody", np.sort(arrays["orders"], axis=-1) == everybody
+    yield "clips renumber everybody", np.sort(arrays["orders"], axis=-1) == np.arange(members)
+    yield "clips only turn the group", np.abs(np.abs(arrays["turns"]) - 1) < 1e-6
+    yield "discs have radii", arrays["radii"] >= 0
 
 
 GROUP = Kind("a group motion graph", 1, {key: row[:2] for key, row in ARRAYS.items()}, _rules)

@@ -19,7 +19,7 @@ from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, fingerprint, require_alike, resample
 from mocap.datasets.samples import is_bundled
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import FormatError, MocapError, MocapWarning, shortened
 from mocap.matching.distance_grids import check_window
 from mocap.matching.lower_bound import Weights
 from mocap.matching.point_clouds import distinct_joints, unit_weights
@@ -230,8 +230,12 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
     for name, known, clip in zip(names, arrays["fingerprints"].tolist(), clips, strict=True):
         if fingerprint(clip) != known and not (clip.name == name and is_bundled(clip)):
             raise MocapError(
-                f"{path} was built of '{name}', not of this '{clip.name}': take that clip, or build anew."
+                f"{path} was built of '{shortened(name, 50)}', not of this '{shortened(clip.name, 50)}': "
+                "take that clip, or build anew."
             )
+    at_rate = [int(clip.duration * MatchWeb.rate + 1e-9) + 1 for clip in clips]  # as `resample` counts
+    if not np.all((arrays["lengths"] == at_rate) | (arrays["lengths"] == 0)):
+        raise FormatError(path, None, f"clips of {shortened(str(at_rate), 60)} frames", "a damaged file")
     starts, below = np.cumsum([0, *arrays["lengths"]]), float(arrays["numbers"][1])
     parts = (arrays[key] for key in ("cells", "costs", "offsets"))
     return MatchWeb(tuple(clips), starts, int(arrays["window"]), below, *parts)
@@ -240,15 +244,10 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     """Yield what must hold; each rule needs those before it."""
     cells, offsets, lengths = arrays["cells"], arrays["offsets"], arrays["lengths"]
-    yield (
-        "its frames are 30 a second, its distances above 0",
-        [
-            arrays["numbers"][0] == MatchWeb.rate,
-            0 < arrays["numbers"][1] < np.inf,
-        ],
-    )
+    rate, below = arrays["numbers"]
+    yield "its frames are 30 a second, its distances above 0", rate == MatchWeb.rate and 0 < below < np.inf
     yield "the window has frames", arrays["window"] > 0
-    yield "clips have lengths", lengths >= 0
+    yield "clips have lengths", (lengths >= 0) & (lengths < 2**31)
     yield "paths begin at the first cell", len(offsets) > 0 and offsets[0] == 0
     yield "paths end at the last cell", offsets[-1] == len(cells)
     yield "no path is empty", np.diff(offsets) > 0

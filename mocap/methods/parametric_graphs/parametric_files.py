@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap.body.skeleton import Skeleton
+from mocap.errors import FormatError, MocapError
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
-from mocap.methods.parametric_graphs.stride_spaces import PARAMETERS, StrideSpace
+from mocap.methods.parametric_graphs.stride_spaces import NEIGHBOURS, PARAMETERS, StrideSpace
 from mocap.methods.parametric_graphs.strides import Strides
 
 Table = dict[str, tuple[str, tuple[int | str, ...], str]]
-"""For each array its kind, its shape, and where it is found; sizes in small letters are one node's own."""
+"""For each array its kind, its shape, and where it is found; a star is the number of a node or an edge."""
 HEAD: Layout = {"nodes": ("U", ("K",)), "sources": ("i", ("E",)), "targets": ("i", ("E",))}
 BODY: Table = {
     "fps": ("f", (), "fps"),
@@ -27,48 +28,69 @@ BODY: Table = {
     "contact_names": ("U", ("C",), "contact_names"),
 }
 NODE: Table = {  # n strides on g phases, s samples of d parameters
-    "grid": ("f", ("g",), "strides.grid"),
-    "speeds": ("c", ("n", "g"), "strides.speeds"),
-    **{key: ("f", ("n", "g"), f"strides.{key}") for key in ("seconds", "turning", "heights")},
-    "poses": ("f", ("n", "g", "J", 4), "strides.poses"),
-    "contacts": ("b", ("n", "g", "C"), "strides.contacts"),
-    "facts": ("f", ("n", 2), "strides.values"),
+    "grid": ("f", ("g*",), "strides.grid"),
+    "speeds": ("c", ("n*", "g*"), "strides.speeds"),
+    **{key: ("f", ("n*", "g*"), f"strides.{key}") for key in ("seconds", "turning", "heights")},
+    "poses": ("f", ("n*", "g*", "J", 4), "strides.poses"),
+    "contacts": ("b", ("n*", "g*", "C"), "strides.contacts"),
+    "facts": ("f", ("n*", 2), "strides.values"),
     "numbers": ("f", (3,), "strides.sway strides.offset strides.dropped"),
-    "values": ("f", ("s", "d"), "values"),
-    "mixes": ("f", ("s", "n"), "mixes"),
-    "low": ("f", ("d",), "low"),
-    "high": ("f", ("d",), "high"),
-    "parameters": ("U", ("d",), "parameters"),
+    "values": ("f", ("s*", "d*"), "values"),
+    "mixes": ("f", ("s*", "n*"), "mixes"),
+    "low": ("f", ("d*",), "low"),
+    "high": ("f", ("d*",), "high"),
+    "parameters": ("U", ("d*",), "parameters"),
 }
-EDGE: Table = {  # s sources of d parameters, boxes of t parameters
-    "at": ("f", ("s", "d"), "at"),
-    **{f"box_{side}": ("f", ("s", "t"), side) for side in ("low", "high")},
-    **{key: ("f", ("s",), key) for key in ("leave", "enter")},
-    "unit": ("f", ("d",), "scale"),
+EDGE: Table = {  # a sources of p parameters, boxes of t parameters
+    "at": ("f", ("a*", "p*"), "at"),
+    **{f"box_{side}": ("f", ("a*", "t*"), side) for side in ("low", "high")},
+    **{key: ("f", ("a*",), key) for key in ("leave", "enter")},
+    "unit": ("f", ("p*",), "scale"),
     "least": ("f", (), "least"),
 }
 
 
-def _kind(nodes: int, edges: int) -> Kind:
-    """Say which arrays a file has: a node or edge has its own."""
-    own = [(f"_of_{number}", NODE) for number in range(nodes)]
-    own += [(f"_of_edge_{number}", EDGE) for number in range(edges)]
-    parts = {
-        f"{key}{end}": (kind, tuple(f"{n}{end}" if str(n).islower() else n for n in shape))
-        for end, table in own
-        for key, (kind, shape, _) in table.items()
-    }
-    body = {key: row[:2] for key, row in BODY.items()}
-    return Kind("a parametric motion graph", 1, {**HEAD, **body, **parts}, _rules if nodes else lambda _: ())
-
-
 def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
-    """Yield what must hold."""
-    nodes, ends = arrays["nodes"], np.concatenate([arrays["sources"], arrays["targets"]])
-    yield "nodes have names of their own", len(nodes) == len(set(nodes.tolist()))
+    """Yield what must hold; each rule needs those before it."""
+    nodes, sources, targets = arrays["nodes"], arrays["sources"], arrays["targets"]
+    ends = np.stack([sources, targets])
+    parts = (part for part in arrays.values() if part.dtype.kind in "fc")
+    yield "numbers are finite, and below a million", [(np.abs(part) < 1e6).all() for part in parts]
+    yield "it has a rate from 1 to 1000 Hz", 1 <= arrays["fps"] <= 1000
+    yield "nodes have names of their own", 0 < len(nodes) == len(set(nodes.tolist()))
     yield "there are edges between its nodes", (ends >= 0) & (ends < len(nodes))
-    names = (part for key, part in arrays.items() if key.startswith("parameters"))
-    yield "spaces are asked by turn and speed", [set(part.tolist()) <= set(PARAMETERS) for part in names]
+    yield "an edge leaves each node", np.isin(np.arange(len(nodes)), sources)
+    yield "no edge comes twice", len(np.unique(ends, axis=1).T) == len(sources)
+    yield "contacts are those of joints", np.isin(arrays["contact_names"], arrays["joints"])
+    for own in ({key: arrays[f"{key}_of_{number}"] for key in NODE} for number in range(len(nodes))):
+        names, grid, times = own["parameters"].tolist(), own["grid"], own["seconds"]
+        yield "turns and speeds are asked", 0 < len(set(names)) == len(names) and {*names} <= {*PARAMETERS}
+        yield "phases grow from before 0 to after 1", len(grid) > 1 and grid[0] < 0 and grid[-1] > 1
+        yield "phases are even", np.abs(np.diff(grid) - (grid[1] - grid[0])) < 1e-6
+        yield "time goes on, by seconds", (np.diff(times, axis=1) >= 0).all() and np.abs(times) < 10
+        yield "turns have length 1", np.abs((own["poses"] ** 2).sum(axis=-1) - 1) < 1e-5
+        yield "a range has ends", own["low"] <= own["high"]
+        yield "samples are enough", len(own["values"]) >= len(names) + NEIGHBOURS
+        yield "samples are mixes", np.abs(own["mixes"].sum(axis=1) - 1) < 1e-6
+    for edge, (a, b) in enumerate(ends.T.tolist()):
+        at, low = arrays[f"at_of_edge_{edge}"], arrays[f"box_low_of_edge_{edge}"]
+        sizes = [part.shape[1] for part in (at, low)]
+        yield (
+            "edges have their nodes' parameters",
+            sizes == [len(arrays[f"low_of_{node}"]) for node in (a, b)],
+        )
+        yield "sources are enough", len(at) >= sizes[0] + NEIGHBOURS
+        leave, enter = arrays[f"leave_of_edge_{edge}"], arrays[f"enter_of_edge_{edge}"]
+        yield "strides are left late, and entered early", (np.abs(leave - 1) < 0.5) & (np.abs(enter) < 0.5)
+        yield "units are above 0", arrays[f"unit_of_edge_{edge}"] > 0
+
+
+def _numbered(table: Table, end: str) -> Layout:
+    return {f"{key}{end}": row[:2] for key, row in table.items()}
+
+
+PARTS = {**HEAD, **_numbered(BODY, ""), **_numbered(NODE, "_of_*K"), **_numbered(EDGE, "_of_edge_*E")}
+PARAMETRIC = Kind("a parametric motion graph", 1, PARTS, _rules)
 
 
 def _taken(one: object, table: Table, end: str = "") -> dict[str, Any]:
@@ -91,7 +113,7 @@ def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
         arrays |= _taken(graph.space(node), NODE, f"_of_{number}")
     for number, pair in enumerate(edges):
         arrays |= _taken(graph.edge(*pair), EDGE, f"_of_edge_{number}")
-    write_arrays(path, _kind(len(nodes), len(edges)), arrays)
+    write_arrays(path, PARAMETRIC, arrays)
 
 
 def load_parametric(path: str | Path) -> ParametricGraph:
@@ -101,10 +123,12 @@ def load_parametric(path: str | Path) -> ParametricGraph:
     ------
     FormatError, MocapError : for a file that is missing, is another kind of file, or contradicts itself.
     """
-    head = read_arrays(path, _kind(0, 0))
-    nodes, ends = head["nodes"].tolist(), np.stack([head["sources"], head["targets"]], axis=-1).tolist()
-    arrays = read_arrays(path, _kind(len(nodes), len(ends)))
-    skeleton = Skeleton(arrays["joints"].tolist(), arrays["parents"], arrays["offsets"])
+    arrays = read_arrays(path, PARAMETRIC)
+    nodes, ends = arrays["nodes"].tolist(), np.stack([arrays["sources"], arrays["targets"]], axis=-1).tolist()
+    try:
+        skeleton = Skeleton(arrays["joints"].tolist(), arrays["parents"], arrays["offsets"])
+    except MocapError as error:
+        raise FormatError(path, None, "a tree of joints", f"'{error}'") from error
     marks = tuple(arrays["contact_names"].tolist())
     graph = nx.DiGraph()
     for number, node in enumerate(nodes):

@@ -1,0 +1,271 @@
+"""Whatever is in an archive, reading gives what it holds or a short sentence, in the memory that it takes."""
+
+import io
+import random
+import re
+import struct
+import tracemalloc
+import zipfile
+
+import networkx as nx
+import numpy as np
+import pytest
+from numpy.lib.format import write_array, write_array_header_1_0
+
+from mocap.body.motion import Motion, concatenate
+from mocap.errors import MocapError
+from mocap.files import amass
+from mocap.graphs import storage
+from mocap.graphs.graph_summary import summary
+from mocap.graphs.motion_graph import build
+from mocap.methods.groups import group_files
+from mocap.methods.groups.flocking import Configuration
+from mocap.methods.groups.group_clips import Drawn, GroupClip
+from mocap.methods.groups.group_graphs import GroupGraph, play_group, random_group_walk
+from mocap.methods.match_webs import webs
+from mocap.methods.parametric_graphs import parametric_files
+from mocap.methods.parametric_graphs.parametric_control import ParametricController
+from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
+from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
+from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
+from mocap.methods.parametric_graphs.strides import Strides
+from tests.conftest import SWEEP
+from tests.files.test_fuzz import short
+from tests.strategies import random_motion, wave
+
+CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
+
+
+def save_graph(path, size=1):
+    graph = build(CLIPS, window=8, threshold=0.05)
+    for a, b, edge in [*graph.graph.edges(data=True)]:
+        for key in range(100, 100 + 150 * (size - 1)):
+            graph.graph.add_edge(a, b, key, **edge)
+    storage.save(graph, path)
+
+
+def save_web(path, size=1):
+    cells = np.tile(np.stack([np.arange(20), np.arange(100, 120)], axis=1), (9000 * size - 8999, 1))
+    offsets = np.arange(0, len(cells) + 1, 20)
+    web = webs.MatchWeb(tuple(CLIPS), [0, 90, 160], 5, 0.1, cells, np.full(len(cells), 0.1), offsets)
+    webs.save_web(web, path)
+
+
+def save_group(path, size=1):
+    frames = 5 + 9000 * (size - 1)
+    places, ones = np.linspace(0, 1, frames)[:, None] + [0j, 2j, 4j], np.ones((frames, 3), complex)
+    order = np.array([1, 0, 2])
+    clips = [GroupClip(a, 1 - a, places, ones, order, 1j, 1 + 0j, (2j, 3.0)) for a in (0, 1)]
+    drawn = Drawn(np.ones(3), np.zeros((3, 2), bool), np.ones(3))
+    group_files.save_group(GroupGraph((Configuration(places[0], ones[0]),) * 2, tuple(clips), drawn), path)
+
+
+def save_parametric(path, size=1):
+    body, grid, count = CLIPS[0].skeleton, np.arange(-5, 26) / 20, 4 + 500 * (size - 1)
+    phases = np.ones((count, len(grid)))
+    poses = np.tile([1.0, 0, 0, 0], (*phases.shape, len(body), 1))
+    strides = Strides(
+        body, 30.0, grid, phases * (grid + 0.5), 1j * phases, 0.1 * phases, phases, poses,
+        np.ones((*phases.shape, 1), bool), body.names[-1:], np.ones((count, 2)),
+    )  # fmt: skip
+    values, ends = np.linspace(-1, 1, 6)[:, None], (np.array([-1.0]), np.array([1.0]))
+    space = StrideSpace(strides, ("turn",), values, np.full((6, count), 1 / count), *ends)
+    edge = ParametricEdge(values, values - 1, values + 1, np.ones(6), np.zeros(6), np.ones(1), 0.02)
+    graph = nx.DiGraph([("walk", "walk", {"edge": edge})])
+    graph.add_node("walk", space=space)
+    parametric_files.save_parametric(ParametricGraph(graph), path)
+
+
+def save_amass(path, size=1):
+    amass.write(concatenate([random_motion(1, skeleton=amass.SKELETON)] * (1 + 400 * (size - 1))), path)
+
+
+def use_graph(path):
+    assert summary(storage.load(path, CLIPS).graph, fps=30).table()
+
+
+def use_web(path):
+    web = webs.load_web(path, CLIPS)
+    cells, _ = web.path(0)
+    assert all(web.own_frame(web.clip_at(n), n) >= 0 for n in cells[0])
+
+
+def use_group(path):
+    graph = group_files.load_group(path)
+    assert np.isfinite(play_group(graph, random_group_walk(graph, 3)).places).all()
+
+
+def use_parametric(path):
+    character = ParametricController(parametric_files.load_parametric(path))
+    assert np.isfinite([character.step(0.1, 1.0).root_position for _ in range(30)]).all()
+
+
+def use_amass(path):
+    assert isinstance(amass.read(path), Motion)
+
+
+KINDS = {
+    "graph": (save_graph, use_graph),
+    "web": (save_web, use_web),
+    "group": (save_group, use_group),
+    "parametric": (save_parametric, use_parametric),
+    "amass": (save_amass, use_amass),
+}
+
+
+@pytest.fixture(scope="module")
+def honest(tmp_path_factory):
+    """Give the members of an honest file of each kind: {kind: {name: bytes}}."""
+    files = {}
+    for kind, (save, use) in KINDS.items():
+        save(path := tmp_path_factory.mktemp(kind) / "a.npz")
+        use(path)
+        with zipfile.ZipFile(path) as archive:
+            files[kind] = {name: archive.read(name) for name in archive.namelist()}
+    return files
+
+
+def npy(array):
+    write_array(file := io.BytesIO(), np.asarray(array), allow_pickle=True)
+    return file.getvalue()
+
+
+def claim(array, data, chance):
+    """Write another shape into a header."""
+    sizes = [*array.shape, 1][: chance.randrange(1, 4)]
+    shape = tuple(size * chance.choice([0, 1, 2, 10**6, 10**15]) for size in sizes)
+    header = {"descr": array.dtype.str, "fortran_order": False, "shape": shape}
+    write_array_header_1_0(file := io.BytesIO(), header)
+    return file.getvalue() + data[128:]
+
+
+NUMBERS = [0, 1, -1, 2, 7, -(2**63), 2**63 - 1, 2**31, 10**6]
+LARGE = [*NUMBERS, np.nan, np.inf, -np.inf, 1e308, 0.5]
+WORDS = ["", "a", "walk", "x\n\x1b[31m", "\udc80", '{"path": [0]}', "[" * 9000, "9" * 300]
+
+
+def numbers(array, data, chance):
+    """Change some numbers, or all of them."""
+    flat = np.array(array).reshape(-1)
+    values = {"U": WORDS, "f": LARGE, "c": LARGE}.get(flat.dtype.kind, NUMBERS)
+    values = values if flat.dtype.kind != "O" else [{}]
+    for at in chance.sample(range(len(flat)), min(len(flat), chance.choice([1, 1, 3, len(flat)]))):
+        with np.errstate(all="ignore"):
+            flat[at : at + 1] = np.array([chance.choice(values)]).astype(flat.dtype)
+    return npy(flat.reshape(array.shape))
+
+
+BROKEN = [b"", b"poses", npy({}), npy(np.array([{}, "x"], object)), npy("x"), npy(1), npy(np.zeros(0))]
+CHANGES = [
+    lambda array, data, chance: chance.choice(BROKEN),
+    lambda array, data, chance: data[: chance.randrange(len(data))],
+    lambda array, data, chance: chance.choice(
+        [data + b"0" * 8, data[:9] + data, data[:8] + b"\xff\xff" + data]
+    ),
+    lambda array, data, chance: npy(
+        np.ones(array.shape, chance.choice([">f8", "<i2", "U3", "c16", "?", "f2", "O"]))
+    ),
+    lambda array, data, chance: npy(
+        chance.choice([np.asfortranarray(array), array[None], array.T, array.ravel()])
+    ),
+    lambda array, data, chance: npy(array.astype(array.dtype.newbyteorder(">"))),
+    lambda array, data, chance: npy(np.repeat(np.atleast_1d(array), chance.choice([0, 2, 3]), axis=0)),
+    lambda array, data, chance: npy(np.atleast_1d(array)[:: chance.choice([-1, 2])]),
+    claim,
+    numbers,
+    numbers,
+    numbers,
+]
+
+
+def changed(members, chance):
+    """Drop, rename, swap or change a member."""
+    name, other = chance.choice([*members]), chance.choice([*members])
+    data, way = members[name], chance.randrange(10)
+    if way == 0:
+        return members | {name: members[other], other: data}
+    if way == 1:
+        return {key: part for key, part in members.items() if key != name} | {
+            chance.choice(["a", other]): data
+        }
+    try:
+        array = np.load(io.BytesIO(data), allow_pickle=True)
+    except Exception:  # it was broken before
+        return members
+    return members | {name: chance.choice(CHANGES)(array, data, chance)}
+
+
+def packed(members, compression=zipfile.ZIP_DEFLATED):
+    """Zip members, given as pairs of name and data: a name may come twice."""
+    with zipfile.ZipFile(file := io.BytesIO(), "w", compression) as archive:
+        for name, data in members:
+            archive.writestr(name, data)
+    return bytearray(file.getvalue())
+
+
+def tampered(honest, chance):
+    """Change an archive: its members, how they are packed, its directory, or its bytes."""
+    members, way = dict(honest), chance.randrange(16)
+    for _ in range(0 if way < 6 else chance.choice([1, 1, 2, 3])):
+        members = changed(members, chance)
+    pairs = [*members.items()]
+    twice = [chance.choice(pairs)] if way == 0 else []
+    data = packed(pairs + twice, chance.choice([0, 12]) if way in (1, 6) else 8)
+    places = [found.start() for found in re.finditer(rb"PK\x01\x02", data)]
+    if way == 2:  # flags
+        struct.pack_into("<H", data, chance.choice(places) + 8, 1)
+    elif way in (3, 7):  # a packed size, a size, and where it is
+        value = chance.choice([chance.randrange(len(data)), 2**32 - chance.randrange(1, 3)])
+        struct.pack_into("<I", data, chance.choice(places) + chance.choice([20, 24, 42]), value)
+    elif way == 4:
+        data = data[: chance.randrange(len(data))]
+    elif way == 5:
+        data[chance.randrange(len(data))] ^= 1 << chance.randrange(8)
+    return data
+
+
+@pytest.mark.filterwarnings("error", "ignore:Duplicate name", "ignore:.*betas")
+@pytest.mark.parametrize("count", [500 if SWEEP else 200, pytest.param(20_000, marks=pytest.mark.exhaustive)])
+def test_tampered_archives_are_read_or_refused_in_a_sentence(honest, tmp_path, count):
+    path, read = tmp_path / "a.npz", 0
+    for seed in range(count):
+        chance, kind = random.Random(seed), [*KINDS][seed % len(KINDS)]
+        path.write_bytes(tampered(honest[kind], chance))
+        try:
+            KINDS[kind][1](path)
+            read += 1
+        except MocapError as error:
+            assert short(error, path) and str(path) in str(error), (seed, kind, error)
+        except BaseException as error:
+            raise AssertionError((seed, kind)) from error
+    assert 0.02 * count < read < 0.6 * count
+
+
+def peak(read, path):
+    """Give the bytes that it takes to refuse a file."""
+    tracemalloc.start()
+    try:
+        with pytest.raises(MocapError):
+            read(path)
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_claims_more_than_there_is_takes_no_memory(tmp_path, kind):
+    save, use = KINDS[kind]
+    save(path := tmp_path / "a.npz", 2)
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    honest = sum(map(len, members.values()))
+    for name in sorted(members, key=lambda name: -len(members[name]))[: 99 if SWEEP else 1]:
+        array = np.atleast_1d(np.load(io.BytesIO(members[name])))
+        if array.size:
+            zeros = npy(np.zeros((10 * honest // array[:1].nbytes, *array.shape[1:]), array.dtype))
+            for part in (zeros, zeros[:128] + members[name][128:]):  # it does, and it does not hold them
+                path.write_bytes(packed([*(members | {name: part}).items()]))
+                assert peak(use, path) < 4 * honest, name
+    many = {"sources.npy": npy(np.zeros(3_000_000, int)), "targets.npy": npy(np.zeros(3_000_000, int))}
+    path.write_bytes(packed([*(members | many).items()]))
+    assert kind != "parametric" or peak(use, path) < 4 * honest
