@@ -67,11 +67,13 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
         yield "turns and speeds are asked", 0 < len(set(names)) == len(names) and {*names} <= {*PARAMETERS}
         yield "phases grow from before 0 to after 1", len(grid) > 1 and grid[0] < 0 and grid[-1] > 1
         yield "phases are even", np.abs(np.diff(grid) - (grid[1] - grid[0])) < 1e-6
+        zero = int(np.abs(grid).argmin())
         yield "time goes on, by seconds", (np.diff(times, axis=1) >= 0).all() and np.abs(times) < 10
+        yield "it counts from the strike", (np.abs(times[:, zero]) < 1e-6) & (times[:, -1] > 1 / arrays["fps"])
         yield "turns have length 1", np.abs((own["poses"] ** 2).sum(axis=-1) - 1) < 1e-5
         yield "a range has ends", own["low"] <= own["high"]
         yield "samples are enough", len(own["values"]) >= len(names) + NEIGHBOURS
-        yield "samples are mixes", np.abs(own["mixes"].sum(axis=1) - 1) < 1e-6
+        yield "samples are mixes", (own["mixes"] >= 0).all() and np.abs(own["mixes"].sum(axis=1) - 1) < 1e-6
     for edge, (a, b) in enumerate(ends.T.tolist()):
         at, low = arrays[f"at_of_edge_{edge}"], arrays[f"box_low_of_edge_{edge}"]
         sizes = [part.shape[1] for part in (at, low)]
