@@ -5,13 +5,14 @@ from pathlib import Path
 
 
 def shortened(text: str, most: int = 80) -> str:
-    """Cut a text from a file to at most `most` characters, and say how long it was.
+    """Cut a text from a file, made `printable`, to at most `most` characters, and say how long it was.
 
     Examples
     --------
     >>> shortened("'1.0 2.0 x 3.0 4.0 5.0 6.0 7.0 8.0 9.0'", 36)
     "'1.0 2.0 x 3.0 ...' (37 characters)"
     """
+    text = printable(text)
     if len(text) <= most:
         return text
     quote = "'" if text.startswith("'") else ""
@@ -19,8 +20,22 @@ def shortened(text: str, most: int = 80) -> str:
     return text[: most - len(more)].rstrip() + more
 
 
+def printable(text: object) -> str:
+    r"""Write out control characters, which a terminal would obey, and line ends, as names may hold them.
+
+    Examples
+    --------
+    >>> print(printable("walk\n\x1b[2J.bvh"))
+    walk\n\x1b[2J.bvh
+    """
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text))
+
+
 class MocapError(ValueError):
     """The base of all errors raised on purpose: the input, not the program, is at fault."""
+
+    def __str__(self) -> str:
+        return printable(super().__str__())
 
 
 class FormatError(MocapError):
@@ -45,7 +60,7 @@ class FormatError(MocapError):
         super().__init__(path, line, expected, got)
 
     def __str__(self) -> str:
-        place = f"{self.path}" if self.line is None else f"{self.path}, line {self.line}"
+        place = printable(self.path) + ("" if self.line is None else f", line {self.line}")
         expected = shortened(self.expected, 110)
         return f"{place}: expected {expected}, got {shortened(self.got, min(80, 165 - len(expected)))}"
 
@@ -60,6 +75,9 @@ class NoWalk(MocapError):
 
 class MocapWarning(UserWarning):
     """Something that was asked for is possible only in part; the message says how much of it."""
+
+    def __str__(self) -> str:
+        return printable(super().__str__())
 
 
 def warn(sentence: str, level: int = 2) -> None:

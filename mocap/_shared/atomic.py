@@ -1,11 +1,22 @@
-"""A file is written whole or not at all."""
+"""A file is written whole or not at all.
 
+It is made in a folder beside its place, and moved when it is complete. A process that is killed leaves that
+folder; the next one that writes there removes it.
+"""
+
+import errno
+import os
+import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
 from pathlib import Path
 
 from mocap.errors import MocapError
+
+UNFINISHED = ".mocap-unfinished-"  # and some letters: the folders of files that are being written
 
 
 @contextmanager
@@ -13,15 +24,15 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """Write a new file beside the old one, then replace the old one in a single step.
 
     If anything goes wrong inside the `with` block, even an interruption, the old file stays as it was,
-    and the new one is removed.
+    and the new one is removed. Afterwards the new one is on the disk, even if the power fails.
 
     Parameters
     ----------
-    path : the file to make or replace.
+    path : the file to make or replace; of a symbolic link, the file that it leads to.
 
     Yields
     ------
-    A path in the same folder, with the same suffix, to write to.
+    A path on the same disk, with the same name, to write to.
 
     Raises
     ------
@@ -34,14 +45,64 @@ def replacing(path: str | Path) -> Iterator[Path]:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
-    path = Path(path)
     try:
-        folder = tempfile.TemporaryDirectory(prefix=".", dir=path.parent, ignore_cleanup_errors=True)
-        with folder as beside:  # a folder: a file in it gets ordinary permissions
-            yield Path(beside, path.name)
-            Path(beside, path.name).replace(path)
+        real = Path(os.path.realpath(path))
+        if real.is_symlink():
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+        with _workshop(real.parent) as folder:  # a folder: a file in it gets ordinary permissions
+            new = folder / Path(path).name
+            yield new
+            _sync(new, os.O_RDWR)
+            new.replace(real)
+            with suppress(OSError):  # not every system can
+                _sync(real.parent, os.O_RDONLY)
     except OSError as error:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
+
+
+def _sync(path: Path, how: int) -> None:
+    number = os.open(path, how)
+    try:
+        os.fsync(number)
+    finally:
+        os.close(number)
+
+
+@contextmanager
+def _workshop(place: Path) -> Iterator[Path]:
+    """Make a folder for what is being written, after removing those of processes that were killed."""
+    with ExitStack() as stack:
+        with _locked(place, wait=True):
+            _tidy(place)
+            made = tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=place, ignore_cleanup_errors=True)
+            folder = Path(stack.enter_context(made))
+            stack.enter_context(_locked(folder))
+        yield folder
+
+
+@cache
+def _tidy(place: Path) -> None:
+    """Remove the folders that nobody has locked; the system unlocks those of a process that ends."""
+    for left in place.glob(f"{UNFINISHED}*"):
+        with _locked(left) as ours:
+            if ours:
+                shutil.rmtree(left, ignore_errors=True)
+
+
+@contextmanager
+def _locked(folder: Path, *, wait: bool = False) -> Iterator[bool]:
+    """Lock a folder, and give whether that was possible; on Windows, and on some disks, it never is."""
+    with ExitStack() as stack:
+        locked = False
+        if sys.platform != "win32":
+            import fcntl
+
+            with suppress(OSError):
+                number = os.open(folder, os.O_RDONLY)
+                stack.callback(os.close, number)
+                fcntl.flock(number, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+                locked = True
+        yield locked
 
 
 def require_npz(path: str | Path) -> None:
@@ -63,7 +124,8 @@ def require_writable(path: str | Path) -> None:
     try:
         if path.is_dir():
             raise MocapError(f"Cannot write {path}: it is a folder.")
-        tempfile.TemporaryDirectory(prefix=".", dir=path.parent).cleanup()
+        with _workshop(Path(os.path.realpath(path)).parent):
+            pass
     except OSError as error:
         raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
 
@@ -85,7 +147,8 @@ def require_folder(path: Path) -> None:
     """
     try:
         nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
-        tempfile.TemporaryDirectory(prefix=".", dir=nearest).cleanup()
+        with _workshop(nearest):
+            pass
     except OSError as error:
         raise MocapError(f"Cannot make the folder {path}: {error.strerror or error}.") from error
 

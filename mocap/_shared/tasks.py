@@ -1,8 +1,13 @@
 """Work through tasks here, or by threads, processes or a cluster; the results come in the tasks' order."""
 
+import multiprocessing
+import os
+import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future
+from multiprocessing.connection import wait
 from typing import Any
 
 from mocap._shared.arrays import Array
@@ -40,3 +45,13 @@ def run_in_order(
     finally:  # after an error or Ctrl-C, no task is left that still waits
         for future in waiting:
             future.cancel()
+
+
+def serve() -> None:
+    """Make this process one that only works for its parent: it ends with it, and leaves Ctrl-C to it.
+
+    Pass it as `initializer` to a `ProcessPoolExecutor`. Otherwise workers of a killed process wait for ever.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if parent := multiprocessing.parent_process():
+        threading.Thread(target=lambda: (wait([parent.sentinel]), os._exit(1)), daemon=True).start()

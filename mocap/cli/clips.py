@@ -15,7 +15,7 @@ from mocap import datasets, files, quality, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_writable
 from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, number, tell, tell_of_failures
 from mocap.cli.typed_commands import Group
-from mocap.errors import MocapError
+from mocap.errors import MocapError, printable
 from mocap.methods import match_webs
 
 # A path of the web ends where frames are no longer as near as asked, although on average they still are.
@@ -38,7 +38,7 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
         depths: list[int] = []
         for parent, name in zip(motion.skeleton.parents, motion.skeleton.names, strict=True):
             depths.append(depths[parent] + 1 if parent >= 0 else 0)
-            print(f"{'  ' * depths[-1]}{name}")
+            print(f"{'  ' * depths[-1]}{printable(name)}")
 
 
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
@@ -104,7 +104,7 @@ def judge(
     elif judged:
         print(quality.judgement_table(judged))
     for problem in dict.fromkeys([*(text for one in judged for text in one.left_out), *problems]):
-        print(f"mocap: {as_options(problem)}", file=sys.stderr)
+        print(f"mocap: {printable(as_options(problem))}", file=sys.stderr)
     return 2 if problems else 0
 
 
@@ -184,7 +184,7 @@ def find(
     for one in shown:
         name, at = motions[one.clip].name, f"{one.start}-{one.stop}"
         seconds = (one.stop - one.start) / motions[one.clip].fps
-        print(f"{name:<20} {at:>13} {seconds:>8.2f} {100 * one.cost:>5.1f} {one.generation:>5}")
+        print(f"{printable(name):<20} {at:>13} {seconds:>8.2f} {100 * one.cost:>5.1f} {one.generation:>5}")
     tell(found=f"{len(shown)} in {len({match.clip for match in shown})} clips")
     if out:
         make_folder(out)

@@ -16,7 +16,7 @@ from mocap.cli.graph import GRAPH, demo
 from mocap.cli.options import as_options
 from mocap.cli.typed_commands import Group, Run, add_commands, call
 from mocap.cli.walk import crowd, page, walk
-from mocap.errors import MocapError, MocapWarning, shortened
+from mocap.errors import MocapError, MocapWarning, printable, shortened
 
 LONGEST = 150  # letters of a sentence about options, which may quote what was typed
 ACTIONS = (*GRAPH.commands, "-h", "--help")  # before any other word, `build` may be left out
@@ -58,7 +58,9 @@ def _written_out(words: list[str]) -> list[str]:
 
 def _say(message: Warning | str, *_place: object, **_more: object) -> None:
     """Write an error or a warning as one line, with the names that options have on a command line."""
-    text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), as_options(str(message)))  # endless names
+    text = re.sub(
+        r"\S{200,}", lambda word: shortened(word[0]), as_options(printable(message))
+    )  # endless names
     print(f"mocap: {text}", file=sys.stderr)
 
 

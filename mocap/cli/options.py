@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import os
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 from mocap import body, files, graphs, quality
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
-from mocap.errors import MocapError
+from mocap.errors import MocapError, printable
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -139,7 +140,7 @@ def tell(**rows: object) -> None:
     >>> tell(wrote="walk.bvh")
     wrote        walk.bvh
     """
-    print("\n".join(f"{name:<12} {text}" for name, text in rows.items()))
+    print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
 
 
 def check_out(what: str, out: Path, formats: Sequence[str], read: Iterable[Path] = ()) -> None:
@@ -167,7 +168,7 @@ def require_other(out: Path, read: Iterable[Path]) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: clips/walk.bvh is one of the files to read: choose another name with -o.
     """
-    if out.resolve() in (path.resolve() for path in read):
+    if os.path.realpath(out) in map(os.path.realpath, read):
         raise MocapError(f"{out} is one of the files to read: choose another name with -o.")
 
 

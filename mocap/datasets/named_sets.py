@@ -10,7 +10,7 @@ import zlib
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
-from mocap._shared.atomic import replacing, write_text
+from mocap._shared.atomic import UNFINISHED, replacing, write_text
 from mocap._shared.progress import Progress
 from mocap.datasets.downloads import fetch, kept_in, show_once
 from mocap.errors import MocapError, shortened
@@ -86,7 +86,12 @@ def list_set(name: str) -> list[str]:
     ------
     MocapError : for an unknown set.
     """
-    return sorted(path.stem for path in folder_of(name).rglob("*.bvh"))
+    return [path.stem for path in _clips(folder_of(name))]
+
+
+def _clips(folder: Path) -> list[Path]:
+    found = (path for path in folder.rglob("*.bvh") if UNFINISHED not in str(path))
+    return sorted(found, key=lambda path: (path.stem, path))
 
 
 def fetch_set(name: str, progress: Progress = iter) -> list[str]:
@@ -167,7 +172,7 @@ def from_set(name: str, clip: str) -> Motion:
     folder = folder_of(name)
     known, sha256 = SETS[name], HASHES.get(clip)
     show_once(known.terms())
-    path = next((path for path in sorted(folder.rglob("*.bvh")) if path.stem == clip), None)
+    path = next((path for path in _clips(folder) if path.stem == clip), None)
     if path is None:
         part = re.fullmatch(r"dataset-([12])_[\w-]+", clip)
         if not known.clip_url or not part:

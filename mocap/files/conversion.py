@@ -1,7 +1,6 @@
 """Convert motion files, whole folders too, several at a time."""
 
 import os
-import signal
 from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from itertools import repeat
@@ -10,11 +9,10 @@ from typing import NamedTuple
 
 from mocap._shared.atomic import make_folder
 from mocap._shared.progress import Progress
+from mocap._shared.tasks import serve
 from mocap.errors import MocapError
 from mocap.files.folders import find_files
 from mocap.files.load_save import load, save
-
-QUIETLY = (signal.SIGINT, signal.SIG_IGN)  # only the main process reports an interruption
 
 
 class Options(NamedTuple):
@@ -50,10 +48,10 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     if source.is_dir():
         found = find_files([source], deep=True)
         pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
-    sources = {path.resolve() for path, _ in pairs}
+    sources = {os.path.realpath(path) for path, _ in pairs}
     taken: dict[Path, Path] = {}
     for path, new in pairs:
-        if new.resolve() in sources:
+        if os.path.realpath(new) in sources:
             raise MocapError(f"{new} is one of the files to convert: choose another name or folder.")
         if (first := taken.setdefault(new, path)) != path:
             raise MocapError(f"{first} and {path} would both become {new}: convert them one by one.")
@@ -81,7 +79,7 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
     if len(pairs) == 1:
         return [_convert(*pairs[0], options)]
     workers = min(len(pairs), os.cpu_count() or 1)
-    with ProcessPoolExecutor(workers, initializer=signal.signal, initargs=QUIETLY) as pool:
+    with ProcessPoolExecutor(workers, initializer=serve) as pool:
         outcomes = pool.map(_convert, *zip(*pairs, strict=True), repeat(options))
         try:
             return [next(outcomes) for _ in progress(pairs)]

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from mocap._shared.atomic import UNFINISHED
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
@@ -45,7 +46,8 @@ def find_files(paths: Sequence[Path], *, deep: bool = False) -> list[Path]:
     for path in paths:
         try:
             within = path.rglob("*") if deep else path.iterdir()
-            inside = sorted(p for p in within if p.is_file() and is_clip(p)) if path.is_dir() else [path]
+            clips = (p for p in within if UNFINISHED not in str(p) and p.is_file() and is_clip(p))
+            inside = sorted(clips) if path.is_dir() else [path]
         except OSError as error:
             raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
         if not inside:

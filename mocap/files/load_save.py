@@ -76,6 +76,8 @@ def load(
             raise MocapError(f"{path} is a skeleton without a motion: load_skeleton reads it.")
         case ".glb":
             raise MocapError(f"Cannot read {path}: mocap writes .glb, and reads {READ}.")
+        case "":
+            read_text(path, most=1)  # raises for a file that is not there, and for a folder
     raise MocapError(f"Cannot read {path}: mocap reads {READ}.")
 
 

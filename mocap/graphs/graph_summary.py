@@ -7,7 +7,7 @@ import networkx as nx
 import numpy as np
 
 from mocap._shared.atomic import replacing
-from mocap.errors import MocapError
+from mocap.errors import MocapError, printable
 from mocap.graphs.components import Labels, reached
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.graphs.pruning import name
@@ -46,7 +46,7 @@ class Summary(NamedTuple):
         if len(self.reachable) > 1:
             for here, there in self.reachable.items():
                 rows.append((name(here), f"leads to {', '.join(sorted(map(name, there))) or 'nothing else'}"))
-        return "\n".join(f"{what:<12} {text}" for what, text in rows)
+        return "\n".join(f"{printable(what):<12} {printable(text)}" for what, text in rows)
 
 
 def summary(graph: nx.MultiDiGraph, *, fps: float) -> Summary:

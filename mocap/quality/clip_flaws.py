@@ -15,7 +15,7 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
-from mocap.errors import MocapWarning, shortened
+from mocap.errors import MocapWarning, printable, shortened
 
 # Frames in a row that repeat the frame before. Two trials have such frames, 6 and 13 in a row; in the
 # others no frame repeats the one before.
@@ -93,7 +93,7 @@ class Report(NamedTuple):
             ("flaws", "none found" if not self.flaws else str(self.flaws[0])),
             *(("", str(flaw)) for flaw in self.flaws[1:]),
         ]
-        return "\n".join(f"{name:<8} {text}" for name, text in rows)
+        return "\n".join(f"{name:<8} {printable(text)}" for name, text in rows)
 
 
 def warn_of_size(motions: Iterable[Motion]) -> None:

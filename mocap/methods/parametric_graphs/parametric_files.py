@@ -69,7 +69,10 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
         yield "phases are even", np.abs(np.diff(grid) - (grid[1] - grid[0])) < 1e-6
         zero = int(np.abs(grid).argmin())
         yield "time goes on, by seconds", (np.diff(times, axis=1) >= 0).all() and np.abs(times) < 10
-        yield "it counts from the strike", (np.abs(times[:, zero]) < 1e-6) & (times[:, -1] > 1 / arrays["fps"])
+        yield (
+            "it counts from the strike",
+            (np.abs(times[:, zero]) < 1e-6) & (times[:, -1] > 1 / arrays["fps"]),
+        )
         yield "turns have length 1", np.abs((own["poses"] ** 2).sum(axis=-1) - 1) < 1e-5
         yield "a range has ends", own["low"] <= own["high"]
         yield "samples are enough", len(own["values"]) >= len(names) + NEIGHBOURS
