@@ -36,9 +36,8 @@ TOY = SimpleNamespace(
 def test_methods_are_compared_with_the_best_baseline_case_by_case():
     lines, lost = benchmark.tables(TOY, list(benchmark.run(TOY, CASES)))
     assert lines[0] == "| | | off ↓ | guessed ↑ |"
-    assert lines[2] == "| toys (5) | *start* | 3.0 [2.0, 4.0] | 3.0 [2.0, 4.0] |"
-    # Off by 1 in four cases: better than n in three of them, as good in none but the first, which is refused.
-    assert lines[4] == "|  | guess, refuses 1 | 1.0 [1.0, 1.0]; 4 : 1 | 6.0 [4.5, 7.5]; 4 : 1 |"
+    assert lines[2] == "| toys (5) | *start* | 3.00 [2.00, 4.00] | 3.00 [2.00, 4.00] |"
+    assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 4 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
     assert not lost
     TOY.METHODS["worse"] = lambda case: np.array([[case.truth + 9.0]])
     try:
