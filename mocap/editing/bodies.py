@@ -66,7 +66,7 @@ class Body(NamedTuple):
 
 def body_of(
     motion: Motion,
-    pinned: Sequence[int],
+    pinned: Pins | Sequence[int],
     *,
     prices: Mapping[str, float] | None = None,
     still: Sequence[str] = (),
@@ -80,7 +80,7 @@ def body_of(
     Parameters
     ----------
     motion : the clip that shows which joints turn, and which of them are hinges.
-    pinned : joints' indices.
+    pinned : pins, or the indices of pinned joints.
     prices : factors for joints' prices, by name; more than 1 stiffens a joint.
     still : the names of joints that shall not turn.
 
@@ -104,7 +104,9 @@ def body_of(
     if not all(np.isfinite(factor) and factor > 0 for factor in factors.values()):
         raise MocapError(f"Factors of prices are above 0, got {dict(prices or {})}.")
     turns, paths = turning(motion), [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
-    above = sorted({joint for pin in pinned for joint in paths[pin][1:]} - fixed)
+    places, turned = (pinned.joints, pinned.turns) if isinstance(pinned, Pins) else (pinned, ())
+    ways = [*(paths[joint][1:] for joint in places), *(paths[turn.joint] for turn in turned if turn.world)]
+    above = sorted(set().union(*ways) - fixed)
     positions = joint_positions(motion[:: max(1, len(motion) // POSES)])
     joints: list[int] = []
     axes, price = [np.zeros((0, 3))], [float(len(skeleton))] * 3

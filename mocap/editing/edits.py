@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
+from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.pins import Pins, join_pins, pin, pin_errors, plant_pins
 from mocap.editing.solver import CLOSE, solve, solve_quietly, warn_of_gaps
@@ -17,7 +18,7 @@ from mocap.errors import MocapError
 
 # The splines' calm makes the change, and what they leave is closed frame by frame. Accelerations around a
 # stone of 20 cm on captured walks grow by 4 % in the median; without calm by 30 %.
-EDIT = (Basis(knots=0.125, calm=0.2), CLOSE, CLOSE)
+EDIT = (Basis(knots=0.125, calm=0.25), CLOSE, CLOSE)
 
 CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and plants among them are let go
 
@@ -27,9 +28,13 @@ CLOSED = 1e-4  # metres: of pins that are missed by more a warning tells, and pl
 POSE = Basis(weight=3000.0, damping=1e-3, passes=60)
 HEAVY = 1e10  # how many times its price a metre of a root costs that is held
 
-# How many times their prices the root and the joints of the trunk cost. With 1 the trunk leans by 30° so that
-# a hand moves by 30 cm, and the arm hardly turns; people move the arm first.
-TRUNK = 16.0
+# How many times their prices turns of root and trunk, and of the neck, cost. With 1 a hand that moves by
+# 37 cm tips the trunk by 25°, with these by 16°; under a bar the neck's joints turn by up to 28°, or 16°.
+EDITED = (4.0, 8.0)
+
+# The same for a pose, and for the root's way. With 1 the trunk leans by 30° so that a hand moves by 30 cm,
+# and the arm hardly turns; people move the arm first.
+POSED = (16.0, 16.0)
 
 
 def edit(
@@ -41,7 +46,8 @@ def edit(
     ----------
     motion : F frames; its `contacts` say when feet stand.
     pins : what is asked. Plants stand where they stood, unless the pins hold them elsewhere.
-    body : which joints turn, at what price; by default `body_of(motion, joints)` of all pinned joints.
+    body : which joints turn, at what price; by default those above pinned ones, with the root, the trunk and
+        the neck at 4 and 8 times the prices of `body_of`, so that a hand that reaches hardly tips the trunk.
     legs : found by name by default; () for a body that stands on none.
 
     Returns
@@ -69,11 +75,12 @@ def edit(
 
     Notebook: 14-levels
     """
-    if len(pins) == len(motion) and not pins.asked.any():
+    if len(pins) == len(motion) and not (pins.asked.any() or pins.turns):
         return motion
     legs = legs_of(motion.skeleton, legs)
     if legs:
         pins = join_pins(plants := plant_pins(motion, legs), pins)
+    body = body or body_of(motion, pins, prices=stiff(motion.skeleton, *EDITED))
     edited = solve_quietly(motion, pins, EDIT, body).motion
     return let_go(edited, pins, plants) if legs else let_go(edited, pins)
 
@@ -155,13 +162,27 @@ def _standing(motion: Motion) -> Pins:
 
 @lru_cache(maxsize=1)
 def _dragged(motion: Motion, pinned: tuple[int, ...], still: tuple[str, ...]) -> Body:
-    """Choose the joints that turn; a root that is still does not move either.
-
-    The trunk are the joints with a third of the body, or more, below them; a leg or an arm has less.
-    """
-    skeleton = motion.skeleton
-    below = np.bincount(np.concatenate([skeleton.path_to_root(joint) for joint in range(len(skeleton))]))
-    trunk = [name for name, count in zip(skeleton.names, below, strict=True) if count > len(skeleton) / 3]
-    body = body_of(motion, pinned, prices=dict.fromkeys(trunk, TRUNK), still=still)
-    root = HEAVY if skeleton.names[0] in still else TRUNK
+    """Choose the joints that turn; a root that is still does not move either."""
+    body = body_of(motion, pinned, prices=stiff(motion.skeleton, *POSED), still=still)
+    root = HEAVY if motion.skeleton.names[0] in still else POSED[0]
     return body._replace(price=np.append(root * body.price[:3], body.price[3:]))
+
+
+def stiff(skeleton: Skeleton, trunk: float, neck: float) -> dict[str, float]:
+    """Give factors for the prices of trunk, with a third of the body below its joints, and of neck and head.
+
+    Examples
+    --------
+    >>> from mocap.datasets.samples import SKELETON
+    >>> stiff(SKELETON, 4, 8)
+    {'root': 4, 'lowerback': 4, 'upperback': 4, 'thorax': 4, 'lowerneck': 8, 'upperneck': 8, 'head': 8}
+    """
+    paths = [skeleton.path_to_root(joint) for joint in range(len(skeleton))]
+    below = np.bincount(np.concatenate(paths))
+    heads = {joint for path in paths if skeleton.names[path[0]].lower().endswith("head") for joint in path}
+    factors = np.where(
+        below > len(skeleton) / 3, trunk, np.where(np.isin(range(len(paths)), [*heads]), neck, 1)
+    )
+    return {
+        name: factor for name, factor in zip(skeleton.names, factors.tolist(), strict=True) if factor != 1
+    }

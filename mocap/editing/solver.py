@@ -12,6 +12,7 @@ and the weight in place of [Gle98]'s Lagrange multipliers are ours.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +32,7 @@ MET = 5e-10  # metres: pins that are so near are met
 GAIN = 3e-5  # share of the cost: what a pass must gain, or it is the last; a hundredth where it does not help
 FALL, RISE = 3.0, 10.0  # the damping falls so where a pass helps, and rises so where it does not
 
-# Times the damping, at first, where pins hold a ceiling. The first pass is then one of a small weight, and
+# The damping at first where pins hold a ceiling. The first pass is then one of a small weight, and
 # the body bows. With the weight at once a neck folds by up to 360°.
 CEILING = 1000.0
 
@@ -75,7 +76,7 @@ def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = 
     base : F frames.
     pins : of F frames.
     bases : one or more. `REACH` brings each frame by itself to its pins; those without pins stay as they are.
-    body : which joints turn, at what price; `body_of(base, pins.joints)` by default. For a single frame, make
+    body : which joints turn, at what price; `body_of(base, pins)` by default. For a single frame, make
         it from the whole clip, which shows the hinges.
 
     Returns
@@ -115,11 +116,11 @@ def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body |
     require_reachable(base, pins)
     if not len(bases):
         raise MocapError("To solve takes a basis or more, got none.")
-    body = body or body_of(base, pins.joints)
+    body = body or body_of(base, pins)
     change, worst = np.zeros((len(base), len(body.price))), [float(pin_errors(base, pins).max(initial=0.0))]
     for number, way in enumerate(bases):
-        if number == 0 and not way.alone and (np.isfinite(pins.high) & ~pins.held).any():
-            way = way._replace(damping=CEILING * way.damping)
+        if number == 0 and (np.isfinite(pins.high) & ~pins.held).any():
+            way = way._replace(damping=CEILING)
         if not (way.knots >= 0 <= way.calm and way.weight > 0 <= way.damping and way.passes >= 1):
             raise MocapError(f"A basis needs a weight and a pass above 0, and no number below 0; got {way}.")
         missed = pin_errors(base, pins).max(axis=1, initial=0.0) > MET
@@ -158,7 +159,9 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
 def _pared(base: Motion, pins: Pins, body: Body, rows: Rows) -> tuple[Motion, Pins, Body]:
     """Keep some frames, and only joints that are pinned or turn, and those above: the others play no part."""
     skeleton = base.skeleton
-    kept = sorted({0}.union(*(skeleton.path_to_root(int(joint)) for joint in (*pins.joints, *body.joints))))
+    turns = [turn for turn in pins.turns if turn.world or turn.joint in body.joints]
+    ends = (*pins.joints, *body.joints, *(turn.joint for turn in turns))
+    kept = sorted({0}.union(*(skeleton.path_to_root(int(joint)) for joint in ends)))
     number = {joint: n for n, joint in enumerate(kept)}
     small = Skeleton(
         [skeleton.names[joint] for joint in kept],
@@ -166,7 +169,8 @@ def _pared(base: Motion, pins: Pins, body: Body, rows: Rows) -> tuple[Motion, Pi
         skeleton.offsets[kept],
     )
     motion = Motion(small, base.root_positions[rows], base.rotations[rows][:, kept], base.fps, base.name)
-    own = Pins(tuple(number[joint] for joint in pins.joints), pins.low[rows], pins.high[rows])
+    own = replace(pins, joints=tuple(number[joint] for joint in pins.joints), turns=())
+    own = replace(own, turns=tuple(turn._replace(joint=number[turn.joint]) for turn in turns)).at(rows)
     return motion, own, body._replace(joints=np.searchsorted(kept, body.joints))
 
 
@@ -175,8 +179,9 @@ def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> No
     errors = pin_errors(motion, pins)
     if errors.max(initial=0.0) > tolerance:
         frame, joint = np.unravel_index(errors.argmax(), errors.shape)
+        ends = [*pins.joints, *(turn.joint for turn in pins.turns)]
         warn(
-            f"'{motion.name}', frame {frame}: '{motion.skeleton.names[pins.joints[joint]]}' is "
+            f"'{motion.name}', frame {frame}: '{motion.skeleton.names[ends[joint]]}' is "
             f"{1000 * errors[frame, joint]:.3g} mm off its pin, and pins of "
             f"{int((errors > tolerance).any(1).sum())} "
             "frames are missed: are they within reach, and do they agree?",

@@ -15,12 +15,13 @@ from mocap.body.motion import Motion
 from mocap.editing.bodies import Body
 from mocap.editing.displacements import displaced, right_jacobian, spline_basis
 from mocap.editing.pins import Pins
+from mocap.editing.turn_pins import ARM
 
 # Metres: a joint so near to the end of its box shall keep to it in the next step. With 0 a head under a bar
 # leaves the bar and comes back, and 100 passes do not end; with 1e-3 they end as soon.
 NEAR = 1e-4
 
-RIDGE = 1e-10  # of the least price: a clip of fewer frames than splines leaves some of them unseen
+RIDGE = 1e-13  # of the largest entry: a clip of fewer frames than splines leaves some of them unseen
 
 
 class Basis(NamedTuple):
@@ -75,9 +76,12 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
 
     A joint at p_j, turned in the world by R_j and by d_j already, turns about its own axis a: a joint e below
     moves by ∂p_e = (R_j J(d_j) a) × (p_e - p_j), with J the right Jacobian. The root's place moves all by 1.
+    How joint i is turned, v = log(r⁻¹ R_i), changes by ∂v = J(v)⁻¹ R_iᵀ R_j J(d_j) a: `ARM` times this are
+    more rows.
     """
     change = body.displacement(x, len(base.skeleton))
-    poses = forward_kinematics(displaced(base, change))
+    moved = displaced(base, change)
+    poses = forward_kinematics(moved)
     spins = poses.matrices @ right_jacobian(change.turns)
     axes = np.einsum("ftij,tj->fti", spins[:, body.joints], body.axes)  # in the world, (F, T, 3)
     slopes = np.zeros((len(base), len(pins.joints), 3, x.shape[1]))
@@ -88,7 +92,18 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
         slopes[:, number][..., 3 + above] = np.swapaxes(np.cross(axes[:, above], arms), 1, 2)
     places = poses.positions[:, list(pins.joints)]
     slopes *= (places != np.clip(places, pins.low + NEAR, pins.high - NEAR))[..., None]
-    return Linear(pins.gap(poses.positions).reshape(len(base), -1), slopes.reshape(len(base), -1, x.shape[1]))
+    gaps = [pins.gap(poses.positions).reshape(len(base), -1)]
+    rows = [slopes.reshape(len(base), -1, x.shape[1])]
+    for turn in pins.turns:
+        away = turn.away(moved, poses.matrices)
+        own = base.skeleton.path_to_root(turn.joint) if turn.world else [turn.joint]
+        above = np.flatnonzero(np.isin(body.joints, own))
+        inside = np.einsum("fji,ftj->fit", poses.matrices[:, turn.joint], axes[:, above])
+        rows.append(np.zeros((len(base), 3, x.shape[1])))
+        rows[-1][..., 3 + above] = ARM * np.linalg.solve(right_jacobian(away), inside)
+        rows[-1] *= (away != np.clip(away, turn.low + NEAR, turn.high - NEAR))[..., None]
+        gaps.append(turn.gap(away))
+    return Linear(np.concatenate(gaps, axis=1), np.concatenate(rows, axis=1))
 
 
 def plain_step(curve: "Curve", c: Array, now: Linear, damping: float) -> Array:
@@ -164,7 +179,7 @@ class Curve:
             for j in range(n):
                 top = max(d * n - j, 0)
                 band[top : (d + 1) * n - j, j : (knots - d) * n : n] = blocks[:, j, top + j - d * n :].T
-        band[0] += RIDGE * self.price.min()
+        band[0] += RIDGE * band[0].max()
         return np.asarray(
             solveh_banded(band, right.ravel(), lower=True, check_finite=False).reshape(knots, n)
         )

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap.editing.displacements import spline_basis
+from mocap.body.kinematics import joint_positions
+from mocap.editing.displacements import difference, spline_basis
 from mocap.editing.levels import Level, hierarchy, scattered_fit
 from mocap.editing.pins import pin, pin_errors, plant_pins
 from mocap.editing.solver import REACH, solve
@@ -82,6 +83,19 @@ def test_a_hand_listens_to_its_own_frames_only():
     pins = hand_at(clip, (180, 240, 300))
     assert hierarchy(clip, pins)[1][-1].worst < 0.002
     assert hierarchy(clip, pins, listen=False)[1][-1].worst > 0.1
+
+
+def test_levels_do_not_fold_a_neck_under_a_bar(real_data):
+    for clip, height, middle in ((walk(), 1.4, 250), (captured(real_data), 1.35, 230)):
+        pins = bar(clip, height, middle)
+        motion, _ = hierarchy(clip, pins)
+        turns = np.degrees(np.linalg.norm(difference(motion, clip).turns, axis=-1)).max()
+        assert turns < 40
+        at = pins.asked & (pins.high[..., 1] < 2)
+        under = np.where(at, pins.high[..., 1] - joint_positions(motion)[:, pins.joints, 1], np.inf).min(
+            axis=1
+        )
+        assert np.median(under[at.any(axis=1)]) < 0.04
 
 
 def test_the_levels_end_where_the_pins_are_met():
