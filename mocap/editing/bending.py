@@ -11,14 +11,15 @@ from mocap._shared.arrays import Array, Mask
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line
-from mocap.editing.path_editing import Ride, moving_frames, on_path, plants_kept, ride_of
+from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
 from mocap.editing.pins import plant_pins, with_plants
 from mocap.editing.solver import solve_quietly
 from mocap.editing.steps import Basis
+from mocap.editing.turning import lean, slow_down
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footskate import clean_up
 
-LIMIT = float(np.radians(60))  # per second: the fastest that a walk is turned
+LIMIT = float(np.radians(100))  # per second: the fastest that a walk is turned; people reach 90° to 110°
 WILD = 2 * np.pi  # per second: faster than anybody who walks turns; walks on lines that turn fast reach 100°
 FINE = 0.01  # metres between the points of a line from which distances are measured
 # Share of the plants. With fewer, a solver over all frames helps to hold them; it takes five times the time.
@@ -36,7 +37,8 @@ class Bent:
     laid : the same before the clean-up.
     path : the line asked for.
     line : the line that is walked: rounded where needed.
-    ride : of the walk before it was laid there.
+    ride : of the walk, slowed, before it was laid there.
+    walked : shape (F,), metres along the line that is walked.
     """
 
     motion: Motion
@@ -44,6 +46,7 @@ class Bent:
     path: GroundPath
     line: RoundedLine
     ride: Ride
+    walked: Array
 
     @cached_property
     def off(self) -> Array:
@@ -54,7 +57,7 @@ class Bent:
     @cached_property
     def along(self) -> Array:
         """Metres along the line asked for in each frame, shape (F,)."""
-        return np.interp(self.ride.along, self.line.along, self.line.asked)
+        return np.interp(self.walked, self.line.along, self.line.asked)
 
     @cached_property
     def rounded(self) -> Mask:
@@ -65,7 +68,7 @@ class Bent:
     @cached_property
     def turned(self) -> Array:
         """How fast the walk is turned beyond what it turns by itself, shape (F - 1,), radians per second."""
-        old, new = (moving_frames(path, self.ride.along) for path in (self.ride.path, self.line.path))
+        old, new = moving_frames(self.ride.path, self.ride.along), moving_frames(self.line.path, self.walked)
         return np.diff(np.asarray(new.angle) - old.angle) * self.motion.fps
 
     def report(self) -> str:
@@ -127,10 +130,13 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     motion = with_plants(motion)
     ride = ride or ride_of(motion)
     line = round_line(_reached(path, ride), ride, motion.fps, limit)
-    frames = max(2, int(np.searchsorted(ride.along, line.along[-1], side="right")))
-    motion, ride = motion[:frames], replace(ride, along=ride.along[:frames])
-    laid = on_path(motion, line.path, ride)
-    bent = Bent(_cleaned(laid), laid, path, line, ride)
+    slowed, own, walked, angle = slow_down(motion, ride, line.path)
+    frames = max(2, int(np.searchsorted(walked, line.path.length + 1e-6)))
+    slowed, own, walked, angle = slowed[:frames], own[:frames], walked[:frames], angle[:frames]
+    way = moving_frames(line.path, walked)
+    flat = (way @ moving_frames(ride.path, own).inverse()).apply_motion(slowed)
+    laid, held = lean(flat, np.asarray(way.angle), angle)
+    bent = Bent(_cleaned(laid, held), laid, path, line, replace(ride, along=own), walked)
     if (fastest := np.abs(bent.turned).max(initial=0.0)) > max(WILD, 2 * limit):
         warn(
             f"'{shortened(motion.name)}' is turned by up to {np.degrees(fastest):.0f}° per second: where it "
@@ -147,20 +153,20 @@ def _reached(path: GroundPath, ride: Ride) -> GroundPath:
     return GroundPath(np.vstack([path.points[path.along < most], path.at(most)]))
 
 
-def _cleaned(laid: Motion) -> Motion:
+def _cleaned(laid: Motion, held: dict[int, Array]) -> Motion:
     """Clean up the feet; where plants are let go, all frames are first changed a little to reach them."""
-    found, warned = _clean(laid)
+    found, warned = _clean(laid, held)
     if plants_kept(found, laid) < ENOUGH:
-        nearer = _clean(solve_quietly(laid, plant_pins(laid), [Basis(knots=0.125)]).motion)
+        nearer = _clean(solve_quietly(laid, plant_pins(laid), [Basis(knots=0.125)]).motion, held)
         found, warned = max((found, warned), nearer, key=lambda pair: plants_kept(pair[0], laid))
     for warning in warned:
         warn(warning, 3)
     return found
 
 
-def _clean(motion: Motion) -> tuple[Motion, list[str]]:
+def _clean(motion: Motion, held: dict[int, Array]) -> tuple[Motion, list[str]]:
     """Clean up the feet; give the motion, and the warnings of plants let go."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", MocapWarning)
-        found = clean_up(motion)
+        found = clean_up(motion, held=held)
     return found, [str(warning.message) for warning in caught]

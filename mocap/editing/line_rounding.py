@@ -11,6 +11,7 @@ from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.path_editing import CHORD, Ride, moving_frames
+from mocap.editing.turning import RADIUS, places_on
 
 SPACING = 0.05  # metres between the points of a rounded line
 SMOOTH = 0.1  # metres that smoothing reaches everywhere; it moves a circle of 1 m by 0.1 mm
@@ -25,6 +26,7 @@ FALL = 0.6
 WIDEST = 2.5  # times the radius that the limit asks for: no reach is wider
 CUT = 1.75  # times that radius: a line that is cut by more goes back on itself, or nearly so
 SHORTER = 0.6  # of its length: so much stays at least of a line that is not cut by much more than it need be
+LOOP = 1.15  # times the radius: where a bend begins, a walk is faster than further on
 AHEAD = 0.6  # times the radius: how far ahead on a line a walk looks that is steered along it
 SLOWEST = 0.5  # of its own pace: at least so fast the point on the line moves on, or the walk might circle it
 SEEN = 0.01  # metres: a line that is moved by less is not called rounded
@@ -80,9 +82,10 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     The line is the one nearest to the points p_k asked for, among those that bend little:
     min Σ |x_k - p_k|² + Σ λ_k |x_{k-1} - 2 x_k + x_{k+1}|², a linear system with five diagonals. λ_k = r_k⁴
     is small at first. Where a frame of the walk turns too fast, the reach r grows around it, and the line is
-    laid anew. The walk may turn by the limit, and by as much more as it turns there by itself to the same
-    side. Where that is not enough, at one corner upon another, or cuts off too much, where the line comes
-    back on itself, a walk is steered along the line, which turns as fast as it may and makes loops.
+    laid anew. The walk slows down in bends, as `turning` says, and may turn by the limit, and by as much more
+    as it turns there by itself to the same side; where it nowhere turns too fast, the line stays as it is.
+    Where all this is not enough, at one corner upon another, or cuts off too much, where the line comes back
+    on itself, a walk is steered along the line, which turns as fast as it may and makes loops.
 
     Parameters
     ----------
@@ -103,23 +106,29 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     """
     even = path.resampled(SPACING)
     asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)
-    radius = np.diff(ride.along).max(initial=0.0) * fps / limit / spacing  # in cells
-    walked = ride.along[ride.along <= path.length]  # to round a line makes it shorter
-    own = np.diff(moving_frames(ride.path, walked).angle) * fps
+    straight = np.diff(ride.along).max(initial=0.0) * fps / limit  # v₀ / limit
+    # The radius r at which v₀ q(1/r) / r is the limit, in cells.
+    radius = np.sqrt((np.sqrt(RADIUS**4 + 4 * straight**4) - RADIUS**2) / 2) / spacing
+    own = np.diff(moving_frames(ride.path, ride.along).angle) * fps
 
-    def too_fast(line: Points) -> Indices:
+    def too_fast(line: GroundPath, metres: Array) -> Indices:
         """Find the points of a line where the walk would turn too fast."""
-        metres = _metres(line)
-        along = walked[walked <= metres[-1]]
-        rate = np.diff(moving_frames(GroundPath(from_ground(line)), along).angle) * fps
-        fast = np.abs(rate) > limit + np.maximum(np.sign(rate) * own[: len(rate)], 0)  # to the same side
+        along, ratio = places_on(line, ride, fps)
+        along = along[along <= metres[-1]]  # to round a line makes it shorter
+        slower = np.sqrt(ratio[1 : len(along)])
+        rate = np.diff(moving_frames(line, along).angle) * fps * slower
+        fast = np.abs(rate) > limit + np.maximum(
+            np.sign(rate) * own[: len(rate)] * slower, 0
+        )  # to the same side
         return np.unique(np.searchsorted(metres, along[1:][fast]))
 
+    if not len(too_fast(path, even.along)):
+        return RoundedLine(path, even.along, even.along, np.zeros(len(asked)))
     least, most = SMOOTH / spacing, WIDEST * radius
     reach, slow = np.full(len(asked), least), False
     while not slow:
         line = _smoothed(asked, reach**4)
-        near = too_fast(line)
+        near = too_fast(GroundPath(from_ground(line)), _metres(line))
         slow, grows = not len(near), near[reach[near] < most]
         if not len(grows):
             break
@@ -128,7 +137,7 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     cut = rounded.moved.max() > max(CUT * radius * spacing, CHORD)
     if slow and not cut and rounded.path.length > SHORTER * path.length:
         return rounded
-    places, points = _steered(asked, spacing, radius)
+    places, points = _steered(asked, spacing, LOOP * radius)
     return _measured(path, even, _smoothed(points, np.full(len(points), least**4)), spacing * places)
 
 

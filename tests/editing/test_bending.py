@@ -17,6 +17,7 @@ from mocap.files.load_save import load
 from tests.editing.test_path_editing import acc99, off, slide
 
 CLIPS = ("walk_straight", "walk_circle", "sneak", "jog")
+CORNER = GroundPath([[0, 0], [0, 4], [4, 4]])
 
 
 @cache
@@ -34,53 +35,49 @@ def straight_parts(bent):
 def test_a_walk_keeps_to_any_line(name, path):
     """As in [Gle01, 5]."""
     bent = bend(clip(name), path)
-    some = straight_parts(bent) if name != "jog" else bent.off  # a jogger is too fast for 1.6 m
-    assert some.mean() <= 0.025 or name == "jog"
+    assert straight_parts(bent).mean() <= 0.025 or name == "jog"
     assert straight_parts(bent).max(initial=0) <= 0.08
     assert slide(bent.motion) <= 1e-6
     assert slide(bent.laid) > 0.005
-    assert plants_kept(bent.motion, bent.laid) >= 0.95
-    assert acc99(bent.motion, clip(name)) <= 1.25
+    assert plants_kept(bent.motion, bent.laid) >= (0.92 if name == "jog" else 0.99)
+    assert acc99(bent.motion, clip(name)) <= (1.15 if name == "jog" else 1.05)
     assert np.abs(bent.off - off(bent.motion, path)).max() < 0.008
 
 
 def test_it_begins_where_the_line_does_and_ends_there():
     path = arcs((3, 4), 1.0, [(3.0, 1.0)])
     bent = bend(clip("walk_straight"), path)
-    assert bent.motion.root_positions[0, [0, 2]] == pytest.approx(path.points[0], abs=0.06)
-    assert bent.motion.root_positions[-1, [0, 2]] == pytest.approx(path.points[-1], abs=0.06)
+    assert bent.motion.root_positions[[0, -1]][:, [0, 2]] == pytest.approx(path.points[[0, -1]], abs=0.06)
     assert bent.along[-1] > 0.98 * path.length
     assert len(bent.motion) == len(bent.along) == len(bent.turned) + 1 == len(bent.rounded)
     long = bend(clip("walk_straight"), GroundPath([[0, 0], [0, 40]]))
-    assert len(long.motion) == len(clip("walk_straight"))
-    assert long.along[-1] == pytest.approx(long.ride.path.length, abs=0.04)
+    assert long.motion.duration == pytest.approx(clip("walk_straight").duration, rel=0.01)
+    assert long.along[-1] == pytest.approx(long.ride.path.length, abs=0.05)
     assert f"along {long.along[-1] / 40:.0%} of 40.0 m" in long.report()
     assert "rounded" not in long.report()
 
 
 def test_it_says_where_the_line_was_rounded():
-    path = GroundPath([[0, 0], [0, 4], [4, 4]])
-    bent = bend(clip("walk_straight"), path)
+    bent = bend(clip("walk_straight"), CORNER)
     (where,) = bent.line.roundings
     assert f"elsewhere, rounded at {where.start:.1f} to {where.end:.1f} m by up to" in bent.report()
     assert bent.rounded[(bent.along > where.start) & (bent.along < where.end)].all()
-    assert 0.2 < bent.off.max() < 0.5
+    assert bent.off.max() < 0.11
     assert straight_parts(bent).max() < 0.05
-    assert np.abs(bent.turned).max() <= np.radians(61)
     zigzag = GroundPath([[2 * (n % 2), 4 * n] for n in range(8)])
     assert " more; turned by" in bend(clip("walk_circle"), zigzag).report()
-    saw = bend(clip("walk_straight"), GroundPath([[0.7 * (n % 2), n] for n in range(9)]))
+    saw = bend(clip("walk_straight"), GroundPath([[0.7 * (n % 2), 0.7 * n] for n in range(9)]))
     assert saw.rounded.mean() > 0.9
 
 
 def test_a_tighter_limit_rounds_more():
-    path = GroundPath([[0, 0], [0, 4], [4, 4]])
-    slow, fast = (bend(clip("walk_straight"), path, limit=np.radians(rate)) for rate in (30, 90))
-    assert slow.off.max() > 2 * fast.off.max()
-    assert np.abs(slow.turned).max() <= np.radians(31)
-    free = bend(clip("walk_straight"), path, limit=np.inf)
-    assert free.off.max() < 0.1
-    assert np.abs(free.turned).max() > np.radians(150)
+    slow, fast, free = (
+        bend(clip("walk_straight"), CORNER, limit=np.radians(rate)) for rate in (30, 100, np.inf)
+    )
+    assert slow.off.max() > 2 * fast.off.max() > 2 * free.off.max()
+    for bent, rate in ((slow, 30), (fast, 100)):
+        assert np.abs(bent.turned).max() <= np.radians(rate + 1)
+    assert np.abs(free.turned).max() > np.radians(130)
     assert acc99(free.motion, clip("walk_straight")) > acc99(slow.motion, clip("walk_straight"))
 
 
@@ -109,7 +106,7 @@ def test_who_goes_to_and_fro_is_turned_at_once_and_that_is_said():
     roots = walk.root_positions * [0, 1, 0]
     roots[:, 2] = 0.6 * np.sin(np.arange(90) * np.pi / 30)
     with pytest.warns(
-        MocapWarning, match=r"'walk_straight' is turned by up to 2700° per second: where it stands"
+        MocapWarning, match=r"'walk_straight' is turned by up to 5400° per second: where it stands"
     ) as said:
         bend(replace(walk, root_positions=roots), GroundPath([[0, 0], [0, 3]]))
     assert all(len(str(warning.message)) <= 200 for warning in said)

@@ -10,16 +10,17 @@ from mocap.body.ground_path import GroundPath, arcs, circle
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.line_rounding import _smoothed, round_line
 from mocap.editing.path_editing import Ride, moving_frames
+from mocap.editing.turning import places_on
 from tests.strategies import planar
 
-LIMIT, FPS, SPEED = np.radians(60), 30.0, 1.2
-RADIUS = SPEED / LIMIT
+LIMIT, FPS, SPEED = np.radians(100), 30.0, 1.2
+RADIUS = 0.37  # metres: on this arc a walk of this speed, slowed, turns by the limit
 
 
 def straight(metres=60.0, fps=FPS):
     """A ride straight ahead at a steady speed."""
     along = np.arange(0, metres, SPEED / fps)
-    return Ride(GroundPath([[0, 0], [0, along[-1]]]), along, np.zeros((4, 2)))
+    return Ride(GroundPath([[0, 0], [0, along[-1]]]), along)
 
 
 def corner(degrees, leg=6.0):
@@ -35,8 +36,9 @@ def heart(size=0.28):
 
 def fastest(path, ride=None, fps=FPS):
     """How fast a walk turns on a path, radians per second."""
-    ride = ride or straight()
-    return np.abs(np.diff(moving_frames(path, ride.along[ride.along < path.length]).angle)).max() * fps
+    along, ratio = places_on(path, ride or straight(), fps)
+    rates = np.diff(moving_frames(path, along).angle) * fps * np.sqrt(ratio[1:])
+    return np.abs(rates[along[1:] < path.length]).max()
 
 
 def test_the_line_is_the_least_squares_one():
@@ -48,11 +50,11 @@ def test_the_line_is_the_least_squares_one():
     assert (_smoothed(points[:2], weight[:2]) == points[:2]).all()
 
 
-@pytest.mark.parametrize("degrees", [40, 90, 120])
+@pytest.mark.parametrize("degrees", [70, 90, 120])
 def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
     asked = corner(degrees)
     line = round_line(asked, straight(), FPS, LIMIT)
-    assert fastest(asked) > 1.5 * LIMIT
+    assert fastest(asked) > 1.2 * LIMIT
     assert 0.85 * LIMIT < fastest(line.path) <= LIMIT
     # The arc that touches both legs passes the corner at this distance.
     arc = RADIUS * (1 / np.cos(np.radians(degrees) / 2) - 1)
@@ -60,14 +62,14 @@ def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
     (where,) = line.roundings
     assert where.start < 6 < where.end
     assert where.worst == line.moved.max()
-    assert where.end - where.start < 7 * RADIUS
+    assert where.end - where.start < 9 * RADIUS
     far = np.abs(line.asked - 6) > 4.5
     assert line.moved[far].max() < 0.01
 
 
 def test_a_cusp_is_rounded_and_the_rest_stays():
     line = round_line(heart(), straight(), FPS, LIMIT)
-    assert fastest(heart()) > 10 * LIMIT
+    assert fastest(heart()) > 4 * LIMIT
     assert fastest(line.path) <= LIMIT
     (where,) = line.roundings
     assert where.end - where.start < 7
@@ -88,10 +90,10 @@ def test_a_line_that_comes_back_on_itself_gets_a_loop(degrees):
     """A smoother line alone would come back on itself as well, or be much shorter."""
     back = corner(degrees)
     line = round_line(back, straight(), FPS, LIMIT)
-    assert fastest(back) > 5 * LIMIT
+    assert fastest(back) > 2 * LIMIT
     assert fastest(line.path) <= 1.05 * LIMIT
     assert line.path.length > back.length if degrees > 150 else line.path.length > 0.7 * back.length
-    assert line.moved.max() < 2.2 * RADIUS
+    assert line.moved.max() < 2.5 * RADIUS
 
 
 def test_the_walk_may_turn_faster_where_it_turns_by_itself():
@@ -99,7 +101,7 @@ def test_the_walk_may_turn_faster_where_it_turns_by_itself():
     asked = corner(90)
     own = round_line(asked, straight(), FPS, LIMIT).path  # a walk along the rounded line itself
     along = np.arange(0, own.length, SPEED / FPS)
-    line = round_line(asked, Ride(own, along, np.zeros((4, 2))), FPS, LIMIT)
+    line = round_line(asked, Ride(own, along), FPS, LIMIT)
     assert line.moved.max() < 0.7 * round_line(asked, straight(), FPS, LIMIT).moved.max()
 
 

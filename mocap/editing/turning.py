@@ -1,0 +1,190 @@
+"""How people take a bend: slower, and leaning into it.
+
+Who goes round a bend of curvature k (radians per metre) at speed v leans inwards by atan(v² k / g), measured
+from the feet to the centre of mass, or would fall outwards. People lean little, and so they slow down:
+
+    v / v₀ = q(k) = (1 + (R k)²)^(-1/4),   R = 1.2 m,   v₀ the speed straight on
+
+In tight bends v² k then stays at v₀² / R, about a tenth of g for a walk. Half of it is shorter steps, half a
+slower clock: steps are √q times as long, and last 1/√q as long. The law and R are ours, from captured turns.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.body.ground_path import GroundPath
+from mocap.body.kinematics import forward_kinematics
+from mocap.body.limbs import legs_of
+from mocap.body.motion import Motion
+from mocap.editing.path_editing import Ride, moving_frames
+from mocap.editing.pins import plant_pins
+from mocap.editing.retiming import at_frames
+
+RADIUS = 1.2  # metres; R above. People who run slow down more, R of about 2 m at 2.5 to 3 m/s
+GRAVITY = 9.81
+CELL, SOFT = 0.02, 0.2  # metres: a line's curvature is taken at such distances, and smoothed by so much
+SMOOTH = 0.3  # seconds by which speeds are smoothed
+STANDS, WALKS = (
+    0.2,
+    0.5,
+)  # metres per second: below the first a body stands, and its path curls; above it walks
+RATIOS = (0.3, 1.6)  # of speeds, after and before: a turn that is made straight becomes no faster
+PELVIS, TRUNK = 0.5, 0.25  # of the lean; the legs take the whole of it, and the feet none
+
+
+class Bends(NamedTuple):
+    """How a line bends at n places: metres `along` it, `curvature` k (radians per metre), `pace` q."""
+
+    along: Array
+    curvature: Array
+    pace: Array
+
+
+class Places(NamedTuple):
+    """Where a walk is on a line in each of its F frames, metres, and its speed there over its own, `ratio`.
+
+    Its steps are √ratio times as long, and each frame lasts 1/√ratio as long.
+    """
+
+    along: Array
+    ratio: Array
+
+
+class Slowed(NamedTuple):
+    """A walk of F frames that is slowed for a line.
+
+    `own` (F,) are the metres along its own path in each frame, `along` (F,) those along the line, and `lean`
+    (F,) is by how much more than by itself it must lean to the left, radians.
+    """
+
+    motion: Motion
+    own: Array
+    along: Array
+    lean: Array
+
+
+def bends_of(path: GroundPath) -> Bends:
+    """Measure how a line bends, and how much slower than straight on people walk there.
+
+    Examples
+    --------
+    >>> from mocap.body import circle
+    >>> bends_of(circle(1.0)).pace[100].round(2)
+    np.float64(0.8)
+    """
+    along = np.arange(0.0, path.length + CELL, CELL)
+    curvature = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
+    curvature = gaussian_filter1d(curvature, SOFT / CELL, mode="nearest")
+    return Bends(along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25)
+
+
+def places_on(path: GroundPath, ride: Ride, fps: float) -> Places:
+    """Say where on a line a walk is, slowed by as much as the line bends more than the walk's own path.
+
+    The speeds' ratio is r = q(k) / q(k₀), with k₀ of its own path: 1 for a captured turn on its own path.
+    Where a body stands, its path curls, and that says nothing: r = 1.
+    """
+    line, own = bends_of(path), bends_of(ride.path)
+    walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
+    along, ratio = np.zeros(len(walks)), np.ones(len(walks))
+    here, last = 0.0, 1.0
+    pace = own.pace[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own.pace) - 1)]
+    for frame, step in enumerate(np.diff(ride.along, prepend=ride.along[0])):
+        here += last**0.5 * step
+        now = line.pace[min(round(here / CELL), len(line.pace) - 1)] / pace[frame]
+        last = min(max(now, RATIOS[0]), RATIOS[1]) ** walks[frame]
+        along[frame], ratio[frame] = here, last
+    return Places(along, ratio)
+
+
+def slow_down(motion: Motion, ride: Ride, path: GroundPath) -> Slowed:
+    """Slow a walk for the bends of a line.
+
+    Parameters
+    ----------
+    motion, ride : F frames, and where they are on their own path.
+    path : the line, which the walk starts at its start.
+
+    Returns
+    -------
+    The walk at its new times, where it is, and how it must lean.
+
+    Examples
+    --------
+    >>> from mocap.body import circle
+    >>> from mocap.datasets import sample
+    >>> from mocap.editing import ride_of
+    >>> walk = sample("walk_straight")[:480]
+    >>> slow = slow_down(walk, ride_of(walk), circle(1.0))
+    >>> round(slow.motion.duration / walk.duration, 2), np.degrees(slow.lean[200]).round()
+    (1.12, np.float64(4.0))
+    """
+    places, numbers = places_on(path, ride, motion.fps), np.arange(len(motion))
+    clock = places.ratio**-0.5  # new frames per old frame
+    times = np.concatenate([[0.0], np.cumsum((clock[1:] + clock[:-1]) / 2)])
+    frames = np.interp(np.arange(int(times[-1] + 1e-6) + 1), times, numbers)
+    own, along = (np.interp(frames, numbers, some) for some in (ride.along, places.along))
+    speeds = np.interp(frames, numbers, _speed(ride.along, motion.fps)), _speed(along, motion.fps)
+    before, after = (
+        np.arctan(np.interp(where, bends.along, bends.curvature) * speed**2 / GRAVITY)
+        for where, bends, speed in zip((own, along), map(bends_of, (ride.path, path)), speeds, strict=True)
+    )
+    return Slowed(at_frames(motion, frames), own, along, after - before)
+
+
+def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Array]]:
+    """Let a body lean, the root in its place, and its feet further out.
+
+    Captured people lean most in the legs: the pelvis by half as much, the trunk by a quarter. Feet keep their
+    slope on the ground.
+
+    Parameters
+    ----------
+    motion : F frames, with plants.
+    way : shape (F,), which way it goes, radians.
+    angle : shape (F,), by how much it leans to the left, radians.
+
+    Returns
+    -------
+    The motion, and where its plants shall be, as the `held` of `feet.clean_up`.
+    """
+    height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=-1)
+    left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=-1)
+    outer = replace(motion, root_positions=motion.root_positions - (height * np.tan(angle))[:, None] * left)
+    parents, legs = motion.skeleton.parents, legs_of(motion.skeleton, None)
+    shares = {0: PELVIS, **dict.fromkeys(motion.skeleton.children(0), TRUNK)}
+    shares |= {_below_root(parents, leg.hip): PELVIS for leg in legs}
+    shares |= {leg.hip: 1.0 for leg in legs} | {leg.ankle: 0.0 for leg in legs}
+    world, pose = forward_kinematics(motion).matrices, motion.rotations.copy()
+    for joint, share in shares.items():
+        above = parents[joint]
+        while above >= 0 and above not in shares:
+            above = parents[above]
+        old = rotations.from_matrix(world[:, max(parents[joint], 0)]) if joint else np.array([1.0, 0, 0, 0])
+        # W' = T W, where T tilts about the way ahead: of this joint, and of the nearest one above it.
+        tilted, before = (
+            rotations.multiply(rotations.from_rotvec(-ahead * (part * angle)[:, None]), old)
+            for part in (share, shares.get(above, 0.0))
+        )
+        pose[:, joint] = rotations.multiply(
+            rotations.inverse(before), rotations.multiply(tilted, motion.rotations[:, joint])
+        )
+    pins = plant_pins(outer)
+    held = np.where(np.isfinite(pins.low), pins.low, np.nan)
+    return replace(motion, rotations=pose), {joint: held[:, n] for n, joint in enumerate(pins.joints)}
+
+
+def _below_root(parents: Array, joint: int) -> int:
+    """Find the child of the root from which a joint hangs."""
+    while parents[joint] > 0:
+        joint = int(parents[joint])
+    return joint
+
+
+def _speed(along: Array, fps: float) -> Array:
+    return np.asarray(gaussian_filter1d(np.gradient(along) * fps, SMOOTH * fps, mode="nearest"))
