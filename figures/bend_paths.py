@@ -136,7 +136,7 @@ def beside(target: Path, folder: Path | None) -> list[str]:
     """Write the section about bending, and draw both walks along each line."""
     found, lines = compiled(folder), [TITLE, ""]
     lines += [
-        "Bent: by up to 60° per second. Off and worst: of the root, where the line is not rounded. Rounded:",
+        "Bent: by up to 100° per second. Off and worst: of the root, where the line is not rounded. Rounded:",
         "the part of the frames there, and by how much the line is moved at most. Acc: the 99th percentile",
         "of accelerations, over that of the walk before it was bent. The last row of each table has the",
         "worst of 40 random lines, and the median time.",

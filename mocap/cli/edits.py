@@ -74,16 +74,16 @@ def bend(
     *,
     along: Path,
     out: Path,
-    limit: Annotated[float, TURN] = 60.0,
+    limit: Annotated[float, TURN] = 100.0,
     unit: Unit = None,
     widen: Widen = False,
     reading: Reading,
 ) -> None:
     """Lay a walk on a line.
 
-    Lay the walk of a clip on a line drawn on the ground, as far as it goes, and clean up its feet. Where the
-    line turns too fast, it is rounded; the report says where and by how much. For a line longer than the
-    clip, see `mocap walk --bend`.
+    Lay the walk of a clip on a line drawn on the ground, as far as it goes: it slows down and leans in where
+    the line bends, and its feet are cleaned up. Where the line turns too fast, it is rounded; the report says
+    where and by how much. For a line longer than the clip, see `mocap walk --bend`.
 
     Parameters
     ----------

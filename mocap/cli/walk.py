@@ -36,7 +36,7 @@ def walk(
     scale: Annotated[float | None, options.LENGTH] = None,
     unit: Unit = None,
     label: Annotated[Sequence[str], {"action": "append", "nargs": None, "default": []}] = (),
-    bend: Annotated[float | None, TURN, {"nargs": "?", "const": 60.0}] = None,
+    bend: Annotated[float | None, TURN, {"nargs": "?", "const": 100.0}] = None,
     width: Annotated[int | None, number(1, 10_000, int)] = None,
     clean: Clean = False,
     seed: Annotated[int | None, number(0, 2**32 - 1, int)] = None,
@@ -58,7 +58,7 @@ def walk(
     label (METRES:LABEL) : kind of motion from that many metres along the path, as in 6.5:sneak; may be
         repeated.
     bend (DEGREES) : lay the walk on the path, turned by up to so many degrees per second (without a number:
-        60).
+        100).
     width : walks that the search keeps at a time (default: 100).
     seed : seed of the random walk (default: 0).
 

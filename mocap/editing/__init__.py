@@ -15,17 +15,18 @@ Reading order (notebooks 10 to 14)
  7. `edits`: one face for edits: a calm change, to the last digit; and one pose, made by dragging joints
  8. `levels`: from coarse to fine, by inverse kinematics and splines in turn
  9. `path_editing`: the path taken off a motion, changed, and the motion put back on it
-10. `line_rounding`: a line rounded where a walk would turn too fast on it
-11. `bending`: a walk laid on any line, with feet that stand
-12. `keys`: keys, the curve through them, and warps by offsets and by scale
-13. `retiming`: time keys, and motions at moments between their frames
-14. `warp_plans`: a whole warp out of a small text file
-15. `body_roles`: which joint does what
-16. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
-17. `copied_motion`: every joint looks where the same joint of the other body looks
-18. `retargeting`: where the new feet may be, and all of it in one function
-19. `mirroring`: left and right swapped, by names and geometry
-20. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
+10. `turning`: slower in bends, and leaning in, as people take them
+11. `line_rounding`: a line rounded where a walk would turn too fast on it
+12. `bending`: a walk laid on any line, with feet that stand
+13. `keys`: keys, the curve through them, and warps by offsets and by scale
+14. `retiming`: time keys, and motions at moments between their frames
+15. `warp_plans`: a whole warp out of a small text file
+16. `body_roles`: which joint does what
+17. `stances`: how a body stands, as a value; find it, whatever the rest pose is; change its proportions
+18. `copied_motion`: every joint looks where the same joint of the other body looks
+19. `retargeting`: where the new feet may be, and all of it in one function
+20. `mirroring`: left and right swapped, by names and geometry
+21. `cycles`: the stretch of a clip that makes the best cycle, closed by a blend or by a warp
 
 References
 ----------

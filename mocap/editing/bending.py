@@ -91,9 +91,11 @@ class Bent:
 def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride | None = None) -> Bent:
     """Lay a walk on a line, and clean up its feet [Gle01, 5].
 
-    Its own path is taken off and the line put in its place [Gle01]. That the line is rounded where it turns
-    too fast is ours. The walk starts where the line starts, keeps its speed, and ends where the line does.
-    Where the clean-up would let go more than 5 % of the plants, the solver brings them within reach first.
+    Its own path is taken off and the line put in its place [Gle01]. Ours is that it slows down and leans in
+    where the line bends more than its own path, as people do, and that the line is rounded where it would
+    still turn too fast. So a captured turn on its own way stays as it is. The walk starts where the line
+    starts. Where the clean-up would let go more than 5 % of the plants, the solver brings them within reach
+    first.
 
     Parameters
     ----------

@@ -189,7 +189,7 @@ def on_path(  # noqa: PLR0913 (two paths, and three choices of how)
 
     N moves along the motion's own path, N' along the new one. The feet slide by about 7 cm divided by the
     radius of the bend in metres; `feet.clean_up` gives each plant one place, the mean of those that it was
-    carried to. People lean into bends and slow down; a bent walk leans and walks as before.
+    carried to. The walk leans and walks as before; `bend` slows it down, and lets it lean in.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import forward_kinematics
@@ -33,7 +33,7 @@ STANDS, WALKS = (
     0.2,
     0.5,
 )  # metres per second: below the first a body stands, and its path curls; above it walks
-RATIOS = (0.3, 1.6)  # of speeds, after and before: a turn that is made straight becomes no faster
+RATIOS = (0.3, 1.25)  # of speeds, after and before: a turn that is made straight speeds up a little
 PELVIS, TRUNK = 0.5, 0.25  # of the lean; the legs take the whole of it, and the feet none
 
 
@@ -179,7 +179,7 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     return replace(motion, rotations=pose), {joint: held[:, n] for n, joint in enumerate(pins.joints)}
 
 
-def _below_root(parents: Array, joint: int) -> int:
+def _below_root(parents: Indices, joint: int) -> int:
     """Find the child of the root from which a joint hangs."""
     while parents[joint] > 0:
         joint = int(parents[joint])

@@ -18,17 +18,17 @@ from mocap.body.planar import IDENTITY, from_ground, heading, on_ground
 from mocap.editing.bending import Bent, bend
 from mocap.editing.line_rounding import round_line
 from mocap.editing.path_editing import Ride, moving_frames, ride_of
+from mocap.editing.turning import Places, places_on
 from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import CompiledGraph, walk_track
 from mocap.graphs.edge_tables import clip_rows
 from mocap.steering.followed import Followed
 from mocap.steering.path_objective import OwnTurning, Route, Wishes, make_route
-from mocap.steering.path_search import Found
+from mocap.steering.path_search import SLOWEST, Found, too_slow
 from mocap.synthesis.walk_to_motion import to_motion
 
 # Metres, and a share of the line: how far the search goes on beyond its end; the rest is cut.
 FURTHER = (0.5, 0.02)
-WALKING = 0.3  # metres per second: slower frames do not count for the pace of clips
 SEAMS = 0.7  # transitions per second, at most, for a walk that is laid on its path
 
 
@@ -75,8 +75,7 @@ def own_ride(graph: CompiledGraph, own: OwnTurning, edges: Indices) -> Ride:
     paths = replace(graph, tracks=graph.tracks._replace(ground=own.ground))
     points, _ = walk_track(paths, edges, 1.0, 0.0)
     along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
-    ground = from_ground(points)
-    return Ride(GroundPath(ground), along, ground)
+    return Ride(GroundPath(from_ground(points)), along)
 
 
 def _ride(clip: Motion) -> Array:
@@ -90,7 +89,7 @@ def _ride(clip: Motion) -> Array:
         x, _, z = clip.root_positions.T
         return np.stack([np.unwrap(heading(clip.rotations[:, 0])), np.zeros(len(clip)), x, z])
     frames = moving_frames(ride.path, ride.along)
-    return np.stack([np.asarray(frames.angle), ride.along, np.asarray(frames.x), np.asarray(frames.z)])
+    return np.stack([np.asarray(frames.angle), ride.along, *ride.path.at(ride.along).T])
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +102,7 @@ class BentWalk(Followed):
 
     bent: Bent
     most_seams: ClassVar[float] = SEAMS
+    astray: ClassVar[float] = np.inf  # the line is rounded then, and no other walk would help
 
     def motion(self, *, name: str = "walk", clean: bool = True) -> Motion:
         """Give the motion on the path, with clean feet or, if `clean` is false, as it was laid there."""
@@ -135,18 +135,19 @@ def plan_bending(
 
     Raises
     ------
-    MocapError : for a limit that is not above 0, clips that only stand, and wishes that make no sense.
-    NoWalk : for a label that no clip of the graph has.
+    MocapError : for a limit that is not above 0, and wishes that make no sense.
+    NoWalk : for a label that no clip of the graph has, and clips that only stand.
     """
     if not limit > 0:
         raise MocapError(f"A walk is bent by more than 0 radians per second, got bend={limit}.")
     make_route(graph, path, wishes)  # which refuses what is too long, and what is asked for off the path
     own = turning_of(graph)
-    walks = own.step[own.step * graph.fps > WALKING]
+    walks = own.step[own.step * graph.fps > SLOWEST]
     if not len(walks):
-        raise MocapError("The clips of this graph only stand: no walk of theirs can be laid on a path.")
-    straight = np.arange(0.0, path.length + 1.0, float(np.median(walks)))  # at the clips' usual pace
-    pace = Ride(GroundPath(np.array([[0.0, 0.0], [0.0, straight[-1]]])), straight, np.zeros((4, 2)))
+        raise too_slow(graph, 0.0)
+    # Straight on, at the clips' usual pace, and far enough for shorter steps.
+    steady = np.arange(0.0, 2 * path.length + 2.0, float(np.median(walks)))
+    pace = Ride(GroundPath(np.array([[0.0, 0.0], [0.0, steady[-1]]])), steady)
     line = round_line(path, pace, graph.fps, limit)
 
     def rounded(where: float) -> float:
@@ -160,10 +161,26 @@ def plan_bending(
     # A slower walk, or one that turns by itself, needs less rounding, so that its line is longer.
     further = FURTHER[0] + (1 + FURTHER[1]) * max(path.length, line.path.length) - line.path.length
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
-    route = make_route(graph, longer, wishes)
-    along = np.linspace(0, longer.length, len(route.points))
-    curvature = np.gradient(np.asarray(moving_frames(longer, along).angle), along[1])
-    return replace(route, own=own, curvature=curvature), partial(_lay, graph, path, wishes, limit)
+    route = _in_own_metres(
+        make_route(graph, longer, wishes), longer, places_on(longer, pace, graph.fps), steady
+    )
+    return replace(route, own=own), partial(_lay, graph, path, wishes, limit)
+
+
+def _in_own_metres(route: Route, path: GroundPath, places: Places, steady: Array) -> Route:
+    """Space a route by the metres and the seconds that a walk takes before it is slowed for the bends."""
+    most = float(np.interp(path.length, places.along, steady))
+    own = np.linspace(0.0, most, len(route.points))
+    along, slower = (np.interp(own, steady, some) for some in (places.along, np.sqrt(places.ratio)))
+    point = route.point(along)
+    clock = route.clock[point]
+    late = np.nancumsum(np.diff(clock, prepend=clock[:1]) * slower)
+    clock = np.where(np.isnan(clock), np.nan, late + np.nanmin([*clock, np.inf]))
+    angle = np.asarray(moving_frames(path, along).angle)
+    points, bends = on_ground(path.at(along)), np.gradient(angle, own)
+    return replace(
+        route, points=points, spacing=own[1], label=route.label[point], clock=clock, curvature=bends
+    )
 
 
 def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, found: Found) -> BentWalk:
@@ -171,12 +188,13 @@ def _lay(graph: CompiledGraph, path: GroundPath, wishes: Wishes, limit: float, f
     walk = [graph.edges[edge] for edge in found.edges]
     ride = own_ride(graph, turning_of(graph), found.edges)
     bent = bend(to_motion(graph.source, walk), path, limit=limit, ride=ride)
-    walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), len(bent.motion))) + 1]
+    played = np.searchsorted(ride.along, bent.ride.along[-1])
+    walk = walk[: int(np.searchsorted(np.cumsum(graph.frames[found.edges]), played)) + 1]
     track = bent.motion.root_positions[:, [0, 2]]
-    at_length = np.hypot(*(track - path.at(bent.ride.along)).T)
+    at_length = np.hypot(*(track - path.at(bent.walked)).T)
     unlabelled = np.zeros(len(track), bool)
     for where, label in sorted(wishes.labels):
-        there = bent.ride.along >= where
+        there = bent.walked >= where
         bears = bent.motion.labels.get(label, np.zeros(len(track), bool))
         unlabelled[there] = bool(label) & ~bears[there]
     place = (graph.source, path, walk, IDENTITY)

@@ -49,6 +49,7 @@ class Followed:
     unlabelled: Mask
     found: Found
     most_seams: ClassVar[float] = SEAMS  # per second, of a path that is followed well
+    astray: ClassVar[float] = ASTRAY
 
     def motion(self, *, name: str = "walk", clean: bool = False) -> Motion:
         """Turn the walk into a motion along the path; `clean` as for `synthesis.to_motion`."""

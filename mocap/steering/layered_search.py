@@ -121,7 +121,7 @@ class LayeredSearch:
 
     def __init__(self, starts: States, width: int, *, every: bool = False) -> None:
         self.waiting: dict[int, list[States]] = {0: [starts]}
-        self.width, self.every = width, every
+        self.width, self.first, self.every = width, width, every  # `first` of the starts go on
         self.history: list[States] = []
         self.arrived: list[States] = []
         self.expanded = self.cut = 0
@@ -134,7 +134,8 @@ class LayeredSearch:
         """Work through a layer: keep its best walks, and put what they become into the layers they reach."""
         while parts := self.waiting.pop(layer, []):
             states = States.join(parts)
-            chosen = states.take(select(self.score(states), self.cells(states), self.width))
+            width = self.width if self.history else self.first
+            chosen = states.take(select(self.score(states), self.cells(states), width))
             self.history.append(chosen)
             self.cut += len(states.node) - len(chosen.node)
             yield chosen

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Indices, Mask, Points
+from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.steering.layered_search import LayeredSearch, States, standing
@@ -19,6 +20,8 @@ from mocap.steering.path_objective import Route, Settings, least_progress
 
 LAYER = 0.15  # metres of path
 IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
+SLOWEST, GRACE = 0.3, 4.0  # metres per second, seconds: a bent walk that falls behind is dropped
+QUICK = 0.5  # metres per second: clips that walk
 CREEP = 0.05  # metres per second: the least progress of a walk that is laid on the path, so that searches end
 
 
@@ -73,6 +76,8 @@ class PathSearch(LayeredSearch):
         super().__init__(starts, settings.width_on(route))
         self.graph, self.route, self.settings = graph, route, settings
         hops, own = graph.hops, route.own
+        if own:
+            self.first = len(starts.node)  # all cost the same before they turn
         # Metres by which each frame of all edges moves on (T,), and each hop (H,).
         self.progress = np.maximum(own.step, CREEP / graph.fps) if own else least_progress(graph, route)
         before = np.concatenate([[0.0], np.cumsum(self.progress)])
@@ -98,7 +103,9 @@ class PathSearch(LayeredSearch):
         at, point = self.graph.at[new.node], route.point(new.along)
         if route.own:
             turn = np.exp(-1j * route.own.going[new.node]) * route.ways[point]
-            return new._replace(turn=turn, move=route.at(new.along) - turn * at)
+            new = new._replace(turn=turn, move=route.at(new.along) - turn * at)
+            in_time = new.frames <= (new.along / SLOWEST + GRACE) * self.graph.fps
+            return new.take(in_time | np.isfinite(route.clock).any())
         off = new.move + new.turn * at - route.points[point]
         abreast = np.clip((off * route.ways[point].conj()).real, -hops.along, hops.along)
         return new._replace(along=new.along + route.wishes.slide * abreast)
@@ -186,6 +193,8 @@ class PathSearch(LayeredSearch):
         """Give the best walk; where none has arrived, the cheapest of the last layer."""
         if not self.arrived and not stopped:
             reached = max(float(states.along.max()) for states in self.history)
+            if self.route.own:
+                raise too_slow(self.graph, reached)
             raise NoWalk(f"Every walk ends after {reached:.1f} m of the path: prune the graph first.")
         if not self.arrived and len(self.history) < 2:
             raise NoWalk(f"The search was {stopped} before its first step.")
@@ -195,6 +204,21 @@ class PathSearch(LayeredSearch):
         along, edges = self.frames_along(hops, walk.along[:-1])[2], self.graph.hops.edges(hops)
         turn, move, cost = complex(walk.turn[0]), complex(walk.move[0]), float(walk.cost[-1])
         return Found(edges, turn, move, along, cost, self.expanded, self.cut, stopped)
+
+
+def too_slow(graph: CompiledGraph, reached: float) -> NoWalk:
+    """Say that no walk goes on along a line as people walk, and what is missing for it."""
+    clips = [on_ground(clip.root_positions) for clip in graph.source.clips]
+    quick = [clip for clip in clips if np.percentile(np.abs(np.diff(clip)), 90) * graph.fps > QUICK]
+    missing = (
+        f"{len(quick)} of {len(clips)} clips go faster than {QUICK:g} m/s, but few transitions join their "
+        "steps: allow a larger threshold, or add walks"
+    )
+    return NoWalk(
+        f"After {reached:.1f} m of the line every walk is slower than {SLOWEST:g} m/s; "
+        + (missing if quick else "these clips only stand: add some that walk")
+        + "."
+    )
 
 
 def _square(numbers: Points) -> Array:

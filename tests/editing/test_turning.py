@@ -47,7 +47,7 @@ def test_a_steady_walk_slows_by_the_law_half_by_steps_and_half_by_the_clock(radi
 def test_legs_lean_by_the_whole_angle_and_the_trunk_by_a_quarter():
     """Measured on the motion: from behind, against the same frames of a walk that does not lean."""
     bent = bend(walk(), circle(1.0))
-    slow = slow_down(walk(), bent.ride, bent.line.path)
+    slow = slow_down(walk(), ride_of(walk()), bent.line.path)
     points, names = joint_positions(bent.motion), bent.motion.skeleton.names
     way = np.asarray(moving_frames(bent.line.path, bent.walked).angle)
 
@@ -57,7 +57,7 @@ def test_legs_lean_by_the_whole_angle_and_the_trunk_by_a_quarter():
         return np.degrees(np.arctan2(left, away[:, 1]))[20:-20].mean()
 
     legs = find_legs(bent.motion.skeleton)
-    asked = np.degrees(slow.lean[20:-20].mean())
+    asked = np.degrees(slow.lean[: len(way)][20:-20].mean())
     assert np.mean([leans(leg.hip, leg.ankle) for leg in legs]) == pytest.approx(asked, rel=0.25)
     assert 0 < leans(names.index("upperneck"), 0) < 0.6 * asked
     assert slide(bent.motion) < 1e-6
@@ -80,4 +80,4 @@ def test_one_captured_turn_on_the_way_of_another_does_not_shake(real_data, way):
         for name in ("16_13", way)
     )
     bent = bend(turn, ride_of(other).path)
-    assert acc99(bent.motion, turn) < 1.15
+    assert acc99(bent.laid, turn) < 1.1  # what the clean-up adds is its own matter

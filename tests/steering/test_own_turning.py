@@ -59,4 +59,8 @@ def test_a_seam_leads_smoothly_from_path_to_path():
 def test_a_route_of_a_circle_asks_for_its_curvature():
     route, _ = plan_bending(GRAPH, circle(2.0), Wishes(), 1.0)
     assert np.array_equal(route.own.turn, OWN.turn) and len(route.curvature) == len(route.points)
-    assert route.curvature[50:550] == pytest.approx(0.5, abs=0.01)
+    steps = np.sqrt(
+        (1 + (1.2 * 0.5) ** 2) ** -0.25
+    )  # a slowed walk takes shorter steps: more of its own metres
+    assert route.curvature[50:550] == pytest.approx(0.5 * steps, abs=0.01)
+    assert route.length == pytest.approx((circle(2.0).length * 1.02 + 0.5) / steps, rel=0.01)
