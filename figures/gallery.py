@@ -539,7 +539,9 @@ def draw_parametric_graph() -> Figure:
     straight = edge.look_up(np.zeros(1))
     first, last = strides.ends
     follow = np.linspace(straight.low[0], straight.high[0], 7)[:, None]
-    ground, _ = parametric_graphs.mixed_way(strides, space.weights(np.concatenate([[[0.0]], follow])))
+    ground, _ = parametric_graphs.mixed_way(
+        strides, match_webs.weights_for(space, np.concatenate([[[0.0]], follow]))
+    )
     ground = ground[:, first : last + 1]
     right.plot(-ground[0].imag, ground[0].real, color=ASKED, linewidth=3, label="a straight stride")
     for number, way in enumerate(ground[1:] + ground[0, -1]):

@@ -16,14 +16,8 @@ import mocap
 from mocap.body import Motion, find_legs, joint_positions, place, planar, rotations
 from mocap.errors import MocapWarning
 from mocap.feet import mark_plants
-from mocap.methods.parametric_graphs import (
-    Strides,
-    StrideSpace,
-    cut_strides,
-    make_space,
-    make_stride,
-    mixed_way,
-)
+from mocap.methods.match_webs import MotionSpace
+from mocap.methods.parametric_graphs import Examples, cut_strides, make_motion, make_space, mixed_way
 
 MEASURES = ("knee, °", "hip, °", "stride, cm", "sway, cm")
 WAYS = ("by curves", "by strikes", "plain, from the strike", "plain, from anywhere")
@@ -31,7 +25,7 @@ STRAIGHT, TURNS_45, TURNS_90, SHARP = (-12, 12), (24, 50), (55, 90), (100, 180) 
 
 
 class Case(NamedTuple):
-    """Strides held out between two others, in degrees of turn to one side: 1 for left."""
+    """Examples held out between two others, in degrees of turn to one side: 1 for left."""
 
     low: tuple[float, float]
     held: tuple[float, float]
@@ -53,8 +47,8 @@ CASES = (
 class Walker(NamedTuple):
     """Steady strides of one walker, on the clock of their strikes and on that of registration curves."""
 
-    by_strikes: Strides
-    by_curves: Strides
+    by_strikes: Examples
+    by_curves: Examples
 
 
 class Compared(NamedTuple):
@@ -84,12 +78,10 @@ def walker(folder: Path) -> Walker:
     return Walker(strikes.take(steady), curves.take(steady))
 
 
-def captured(strides: Strides) -> StrideSpace:
+def captured(strides: Examples) -> MotionSpace[Examples]:
     """Make a space that gives each stride as it was captured, when asked for the stride's own turn."""
     values = strides.values[:, :1]
-    return StrideSpace(
-        strides, ("turn",), values, np.eye(len(values)), values.min(axis=0), values.max(axis=0)
-    )
+    return MotionSpace(strides, np.eye(len(values)), values, np.ptp(values, axis=0) / 2, ("turn",))
 
 
 def measure(motion: Motion) -> np.ndarray:
@@ -111,9 +103,9 @@ def measure(motion: Motion) -> np.ndarray:
     return np.array([np.degrees(np.mean(knees)), np.degrees(np.mean(hips)), 100 * stride, 100 * sway])
 
 
-def stretch(space: StrideSpace, turn: float, start: float = 0.0) -> Motion:
+def stretch(space: MotionSpace[Examples], turn: float, start: float = 0.0) -> Motion:
     """Give the frames of a stride from a phase on; from the first strike they end with the last."""
-    made = make_stride(space, np.array([turn]))
+    made = make_motion(space, np.array([turn]))
     return made.motion[made.frame(start) : made.frame(1.0 + start) + 1]
 
 

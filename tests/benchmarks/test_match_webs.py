@@ -50,7 +50,7 @@ def test_to_answer_a_wish_takes_at_most_a_twentieth_of_the_blend(method):
     rows = made.weights[-40:]
     wishes = made.values[-40:] + rng.normal(size=(40, 2)) * made.scale / 10
     blend, inverse = fastest(
-        lambda: [gait(blend_of(made.registration, row, fps=30)) for row in rows],
+        lambda: [gait(blend_of(made.examples, row, fps=30)) for row in rows],
         lambda: [weights_for(made, wish, method=method) for wish in wishes],
     )
     share = 100 * inverse / blend

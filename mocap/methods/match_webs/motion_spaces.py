@@ -1,13 +1,15 @@
-"""A space of motions: blends of registered examples, sampled, to be asked for what they do [KG04].
+"""A space of motions: blends of examples, sampled, to be asked for what they do [KG04].
 
 Any function of a `Motion` that gives one number or a few can be the measure of a space; here are three: how
-far it turns, how fast it goes, and where the hand reaches.
+far it turns, how fast it goes, and where the hand reaches. The nodes of parametric graphs are such spaces.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +26,18 @@ from mocap.errors import MocapError, shortened
 FPS = 30.0  # of the blends that are measured
 Measure = Callable[[Motion], ArrayLike]
 """Reads one number or a few off a motion."""
+
+
+class OnGrid(Protocol):
+    """Examples that blend themselves, such as those on one grid of phases in `parametric_graphs`."""
+
+    def __len__(self) -> int: ...
+
+    def blend(self, weights: Array) -> Motion:
+        """Blend the examples."""
+
+
+E = TypeVar("E", bound="Registration | OnGrid")
 
 
 def turn(motion: Motion) -> float:
@@ -56,13 +70,16 @@ def mean_speed(motion: Motion) -> float:
     return float(way / max(motion.duration, 1 / motion.fps))
 
 
-def hand_target(motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus") -> Array:
-    """Measure where a hand is when the arm is longest, from where the body stands and faces at the start.
+def hand_target(
+    motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus", *, at: float | None = None
+) -> Array:
+    """Measure where a hand is at one moment, from where the body stands and faces at the start.
 
     Parameters
     ----------
     motion : such as a punch.
     hand, shoulder : names of joints; by default those of the right arm in Acclaim files.
+    at : the moment, as a share of the frames; by default that in which the arm is longest.
 
     Returns
     -------
@@ -82,9 +99,10 @@ def hand_target(motion: Motion, hand: str = "rhand", shoulder: str = "rhumerus")
     """
     tip, root = (motion.skeleton.index(name) for name in (hand, shoulder))
     points = joint_positions(motion)
-    longest = np.linalg.norm(points[:, tip] - points[:, root], axis=-1).argmax()
+    arms = np.linalg.norm(points[:, tip] - points[:, root], axis=-1)
+    moment = arms.argmax() if at is None else round(at * (len(motion) - 1))
     x, _, z = motion.root_positions[0]
-    away = points[longest, tip] - [x, 0, z]
+    away = points[moment, tip] - [x, 0, z]
     return PlanarTransform(-float(heading(motion.rotations[0, 0])), 0.0, 0.0).apply_points(away)
 
 
@@ -148,32 +166,49 @@ def random_weights(
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MotionSpace:
+class MotionSpace(Generic[E]):
     """Samples of what blends of examples do.
 
-    registration : the C examples on one clock.
-    weights : shape (N, C), of the samples; the first C are the examples themselves.
-    values : shape (N, d), the measure of each sample.
+    examples : C examples on one clock: registered clips, or those on a grid of `parametric_graphs`.
+    weights : shape (S, C), of the samples.
+    values : shape (S, d), the measure of each sample.
     scale : shape (d,), how much of each number counts as far as one of the others.
+    parameters : d names of what it is asked by, such as "turn"; a node of a parametric graph has them.
+    low, high : shape (d,), the range it is asked in; by default that of the values.
     """
 
-    registration: Registration
+    examples: E
     weights: Array
     values: Array
     scale: Array
+    parameters: tuple[str, ...] = ()
+    low: Array = field(default_factory=lambda: np.empty(0))
+    high: Array = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
-        for key in ("weights", "values", "scale"):
-            object.__setattr__(self, key, frozen(getattr(self, key), np.float64))
+        ends = {"low": self.values.min(axis=0), "high": self.values.max(axis=0)}
+        for key in ("weights", "values", "scale", "low", "high"):
+            own = getattr(self, key)
+            object.__setattr__(self, key, frozen(own if len(own) else ends[key], np.float64))
 
     def __repr__(self) -> str:
         examples, (samples, numbers) = self.weights.shape[1], self.values.shape
         return f"MotionSpace({examples} examples, {samples} samples of {numbers} numbers)"
 
+    @property
+    def reached(self) -> Array:
+        """What the samples within the range come to, (R, d)."""
+        return self.values[((self.values >= self.low) & (self.values <= self.high)).all(axis=1)]
+
 
 def sample_space(
-    registration: Registration, measure: Measure, *, count: int = 200, scale: ArrayLike | None = None
-) -> MotionSpace:
+    examples: E,
+    measure: Measure,
+    *,
+    count: int = 200,
+    scale: ArrayLike | None = None,
+    parameters: tuple[str, ...] = (),
+) -> MotionSpace[E]:
     """Blend examples at random, and measure each blend: samples of a space of motions [KG04, sampling].
 
     What a blend does is no simple function of its weights: the hand of half of two punches is not half-way
@@ -181,11 +216,13 @@ def sample_space(
 
     Parameters
     ----------
-    registration : the examples, from `blending.register`.
+    examples : registered clips, from `blending.register`; or examples on a grid, such as those of
+        `parametric_graphs.cut_actions`, whose space can be a node of a graph.
     measure : a function of a `Motion` that gives d numbers, such as `turn` or `hand_target`.
     count : of random blends, beside the examples. 0 leaves the examples alone.
     scale : shape (d,): amounts of each number that count as equally far, such as 10° and 0.1 m/s. By default
-        the standard deviations of the samples' values.
+        half the range of the samples' values.
+    parameters : the names of the d numbers, for a node of a graph.
 
     Returns
     -------
@@ -209,15 +246,15 @@ def sample_space(
     """
     if count < 0:
         raise MocapError(f"Take 0 samples or more, got {count}.")
-    examples = np.eye(len(registration.clips))
-    known = _measured(registration, measure, examples)
+    alone = np.eye(len(examples.clips if isinstance(examples, Registration) else examples))
+    known = _measured(examples, measure, alone)
     weights = random_weights(known, count)
-    values = np.concatenate([known, _measured(registration, measure, weights, known.shape[1])])
-    width = values.std(axis=0)
+    values = np.concatenate([known, _measured(examples, measure, weights, known.shape[1])])
+    width = np.ptp(values, axis=0) / 2
     given = np.where(width > 0, width, 1.0) if scale is None else np.asarray(scale, float)
     if given.shape != width.shape or not (np.isfinite(given).all() and (given > 0).all()):
         raise MocapError(f"A scale is {len(width)} numbers above 0, got {shortened(str(given.tolist()))}.")
-    return MotionSpace(registration, np.concatenate([examples, weights]), values, given)
+    return MotionSpace(examples, np.concatenate([alone, weights]), values, given, parameters)
 
 
 def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | None = None) -> Motion:
@@ -264,11 +301,16 @@ def _mixed(registration: Registration, weights: Array, fps: float | None, rounds
     return mix(few, weights[some] / weights[some].sum(), fps=fps, rounds=rounds)
 
 
-def _measured(registration: Registration, measure: Measure, rows: Array, numbers: int = 0) -> Array:
+def _measured(examples: Registration | OnGrid, measure: Measure, rows: Array, numbers: int = 0) -> Array:
     """Measure the blends of some weights (M, C): shape (M, d)."""
+    blend: Callable[[Array], Motion]
+    if isinstance(examples, Registration):
+        blend = partial(_mixed, examples, fps=FPS, rounds=0)
+    else:
+        blend = examples.blend
     values: list[Array] = []
     for row in rows:
-        value = np.atleast_1d(np.asarray(measure(_mixed(registration, row, FPS, rounds=0)), float))
+        value = np.atleast_1d(np.asarray(measure(blend(row)), float))
         numbers = numbers or len(value)
         if value.shape != (numbers,) or not np.isfinite(value).all():
             got = shortened(str(value.tolist()))

@@ -1,5 +1,7 @@
 """Back from a wish to weights: those of the blend that does what is asked."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import nnls
@@ -13,7 +15,7 @@ SUM, RIDGE = 100.0, 5e-4  # weight of the row that asks for a sum of one; prefer
 
 
 def weights_for(
-    space: MotionSpace, wish: ArrayLike, *, k: int | None = None, method: str = "convex"
+    space: MotionSpace[Any], wish: ArrayLike, *, k: int | None = None, method: str = "convex"
 ) -> Array:
     """Find weights whose blend does what is asked [KG04, request].
 
@@ -27,14 +29,14 @@ def weights_for(
 
     Parameters
     ----------
-    space : from `sample_space`.
-    wish : shape (d,), or a number.
+    space : from `sample_space` or `parametric_graphs.make_space`.
+    wish : shape (d,), or a number; or M wishes (M, d).
     k : nearest samples that count; by default 12, and d + 2 for "neighbours".
     method : "convex" or "neighbours".
 
     Returns
     -------
-    Shape (C,), adding up to one.
+    Shape (C,), adding up to one; or (M, C).
 
     Raises
     ------
@@ -49,14 +51,30 @@ def weights_for(
     >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> space = sample_space(register(walks), mean_speed, count=10)
     >>> weights = weights_for(space, 1.0)
-    >>> round(mean_speed(blend_of(space.registration, weights)), 2)
+    >>> round(mean_speed(blend_of(space.examples, weights)), 2)
     1.0
 
     Notebook: 16-match-webs
     """
-    asked = np.atleast_1d(np.asarray(wish, float))
+    asked = np.asarray(wish, float)
+    nearest, shares = shares_for(space, np.atleast_2d(asked), k=k, method=method)
+    weights = np.einsum("mk,mkc->mc", shares, space.weights[nearest])
+    return np.asarray(weights if asked.ndim == 2 else weights[0])
+
+
+def shares_for(
+    space: MotionSpace[Any], asked: Array, *, k: int | None = None, method: str = "convex"
+) -> tuple[Indices, Array]:
+    """Find which samples are mixed for wishes (M, d), and how much of each: (M, k) each; see `weights_for`.
+
+    Examples
+    --------
+    >>> space = MotionSpace(None, np.eye(2), np.array([[0.0], [1]]), np.ones(1))
+    >>> shares_for(space, np.array([[0.25]]))[1].round(2)
+    array([[0.75, 0.25]])
+    """
     samples, numbers = space.values.shape
-    if asked.shape != (numbers,) or not np.isfinite(asked).all():
+    if asked.ndim != 2 or asked.shape[1] != numbers or not np.isfinite(asked).all():
         got = shortened(str(asked.tolist()))
         raise MocapError(f"This space is asked for {numbers} finite numbers, got {got}.")
     if k is not None and k < 1:
@@ -64,16 +82,20 @@ def weights_for(
     if method not in ("convex", "neighbours"):
         raise MocapError(f'A method is "convex" or "neighbours", got {method!r}.')
     count = min(k or (CONVEX if method == "convex" else numbers + 2), samples)
-    nearest, gaps = (row[0] for row in nearest_samples(asked[None], space.values, space.scale, count))
+    nearest, gaps = nearest_samples(asked, space.values, space.scale, count)
     if method == "neighbours":
-        shares = neighbour_weights(gaps)
-    else:  # v ≥ 0 with the sum one that makes Σ v · offset least; of equals, those of the nearest samples
-        offsets = (space.values[nearest] - asked) / space.scale
-        ridge = RIDGE * np.diag(gaps / max(gaps[-1], 1e-300))
-        rows = np.concatenate([offsets.T, np.full((1, count), SUM), ridge])
-        shares, _ = nnls(rows, np.concatenate([np.zeros(numbers), [SUM], np.zeros(count)]))
-        shares /= shares.sum()
-    return np.asarray(shares @ space.weights[nearest])
+        return nearest, neighbour_weights(gaps)
+    offsets = (space.values[nearest] - asked[:, None]) / space.scale
+    return nearest, np.array([_convex(*own) for own in zip(offsets, gaps, strict=True)])
+
+
+def _convex(offsets: Array, gaps: Array) -> Array:
+    """Find v ≥ 0 with the sum one that makes Σ v · offset least; of equals, those of the nearest samples."""
+    count, numbers = offsets.shape
+    ridge = RIDGE * np.diag(gaps / max(gaps[-1], 1e-300))
+    rows = np.concatenate([offsets.T, np.full((1, count), SUM), ridge])
+    shares, _ = nnls(rows, np.concatenate([np.zeros(numbers), [SUM], np.zeros(count)]))
+    return np.asarray(shares / shares.sum())
 
 
 def nearest_samples(asked: Array, among: Array, scale: Array, count: int) -> tuple[Indices, Array]:
@@ -90,7 +112,9 @@ def nearest_samples(asked: Array, among: Array, scale: Array, count: int) -> tup
 
 
 def neighbour_weights(distances: ArrayLike) -> Array:
-    """Weight the k nearest samples by 1 / d - 1 / d_k, so that the last one counts nothing [ACP02].
+    """Weight the k nearest samples by 1 / d - 1 / d_k, so that the last one counts nothing.
+
+    In the paper: [HG07, Eqs. 1-2, after ACP02].
 
     A sample that is hit gets all the weight; so does the first where all are equally far.
 

@@ -1,19 +1,21 @@
-"""Parametric motion graphs: a node is a whole space of strides, an edge says which may follow [HG07].
+"""Parametric motion graphs: a node is a whole space of motions, an edge says which may follow [HG07].
 
-In a motion graph a node is a moment of a clip. Here it is all strides of one kind, by turn and speed, each
-made by blending. An edge gives for each of them a box of targets that may follow, and when. So control needs
-no search: it reads the box, and takes what is nearest to the command.
+In a motion graph a node is a moment of a clip. Here it is all motions of one kind, such as strides by turn
+and speed, or reaches by the place of the hand, each made by blending. An edge gives for each of them a box of
+targets that may follow, and when. So control needs no search: it reads the box, and takes what is nearest to
+the command.
 
 Reading order (notebook 17)
 ---------------------------
-1. `strides`: strides and steps, all on one grid of phases
-2. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
-3. `made_strides`: strides made out of mixes, and where to leave one and enter another
-4. `parametric_edges`: boxes of targets that may follow
-5. `parametric_motion_graphs`: spaces and edges, under names
-6. `kinds_of_strides`: from clips to a graph in one call, with changes from kind to kind
-7. `parametric_files`: save and load a graph
-8. `parametric_control`: a character that decides once per stride
+1. `examples`: examples of one action, such as punches, on one grid of phases
+2. `strides`: strides and steps, cut where feet strike
+3. `stride_spaces`: ask for a turn and a speed, and get the weights of a blend
+4. `made_motions`: motions made out of mixes, and where to leave one and enter another
+5. `parametric_edges`: boxes of targets that may follow
+6. `parametric_motion_graphs`: spaces and edges, under names
+7. `kinds_of_strides`: from clips to a graph in one call, with changes from kind to kind
+8. `parametric_files`: save and load a graph
+9. `parametric_control`: a character that decides once per stride
 
 References
 ----------
@@ -30,12 +32,13 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "strides": ["Strides", "cut_strides", "mixed_way"],
-        "stride_spaces": ["StrideSpace", "bell_weights", "make_space", "measure_mixes", "neighbours"],
-        "made_strides": ["make_stride", "optimal_transitions"],
+        "examples": ["Examples", "cut_actions", "mixed_way"],
+        "strides": ["cut_strides"],
+        "stride_spaces": ["bell_weights", "make_space", "measure_mixes"],
+        "made_motions": ["make_motion", "optimal_transitions"],
         "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
         "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
-        "kinds_of_strides": ["build_kinds", "on_the_spot"],
+        "kinds_of_strides": ["build_kinds", "changing_strides", "on_the_spot"],
         "parametric_files": ["load_parametric", "save_parametric"],
         "parametric_control": ["ParametricController"],
     },

@@ -10,14 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.arrays import Indices
+from mocap._shared.arrays import Array, Indices
 from mocap._shared.easing import quintic_step
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.parametric_edges import Sampling, smallest_good
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space, measure_mixes, said
-from mocap.methods.parametric_graphs.strides import Strides, cut_strides
+from mocap.methods.parametric_graphs.stride_spaces import Space, make_space, measure_mixes, said
+from mocap.methods.parametric_graphs.strides import cut_strides
 
 WIDTH = np.radians(14)  # of the bell, for strides
 WIDEST = np.radians(75)  # of turn per stride, to either side
@@ -30,7 +31,7 @@ SLOW, TURNS = 0.35, np.radians(30)  # m/s and radians per stride, of turns on th
 
 
 def build_kinds(
-    kinds: Mapping[str, Sequence[Motion] | Strides],
+    kinds: Mapping[str, Sequence[Motion] | Examples],
     changes: Sequence[tuple[str, str]] | None = None,
     *,
     good: float | None = None,
@@ -78,10 +79,10 @@ def build_kinds(
     if not kinds:
         raise MocapError("A graph has one kind of strides or more, got none.")
     sampling = sampling or Sampling(sources=25, targets=250)
-    strides: dict[str, Strides] = {}
+    strides: dict[str, Examples] = {}
     for name, kind in kinds.items():
         with _naming(name):
-            if isinstance(kind, Strides):
+            if isinstance(kind, Examples):
                 strides[name] = kind
             else:
                 label = name if any(name in clip.labels for clip in kind) else ""
@@ -99,7 +100,7 @@ def build_kinds(
     return build_parametric(spaces, edges, good=good, sampling=sampling)
 
 
-def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -> Strides:
+def on_the_spot(strides: Examples, *, slow: float = SLOW, turns: float = TURNS) -> Examples:
     """Take the strides that turn on the spot: a kind of its own, where clips have it [ours].
 
     Parameters
@@ -135,7 +136,7 @@ def on_the_spot(strides: Strides, *, slow: float = SLOW, turns: float = TURNS) -
     )
 
 
-def _space(name: str, strides: Strides, widest: float, *, warn: bool) -> StrideSpace:
+def _space(name: str, strides: Examples, widest: float, *, warn: bool) -> Space:
     low, high = np.clip(np.percentile(strides.values[:, 0], [4, 96]), -widest, widest)
     with warnings.catch_warnings(), _naming(name):
         if not warn:  # a change has the gaps of its kinds
@@ -160,7 +161,7 @@ def _naming(name: str) -> Iterator[None]:
         raise type(error)(f"{name}: {error}"[:200]) from error
 
 
-def _least(spaces: Mapping[str, StrideSpace], edges: Sequence[tuple[str, str]], sampling: Sampling) -> float:
+def _least(spaces: Mapping[str, Space], edges: Sequence[tuple[str, str]], sampling: Sampling) -> float:
     """Find the T_GOOD that gives all edges, with a twentieth to spare."""
     needed = {}
     for a, b in edges:
@@ -175,7 +176,7 @@ def _least(spaces: Mapping[str, StrideSpace], edges: Sequence[tuple[str, str]], 
     return max(LEAST, 1.05 * worst)
 
 
-def changing_strides(first: Strides, second: Strides) -> Strides:
+def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> Examples:
     """Fade strides of one kind into strides of another, phase by phase [ours; KG03's transition on phases].
 
     Each stride of the first kind is paired with the one of the second that turns most like it. Between the
@@ -184,7 +185,10 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
 
     Parameters
     ----------
-    first, second : examples over the same strikes, of one skeleton and rate.
+    first, second : examples over the same phases, of one skeleton and rate.
+    stands : "first" or "second" for examples that do not walk, such as punches: of them only the beginning
+        or the end is in the change, each foot of the walker takes its step from there or to there, and pairs
+        need not turn alike.
 
     Returns
     -------
@@ -192,7 +196,7 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
 
     Raises
     ------
-    MocapError, SkeletonMismatch : for examples over other strikes, and of other skeletons or rates.
+    MocapError, SkeletonMismatch : for examples over other phases, and of other skeletons or rates.
 
     Examples
     --------
@@ -205,9 +209,13 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
     True
     """
     if len(first.grid) != len(second.grid) or not np.allclose(first.grid, second.grid):
-        raise MocapError("A change goes between examples over the same strikes.")
+        raise MocapError("A change goes between examples over the same phases.")
     first.require_joinable(second)
-    one, other = _pairs(first, second)
+    first, second = (
+        _held(some, *ends) if stands == which else some
+        for which, some, ends in (("first", first, (-1, FROM)), ("second", second, (TO, 2)))
+    )
+    one, other = _pairs(first, second, any_turn=bool(stands))
     share = quintic_step((first.grid - FROM) / (TO - FROM))
 
     def faded(before: NDArray[Any], after: NDArray[Any]) -> NDArray[Any]:
@@ -216,6 +224,7 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
 
     start, end = first.poses[one], second.poses[other]
     poses = faded(start, np.where((start * end).sum(axis=-1, keepdims=True) < 0, -end, end))
+    before, after = (first.grid < 1, first.grid > 0) if stands else (share < 0.5, share >= 0.5)
     step = first.grid[1] - first.grid[0]
     rates = (np.gradient(part, step, axis=1) for part in (first.seconds[one], second.seconds[other]))
     faded_parts: dict[str, Any] = {
@@ -227,7 +236,8 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
         **faded_parts,
         seconds=first.integrated(faded(*rates)),  # how long a phase lasts is what fades
         poses=poses / np.linalg.norm(poses, axis=-1, keepdims=True),
-        contacts=np.where((share < 0.5)[:, None], first.contacts[one], second.contacts[other]),
+        contacts=np.where(before[:, None], first.contacts[one], 1)
+        * np.where(after[:, None], second.contacts[other], 1),
         values=np.zeros((len(one), 2)),
         sway=(first.sway + second.sway) / 2,
         offset=(first.offset + second.offset) / 2,
@@ -236,12 +246,35 @@ def changing_strides(first: Strides, second: Strides) -> Strides:
     return replace(made, values=measure_mixes(made, np.eye(len(made))))
 
 
-def _pairs(first: Strides, second: Strides) -> tuple[Indices, Indices]:
-    """Pair each stride of the first kind with the one of the second that turns most like it."""
+def _held(examples: Examples, low: float, high: float) -> Examples:
+    """Let examples stand still before one phase and after another."""
+    rows = np.searchsorted(examples.grid, np.clip(examples.grid, low, high) - 1e-9).clip(
+        0, len(examples.grid) - 1
+    )
+    goes = rows == np.arange(len(rows))
+    return replace(
+        examples,
+        heights=examples.heights[:, rows],
+        poses=examples.poses[:, rows],
+        speeds=examples.speeds * goes,
+        turning=examples.turning * goes,
+        contacts=np.maximum(examples.contacts, ~goes[:, None]),
+    )
+
+
+def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, Indices]:
+    """Pair examples of two kinds, spread over their turns: any two, or those that turn most alike."""
     turns, others = first.values[:, 0], second.values[:, 0]
+    if any_turn:
+        count = max(len(turns), len(others))
+        return np.resize(_spread(turns), count)[:EXAMPLES], np.resize(_spread(others), count)[:EXAMPLES]
     shared = np.flatnonzero((turns >= others.min() - NEAR) & (turns <= others.max() + NEAR))
     if not len(shared):
         raise MocapError("The two kinds have no turn in common, so that none can change into the other.")
-    ordered = shared[np.argsort(turns[shared])]
-    one = ordered[np.unique(np.linspace(0, len(ordered) - 1, EXAMPLES).round().astype(int))]
+    one = shared[_spread(turns[shared])]
     return one, np.abs(turns[one][:, None] - others).argmin(axis=1)
+
+
+def _spread(turns: Array) -> Indices:
+    """Choose examples that are spread evenly in the order of their turns."""
+    return np.argsort(turns)[np.unique(np.linspace(0, len(turns) - 1, EXAMPLES).round().astype(int))]

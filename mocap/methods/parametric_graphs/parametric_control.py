@@ -1,9 +1,10 @@
-"""Control on a parametric motion graph: one decision per stride, and no search [HG07, 5]."""
+"""Control on a parametric motion graph: one decision per motion, and no search [HG07, 5]."""
 
 from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.blending.joining import blend
@@ -14,17 +15,22 @@ from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, NoWalk
 from mocap.matching.point_clouds import align
-from mocap.methods.parametric_graphs.made_strides import HALF, WINDOW, make_stride
+from mocap.methods.parametric_graphs.made_motions import HALF, WINDOW, make_motion
 from mocap.methods.parametric_graphs.parametric_edges import Way
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
+from mocap.methods.parametric_graphs.stride_spaces import PARAMETERS, Space
 from mocap.steering.characters import Pose, require_command
+
+TARGET = ("left", "up", "ahead")  # the parameters of a place of the world, as the body sees it at phase 0
+ROUNDS = 8  # of asking for a place, at most: where a motion comes to lie depends on what is asked
+CLOSE = 0.002  # metres: then no more rounds
 
 
 class Chosen(NamedTuple):
     """A decision: the node, what was wished of it, what its box allows, what it came to, the seam's cost, m.
 
-    Asked by turn and speed, a box has corners that no clip fills; there `got` differs from `taken`.
+    What nobody asks for is nan in `wished`: there the middle of the box is taken. Asked by turn and speed, a
+    box has corners that no clip fills; there `got` differs from `taken`.
 
     Examples
     --------
@@ -42,9 +48,10 @@ class Chosen(NamedTuple):
 class ParametricController:
     """A character on a parametric motion graph; it fits `steering.Character` [HG07, 5].
 
-    Five frames before a stride is left, it reads which box of targets may follow, takes the parameters in it
-    that are nearest to the command, makes that stride, and blends over 11 frames. All frames until the next
-    decision are made at once, so that most steps only read.
+    Five frames before a motion is left, it reads which box of targets may follow, takes the parameters in it
+    that are nearest to the command, makes that motion, and blends over 11 frames. All frames until the next
+    decision are made at once, so that most steps only read. Nodes asked by "left", "up" and "ahead" are told
+    their place of the world by `aim`, and are entered by their label [ours].
 
     Parameters
     ----------
@@ -74,19 +81,19 @@ class ParametricController:
         self.node = next(iter(graph.graph)) if start is None else start
         if self.node not in graph.graph:
             raise MocapError(f"There is no node '{self.node}'; there are: {', '.join(graph.graph)}.")
-        space = graph.space(self.node)
-        for name in graph.graph:  # now, not at the first stride of each
-            _ = graph.space(name).sampled_poses
-        straight = np.array([0.0, np.median(space.strides.values[:, 1])])[space.columns]
-        self.parameters = space.clipped(straight)
+        space, self.target = graph.space(self.node), np.full(3, np.nan)
+        usual = {"turn": 0.0, "speed": float(np.median(space.examples.values[:, 1]))}
+        middle = np.median(space.reached, axis=0)
+        asked = [usual.get(name, own) for name, own in zip(space.parameters, middle, strict=True)]
+        self.parameters = np.clip(asked, space.low, space.high)
         self.chosen: list[Chosen] = []
-        self.stride, self.place = make_stride(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
-        self._play([], 0, self.stride.frame(0.0))
+        self.made, self.place = make_motion(space, self.parameters), PlanarTransform(0.0, 0.0, 0.0)
+        self._play([], 0, self.made.frame(0.0))
 
     @property
     def skeleton(self) -> Skeleton:
-        """The joints of the graph's strides."""
-        return self.graph.space(self.node).strides.skeleton
+        """The joints of the graph's motions."""
+        return self.graph.space(self.node).examples.skeleton
 
     @property
     def fps(self) -> float:
@@ -98,6 +105,18 @@ class ParametricController:
         """The frames until the next decision."""
         return len(self._frames) - self._next
 
+    def aim(self, place: ArrayLike) -> None:
+        """Say where in the world (x, y, z), metres, the hand is to be in the motions that are asked by it.
+
+        Raises
+        ------
+        MocapError : for a place that is not three finite numbers.
+        """
+        target = np.asarray(place, float)
+        if target.shape != (3,) or not np.isfinite(target).all():
+            raise MocapError(f"A place of the world is three finite numbers, got {target.tolist()}."[:200])
+        self.target = target
+
     def step(self, heading: float, speed: float, label: str = "") -> Pose:
         """Walk on by one frame.
 
@@ -105,7 +124,7 @@ class ParametricController:
         ----------
         heading : the direction to go in, radians; 0 is +z, π/2 is +x.
         speed : metres per second.
-        label : the node to go to, by the fewest strides; "" for any.
+        label : the node to go to, by the fewest motions; "" for any that walks.
 
         Raises
         ------
@@ -121,70 +140,85 @@ class ParametricController:
         return Pose(motion.root_positions[frame], motion.rotations[frame], frame in self._blended, marks)
 
     def _play(self, before: list[Motion], blended: int, first: int) -> None:
-        """Put the frames of the stride from `first` to its decision behind others, whose last are blended."""
+        """Put the frames of the motion from `first` to its decision behind others, whose last are blended."""
         self.way: dict[str, Way] = {
             node: self.graph.edge(self.node, node).look_up(self.parameters)
             for node in self.graph.graph.successors(self.node)
         }
-        soonest = min(self.stride.frame(way.leave) for way in self.way.values()) - HALF
+        soonest = min(self.made.frame(way.leave) for way in self.way.values()) - HALF
         self._next, self._at = 0, max(soonest, first)
         start = sum(map(len, before)) - blended
         self._blended = range(start, start + blended)
         self._frames = concatenate([*before, *self._laid(first, self._at)])
 
     def _laid(self, first: int, stop: int) -> list[Motion]:
-        """Place some frames of the stride: one motion, or none."""
-        return [self.place.apply_motion(self.stride.motion[first:stop])] if first < stop else []
+        """Place some frames of the motion: one motion, or none."""
+        return [self.place.apply_motion(self.made.motion[first:stop])] if first < stop else []
 
     def _choose(self, heading: float, speed: float, label: str) -> None:
-        """Choose the next stride, make it, and blend into it."""
+        """Choose the next motion, make it, and blend into it."""
         node = self._towards(label, heading, speed)
-        space, way = self.graph.space(node), self.way[node]
-        wished = self._wish(space, heading, speed)
-        taken = np.clip(wished, way.low, way.high)
-        made, centre = make_stride(space, taken), max(self.stride.frame(way.leave), self._at + HALF)
-        into, rest = made.frame(way.enter), self._laid(self._at, centre - HALF)
-        parts = [
-            stride.motion[middle - HALF : middle + HALF + 1]
-            for stride, middle in ((self.stride, centre), (made, into))
-        ]
-        joints = space.strides.joints
-        window, facing = (joint_positions(part)[:, joints].reshape(-1, 3) for part in parts)
-        lay = align(window, facing)
+        space, way, place = self.graph.space(node), self.way[node], self._end()
+        taken = np.full(len(way.low), np.inf)
+        for number in range(1 if set(space.parameters) <= set(PARAMETERS) else ROUNDS):
+            wished = self._wish(space, place, heading, speed)
+            asked = np.where(np.isnan(wished), (way.low + way.high) / 2, wished)
+            goal = np.clip(asked, way.low, way.high)
+            if np.abs(goal - taken).max() < CLOSE:
+                break
+            taken = (taken + goal) / 2 if number else goal  # half of the way: else they swing about the goal
+            made = make_motion(space, taken)
+            centre, into = max(self.made.frame(way.leave), self._at + HALF), made.frame(way.enter)
+            parts = [
+                one.motion[middle - HALF : middle + HALF + 1]
+                for one, middle in ((self.made, centre), (made, into))
+            ]
+            window, facing = (joint_positions(p)[:, space.examples.joints].reshape(-1, 3) for p in parts)
+            lay = align(window, facing)
+            place = self.place @ lay
         cost = float(np.sqrt(((window - lay.apply_points(facing)) ** 2).sum(axis=-1).mean()))
-        self.chosen.append(Chosen(node, wished, taken, made.values[space.columns], cost))
-        old = self.place.apply_motion(parts[0])
-        self.node, self.parameters, self.stride, self.place = node, taken, made, self.place @ lay
+        self.chosen.append(Chosen(node, wished, taken, made.values, cost))
+        rest, old = self._laid(self._at, centre - HALF), self.place.apply_motion(parts[0])
+        self.node, self.parameters, self.made, self.place = node, taken, made, place
         mixed = blend(old, self.place.apply_motion(parts[1]), cubic_weights(WINDOW))
         self._play([*rest, mixed], WINDOW, into + HALF + 1)
 
-    def _wish(self, space: StrideSpace, heading: float, speed: float) -> Array:
-        """Say which parameters would obey the command: the turn still missing, and the speed."""
-        at = self.stride.frame(1.0)
-        now = self.place.angle + self.stride.heading[at] + space.strides.offset
-        missing = (heading - now + np.pi) % (2 * np.pi) - np.pi
-        return np.array([missing, speed])[space.columns]
+    def _end(self) -> PlanarTransform:
+        """Say where and how the body stands when the motion that plays is over."""
+        at = self.made.frame(1.0)
+        x, _, z = self.made.motion.root_positions[at]
+        return self.place @ PlanarTransform(float(self.made.heading[at]), x, z)
+
+    def _wish(self, space: Space, start: PlanarTransform, heading: float, speed: float) -> Array:
+        """Say which parameters would obey, for a body that stands at `start`: nan for what is not asked."""
+        missing = (heading - start.angle - space.examples.offset + np.pi) % (2 * np.pi) - np.pi
+        seen = start.inverse().apply_points(self.target)
+        known = {"turn": missing, "speed": speed, **dict(zip(TARGET, seen, strict=True))}
+        return np.array([known.get(name, np.nan) for name in space.parameters])
 
     def _towards(self, label: str, heading: float, speed: float) -> str:
         """Choose the node: one on the way to the label, or the one whose box comes nearest to the wish."""
-        if label:
-            if label not in self.graph.graph:
-                raise NoWalk(f"There is no node '{label}'; there are: {', '.join(self.graph.graph)}.")
-            try:
-                route = nx.shortest_path(self.graph.graph, self.node, label)
-            except nx.NetworkXNoPath as error:
-                raise NoWalk(f"No strides lead from '{self.node}' to '{label}'.") from error
-            if len(route) > 1:
-                return str(route[1])
-            if label in self.way:
-                return label
-            return min(self.way, key=lambda node: nx.shortest_path_length(self.graph.graph, node, label))
-        return min(self.way, key=lambda node: self._missed(node, heading, speed))
+        graph = self.graph.graph
+        if label and label not in graph:
+            raise NoWalk(f"There is no node '{label}'; there are: {', '.join(graph)}.")
+        goals = [label] if label else [node for node in graph if self._walks(node)]
+        if not label and (ways := [node for node in self.way if node in goals or not goals]):
+            return min(ways, key=lambda node: self._missed(node, heading, speed))
+        far = nx.multi_source_dijkstra_path_length(graph.reverse(copy=False), goals)
+        if not (ways := [node for node in self.way if node in far]):
+            raise NoWalk(f"No motions lead from '{self.node}' to '{label or 'one that walks'}'.")
+        return min(ways, key=lambda node: far[node])
+
+    def _walks(self, node: str) -> bool:
+        """Say whether a node obeys commands, and one that does may follow it."""
+        nodes = [node, *self.graph.graph.successors(node)]
+        walks = [not set(self.graph.space(one).parameters).isdisjoint(PARAMETERS) for one in nodes]
+        return walks[0] and any(walks[1:])
 
     def _missed(self, node: str, heading: float, speed: float) -> float:
         """Measure how far the best of a box is from the wish, in radians and m/s together."""
         space, way = self.graph.space(node), self.way[node]
-        wished = self._wish(space, heading, speed)
+        wished = self._wish(space, self._end(), heading, speed)
         off = dict(zip(space.parameters, np.abs(wished - np.clip(wished, way.low, way.high)), strict=True))
-        usual = np.abs(np.median(space.strides.values[:, 1]) - speed)
+        usual = np.abs(np.median(space.examples.values[:, 1]) - speed)
         return float(off.get("turn", 0.0) + off.get("speed", usual))

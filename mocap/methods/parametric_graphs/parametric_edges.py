@@ -7,15 +7,17 @@ import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.errors import MocapError, NoWalk
-from mocap.methods.parametric_graphs.made_strides import OptimalTransitions, optimal_transitions
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, neighbours, said
+from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
+from mocap.methods.parametric_graphs.made_motions import OptimalTransitions, optimal_transitions
+from mocap.methods.parametric_graphs.stride_spaces import Space, draw_parameters, place_evenly, said
 
+NEIGHBOURS = 4  # more than the parameters: with one more, as in [HG07, 4], boxes jump
 BAD = 1.35  # T_BAD over T_GOOD: with 2 no bad target cuts a box
 EPSILON = 0.005  # of half a range, by which a box keeps off bad targets
 
 
 class Sampling(NamedTuple):
-    """How finely an edge is sampled: how many sources and targets are drawn, and the seed [HG07: 50, 1000].
+    """How finely an edge is sampled: sources, targets, and the seed of their draw [HG07: 50, 1000].
 
     In the paper: [HG07, 4].
 
@@ -68,8 +70,13 @@ class ParametricEdge:
     least: float
 
     def look_up(self, asked: Array, count: int | None = None) -> Way:
-        """Weigh the boxes of the sources nearest to some parameters (d,) [HG07, Eq. 3]."""
-        (rows,), (shares,) = neighbours(asked[None], self.at, self.scale, count)
+        """Weigh the boxes of the sources nearest to some parameters (d,) [HG07, Eqs. 1-3].
+
+        The farthest of k sources always weighs 0. So with k = d + 1, as [HG07, 4] says, one parameter gives
+        the nearest source and nothing else, and boxes jump; k is d + 4 by default [ours].
+        """
+        (rows,), gaps = nearest_samples(asked[None], self.at, self.scale, count or len(asked) + NEIGHBOURS)
+        (shares,) = neighbour_weights(gaps)
         return Way(*(shares @ part[rows] for part in (self.low, self.high, self.leave, self.enter)))
 
 
@@ -112,25 +119,18 @@ def shrink_box(good: Array, bad: Array, scale: Array, eps: float = EPSILON) -> t
     return low, high
 
 
-def _sample(
-    source: StrideSpace, target: StrideSpace, sampling: Sampling
-) -> tuple[Array, Array, OptimalTransitions]:
-    """Draw sources and targets, the outermost sources among them, and compare all pairs."""
+def _sample(source: Space, target: Space, sampling: Sampling) -> tuple[Array, Array, OptimalTransitions]:
+    """Place sources, draw targets, and compare all pairs."""
     least = len(source.parameters) + 2
     if sampling.sources < least or sampling.targets < 1:
         raise MocapError(f"An edge takes {least} sources and a target or more, got {sampling}.")
-    source.strides.require_joinable(target.strides)
-    random = np.random.default_rng(sampling.seed)
-    at = draw_parameters(source, sampling.sources, random)
-    to = draw_parameters(target, sampling.targets, random)
-    ends, some = np.array([source.low, source.high]), source.reached
-    if len(source.parameters) > 1:  # the samples farthest out, for the corners of the range may hold none
-        ends = some[np.concatenate([some.argmin(axis=0), some.argmax(axis=0)])]
-    at[: len(ends)] = ends  # mixing cannot reach beyond them
+    source.examples.require_joinable(target.examples)
+    at = place_evenly(source, sampling.sources)
+    to = draw_parameters(target, sampling.targets, np.random.default_rng(sampling.seed))
     return at, to, optimal_transitions(source, target, at, to)
 
 
-def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling | None = None) -> float:
+def smallest_good(source: Space, target: Space, sampling: Sampling | None = None) -> float:
     """Find the smallest T_GOOD, in metres, at which every source has a target.
 
     As `graphs.smallest_threshold` does for motion graphs: the largest, over sources, of the least cost.
@@ -152,8 +152,8 @@ def smallest_good(source: StrideSpace, target: StrideSpace, sampling: Sampling |
 
 
 def build_edge(
-    source: StrideSpace,
-    target: StrideSpace,
+    source: Space,
+    target: Space,
     *,
     good: float,
     bad: float | None = None,
@@ -167,7 +167,7 @@ def build_edge(
     good : T_GOOD, metres: targets at most this far bound the box.
     bad : T_BAD, metres: targets farther than this are kept out of it; 1.35 T_GOOD by default. Those between
         may be in it.
-    sampling : how many sources and targets to draw.
+    sampling : how many sources to place, and targets to draw.
 
     Raises
     ------
@@ -196,7 +196,9 @@ def build_edge(
     cost, least = found.cost, found.cost.min(axis=1)
     if (least > good).any():
         asked, worst = at[int(least.argmax())], float(least.max())
-        what = "a turn of " * ("turn" in source.parameters) + " at ".join(map(said, source.parameters, asked))
+        what = ", ".join(
+            f"{name} {said(name, value)}" for name, value in zip(source.parameters, asked, strict=True)
+        )
         raise NoWalk(
             f"Nothing follows {what} below {100 * good:.1f} cm (the best costs {100 * worst:.1f} "
             f"cm): raise T_GOOD to {100 * np.ceil(1000 * worst) / 1000:.1f} cm, or narrow the range."

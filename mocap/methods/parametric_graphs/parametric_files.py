@@ -1,4 +1,4 @@
-"""Parametric motion graphs in `.npz` files: spaces, strides and edges, all that a character needs."""
+"""Parametric motion graphs in `.npz` files: spaces, examples and edges, all that a character needs."""
 
 from collections.abc import Iterator
 from operator import attrgetter
@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
+from mocap.methods.match_webs.motion_spaces import MotionSpace
+from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
-from mocap.methods.parametric_graphs.stride_spaces import NEIGHBOURS, PARAMETERS, StrideSpace
-from mocap.methods.parametric_graphs.strides import Strides
 
 Table = dict[str, tuple[str, tuple[int | str, ...], str]]
 """For each array its kind, its shape, and where it is found; a star is the number of a node or an edge."""
@@ -27,16 +27,16 @@ BODY: Table = {
     "offsets": ("f", ("J", 3), "skeleton.offsets"),
     "contact_names": ("U", ("C",), "contact_names"),
 }
-NODE: Table = {  # n strides on g phases, s samples of d parameters
-    "grid": ("f", ("g*",), "strides.grid"),
-    "speeds": ("c", ("n*", "g*"), "strides.speeds"),
-    **{key: ("f", ("n*", "g*"), f"strides.{key}") for key in ("seconds", "turning", "heights")},
-    "poses": ("f", ("n*", "g*", "J", 4), "strides.poses"),
-    "contacts": ("b", ("n*", "g*", "C"), "strides.contacts"),
-    "facts": ("f", ("n*", 2), "strides.values"),
-    "numbers": ("f", (3,), "strides.sway strides.offset strides.dropped"),
+NODE: Table = {  # n examples on g phases, s samples of d parameters
+    "grid": ("f", ("g*",), "examples.grid"),
+    "speeds": ("c", ("n*", "g*"), "examples.speeds"),
+    **{key: ("f", ("n*", "g*"), f"examples.{key}") for key in ("seconds", "turning", "heights")},
+    "poses": ("f", ("n*", "g*", "J", 4), "examples.poses"),
+    "contacts": ("b", ("n*", "g*", "C"), "examples.contacts"),
+    "facts": ("f", ("n*", 2), "examples.values"),
+    "numbers": ("f", (3,), "examples.sway examples.offset examples.dropped"),
     "values": ("f", ("s*", "d*"), "values"),
-    "mixes": ("f", ("s*", "n*"), "mixes"),
+    "mixes": ("f", ("s*", "n*"), "weights"),
     "low": ("f", ("d*",), "low"),
     "high": ("f", ("d*",), "high"),
     "parameters": ("U", ("d*",), "parameters"),
@@ -64,7 +64,7 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     yield "contacts are those of joints", np.isin(arrays["contact_names"], arrays["joints"])
     for own in ({key: arrays[f"{key}_of_{number}"] for key in NODE} for number in range(len(nodes))):
         names, grid, times = own["parameters"].tolist(), own["grid"], own["seconds"]
-        yield "turns and speeds are asked", 0 < len(set(names)) == len(names) and {*names} <= {*PARAMETERS}
+        yield "parameters have names of their own", 0 < len(set(names)) == len(names)
         yield "phases grow from before 0 to after 1", len(grid) > 1 and grid[0] < 0 and grid[-1] > 1
         yield "phases are even", np.abs(np.diff(grid) - (grid[1] - grid[0])) < 1e-6
         zero = int(np.abs(grid).argmin())
@@ -75,8 +75,8 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
         )
         yield "turns have length 1", np.abs((own["poses"] ** 2).sum(axis=-1) - 1) < 1e-5
         yield "a range has ends", own["low"] <= own["high"]
-        yield "samples are enough", len(own["values"]) >= len(names) + NEIGHBOURS
-        yield "samples are mixes", (own["mixes"] >= 0).all() and np.abs(own["mixes"].sum(axis=1) - 1) < 1e-6
+        yield "samples are enough", len(own["values"]) >= len(names) + 2
+        yield "samples are mixes", (own["mixes"] >= -1).all() and np.abs(own["mixes"].sum(axis=1) - 1) < 1e-6
     for edge, (a, b) in enumerate(ends.T.tolist()):
         at, low = arrays[f"at_of_edge_{edge}"], arrays[f"box_low_of_edge_{edge}"]
         sizes = [part.shape[1] for part in (at, low)]
@@ -84,9 +84,9 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
             "edges have their nodes' parameters",
             sizes == [len(arrays[f"low_of_{node}"]) for node in (a, b)],
         )
-        yield "sources are enough", len(at) >= sizes[0] + NEIGHBOURS
+        yield "sources are enough", len(at) >= sizes[0] + 2
         leave, enter = arrays[f"leave_of_edge_{edge}"], arrays[f"enter_of_edge_{edge}"]
-        yield "strides are left late, and entered early", (np.abs(leave - 1) < 0.5) & (np.abs(enter) < 0.5)
+        yield "motions are left late, and entered early", (np.abs(leave - 1) < 0.5) & (np.abs(enter) < 0.5)
         yield "units are above 0", arrays[f"unit_of_edge_{edge}"] > 0
 
 
@@ -103,7 +103,7 @@ def _taken(one: object, table: Table, end: str = "") -> dict[str, Any]:
 
 
 def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
-    """Save a parametric graph as `.npz`; it holds the strides, so that no clip is needed to walk again.
+    """Save a parametric graph as `.npz`; it holds the examples, so that no clip is needed to walk again.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
     ends = {
         key: [nodes.index(pair[side]) for pair in edges] for side, key in enumerate(("sources", "targets"))
     }
-    arrays = {"nodes": nodes, **ends, **_taken(graph.space(nodes[0]).strides, BODY)}
+    arrays = {"nodes": nodes, **ends, **_taken(graph.space(nodes[0]).examples, BODY)}
     for number, node in enumerate(nodes):
         arrays |= _taken(graph.space(node), NODE, f"_of_{number}")
     for number, pair in enumerate(edges):
@@ -142,8 +142,9 @@ def load_parametric(path: str | Path) -> ParametricGraph:
         parts = {where.partition(".")[2]: own.pop(where) for where in list(own) if "." in where}
         parts |= {"contact_names": marks, "sway": sway, "offset": offset, "dropped": int(dropped)}
         own["parameters"] = tuple(own["parameters"].tolist())
-        strides = Strides(skeleton=skeleton, fps=float(arrays["fps"]), **parts)
-        graph.add_node(node, space=StrideSpace(strides=strides, **own))
+        own["scale"] = np.maximum((own["high"] - own["low"]) / 2, 1e-9)
+        examples = Examples(skeleton=skeleton, fps=float(arrays["fps"]), **parts)
+        graph.add_node(node, space=MotionSpace(examples, **own))
     for number, (a, b) in enumerate(ends):
         own = {where: arrays[f"{key}_of_edge_{number}"] for key, (_, _, where) in EDGE.items()}
         own["least"] = float(own["least"])

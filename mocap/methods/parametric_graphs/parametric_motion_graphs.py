@@ -1,4 +1,4 @@
-"""Parametric motion graphs: nodes are spaces of strides, edges say which targets may follow [HG07]."""
+"""Parametric motion graphs: nodes are spaces of motions, edges say which targets may follow [HG07]."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -7,12 +7,12 @@ import networkx as nx
 
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge, Sampling, build_edge
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, said
+from mocap.methods.parametric_graphs.stride_spaces import Space, said
 
 
 @dataclass(frozen=True, eq=False)
 class ParametricGraph:
-    """Spaces of strides as nodes, under names; `build_parametric` shows an example.
+    """Spaces of motions as nodes, under names; `build_parametric` shows an example.
 
     `graph` is a `networkx.DiGraph`, with `space` on its nodes and `edge` on its edges.
     """
@@ -22,11 +22,11 @@ class ParametricGraph:
     @property
     def fps(self) -> float:
         """Frames per second, the same for all spaces."""
-        return float(self.space(next(iter(self.graph))).strides.fps)
+        return float(self.space(next(iter(self.graph))).examples.fps)
 
-    def space(self, node: str) -> StrideSpace:
+    def space(self, node: str) -> Space:
         """Give the space of a node."""
-        found: StrideSpace = self.graph.nodes[node]["space"]
+        found: Space = self.graph.nodes[node]["space"]
         return found
 
     def edge(self, node: str, other: str) -> ParametricEdge:
@@ -48,7 +48,7 @@ class ParametricGraph:
 
 
 def build_parametric(
-    spaces: Mapping[str, StrideSpace],
+    spaces: Mapping[str, Space],
     edges: Sequence[tuple[str, str]] | None = None,
     *,
     good: float,
@@ -80,7 +80,7 @@ def build_parametric(
 
     >>> from mocap import body, datasets
     >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
-    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> from mocap.methods.parametric_graphs.examples import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> graph = build_parametric({"walk": space}, good=0.05)
@@ -95,7 +95,7 @@ def build_parametric(
     if unknown := [name for pair in asked for name in pair if name not in spaces]:
         raise MocapError(f"There is no space '{unknown[0]}'; there are: {', '.join(spaces)}.")
     for space in spaces.values():  # before any edge takes its seconds
-        next(iter(spaces.values())).strides.require_joinable(space.strides)
+        next(iter(spaces.values())).examples.require_joinable(space.examples)
     graph = nx.DiGraph()
     graph.add_nodes_from((name, {"space": space}) for name, space in spaces.items())
     for name, other in asked:

@@ -1,102 +1,28 @@
-"""A space of strides: ask for a turn and a speed, and get the weights of a blend that has them [KG04]."""
+"""A space of strides: ask for a turn and a speed, and get the weights of a blend that has them [KG04].
+
+It is a `match_webs.MotionSpace` like that of any motion (`match_webs.sample_space`), but its samples are
+bells about what is asked: many strides fill few parameters. Few examples of many parameters are blended d + 1
+at a time.
+"""
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from mocap._shared.arrays import Array, Indices, Points
+from mocap._shared.arrays import Array
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.match_webs.wishes import nearest_samples, neighbour_weights
-from mocap.methods.parametric_graphs.strides import Strides, mixed_way
+from mocap.methods.match_webs.motion_spaces import MotionSpace
+from mocap.methods.match_webs.wishes import nearest_samples
+from mocap.methods.parametric_graphs.examples import Examples, mixed_way
+
+Space = MotionSpace[Examples]
 
 PARAMETERS = ("turn", "speed")
 SMALLEST = 1e-3  # a bell's weight below this share of the largest counts as 0
 FEWEST = 5  # strides within two widths of each part of a range
 SAMPLES = 120, 400  # of a space asked by one parameter, and by two
-NEIGHBOURS = 2  # more than the parameters: with one more, as in [HG07, 4], boxes jump
-
-
-@dataclass(frozen=True, eq=False)
-class StrideSpace:
-    """A smooth map from d parameters to mixes of strides; `make_space` shows an example.
-
-    Parameters
-    ----------
-    strides : N examples.
-    parameters : of `PARAMETERS`, d of them.
-    values : shape (S, d), what S sampled mixes come to.
-    mixes : shape (S, N), their weights.
-    low, high : shape (d,), the range of the parameters.
-    """
-
-    strides: Strides
-    parameters: tuple[str, ...]
-    values: Array
-    mixes: Array
-    low: Array
-    high: Array
-
-    @property
-    def columns(self) -> list[int]:
-        """Which columns of `Strides.values` the parameters are."""
-        return [PARAMETERS.index(name) for name in self.parameters]
-
-    @property
-    def scale(self) -> Array:
-        """Half the range of each parameter: the unit of distances between parameters, (d,)."""
-        return np.maximum((self.high - self.low) / 2, 1e-9)
-
-    @property
-    def reached(self) -> Array:
-        """What the samples within the range come to, (R, d)."""
-        return self.values[((self.values >= self.low) & (self.values <= self.high)).all(axis=1)]
-
-    def weights(self, asked: ArrayLike) -> Array:
-        """Mix the mixes of the nearest samples: parameters (M, d) give weights (M, N)."""
-        near, shares = neighbours(np.atleast_2d(asked), self.values, self.scale)
-        return np.asarray(np.einsum("mk,mkn->mn", shares, self.mixes[near]))
-
-    @cached_property
-    def sampled_poses(self) -> NDArray[np.float32]:
-        """The poses of all sampled mixes, (S, G, J, 4), made once: a stride is then a mix of a few."""
-        poses = self.strides.poses
-        mixed = self.mixes.astype(np.float32) @ poses.reshape(len(poses), -1).astype(np.float32)
-        return mixed.reshape(-1, *poses.shape[1:])
-
-    def clipped(self, asked: ArrayLike) -> Array:
-        """Bring parameters (..., d) into the range."""
-        return np.clip(asked, self.low, self.high)
-
-
-def neighbours(asked: Array, among: Array, scale: Array, count: int | None = None) -> tuple[Indices, Array]:
-    """Find the nearest samples and weigh them: v ∝ 1/ε - 1/ε_k, ε_k the farthest's gap [HG07, Eqs. 1-2].
-
-    The farthest of them always has the weight 0. So with d + 1 of them, as [HG07, 4] says, one parameter
-    gives the nearest sample and nothing else, and boxes jump by 43°; d + 2 are taken [ours].
-
-    Parameters
-    ----------
-    asked : shape (M, d).
-    among : shape (S, d), the samples.
-    scale : shape (d,), the unit of each parameter.
-    count : how many; d + 2 by default.
-
-    Returns
-    -------
-    The numbers of the samples and their weights, (M, k) each.
-
-    Examples
-    --------
-    >>> near, weights = neighbours(np.array([[0.0]]), np.array([[4.0], [1], [2]]), np.ones(1))
-    >>> near, weights
-    (array([[1, 2, 0]]), array([[0.75, 0.25, 0.  ]]))
-    """
-    near, gaps = nearest_samples(asked, among, scale, count or asked.shape[1] + NEIGHBOURS)
-    return near, neighbour_weights(gaps)
 
 
 def bell_weights(values: Array, asked: Array, width: Array) -> Array:
@@ -118,8 +44,8 @@ def bell_weights(values: Array, asked: Array, width: Array) -> Array:
     return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 
 
-def measure_mixes(strides: Strides, weights: Array, way: tuple[Points, Array] | None = None) -> Array:
-    """Measure what mixes (M, N), whose way may be given, come to: turn in radians and speed in m/s, (M, 2).
+def measure_mixes(strides: Examples, weights: Array) -> Array:
+    """Measure what mixes (M, N) come to: turn in radians and speed in m/s, (M, 2).
 
     Examples
     --------
@@ -131,7 +57,7 @@ def measure_mixes(strides: Strides, weights: Array, way: tuple[Points, Array] | 
 
     Notebook: 17-parametric-graphs
     """
-    ground, facing = way or mixed_way(strides, weights)
+    ground, facing = mixed_way(strides, weights)
     zero, one = strides.ends
     way = np.abs(np.diff(ground[:, zero : one + 1], axis=1)).sum(axis=1)
     turn = facing[:, one] - facing[:, zero] - strides.sway
@@ -139,17 +65,17 @@ def measure_mixes(strides: Strides, weights: Array, way: tuple[Points, Array] | 
 
 
 def make_space(
-    strides: Strides,
+    strides: Examples,
     width: ArrayLike,
     low: ArrayLike,
     high: ArrayLike,
     *,
     parameters: Sequence[str] = ("turn",),
-) -> StrideSpace:
+) -> Space:
     """Sample mixes all over the range, measure what each comes to, and keep both [KG04], for [HG07, nodes].
 
-    A bell's mix does not come to what was asked, by 4° on average. Looked up among what the samples come to,
-    it does to 0.2°.
+    A bell's mix does not come to what was asked, by 4° on average. Looked up among what the samples come to
+    (`match_webs.weights_for`), it does to 0.01°.
 
     Parameters
     ----------
@@ -170,10 +96,11 @@ def make_space(
     Examples
     --------
     >>> from mocap import body, datasets
+    >>> from mocap.methods.match_webs import weights_for
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
-    >>> got = measure_mixes(strides, space.weights([[0.5]]))[0, 0]
+    >>> got = measure_mixes(strides, weights_for(space, [[0.5]]))[0, 0]
     >>> float(got.round(1))
     0.5
 
@@ -198,8 +125,9 @@ def make_space(
     mixes = bell_weights(values, asked, width)
     come = measure_mixes(strides, mixes)[:, columns]
     lowest, highest = np.maximum(lowest, come.min(axis=0)), np.minimum(highest, come.max(axis=0))
-    space = StrideSpace(strides, names, come, mixes, lowest, highest)
-    if len(space.reached) < len(names) + NEIGHBOURS:
+    scale = np.maximum((highest - lowest) / 2, 1e-9)
+    space = MotionSpace(strides, mixes, come, scale, names, lowest, highest)
+    if len(space.reached) < len(names) + 2:
         raise MocapError(
             f"Only {len(space.reached)} of {len(asked)} samples lie in the range: they come to "
             + " and ".join(_spans(names, come))
@@ -212,7 +140,7 @@ def make_space(
 
 def said(name: str, value: float) -> str:
     """Say a parameter with its unit."""
-    return f"{np.degrees(value):.0f}°" if name == "turn" else f"{value:.2f} m/s"
+    return f"{np.degrees(value):.0f}°" if name == "turn" else f"{value:.2f} m" + "/s" * (name == "speed")
 
 
 def _spans(names: tuple[str, ...], values: Array) -> list[str]:
@@ -222,9 +150,9 @@ def _spans(names: tuple[str, ...], values: Array) -> list[str]:
 
 def _require_variety(names: tuple[str, ...], values: Array, width: Array) -> None:
     """Refuse strides that are too few, or hardly differ in what they shall be asked by."""
-    if len(values) < len(names) + NEIGHBOURS:
+    if len(values) < len(names) + 2:
         raise MocapError(
-            f"A space asked by {' and '.join(names)} takes {len(names) + NEIGHBOURS} strides or more, "
+            f"A space asked by {' and '.join(names)} takes {len(names) + 2} strides or more, "
             f"got {len(values)}: add clips, or longer ones, for a stride needs room at its ends."
         )
     spread = np.ptp(values, axis=0) / width
@@ -247,11 +175,11 @@ def _warn_of_gaps(name: str, values: Array, width: float, parts: Array) -> None:
         )
 
 
-def draw_parameters(space: StrideSpace, count: int, random: np.random.Generator) -> Array:
+def draw_parameters(space: Space, count: int, random: np.random.Generator) -> Array:
     """Draw parameters (count, d) that the space can come to.
 
-    For one parameter evenly in its range; for two among the samples, because the corners of the range, fast
-    and sharp at once, may hold none.
+    For one parameter evenly in its range; for more among the samples, because the corners of the range, such
+    as fast and sharp at once, may hold none.
 
     Examples
     --------
@@ -265,7 +193,34 @@ def draw_parameters(space: StrideSpace, count: int, random: np.random.Generator)
     if len(space.parameters) == 1:
         return np.asarray(random.uniform(space.low, space.high, (count, 1)))
     values = space.reached
-    near, _ = neighbours(values, values, space.scale, min(8, len(values)))
+    near, _ = nearest_samples(values, values, space.scale, 8)
     shares, base = random.dirichlet(np.ones(3), count), random.integers(len(values), size=count)
     some = near[base[:, None], random.integers(near.shape[1], size=(count, 3))]
     return np.asarray(np.einsum("ck,ckd->cd", shares, values[some]))
+
+
+def place_evenly(space: Space, count: int) -> Array:
+    """Choose at most `count` parameters (C, d) that cover what a space reaches, its ends first [ours].
+
+    For one parameter evenly in its range; for more each time the sample farthest from those chosen. Drawn at
+    random they cluster, and boxes that are looked up among them jump.
+
+    Examples
+    --------
+    >>> from mocap import body, datasets
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
+    >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
+    >>> place_evenly(make_space(strides, 0.4, -0.8, 0.8), 3).round(2)
+    array([[-0.8],
+           [ 0. ],
+           [ 0.8]])
+    """
+    if len(space.parameters) == 1:
+        return np.linspace(space.low, space.high, count)
+    values = space.reached
+    chosen = list(dict.fromkeys([*values.argmin(axis=0).tolist(), *values.argmax(axis=0).tolist()]))[:count]
+    gaps = nearest_samples(values, values[chosen], space.scale, 1)[1][:, 0]
+    while len(chosen) < min(count, len(values)):
+        chosen.append(int(gaps.argmax()))
+        gaps = np.minimum(gaps, np.linalg.norm((values - values[chosen[-1]]) / space.scale, axis=-1))
+    return values[chosen]

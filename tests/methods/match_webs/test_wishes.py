@@ -73,16 +73,16 @@ def test_the_weights_of_neighbours_are_those_of_the_paper():
 
 def obtained(made, wishes, **how):
     """Scaled distances from wishes to what the blends do."""
-    got = [gait(blend_of(made.registration, weights_for(made, wish, **how), fps=30)) for wish in wishes]
+    got = [gait(blend_of(made.examples, weights_for(made, wish, **how), fps=30)) for wish in wishes]
     return np.linalg.norm((np.array(got) - wishes) / made.scale, axis=1)
 
 
 def test_walks_turn_and_go_as_asked():
     """Wishes are what other blends do; the unit is 10° and 0.1 m/s."""
     made = space(100)
-    examples = len(made.registration.clips)
+    examples = len(made.examples.clips)
     rows = random_weights(made.values[:examples], 25, spread=0, seed=9)
-    wishes = np.array([gait(blend_of(made.registration, row, fps=30)) for row in rows])
+    wishes = np.array([gait(blend_of(made.examples, row, fps=30)) for row in rows])
     convex, plain = (obtained(made, wishes, method=method).mean() for method in METHODS)
     assert convex <= 0.1
     assert plain >= 3 * convex
@@ -99,14 +99,14 @@ def test_out_of_reach_the_blend_stays_at_the_edge():
 def test_asked_without_an_example_the_others_turn_as_it_does():
     """Leave one out: each example that the others enclose is asked for, and got within 2° on average."""
     made = space(100)
-    count = len(made.registration.clips)
+    count = len(made.examples.clips)
     off = []
     for out in range(count):
         keep = np.abs(made.weights[:, out]) < 1e-12
-        others = MotionSpace(made.registration, made.weights[keep], made.values[keep], made.scale)
+        others = MotionSpace(made.examples, made.weights[keep], made.values[keep], made.scale)
         weights = weights_for(others, made.values[out])
         assert weights[out] == 0
-        off.append(gait(blend_of(made.registration, weights, fps=30))[0] - made.values[out, 0])
+        off.append(gait(blend_of(made.examples, weights, fps=30))[0] - made.values[out, 0])
     assert np.abs(off).mean() <= 2
 
 

@@ -1,67 +1,66 @@
 """Spaces and graphs that several tests walk with."""
 
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
 
 import numpy as np
 
-from mocap.body.motion import Motion, resample
+from mocap.body import rotations
+from mocap.body.motion import resample
 from mocap.datasets import samples
-from mocap.methods.parametric_graphs.made_strides import optimal_transitions
-from mocap.methods.parametric_graphs.parametric_edges import Sampling
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, draw_parameters, make_space
-from mocap.methods.parametric_graphs.strides import Strides, cut_strides
+from mocap.methods.match_webs import hand_target, sample_space, weights_for
+from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
+from mocap.methods.parametric_graphs.kinds_of_strides import changing_strides
+from mocap.methods.parametric_graphs.made_motions import optimal_transitions
+from mocap.methods.parametric_graphs.parametric_control import TARGET
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
 SMALL = Sampling(sources=12, targets=120)
 SHARE = {"lrl": 1.0, "lr": 0.55, "rl": 0.55}  # a step turns by half of what a stride does, or little more
+BOTH = ("turn", "speed")
 
 
 @cache
-def clips() -> tuple[Motion, ...]:
+def clips():
     return tuple(resample(samples.sample(name), 30) for name in WALKS)
 
 
-def strides(feet: str = "lrl", by: str = "strikes") -> Strides:
-    return _strides(feet, by)
-
-
 @cache
-def _strides(feet: str, by: str) -> Strides:
+def strides(feet="lrl", by="strikes"):
     return cut_strides(clips(), feet=feet, by=by)
 
 
-def space(feet: str = "lrl") -> StrideSpace:
-    return _space(feet)
-
-
 @cache
-def _space(feet: str) -> StrideSpace:
+def space(feet="lrl"):
     width, high = np.radians([12, 75]) * SHARE[feet]
     return make_space(strides(feet), width, -high, high)
 
 
-def walking(good: float = 0.03) -> ParametricGraph:
-    return _walking(good)
+@cache
+def by_turn_and_speed(width=(0.2, 0.1), low=(-0.6, 0.7), high=(0.6, 0.85)):
+    return make_space(strides(), width, low, high, parameters=BOTH)
 
 
 @cache
-def _walking(good: float) -> ParametricGraph:
+def walking(good=0.03):
     return build_parametric({"walk": space()}, good=good)
 
 
-def stepping(good: float = 0.03) -> ParametricGraph:
-    return _stepping(good)
-
-
 @cache
-def _stepping(good: float) -> ParametricGraph:
+def stepping(good=0.03):
     spaces = {"left": space("lr"), "right": space("rl")}
     few = Sampling(sources=30, targets=300)
     return build_parametric(spaces, [("left", "right"), ("right", "left")], good=good, sampling=few)
 
 
-def fresh(source, target, edge, bad, seed=99):
+def missed(tested, goals):
+    """How far strides are from what they were asked for, in degrees and m/s."""
+    got = measure_mixes(tested.examples, weights_for(tested, goals))[:, : len(tested.parameters)]
+    return np.abs(got - goals) * [np.degrees(1), 1][: len(tested.parameters)]
+
+
+def bad_ones(source, target, edge, bad, seed=99):
     """Test boxes on fresh samples: the shares of boxes with a bad target, and of bad ones inside."""
     random = np.random.default_rng(seed)
     at, to = draw_parameters(source, 100, random), draw_parameters(target, 300, random)
@@ -76,7 +75,7 @@ def walk_anywhere(character, count, speed=0.8):
     """Ask for targets drawn anywhere in the boxes; give the nodes and the parameters that it left."""
     random, left = np.random.default_rng(4), []
 
-    def anywhere(space, heading, speed):
+    def anywhere(space, start, heading, speed):
         way = next(iter(character.way.values()))
         left.append((character.node, character.parameters))
         return random.uniform(np.minimum(way.low, way.high), np.maximum(way.low, way.high))
@@ -85,3 +84,74 @@ def walk_anywhere(character, count, speed=0.8):
     while len(character.chosen) < count:
         character.step(0.0, speed)
     return left
+
+
+def arm_moved(clip, middle, shoulder, elbow):
+    """Turn the right arm of a clip about a moment, and back again."""
+    share = np.exp(-((np.arange(len(clip)) - middle)[:, None] ** 2) / 50)
+    turns = clip.rotations.copy()
+    for joint, turn in (("rhumerus", shoulder), ("rradius", elbow)):
+        one = clip.skeleton.index(joint)
+        turns[:, one] = rotations.multiply(turns[:, one], rotations.from_rotvec(share * turn))
+    return replace(clip, rotations=turns)
+
+
+def arms(count, seed=0):
+    """Draw how shoulder and elbow turn, rotation vectors."""
+    random = np.random.default_rng(seed)
+    shoulders = random.uniform([-1.6, -0.5, -0.4], [-0.6, 0.5, 0.4], (count, 3))
+    return zip(shoulders, random.uniform([-1.0, 0, 0], [-0.2, 0, 0], (count, 3)), strict=True)
+
+
+@cache
+def reaches():
+    """Strides of a straight walk whose right hand goes to some place in the middle."""
+    walk, found = clips()[3], []
+    strikes = 1 + np.flatnonzero(np.diff(walk.contacts["lfoot"].astype(int)) == 1)
+    for number, arm in enumerate(arms(14)):
+        first, last = strikes[2 + number % 2 : 4 + number % 2]
+        marks = np.zeros(len(walk), bool)
+        marks[first : last + 1] = True
+        moved = arm_moved(walk, (first + last) / 2, *arm)
+        found.append(replace(moved, labels={"reach": marks})[first - 20 : last + 21])
+    return cut_strides(found, label="reach")
+
+
+@cache
+def punches():
+    """One that stands, and whose right hand goes to some place."""
+    clip = samples.sample("stop_and_go")
+    still = resample(clip, 30)
+    speed = np.abs(np.diff(still.root_positions[:, [0, 2]] @ [1j, 1]))
+    at = int(np.convolve(speed, np.ones(15), "valid").argmin()) + 7
+    still = replace(
+        still,
+        root_positions=np.repeat(still.root_positions[at : at + 1], 80, axis=0),
+        rotations=np.repeat(still.rotations[at : at + 1], 80, axis=0),
+        contacts={name: np.ones(80, bool) for name in still.contacts},
+        labels={},
+    )
+    return cut_actions([arm_moved(still, 40, *arm) for arm in arms(14, seed=1)], [(22, 58)] * 14)
+
+
+HAND = partial(hand_target, at=0.5)
+EDGES = ["walk walk", "walk reach", "reach walk", "walk to_guard", "to_guard punch"]
+EDGES += ["punch punch", "punch from_guard", "from_guard walk"]
+
+
+@cache
+def of_hands():
+    """Spaces of reaches and punches, by the place of the hand."""
+    own = {"reach": reaches(), "punch": punches()}
+    return {name: sample_space(own[name], HAND, parameters=TARGET) for name in own}
+
+
+@cache
+def acting():
+    """Walk, reach and punch in one graph, with the ways between."""
+    straightest = strides().take(np.abs(strides().values[:, 0]) < np.radians(1))
+    to = changing_strides(strides(), punches(), stands="second")
+    back = changing_strides(punches(), straightest, stands="first")
+    spaces = {"walk": space(), **of_hands(), "to_guard": make_space(to, np.radians(14), -1.0, 1.0)}
+    spaces["from_guard"] = sample_space(back, HAND, parameters=TARGET)
+    return build_parametric(spaces, [tuple(edge.split()) for edge in EDGES], good=0.08, sampling=SMALL)

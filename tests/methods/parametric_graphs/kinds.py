@@ -7,11 +7,12 @@ from walking import generate_walk
 from walking.footsteps import winding
 
 from mocap.body.motion import resample
+from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.kinds_of_strides import changing_strides
 from mocap.methods.parametric_graphs.parametric_edges import Sampling
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, make_space
-from mocap.methods.parametric_graphs.strides import Strides, cut_strides
+from mocap.methods.parametric_graphs.stride_spaces import Space, make_space
+from mocap.methods.parametric_graphs.strides import cut_strides
 
 SPEEDS = {"walk": (0.8, 1.1, 1.4), "sneak": (0.5, 0.7), "jog": (2.2, 2.4, 2.6, 2.8)}
 TURNS = {"walk": (-150, -75, 0, 75, 150), "sneak": (-150, -75, 0, 75, 150)}
@@ -21,7 +22,7 @@ EDGES += [pair for a, b in CHANGES for pair in ((a, f"{a} to {b}"), (f"{a} to {b
 
 
 @cache
-def cut(kind: str) -> Strides:
+def cut(kind: str) -> Examples:
     turns = TURNS.get(kind, (-150, -100, -50, 0, 50, 100, 150))
     lines = [(speed, winding([(1.0, 0), (5.0, turn)]), turn) for speed in SPEEDS[kind] for turn in turns]
     walks = [
@@ -32,7 +33,7 @@ def cut(kind: str) -> Strides:
 
 
 @cache
-def kinds() -> dict[str, StrideSpace]:
+def kinds() -> dict[str, Space]:
     examples = {kind: cut(kind) for kind in SPEEDS}
     examples |= {f"{a} to {b}": changing_strides(cut(a), cut(b)) for a, b in CHANGES}
     limit, spaces = np.radians(30), {}

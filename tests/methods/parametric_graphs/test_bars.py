@@ -12,7 +12,7 @@ import pytest
 from mocap.body.motion import resample
 from mocap.feet.footplants import mark_plants
 from mocap.files.load_save import load
-from mocap.methods.parametric_graphs.made_strides import optimal_transitions
+from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import BAD, Sampling, build_edge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
@@ -22,7 +22,7 @@ from mocap.quality import plant_slides
 from mocap.steering import Controller, command_headings, steer
 from tests.bundled import bundled
 from tests.methods.parametric_graphs import built
-from tests.methods.parametric_graphs.built import SHARE, fresh, space, walk_anywhere
+from tests.methods.parametric_graphs.built import SHARE, bad_ones, space, walk_anywhere
 
 SPEED = 0.8
 STRIDES, STEPS = ("lrl",), ("lr", "rl")
@@ -87,7 +87,7 @@ def walking(request):
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside(walking):
     """A box of no width holds none of the fresh targets and seems perfect: so draw inside each one, too."""
     for source, target, edge in walking.edges:
-        boxes, share = fresh(source, target, edge, BAD * walking.good, seed=0)
+        boxes, share = bad_ones(source, target, edge, BAD * walking.good, seed=0)
         assert boxes <= 0.1 and share <= 0.01
         at = draw_parameters(source, 100, np.random.default_rng(0))
         within = [optimal_transitions(source, target, a[None], _inside(edge.look_up(a))).cost for a in at]
@@ -118,7 +118,7 @@ def test_what_was_got_is_said_and_one_turn_over_and_over_is_no_circle(walking):
     """Seams are aligned by the whole body, and turn it: up to some degrees a stride."""
     character = ParametricController(walking.graph)
     tested = walking.graph.space(character.node)
-    character._wish = lambda space, heading, speed: np.full(1, np.radians(20))
+    character._wish = lambda *_: np.full(1, np.radians(20))
     facing = []
     while len(character.chosen) < 12:
         before = len(character.chosen)

@@ -31,7 +31,7 @@ def damaged(path, **changes):
     ("changes", "sentence"),
     [
         ({"targets": np.array([7])}, "edges between its nodes"),
-        ({"parameters_of_0": np.array(["height"])}, "turns and speeds are asked"),
+        ({"parameters_of_0": np.array(["turn"] * 2)}, "to fit the other arrays"),
         ({"low_of_0": np.zeros(3)}, "to fit the other arrays"),
     ],
 )

@@ -1,65 +1,80 @@
 """What is asked is got; what is near in parameters is near in motion; and two traps are traps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.parametric_graphs.made_strides import near_strike
-from mocap.methods.parametric_graphs.stride_spaces import (
-    StrideSpace,
-    draw_parameters,
-    make_space,
-    measure_mixes,
-    neighbours,
-)
-from mocap.methods.parametric_graphs.strides import cut_strides
-from tests.methods.parametric_graphs.built import clips, space, strides
+from mocap.methods.match_webs import weights_for
+from mocap.methods.parametric_graphs import cut_strides, make_space, measure_mixes
+from mocap.methods.parametric_graphs.made_motions import near_end
+from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, place_evenly
+from tests.methods.parametric_graphs.built import BOTH, by_turn_and_speed, clips, missed, space, strides
 
-
-def asked_and_got(tested, goals):
-    got = measure_mixes(tested.strides, tested.weights(goals))[:, tested.columns]
-    return np.degrees(np.abs(got - goals))
+WIDE = ((0.2, 0.1), (-1.2, 0.6), (1.2, 1.1))
 
 
 @pytest.mark.parametrize("feet", ["lrl", "lr", "rl"])
 def test_what_is_asked_is_got(feet):
     """As in [HG07, nodes]."""
     tested = space(feet)
-    off = asked_and_got(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
-    assert off.max() <= 1.0 and off.mean() <= 0.3
+    off = missed(tested, draw_parameters(tested, 300, np.random.default_rng(5)))
+    assert off.max() <= 0.1 and off.mean() <= 0.01
 
 
-def test_two_parameters_are_met_where_clips_fill_them():
-    both = make_space(strides(), [0.2, 0.1], [-0.8, 0.7], [0.8, 0.9], parameters=("turn", "speed"))
-    goals = draw_parameters(both, 200, np.random.default_rng(1))
-    got = measure_mixes(both.strides, both.weights(goals))
-    assert np.degrees(np.abs(got - goals)[:, 0]).mean() < 1.5
-    assert np.abs(got - goals)[:, 1].mean() < 0.01
+def test_two_parameters_are_met_where_clips_fill_them_and_corners_hold_strides_that_no_clip_has():
+    """Asked for anything in the box, degrees are off; drawn among the samples, a tenth of that."""
+    both, random = by_turn_and_speed(*WIDE), np.random.default_rng(2)
+    anywhere = random.uniform(both.low, both.high, (200, 2))
+    corners, among = missed(both, anywhere), missed(both, draw_parameters(both, 200, random))
+    assert among.mean(axis=0)[0] < 1.5 and among.mean(axis=0)[1] < 0.01
+    assert corners[:, 0].max() > 10 and corners[:, 0].mean() > 4 * among[:, 0].mean()
 
 
-@given(st.lists(st.floats(0.01, 10), min_size=3, max_size=6))
-def test_weights_of_neighbours_add_up_to_one_and_the_farthest_has_none(gaps):
-    near, weights = neighbours(np.zeros((1, 1)), np.array(gaps)[:, None], np.ones(1), len(gaps))
-    assert weights.sum() == pytest.approx(1) and (weights >= 0).all()
-    if max(gaps) > min(gaps):
-        assert weights[0, -1] == 0
-    assert (np.diff(np.array(gaps)[near[0]]) >= 0).all()
+def test_sources_are_placed_evenly_and_at_the_ends():
+    """For several parameters only where the space reaches: the corners of its range may hold no stride."""
+    one, both = space(), by_turn_and_speed(*WIDE)
+    np.testing.assert_allclose(place_evenly(one, 9), np.linspace(one.low, one.high, 9))
+    at = place_evenly(both, 40)
+    assert missed(both, at)[:, 0].max() < 2
+    for end in ("min", "max"):
+        np.testing.assert_array_equal(getattr(at, end)(axis=0), getattr(both.reached, end)(axis=0))
+
+    def nearest(some):
+        gaps = np.linalg.norm((both.reached[:, None] - some) / both.scale, axis=-1)
+        return gaps.min(axis=1).max()
+
+    drawn = [draw_parameters(both, 40, np.random.default_rng(seed)) for seed in range(10)]
+    assert nearest(at) < 0.7 * min(map(nearest, drawn))
 
 
-def test_the_formula_of_the_paper():
-    """As in [HG07, Eqs. 1-2]."""
-    _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2], [4]]), np.ones(1), 3)
-    np.testing.assert_allclose(weights, [[0.75, 0.25, 0]])
-    _, weights = neighbours(np.zeros((1, 1)), np.array([[1.0], [2]]), np.ones(1), 2)
-    np.testing.assert_allclose(weights, [[1, 0]])
-
-
-def test_the_range_is_cut_to_what_the_strides_come_to():
-    wide = make_space(strides(), 0.2, -9.0, 9.0)
+def test_the_range_is_cut_to_what_the_strides_come_to_and_weights_never_reach_beyond():
+    wide, tested = make_space(strides(), 0.2, -9.0, 9.0), space()
     assert wide.low[0] > -2.5 and wide.high[0] < 2.5
-    np.testing.assert_array_equal(wide.clipped([[-9.0], [9.0]]), [wide.low, wide.high])
+    far = weights_for(tested, [[-9.0], [9.0]])
+    np.testing.assert_allclose(far.sum(axis=1), 1)
+    ends = measure_mixes(tested.examples, far)[:, 0]
+    assert tested.values.min() - 0.02 <= ends[0] < ends[1] <= tested.values.max() + 0.02
+
+
+def test_a_change_of_two_degrees_changes_the_clip_by_millimetres():
+    """Where windows are compared: a bell's space, and raw strides, the nearest few."""
+    smooth, changes = space(), []
+    count = len(smooth.examples)
+    raw = replace(smooth, weights=np.eye(count), values=smooth.examples.values[:, :1])
+    asked = np.linspace(-1.1, 1.1, 60)[:, None]
+    for tested in (smooth, raw):
+        one, other = (near_end(tested, a, 0.0)[0] for a in (asked, asked + np.radians(2)))
+        changes.append(100 * np.median(np.sqrt(((one - other) ** 2).sum(axis=-1).mean(axis=(1, 2)))))
+    assert changes[0] < 0.4 and changes[1] > 1.2 > 4 * changes[0]
+
+
+def some(count, spread=1.0):
+    """Strides evenly spread over the turns, as many as asked for."""
+    turns = strides().values[:, 0]
+    wanted = np.linspace(-spread, spread, count)
+    return strides().take(np.isin(np.arange(len(turns)), np.abs(turns - wanted[:, None]).argmin(axis=1)))
 
 
 @pytest.mark.parametrize(
@@ -73,77 +88,25 @@ def test_the_range_is_cut_to_what_the_strides_come_to():
         ({"low": [0.1, 0.2]}, "A range has ends low < high"),
         ({"high": np.nan}, "A range has ends low < high"),
         ({"low": 20.0, "high": 21.0}, r"Only 0 of 120 .*: they come to a turn of 97° to 97°\."),
+        ({"strides": 2}, "asked by turn takes 3 strides or more, got 2: add clips, or longer"),
+        (
+            {"width": (0.2, 0.1), "low": (0.3, 0.7), "high": (0.301, 0.71), "parameters": BOTH},
+            r"Only \d of 400 samples lie in the range: they come to a turn of .* and a speed of",
+        ),
+        ({"strides": "straight"}, "hardly vary, with a turn of -1° to 1°: ask by something else"),
     ],
 )
 def test_what_makes_no_sense_is_refused(settings, sentence):
-    asked = {"width": 0.2, "low": -0.5, "high": 0.5, **settings}
+    asked = {"strides": strides(), "width": 0.2, "low": -0.5, "high": 0.5, **settings}
+    asked["strides"] = {2: lambda: some(2), "straight": lambda: cut_strides([clips()[3]])}.get(
+        settings.get("strides"), strides
+    )()
     with pytest.raises(MocapError, match=sentence):
-        make_space(strides(), asked.pop("width"), asked.pop("low"), asked.pop("high"), **asked)
+        make_space(**asked)
 
 
-def some(count, spread=1.0):
-    """Strides evenly spread over the turns, as many as asked for."""
-    turns = strides().values[:, 0]
-    wanted = np.linspace(-spread, spread, count)
-    return strides().take(np.isin(np.arange(len(turns)), np.abs(turns - wanted[:, None]).argmin(axis=1)))
-
-
-def test_too_few_strides_are_refused_with_what_helps():
-    with pytest.raises(
-        MocapError, match=r"asked by turn takes 3 strides or more, got 2: add clips, or longer"
-    ):
-        make_space(some(2), 0.2, -0.5, 0.5)
-    with pytest.raises(MocapError, match="asked by turn and speed takes 4 strides or more, got 3"):
-        make_space(some(3), [0.2, 0.1], [-0.5, 0.7], [0.5, 0.9], parameters=("turn", "speed"))
-
-
-def test_a_range_of_two_parameters_that_hardly_any_sample_lies_in_is_refused():
-    with pytest.raises(
-        MocapError, match=r"Only \d of 400 samples lie in the range: they come to a turn of .* and a speed of"
-    ):
-        make_space(strides(), [0.2, 0.1], [0.3, 0.7], [0.301, 0.71], parameters=("turn", "speed"))
-
-
-def test_strides_that_do_not_vary_are_refused():
-    straight = cut_strides([clips()[3]])
-    with pytest.raises(MocapError, match=r"hardly vary, with a turn of -1° to 1°: ask by something else"):
-        make_space(straight, np.radians(14), -0.5, 0.5)
-    with pytest.warns(MocapWarning, match="of 7 strides are near a speed of 1"):
-        by_speed = make_space(straight, 0.02, 1.0, 1.2, parameters=("speed",))
-    assert by_speed.high[0] > 1.1
-
-
-def test_a_range_with_gaps_is_said():
+def test_ranges_with_gaps_are_said():
     with pytest.warns(MocapWarning, match=r"Only \d of \d+ strides are near a turn of -?\d+°: blends there"):
         make_space(some(8, 1.2), 0.1, -1.2, 1.2)
-
-
-def test_weights_never_reach_beyond_the_outermost_samples():
-    tested = space()
-    far = tested.weights([[-9.0], [9.0]])
-    np.testing.assert_allclose(far.sum(axis=1), 1)
-    ends = measure_mixes(tested.strides, far)[:, 0]
-    assert tested.values.min() - 0.02 <= ends[0] < ends[1] <= tested.values.max() + 0.02
-
-
-def test_corners_of_a_box_of_two_parameters_hold_strides_that_no_clip_has():
-    """Asked for anything in the box, degrees are off; drawn among the samples, a tenth of that."""
-    both = make_space(strides(), [0.2, 0.1], [-1.2, 0.6], [1.2, 1.1], parameters=("turn", "speed"))
-    random = np.random.default_rng(2)
-    anywhere = random.uniform(both.low, both.high, (200, 2))
-    among = draw_parameters(both, 200, random)
-    off = [np.abs(measure_mixes(both.strides, both.weights(a)) - a)[:, 0] for a in (anywhere, among)]
-    assert np.degrees(off[0].max()) > 10 and off[0].mean() > 4 * off[1].mean()
-
-
-def test_a_change_of_two_degrees_changes_the_clip_by_millimetres():
-    """Where windows are compared: a bell's space, a narrow bell's, and raw strides, the nearest few."""
-    smooth, changes = space(), []
-    raw = StrideSpace(
-        smooth.strides, ("turn",), smooth.strides.values[:, :1], np.eye(98), smooth.low, smooth.high
-    )
-    asked = np.linspace(-1.1, 1.1, 60)[:, None]
-    for tested in (smooth, raw):
-        one, other = (near_strike(tested, a, 0.0)[0] for a in (asked, asked + np.radians(2)))
-        changes.append(100 * np.median(np.sqrt(((one - other) ** 2).sum(axis=-1).mean(axis=(1, 2)))))
-    assert changes[0] < 0.4 and changes[1] > 1.2 > 4 * changes[0]
+    with pytest.warns(MocapWarning, match="of 7 strides are near a speed of 1"):
+        make_space(cut_strides([clips()[3]]), 0.02, 1.0, 1.2, parameters=("speed",))

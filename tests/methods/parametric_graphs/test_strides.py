@@ -11,7 +11,8 @@ from mocap.body.planar import place
 from mocap.body.rotations import multiply
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
-from mocap.methods.parametric_graphs.strides import MARGIN, cut_strides, mixed_way
+from mocap.methods.parametric_graphs import cut_strides, mixed_way
+from mocap.methods.parametric_graphs.examples import MARGIN
 from tests.methods.parametric_graphs.built import clips, strides
 
 

@@ -1,4 +1,4 @@
-"""Strides made out of mixes, frame by frame, and where to leave one and enter another [HG07, 3.1].
+"""Motions made out of mixes, frame by frame, and where to leave one and enter another [HG07, 3.1].
 
 All pairs of 50 × 1000 generated clips are compared at once. With windows flattened to one vector each,
 centred over the ground, D of [KGP02, Eq. 1] is S + S' - 2 Σ y y' - 2 |Σ g g'*|: two products of matrices, as
@@ -11,29 +11,28 @@ from typing import NamedTuple
 import numpy as np
 
 from mocap._shared.arrays import Array, Mask, Points
-from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace, measure_mixes, neighbours
-from mocap.methods.parametric_graphs.strides import mixed_way
+from mocap.methods.match_webs.wishes import shares_for, weights_for
+from mocap.methods.parametric_graphs.stride_spaces import Space
 
 HALF = 5  # a window is 11 frames, a third of a second at 30 Hz, about its centre
 WINDOW = 2 * HALF + 1
-SPAN = 3  # frames around a strike at which a transition may be centred
+SPAN = 3  # frames around an end at which a transition may be centred
 ROWS = 8  # sources compared in one product
 
 
 @dataclass(frozen=True, eq=False)
-class MadeStride:
-    """A stride of F frames, margins and all, which starts at the origin; `make_stride` shows an example.
+class MadeMotion:
+    """A motion of F frames, margins and all, which starts at the origin; `make_motion` shows an example.
 
     Parameters
     ----------
     motion : F frames, with contacts.
     phases : shape (F,).
     heading : shape (F,), how the body faces.
-    values : shape (2,), the turn in radians and the speed in m/s that it comes to.
+    values : shape (d,), what the samples of its space say that it comes to.
     """
 
     motion: Motion
@@ -46,45 +45,12 @@ class MadeStride:
         return int(np.abs(self.phases - phase).argmin())
 
 
-def mixed_frames(space: StrideSpace, asked: Array, phases: Array) -> tuple[Array, Array, Array, Array]:
-    """Make M strides at F phases each: roots (M, F, 3), rotations (M, F, J, 4), headings (M, F), and values.
-
-    The pose is a normalised sum of quaternions of one sign; heights are sums; the root's velocities are mixed
-    as the body sees them [ours], and integrated.
+def make_motion(space: Space, asked: Array) -> MadeMotion:
+    """Make the motion that a space has for some parameters, at the rate of its clips.
 
     Parameters
     ----------
-    space : of strides.
-    asked : shape (M, d), parameters.
-    phases : shape (M, F).
-    """
-    strides, weights = space.strides, space.weights(asked)
-    near, shares = neighbours(asked, space.values, space.scale)
-    ground, facing = mixed_way(strides, weights)
-    values = measure_mixes(strides, weights, (ground, facing))
-    place = (phases - strides.grid[0]) / (strides.grid[1] - strides.grid[0])
-    low = np.clip(place.astype(int), 0, len(strides.grid) - 2)
-    share, row = place - low, np.arange(len(weights))[:, None]
-    ground, facing, heights = (
-        part[row, low] * (1 - share) + part[row, low + 1] * share
-        for part in (ground, facing, weights @ strides.heights)
-    )
-    turns = np.zeros((*low.shape, *strides.poses.shape[2:]))
-    for k in range(near.shape[1]):
-        for step, amount in ((0, 1 - share), (1, share)):
-            mixed = space.sampled_poses[near[:, k, None], low + step]
-            turns += (shares[:, k, None] * amount)[..., None, None] * mixed
-    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
-    turns[:, :, 0] = rotations.multiply(rotations.about_y(facing), turns[:, :, 0])
-    return np.stack([ground.imag, heights, ground.real], axis=-1), turns, facing, values
-
-
-def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
-    """Make the stride that a space has for some parameters, at the rate of its clips.
-
-    Parameters
-    ----------
-    space : of strides.
+    space : of examples on a grid.
     asked : shape (d,), parameters.
 
     Examples
@@ -93,22 +59,20 @@ def make_stride(space: StrideSpace, asked: Array) -> MadeStride:
     >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
     >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
-    >>> made = make_stride(make_space(strides, 0.4, -0.8, 0.8), np.array([0.5]))
+    >>> made = make_motion(make_space(strides, 0.4, -0.8, 0.8), np.array([0.5]))
     >>> float((made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]).round(1))
     0.5
     """
-    strides, weights = space.strides, space.weights(asked)
-    seconds = (weights @ strides.seconds)[0]
-    times = (
-        np.arange(np.ceil(seconds[0] * strides.fps), np.floor(seconds[-1] * strides.fps) + 1) / strides.fps
-    )
-    phases = np.interp(times, seconds, strides.grid)
-    (roots,), (turns,), (facing,), (values,) = mixed_frames(space, asked[None], phases[None])
-    near = np.abs(strides.grid - phases[:, None]).argmin(axis=1)
-    contacts: Mask = np.tensordot(weights[0], strides.contacts[:, near], 1) > 0.5
-    marks = dict(zip(strides.contact_names, contacts.T, strict=True))
-    motion = Motion(strides.skeleton, roots, turns, strides.fps, "stride", contacts=marks)
-    return MadeStride(motion, phases, facing, values)
+    examples, (near,), (shares,) = space.examples, *shares_for(space, asked[None])
+    weights, values = (shares @ part[near] for part in (space.weights, space.values))
+    seconds, rate = weights @ examples.seconds, examples.fps
+    times = np.arange(np.ceil(seconds[0] * rate), np.floor(seconds[-1] * rate) + 1) / rate
+    places = np.interp(times, seconds, np.arange(len(seconds)))
+    (roots,), (turns,), (facing,) = examples.mixed(weights[None], places[None])
+    contacts: Mask = np.tensordot(weights, examples.contacts[:, np.rint(places).astype(int)], 1) > 0.5
+    marks = dict(zip(examples.contact_names, contacts.T, strict=True))
+    motion = Motion(examples.skeleton, roots, turns, rate, "made", contacts=marks)
+    return MadeMotion(motion, np.interp(times, seconds, examples.grid), facing, values)
 
 
 class OptimalTransitions(NamedTuple):
@@ -119,14 +83,14 @@ class OptimalTransitions(NamedTuple):
     enter: Array
 
 
-def near_strike(space: StrideSpace, asked: Array, phase: float) -> tuple[Array, Array]:
-    """Generate clips only in the F frames around one of their strikes.
+def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
+    """Generate clips only in the F frames around where their action begins or ends.
 
     Parameters
     ----------
-    space : of strides.
+    space : of examples on a grid.
     asked : shape (M, d), parameters.
-    phase : of the strike: 0 or 1.
+    phase : 0 or 1.
 
     Returns
     -------
@@ -136,20 +100,23 @@ def near_strike(space: StrideSpace, asked: Array, phase: float) -> tuple[Array, 
     ------
     MocapError : for windows that run off the margins by more than a frame; they would hold the last frame.
     """
-    strides, rate, reach = space.strides, space.strides.fps, HALF + SPAN
-    seconds = space.weights(asked) @ strides.seconds
-    centre = np.array([round(np.interp(phase, strides.grid, clock) * rate) for clock in seconds])
+    examples, rate, reach = space.examples, space.examples.fps, HALF + SPAN
+    weights = weights_for(space, asked)
+    seconds = weights @ examples.seconds
+    centre = np.array([round(np.interp(phase, examples.grid, clock) * rate) for clock in seconds])
     times = (centre[:, None] + np.arange(-reach, reach + 1)) / rate
     off = np.maximum(seconds[:, 0] - times[:, 0], times[:, -1] - seconds[:, -1])
     if off.max() > 1 / rate:
         raise MocapError(
-            f"A window runs {off.max():.2f} s off a stride of {np.ptp(seconds[off.argmax()]):.2f} s, margins "
-            "and all: cut strides with a larger margin, or leave quick ones out."
+            f"A window runs {off.max():.2f} s off a motion of {np.ptp(seconds[off.argmax()]):.2f} s, margins "
+            "and all: cut with a larger margin, or leave quick ones out."
         )
-    phases = np.array([np.interp(t, clock, strides.grid) for t, clock in zip(times, seconds, strict=True)])
-    roots, turns, *_ = mixed_frames(space, asked, phases)
-    motion = Motion(strides.skeleton, roots.reshape(-1, 3), turns.reshape(-1, *turns.shape[2:]), rate)
-    return joint_positions(motion)[:, strides.joints].reshape(*phases.shape, -1, 3), phases
+    every = np.arange(len(examples.grid))
+    places = np.array([np.interp(t, clock, every) for t, clock in zip(times, seconds, strict=True)])
+    roots, turns, _ = examples.mixed(weights, places)
+    motion = Motion(examples.skeleton, roots.reshape(-1, 3), turns.reshape(-1, *turns.shape[2:]), rate)
+    points = joint_positions(motion)[:, examples.joints].reshape(*places.shape, -1, 3)
+    return points, np.interp(places, every, examples.grid)
 
 
 def _windows(points: Array) -> tuple[Points, Array, Array]:
@@ -162,10 +129,11 @@ def _windows(points: Array) -> tuple[Points, Array, Array]:
     return ground, cloud[..., 1], (np.abs(ground) ** 2).sum(axis=-1)
 
 
-def optimal_transitions(source: StrideSpace, target: StrideSpace, at: Array, to: Array) -> OptimalTransitions:
+def optimal_transitions(source: Space, target: Space, at: Array, to: Array) -> OptimalTransitions:
     """Find for each pair of clips the windows that are nearest [HG07, 3.1].
 
-    Windows of 11 frames, centred up to 3 frames from the source's last strike and the target's first.
+    Windows of 11 frames, centred up to 3 frames from the source's end (the last strike of a stride) and the
+    target's beginning.
 
     Parameters
     ----------
@@ -185,7 +153,7 @@ def optimal_transitions(source: StrideSpace, target: StrideSpace, at: Array, to:
 
     Notebook: 17-parametric-graphs
     """
-    (points, leaving), (others, entering) = near_strike(source, at, 1.0), near_strike(target, to, 0.0)
+    (points, leaving), (others, entering) = near_end(source, at, 1.0), near_end(target, to, 0.0)
     first, second = _windows(points), _windows(others)
     level = first[1].mean(axis=0)  # heights from here are small enough for 32 bits
     a, b = (

@@ -8,12 +8,13 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import distance_grid
-from mocap.methods.parametric_graphs.made_strides import (
+from mocap.methods.match_webs import weights_for
+from mocap.methods.parametric_graphs.made_motions import (
     HALF,
     SPAN,
     WINDOW,
-    make_stride,
-    near_strike,
+    make_motion,
+    near_end,
     optimal_transitions,
 )
 from mocap.methods.parametric_graphs.stride_spaces import make_space, measure_mixes
@@ -23,7 +24,7 @@ from tests.methods.parametric_graphs.built import space
 
 def test_it_turns_as_asked_and_its_bones_are_whole():
     for asked in (-0.9, 0.0, 0.6):
-        made = make_stride(space(), np.array([asked]))
+        made = make_motion(space(), np.array([asked]))
         turn = made.heading[made.frame(1.0)] - made.heading[made.frame(0.0)]
         assert abs(turn - asked) < np.radians(3)  # frames beside phases
         motion = made.motion
@@ -34,7 +35,7 @@ def test_it_turns_as_asked_and_its_bones_are_whole():
 
 
 def test_feet_hardly_slide_while_they_are_planted():
-    made = make_stride(space(), np.array([0.3]))
+    made = make_motion(space(), np.array([0.3]))
     points, skeleton = joint_positions(made.motion), made.motion.skeleton
     for name, mark in made.motion.contacts.items():
         planted = points[mark, skeleton.index(name)][:, [0, 2]]
@@ -44,17 +45,13 @@ def test_feet_hardly_slide_while_they_are_planted():
 
 
 def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
-    """Mixes of sampled mixes, kept in single precision, against the weights of all strides."""
     tested, asked = space(), np.array([0.4])
-    strides, made = tested.strides, make_stride(tested, asked)
-    weights = tested.weights(asked)
-    np.testing.assert_allclose(made.values, measure_mixes(strides, weights)[0], atol=1e-12)
-    poses = np.tensordot(weights[0], strides.poses, 1)
-    poses /= np.linalg.norm(poses, axis=-1, keepdims=True)
-    frame = made.frame(0.0)
-    at = int(np.abs(strides.grid - made.phases[frame]).argmin())
-    near = np.abs(made.motion.rotations[frame, 1:] - poses[at - 1 : at + 2, 1:]).min(axis=0)
-    assert near.max() < 0.02
+    made, weights = make_motion(tested, asked), weights_for(tested, asked)
+    assert made.values == pytest.approx(asked, abs=1e-6)
+    assert measure_mixes(tested.examples, weights[None])[0, 0] == pytest.approx(0.4, abs=2e-3)
+    frame, blend = made.frame(0.0), tested.examples.blend(weights)
+    assert np.abs(made.motion.rotations[frame] - blend.rotations[0]).max() < 0.02
+    assert blend.duration == pytest.approx((made.frame(1.0) - frame) / 30, abs=0.04)
 
 
 @pytest.mark.parametrize(("source", "target"), [("lrl", "lrl"), ("lr", "rl")])
@@ -63,10 +60,10 @@ def test_costs_are_those_of_a_distance_grid(source, target):
     at, to = np.array([[-0.2], [0.0], [0.3]]), np.array([[0.1], [-0.4]])
     found = optimal_transitions(first, second, at, to)
     for row, asked in enumerate(at):
-        one = make_stride(first, asked)
+        one = make_motion(first, asked)
         centre = int(np.round(np.interp(1.0, one.phases, np.arange(len(one.phases)))))
         for column, other in enumerate(to):
-            two = make_stride(second, other)
+            two = make_motion(second, other)
             into = int(np.round(np.interp(0.0, two.phases, np.arange(len(two.phases)))))
             some = [
                 made.motion[c - HALF - SPAN : c + HALF + SPAN + 1] for made, c in ((one, centre), (two, into))
@@ -83,12 +80,12 @@ def test_it_leaves_near_the_last_strike_and_enters_near_the_first():
 
 def test_only_the_frames_near_a_strike_are_made():
     tested = space()
-    points, phases = near_strike(tested, np.array([[0.2]]), 0.0)
-    made = make_stride(tested, np.array([0.2]))
+    points, phases = near_end(tested, np.array([[0.2]]), 0.0)
+    made = make_motion(tested, np.array([0.2]))
     frames = 2 * (HALF + SPAN) + 1
     assert points.shape[:2] == phases.shape == (1, frames)
     middle = made.frame(phases[0, HALF + SPAN])
-    window = joint_positions(made.motion[middle - HALF : middle + HALF + 1])[:, tested.strides.joints]
+    window = joint_positions(made.motion[middle - HALF : middle + HALF + 1])[:, tested.examples.joints]
     np.testing.assert_allclose(points[0, SPAN:-SPAN], window, atol=2e-3)
 
 
@@ -98,6 +95,6 @@ def test_windows_that_run_off_the_margins_of_quick_strides_are_refused():
         resample(generate_walk([[0, 0], [side, 6], [5 * side, 12]], style="jog"), 30) for side in (-2, 0, 2)
     ]
     tight, wide = (make_space(cut_strides(jogs, margin=m), 0.2, -0.3, 0.3) for m in (0.3, 0.5))
-    with pytest.raises(MocapError, match=r"A window runs 0.\d+ s off a stride of 1.\d+ s, margins and all"):
-        near_strike(tight, np.zeros((1, 1)), 1.0)
-    assert np.ptp(near_strike(wide, np.zeros((1, 1)), 1.0)[1]) > 0.6
+    with pytest.raises(MocapError, match=r"A window runs 0.\d+ s off a motion of 1.\d+ s, margins and all"):
+        near_end(tight, np.zeros((1, 1)), 1.0)
+    assert np.ptp(near_end(wide, np.zeros((1, 1)), 1.0)[1]) > 0.6
