@@ -22,13 +22,11 @@ from mocap.methods.groups import group_files
 from mocap.methods.groups.flocking import Configuration
 from mocap.methods.groups.group_clips import Drawn, GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph, play_group, random_group_walk
-from mocap.methods.match_webs import webs
-from mocap.methods.parametric_graphs import parametric_files
+from mocap.methods.match_webs import MotionSpace, webs
+from mocap.methods.parametric_graphs import Examples, parametric_files
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
-from mocap.methods.parametric_graphs.stride_spaces import StrideSpace
-from mocap.methods.parametric_graphs.strides import Strides
 from tests.conftest import SWEEP
 from tests.files.test_fuzz import short
 from tests.strategies import random_motion, wave
@@ -64,12 +62,12 @@ def save_parametric(path, size=1):
     body, grid, count = CLIPS[0].skeleton, np.arange(-5, 26) / 20, 4 + 500 * (size - 1)
     phases = np.ones((count, len(grid)))
     poses = np.tile([1.0, 0, 0, 0], (*phases.shape, len(body), 1))
-    strides = Strides(
+    examples = Examples(
         body, 30.0, grid, phases * grid, 1j * phases, 0.1 * phases, phases, poses,
         np.ones((*phases.shape, 1), bool), body.names[-1:], np.ones((count, 2)),
     )  # fmt: skip
-    values, ends = np.linspace(-1, 1, 6)[:, None], (np.array([-1.0]), np.array([1.0]))
-    space = StrideSpace(strides, ("turn",), values, np.full((6, count), 1 / count), *ends)
+    values = np.linspace(-1, 1, 6)[:, None]
+    space = MotionSpace(examples, np.full((6, count), 1 / count), values, np.ones(1), ("turn",))
     edge = ParametricEdge(values, values - 1, values + 1, np.ones(6), np.zeros(6), np.ones(1), 0.02)
     graph = nx.DiGraph([("walk", "walk", {"edge": edge})])
     graph.add_node("walk", space=space)

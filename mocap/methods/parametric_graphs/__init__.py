@@ -38,7 +38,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "made_motions": ["make_motion", "optimal_transitions"],
         "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
         "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
-        "kinds_of_strides": ["build_kinds", "changing_strides", "on_the_spot"],
+        "kinds_of_strides": ["build_kinds", "changing_strides"],
         "parametric_files": ["load_parametric", "save_parametric"],
         "parametric_control": ["ParametricController"],
     },

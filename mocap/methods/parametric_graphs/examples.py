@@ -149,8 +149,8 @@ def on_one_clock(found: Sequence[tuple[Motion, Array]], grid: Array) -> list[tup
     inner = np.clip(clock, 0, parts[middle].duration)
     times = register(parts, reference=middle, slack=0.0).times
     rows = []
-    for (clip, _), (first, _), own, part in zip(found, ends, times, parts, strict=True):
-        warped = np.maximum.accumulate(np.clip(own(inner), 0, part.duration)) + clock - inner
+    for (clip, _), (first, _), own in zip(found, ends, times, strict=True):
+        warped = own(inner) + clock - inner
         rows.append((clip, np.clip(first + warped * clip.fps, 0, len(clip) - 1)))
     return rows
 

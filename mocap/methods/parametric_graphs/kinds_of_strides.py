@@ -27,7 +27,6 @@ BOTH = np.radians(10)  # per stride: who turns less to one side does not obey th
 FROM, TO = 0.2, 0.8  # phases between which a change takes place
 NEAR = np.radians(5)  # a turn that the other kind nearly has
 EXAMPLES = 60  # of a change, at most
-SLOW, TURNS = 0.35, np.radians(30)  # m/s and radians per stride, of turns on the spot
 
 
 def build_kinds(
@@ -98,42 +97,6 @@ def build_kinds(
     spaces = {name: _space(name, some, widest, warn=name in kinds) for name, some in strides.items()}
     good = _least(spaces, edges, sampling) if good is None else good
     return build_parametric(spaces, edges, good=good, sampling=sampling)
-
-
-def on_the_spot(strides: Examples, *, slow: float = SLOW, turns: float = TURNS) -> Examples:
-    """Take the strides that turn on the spot: a kind of its own, where clips have it [ours].
-
-    Parameters
-    ----------
-    strides : of all kinds.
-    slow : metres per second, that they go at most.
-    turns : radians that they turn at least, to either side.
-
-    Raises
-    ------
-    MocapError : where there are none, with the nearest that there is.
-
-    Examples
-    --------
-    >>> from mocap.body import resample
-    >>> from mocap.datasets.samples import sample
-    >>> strides = cut_strides([resample(sample("walk_circle"), 30)])
-    >>> len(strides), len(on_the_spot(strides, slow=0.8))
-    (30, 11)
-
-    Notebook: 17-parametric-graphs
-    """
-    angles, speeds = np.abs(strides.values[:, 0]), strides.values[:, 1]
-    if ((angles >= turns) & (speeds <= slow)).any():
-        return strides.take((angles >= turns) & (speeds <= slow))
-    turning = speeds[angles >= turns]
-    nearest = (
-        f"the slowest that turns goes at {turning.min():.2f} m/s" if len(turning) else "none turns so far"
-    )
-    raise MocapError(
-        f"None of {len(strides)} strides turns on the spot, by {np.degrees(turns):.0f}° or more at {slow:g} "
-        f"m/s at most; {nearest}: add clips of such turns."
-    )
 
 
 def _space(name: str, strides: Examples, widest: float, *, warn: bool) -> Space:
@@ -277,4 +240,5 @@ def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, 
 
 def _spread(turns: Array) -> Indices:
     """Choose examples that are spread evenly in the order of their turns."""
-    return np.argsort(turns)[np.unique(np.linspace(0, len(turns) - 1, EXAMPLES).round().astype(int))]
+    places = np.unique(np.linspace(0, len(turns) - 1, EXAMPLES).round().astype(int))
+    return np.asarray(np.argsort(turns)[places])

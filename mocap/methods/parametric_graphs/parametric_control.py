@@ -101,6 +101,13 @@ class ParametricController:
         return self.graph.fps
 
     @property
+    def end(self) -> PlanarTransform:
+        """Where and how the body stands when the motion that plays is over, to aim from there."""
+        at = self.made.frame(1.0)
+        x, _, z = self.made.motion.root_positions[at]
+        return self.place @ PlanarTransform(float(self.made.heading[at]), x, z)
+
+    @property
     def frames_left(self) -> int:
         """The frames until the next decision."""
         return len(self._frames) - self._next
@@ -158,7 +165,7 @@ class ParametricController:
     def _choose(self, heading: float, speed: float, label: str) -> None:
         """Choose the next motion, make it, and blend into it."""
         node = self._towards(label, heading, speed)
-        space, way, place = self.graph.space(node), self.way[node], self._end()
+        space, way, place = self.graph.space(node), self.way[node], self.end
         taken = np.full(len(way.low), np.inf)
         for number in range(1 if set(space.parameters) <= set(PARAMETERS) else ROUNDS):
             wished = self._wish(space, place, heading, speed)
@@ -182,12 +189,6 @@ class ParametricController:
         self.node, self.parameters, self.made, self.place = node, taken, made, place
         mixed = blend(old, self.place.apply_motion(parts[1]), cubic_weights(WINDOW))
         self._play([*rest, mixed], WINDOW, into + HALF + 1)
-
-    def _end(self) -> PlanarTransform:
-        """Say where and how the body stands when the motion that plays is over."""
-        at = self.made.frame(1.0)
-        x, _, z = self.made.motion.root_positions[at]
-        return self.place @ PlanarTransform(float(self.made.heading[at]), x, z)
 
     def _wish(self, space: Space, start: PlanarTransform, heading: float, speed: float) -> Array:
         """Say which parameters would obey, for a body that stands at `start`: nan for what is not asked."""
@@ -218,7 +219,7 @@ class ParametricController:
     def _missed(self, node: str, heading: float, speed: float) -> float:
         """Measure how far the best of a box is from the wish, in radians and m/s together."""
         space, way = self.graph.space(node), self.way[node]
-        wished = self._wish(space, self._end(), heading, speed)
+        wished = self._wish(space, self.end, heading, speed)
         off = dict(zip(space.parameters, np.abs(wished - np.clip(wished, way.low, way.high)), strict=True))
         usual = np.abs(np.median(space.examples.values[:, 1]) - speed)
         return float(off.get("turn", 0.0) + off.get("speed", usual))

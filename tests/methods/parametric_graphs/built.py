@@ -2,14 +2,22 @@
 
 from dataclasses import replace
 from functools import cache, partial
+from typing import NamedTuple
 
 import numpy as np
 
-from mocap.body import rotations
-from mocap.body.motion import resample
+from mocap.body import joint_positions, rotations
+from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
-from mocap.methods.match_webs import hand_target, sample_space, weights_for
-from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
+from mocap.methods.match_webs import hand_target, random_weights, sample_space, weights_for
+from mocap.methods.parametric_graphs import (
+    ParametricController,
+    Sampling,
+    build_parametric,
+    cut_actions,
+    cut_strides,
+    make_space,
+)
 from mocap.methods.parametric_graphs.kinds_of_strides import changing_strides
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET
@@ -155,3 +163,53 @@ def acting():
     spaces = {"walk": space(), **of_hands(), "to_guard": make_space(to, np.radians(14), -1.0, 1.0)}
     spaces["from_guard"] = sample_space(back, HAND, parameters=TARGET)
     return build_parametric(spaces, [tuple(edge.split()) for edge in EDGES], good=0.08, sampling=SMALL)
+
+
+class Acted(NamedTuple):
+    """What a character did, its decisions, and when the hand was to be where: frames (n,), places (n, 3)."""
+
+    motion: Motion
+    chosen: list
+    frames: np.ndarray
+    places: np.ndarray
+
+    def missed(self, motion):
+        """Measure how far the hand is from its places, metres, (n,)."""
+        hands = joint_positions(motion.at(self.frames))[:, motion.skeleton.index("rhand")]
+        return np.linalg.norm(hands - self.places, axis=1)
+
+
+def act(graph, node, count, seed=1):
+    """Walk three strides, then bring the hand to a place of the world that blends of examples reach; again.
+
+    Places lie in the box, seen from where the body stands when what plays is over.
+    """
+    random, character, space = (
+        np.random.default_rng(seed),
+        ParametricController(graph, start="walk"),
+        graph.space(node),
+    )
+    rows = random_weights(space.values[: len(space.examples)], 200, spread=0, seed=seed)
+    reached = np.array([HAND(space.examples.blend(row)) for row in rows])
+    poses, found, heading = [], [], 0.0
+    while len(found) < count or character.frames_left:
+        walked = len(character.chosen) - max((n for n, *_ in found), default=0)
+        wants = walked >= 5 and len(found) < count
+        decides = not character.frames_left
+        if decides and wants and node in character.way:
+            way = character.way[node]
+            inside = reached[((reached >= way.low) & (reached <= way.high)).all(axis=1)]
+            character.aim(character.end.apply_points(inside[random.integers(len(inside))]))
+        first = len(poses)
+        poses.append(character.step(heading, 0.8, node if wants else "walk"))
+        if decides and character.node == node:
+            made = character.made
+            frame = np.interp(0.5, made.phases, np.arange(len(made.phases)))
+            ahead = first + len(character._frames) - (character._at - frame)
+            found.append((len(character.chosen), ahead, character.target))
+            heading += random.uniform(-1, 1)
+    marks = {name: np.array([pose.contacts[name] for pose in poses]) for name in poses[0].contacts}
+    roots, turns = (np.array([getattr(p, part) for p in poses]) for part in ("root_position", "rotations"))
+    motion = Motion(character.skeleton, roots, turns, character.fps, node, contacts=marks)
+    _, frames, places = zip(*found, strict=True)
+    return Acted(motion, character.chosen, np.array(frames), np.array(places))

@@ -10,16 +10,12 @@ from mocap.body import arcs
 from mocap.body.motion import resample
 from mocap.datasets import samples
 from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
-from mocap.feet.footplants import mark_plants
-from mocap.files.load_save import load
 from mocap.methods.parametric_graphs.kinds_of_strides import (
     _pairs,
     build_kinds,
     changing_strides,
-    on_the_spot,
 )
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.parametric_edges import Sampling
 from mocap.methods.parametric_graphs.strides import cut_strides
 from tests.methods.parametric_graphs.built import SMALL, clips, strides
 from tests.methods.parametric_graphs.kinds import cut
@@ -34,12 +30,9 @@ def named(name):
 def spins():
     """Turns on the spot: walks around circles of a few centimetres, to both sides."""
     circles = [(r, v, side) for r, v in SPIN for side in (1, -1)]
-    return cut_strides(
-        [
-            resample(generate_walk(arcs((0, 0), 0, [(6 * np.pi * r, 6 * np.pi * side)]).points, speed=v), 30)
-            for r, v, side in circles
-        ]
-    )
+    ways = [(arcs((0, 0), 0, [(6 * np.pi * r, 6 * np.pi * side)]).points, v) for r, v, side in circles]
+    cut = cut_strides([resample(generate_walk(way, speed=speed), 30) for way, speed in ways])
+    return cut.take((np.abs(cut.values[:, 0]) >= np.radians(30)) & (cut.values[:, 1] <= 0.35))
 
 
 def test_walk_and_jog_of_the_bundled_clips_with_both_changes():
@@ -50,7 +43,7 @@ def test_walk_and_jog_of_the_bundled_clips_with_both_changes():
 
 
 def test_turns_on_the_spot_are_a_kind_where_clips_have_them():
-    spot = on_the_spot(spins())
+    spot = spins()
     assert len(spot) > 20 and np.ptp(np.sign(spot.values[:, 0])) == 2
     with pytest.warns(
         MocapWarning, match=r"Only \d of 78 strides are near a turn of -?\d+°"
@@ -64,15 +57,6 @@ def test_turns_on_the_spot_are_a_kind_where_clips_have_them():
     for frame in range(120):
         last = character.step(0.05 * frame, 0.2, "spot")
     assert np.linalg.norm(last.root_position - before) < 1  # 4 s of walking would be 3 m
-
-
-def test_where_clips_have_no_turns_on_the_spot_the_nearest_is_said():
-    with pytest.raises(
-        MocapError, match=r"None of \d+ strides turns on the spot.*that turns goes at 0.58 m/s"
-    ):
-        on_the_spot(strides())
-    with pytest.raises(MocapError, match="none turns so far: add clips of such turns"):
-        on_the_spot(cut_strides([clips()[3]]))
 
 
 def test_strides_may_be_given_and_a_threshold():
@@ -126,17 +110,6 @@ def test_a_kind_that_cannot_follow_itself_is_refused_with_what_would_help():
     needs = r"faster → faster needs T_GOOD = \d+.\d cm, more than 8: give `good`"
     with pytest.warns(MocapWarning), pytest.raises(NoWalk, match=needs):
         build_kinds({"faster": faster}, sampling=SMALL)
-
-
-@pytest.mark.sweep
-def test_the_homeworks_walker_turns_on_the_spot(real_data):
-    walks = [mark_plants(resample(load(path), 30)) for path in sorted((real_data / "hw3").glob("*.AMC"))]
-    spot = on_the_spot(cut_strides(walks))
-    assert len(spot) >= 5 and np.abs(spot.values[:, 0]).max() > 2
-    few = Sampling(sources=12, targets=120)
-    with pytest.warns(MocapWarning):
-        graph = build_kinds({"walk": walks, "spot": spot}, good=0.12, sampling=few)
-    assert len(graph.graph) == 4 and graph.graph.number_of_edges() == 6
 
 
 def test_it_starts_as_the_first_kind_and_ends_as_the_second():

@@ -10,7 +10,13 @@ from hypothesis.extra.numpy import arrays
 
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
-from mocap.methods.parametric_graphs.parametric_edges import BAD, Sampling, build_edge, shrink_box, smallest_good
+from mocap.methods.parametric_graphs.parametric_edges import (
+    BAD,
+    Sampling,
+    build_edge,
+    shrink_box,
+    smallest_good,
+)
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from tests.methods.parametric_graphs.built import SMALL, bad_ones, space, stepping, walking
 
