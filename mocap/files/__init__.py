@@ -19,9 +19,8 @@ Reading order (notebooks 01, 10)
 12. `rigid_bones`: rigid bones for files whose bones change length
 13. `bvh`: BVH files, read and written
 14. `amass`: the archives of AMASS, for the 22 joints of the SMPL body
-15. `gltf_binary`: the container, and the arrays in it
-16. `gltf_capsules`: a body for a viewer to show, rigid pieces around the bones
-17. `gltf`: joints, skin and animation, and the file
+15. `gltf_capsules`: a body for a viewer to show, rigid pieces around the bones
+16. `gltf`: joints, skin and animation, and the file
 
 References
 ----------

@@ -1,26 +1,34 @@
 """A motion as a `.glb` file: a node for each joint, a skin, and an animation of rotations [GLTF21].
 
 The nodes stand at rest: no joint is turned, and the lowest is on the ground. The turns of joints that carry
-little are stored as shares of 32767 in 16 bits, as glTF allows: that moves no joint by more than 0.1 mm.
+little are stored as shares of 32767 in 16 bits, as glTF allows: that moves no joint by more than 0.1 mm. The
+file is a JSON text and a block of numbers [GLTF21, 4.4].
 """
 
 from __future__ import annotations
 
+import json
+import struct
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocap._shared.atomic import replacing
 from mocap.body import rotations
 from mocap.body.motion import Motion, turning
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError, shortened
-from mocap.files.gltf_binary import Block, to_glb
 from mocap.files.gltf_capsules import body, reaches, rest
 
+Record = dict[str, Any]
+
 CARRIED = 0.25  # metres: the turns of a joint that carries less are rounded to 16 bits
-VERTICES, CORNERS = 34962, 34963
+MOST = 2**32 - 1  # bytes: the header counts in 32 bits
+KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4", 16: "MAT4"}  # by how many numbers an element has
+NUMBERS = {"int16": 5122, "uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
+VERTICES, CORNERS = 34962, 34963  # what an array is for
 CLAY = {"baseColorFactor": [0.45, 0.55, 0.65, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}
 
 
@@ -62,21 +70,74 @@ def glb(motion: Motion) -> bytes:
         "materials": [{"name": "clay", "pbrMetallicRoughness": CLAY}],
         "meshes": [_mesh(skeleton, block)],
         "animations": [_animation(motion, block)],
+        "accessors": block.accessors,
+        "bufferViews": block.views,
+        "buffers": [{"byteLength": len(block.data)}],
     }
-    return to_glb(document, block)
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    size = 28 + len(text) + len(block.data)
+    if size > MOST:
+        raise MocapError(f"A .glb file holds {MOST / 1e9:.1f} GB at most, not {size / 1e9:.1f}: write .bvh.")
+    heads = struct.pack("<4sIII4s", b"glTF", 2, size, len(text), b"JSON"), (len(block.data), b"BIN\0")
+    return heads[0] + text + struct.pack("<I4s", *heads[1]) + block.data
 
 
-def _nodes(skeleton: Skeleton) -> list[dict[str, Any]]:
+class Block:
+    """The numbers of a file: each array that is added gets a view of the bytes, and an accessor.
+
+    Examples
+    --------
+    >>> block = Block()
+    >>> block.add(np.zeros((5, 3), np.float32)), block.add(np.arange(3, dtype=np.uint16))
+    (0, 1)
+    >>> block.accessors[1]
+    {'bufferView': 1, 'componentType': 5123, 'count': 3, 'type': 'SCALAR'}
+    """
+
+    def __init__(self) -> None:
+        self.accessors: list[Record] = []
+        self.views: list[Record] = []
+        self.data = bytearray()
+
+    def add(self, values: NDArray[Any], *, bounds: bool = False, target: int | None = None) -> int:
+        """Add an array, shape (N,) or (N, numbers), and give the index of its accessor.
+
+        Whole numbers with a sign stand for shares of their largest, and so do bytes ("normalised").
+
+        Parameters
+        ----------
+        values : of a type in `NUMBERS`.
+        bounds : whether to say the least and the largest, as glTF wants for places and times.
+        target : `VERTICES` for what belongs to vertices, `CORNERS` for the corners of triangles.
+        """
+        flat = values.reshape(len(values), -1)
+        accessor = {
+            "bufferView": len(self.views),
+            "componentType": NUMBERS[values.dtype.name],
+            "count": len(flat),
+            "type": KINDS[flat.shape[1]],
+        }
+        accessor |= {"normalized": True} if values.dtype in (np.int16, np.uint8) else {}
+        accessor |= {"min": flat.min(0).tolist(), "max": flat.max(0).tolist()} if bounds else {}
+        self.accessors.append(accessor)
+        place = {"buffer": 0, "byteOffset": len(self.data), "byteLength": values.nbytes}
+        self.views.append(place | ({"target": target} if target else {}))
+        self.data += values.tobytes() + b"\0" * (-values.nbytes % 4)
+        return len(self.views) - 1
+
+
+def _nodes(skeleton: Skeleton) -> list[Record]:
     places = skeleton.offsets.copy()
     places[0] = [0.0, -rest(skeleton)[:, 1].min(), 0.0]
-    nodes: list[dict[str, Any]] = []
+    nodes: list[Record] = []
     for joint, name in enumerate(skeleton.names):
-        node: dict[str, Any] = {"name": name, "translation": (places[joint] + 0.0).tolist()}
+        node: Record = {"name": name, "translation": (places[joint] + 0.0).tolist()}
         nodes.append(node | ({"children": below} if (below := skeleton.children(joint)) else {}))
     return nodes
 
 
-def _skin(skeleton: Skeleton, block: Block) -> dict[str, Any]:
+def _skin(skeleton: Skeleton, block: Block) -> Record:
     """Bind the body where the joints are at rest: each matrix moves a joint back to the origin."""
     matrices = np.tile(np.eye(4, dtype=np.float32), (len(skeleton), 1, 1))
     matrices[:, 3, :3] = -rest(skeleton)  # by columns
@@ -87,7 +148,7 @@ def _skin(skeleton: Skeleton, block: Block) -> dict[str, Any]:
     }
 
 
-def _mesh(skeleton: Skeleton, block: Block) -> dict[str, Any]:
+def _mesh(skeleton: Skeleton, block: Block) -> Record:
     shape = body(skeleton)
     counted = np.uint16 if len(shape.places) < 2**16 - 1 else np.uint32  # the largest number is kept free
     carried = np.zeros((len(shape.places), 4), np.uint16)
@@ -104,7 +165,7 @@ def _mesh(skeleton: Skeleton, block: Block) -> dict[str, Any]:
     return {"name": "body", "primitives": [{"attributes": attributes, "indices": corners, "material": 0}]}
 
 
-def _animation(motion: Motion, block: Block) -> dict[str, Any]:
+def _animation(motion: Motion, block: Block) -> Record:
     times = (np.arange(len(motion)) / motion.fps).astype(np.float32)
     if np.any(np.diff(times) <= 0):
         raise MocapError(
