@@ -115,7 +115,7 @@ def row(members: int) -> str:
         members,
         len(found.nodes),
         f"{found.covered:.0%}",
-        f"{graph.drawn.kept} of {graph.drawn.tried}",
+        f"{len(graph.clips)} of {graph.tried}",
     ]
     cells += [f"{1e3 * simulated / (SECONDS + 20):.2f}", f"{clustered:.2f}", f"{joined:.2f}", text]
     cells += [f"{1e3 * took / (len(played.places) / groups.RATE):.3f}", f"{assignment(members):.0f}"]

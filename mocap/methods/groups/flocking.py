@@ -19,8 +19,10 @@ RATE = 10.0  # frames per second
 SETTLE = 20.0  # seconds that are left out at the start
 APART = 0.6  # metres; members nearer than this collide
 MARGIN = 0.03  # metres, by which simulated members keep further apart
-DISC_FROM = 2.0  # metres from a disc at which a member begins to steer away
-DISC_FORCE = 3.0  # m/s² per metre
+WALL_FORCE = 3.0  # m/s² per metre too near to a wall
+BODY = 0.35  # metres that a member keeps from a wall
+HELD = 0.02  # metres by which a wall puts a member back, in each pass
+FREELY = 0.7  # share of a corridor's half in which no member minds the wall
 
 Disc = tuple[complex, float]
 """An obstacle: its centre on the ground and its radius, metres."""
@@ -98,7 +100,7 @@ def whims(shape: tuple[int, ...], rules: Flock, random: np.random.Generator) -> 
         yield np.asarray(np.exp(1j * direction) * np.clip(1 + mood, 0.6, 1.4))
 
 
-def steering_force(now: Trajectories, wish: Points, rules: Flock, discs: Sequence[Disc] = ()) -> Points:
+def steering_force(now: Trajectories, wish: Points, rules: Flock, besides: Points | float = 0.0) -> Points:
     """Work out each member's acceleration by the rules [Rey87], m/s².
 
     separate · Σ ê (space - d) / space over those nearer than `space`, gather · (mean place - p) and
@@ -109,7 +111,8 @@ def steering_force(now: Trajectories, wish: Points, rules: Flock, discs: Sequenc
     ----------
     now : places and velocities, (..., N); each leading axis holds other runs.
     wish : (..., N), direction times share of the pace.
-    rules, discs : the figures, and what to keep away from.
+    rules : the figures.
+    besides : (..., N), what else accelerates the members: discs, walls, or a place to reach.
     """
     places, velocities = now
     gap = places[..., :, None] - places[..., None, :]
@@ -120,18 +123,20 @@ def steering_force(now: Trajectories, wish: Points, rules: Flock, discs: Sequenc
     # Not by @, whose threads spin: at 96 members they take longer than the sums.
     middle = np.einsum("...ij,...j->...i", seen, places) / count - places
     alike = np.einsum("...ij,...j->...i", seen, velocities) / count - velocities
-    ahead = _unit(velocities)
+    ahead = unit(velocities)
     force = rules.separate * away + np.where(seen.any(-1), rules.gather * middle + rules.align * alike, 0)
-    force = force + rules.steer * (_unit(wish) - ahead)
+    force = force + rules.steer * (unit(wish) - ahead) + besides
     force = force + rules.keep * (np.abs(wish) * rules.pace - np.abs(velocities)) * ahead
-    for centre, radius in discs:
-        off = places - centre
-        force = force + DISC_FORCE * np.maximum(DISC_FROM - (np.abs(off) - radius), 0) * _unit(off)
     return np.asarray(force * np.minimum(1, rules.accelerate / np.maximum(np.abs(force), 1e-9)))
 
 
-def advance(now: Trajectories, wish: Points, rules: Flock, discs: Sequence[Disc] = ()) -> Trajectories:
+def advance(
+    now: Trajectories, wish: Points, rules: Flock, besides: Points | float = 0.0, room: float = np.inf
+) -> Trajectories:
     """Go on by one frame; those who come too near are put apart, half each, in three passes [ours].
+
+    Who is further than `room` from the line x = 0 is put back to it by up to 2 cm a pass: harder, and the
+    members would be jerked.
 
     Examples
     --------
@@ -139,12 +144,14 @@ def advance(now: Trajectories, wish: Points, rules: Flock, discs: Sequence[Disc]
     >>> advance(still, np.ones(2, complex), Flock(whim=0)).places.real.round(2)
     array([0.1, 0.1])
     """
-    velocities = now.velocities + steering_force(now, wish, rules, discs) / RATE
+    velocities = now.velocities + steering_force(now, wish, rules, besides) / RATE
     speeds = np.abs(velocities)
     velocities = velocities * np.clip(speeds, rules.slowest, rules.fastest) / np.maximum(speeds, 1e-9)
     places = now.places + velocities / RATE
     for _ in range(3):
         places = places + push_apart(places, APART + MARGIN)
+        beyond = places.imag - np.clip(places.imag, -room, room)
+        places = places - 1j * np.clip(beyond, -HELD, HELD)
     return Trajectories(places, (places - now.places) * RATE)
 
 
@@ -161,25 +168,32 @@ def push_apart(places: Points, apart: float) -> Points:
     return np.asarray(np.where(far < apart, gap / far * (apart - far) / 2, 0).sum(-1))
 
 
-def simulate(count: int, seconds: float, *, rules: Flock | None = None, seed: int = 0) -> Trajectories:
-    """Let a flock wander over open ground [LCF05, simulation].
+def simulate(
+    count: int, seconds: float, *, corridor: float = np.inf, rules: Flock | None = None, seed: int = 0
+) -> Trajectories:
+    """Let a flock wander over open ground, or walk along a corridor [LCF05, simulation].
 
     Parameters
     ----------
     count : members, from 2 on.
     seconds : how long, after 20 seconds that are left out.
+    corridor : metres between two walls, left and right of the line x = 0; there the group keeps to the line.
     rules : their figures.
     seed : of the start, the drifting heading of the group, and the whims.
 
     Raises
     ------
-    MocapError : for fewer than two members, a time that is not above 0, and figures below 0.
+    MocapError : for fewer than two members, a time that is not above 0, a corridor in which nobody can walk,
+        and figures below 0.
 
     Examples
     --------
     >>> flock = simulate(6, 30)
     >>> flock.places.shape, bool(nearest_two(flock.places).min() > APART)
     ((300, 6), True)
+    >>> narrow = simulate(6, 30, corridor=2.0)
+    >>> bool(np.ptp(narrow.places.imag, axis=1).mean() < 1.5)
+    True
 
     Notebook: 19-group-graphs
     """
@@ -187,15 +201,22 @@ def simulate(count: int, seconds: float, *, rules: Flock | None = None, seed: in
         raise MocapError(f"A group has two members or more, got {count}.")
     if not 0.5 / RATE < seconds < np.inf:
         raise MocapError(f"A flock is simulated for more than 0 seconds, got {seconds}.")
+    if not corridor > 2 * BODY + APART:
+        raise MocapError(f"A corridor is wider than {2 * BODY + APART:g} m, got {corridor} m.")
     count, rules, random = int(count), rules or Flock(), np.random.default_rng(seed)
     rules.check()
     start = random.normal(0, 1.5, (2, count))
     now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
     wishes, heading, bend, frames = whims((count,), rules, random), 0.0, 0.0, []
+    room, wall = corridor / 2 - BODY, np.zeros(count, complex)
     for _ in range(round((seconds + SETTLE) * RATE)):
         bend += -bend / 3.0 / RATE + np.sqrt(1 / RATE) * 0.25 * random.normal()
         heading += np.clip(bend, -0.5, 0.5) / RATE
-        now = advance(now, np.exp(1j * heading) * next(wishes), rules)
+        if room < np.inf:
+            beside = now.places.imag
+            heading = -0.3 * np.clip(beside.mean(), -1, 1)
+            wall = -1j * WALL_FORCE * (beside - np.clip(beside, -FREELY * room, FREELY * room))
+        now = advance(now, np.exp(1j * heading) * next(wishes), rules, wall, room)
         frames.append(now)
     return stacked(frames[round(SETTLE * RATE) :])
 
@@ -219,5 +240,6 @@ def nearest_two(places: Points) -> Array:
     return np.asarray(np.where(np.eye(places.shape[-1], dtype=bool), np.inf, gap).min(axis=(-2, -1)))
 
 
-def _unit(vectors: Points) -> Points:
+def unit(vectors: Points) -> Points:
+    """Say where vectors point: complex numbers of length 1, and 0 for 0."""
     return np.asarray(vectors / np.maximum(np.abs(vectors), 1e-9))

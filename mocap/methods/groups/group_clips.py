@@ -1,13 +1,14 @@
 """Clips of a whole group that lead from node to node, and end exactly there.
 
-From a node many runs are simulated, to bend by given angles. The run that ends most like a goal is bent so
-that it ends exactly there; then members that come too near are pushed apart. This stands for the constrained
-simulation of [LCF05], after [AMC03], whose texts we could not have: the steps are ours.
+From a node a run is simulated that turns by a given angle. A goal is laid where it is most like the run's
+end. Then the run is simulated once more, and each member is drawn to its place in the goal: a
+*constrained simulation*, as [LCF05] calls it. What is left is bent away, and members that come too near are
+pushed apart. How the papers do it ([AMC03], too) we could not read: the steps are ours.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
 
 import numpy as np
 
@@ -18,7 +19,6 @@ from mocap.methods.groups.flocking import (
     RATE,
     Configuration,
     Flock,
-    Trajectories,
     advance,
     nearest_two,
     push_apart,
@@ -27,7 +27,9 @@ from mocap.methods.groups.flocking import (
 )
 
 BENDS = (-1.2, -0.6, 0.0, 0.6, 1.2)  # radians
+SHIFTS = (-0.3, 0.0, 0.3)  # metres to the left, so that a way finds the middle of a gap
 SECONDS = 4.0  # of a clip: shorter ones must be bent harder
+PULL = 2.0  # m/s² per metre from where a member should be; damped so that it just does not swing
 HARDEST = 2.2  # m/s²; a clip with a larger acceleration is dropped
 ROUNDS = 60  # of pushing apart
 STILL = 2  # frames at either end that no push moves
@@ -45,7 +47,6 @@ class GroupClip:
     places, velocities : shape (F + 1, N), complex; the last frame is the end's, turned and moved.
     order : shape (N,): the member that starts in slot s ends in slot `order[s]`.
     turn, move : lay the end's configuration.
-    disc : a centre and a radius within which all members stay: the known bounds of [LCF05].
     """
 
     start: int
@@ -55,56 +56,53 @@ class GroupClip:
     order: Indices
     turn: complex
     move: complex
-    disc: tuple[complex, float]
 
-
-class Drawn(NamedTuple):
-    """How a set of clips came about: how many were tried, how many collide or are too hard, and by how much.
-
-    `bent` (T,): the RMS metres by which each end had to be bent; `collided` (T,) before and after pushing
-    apart: (T, 2); `hardest` (T,): the largest acceleration, m/s².
-    """
-
-    bent: Array
-    collided: Array
-    hardest: Array
-
-    @property
-    def tried(self) -> int:
-        """All clips that were made."""
-        return len(self.bent)
-
-    @property
-    def kept(self) -> int:
-        """Those without a collision or too hard an acceleration."""
-        return int((~self.collided[:, 1].astype(bool) & (self.hardest <= HARDEST)).sum())
+    @cached_property
+    def disc(self) -> tuple[complex, float]:
+        """A centre and a radius within which all members stay: the known bounds of [LCF05]."""
+        z, x = self.places.real, self.places.imag
+        centre = complex((z.min() + z.max()) / 2, (x.min() + x.max()) / 2)
+        return centre, float(np.abs(self.places - centre).max())
 
 
 def run_from(
-    node: Configuration, bend: float, runs: int, rules: Flock, random: np.random.Generator
-) -> Trajectories:
-    """Simulate runs of four seconds side by side that start at a node of N members and turn by `bend`.
+    starts: Configuration,
+    bends: Array,
+    rules: Flock,
+    random: np.random.Generator,
+    goals: Configuration | None = None,
+) -> Configuration:
+    """Simulate R runs of four seconds side by side, freely or drawn to goals.
 
     Parameters
     ----------
-    node : where all start.
-    bend : radians.
-    runs : how many, R.
+    starts : (R, N).
+    bends : (R,) radians by which each run turns.
     rules, random : as for `whims`.
+    goals : (R, N), where each member should be at the end, and how it should move then. From the middle of
+        the run on it is drawn by 2/s² (s - p) + 2 √2/s (v' - v) to the spot s where it would be by now if
+        it came there straight on at its last velocity v'. Then it keeps apart from others only where they
+        come nearer than 0.63 m, and does not flock [ours].
 
     Returns
     -------
     Places and velocities, shape (F + 1, R, N).
     """
-    now = Configuration(*(np.tile(part, (runs, 1)) for part in node))
-    wishes, frames, total = whims(now.places.shape, rules, random), [now], round(SECONDS * RATE)
+    wishes, frames, total = whims(starts.places.shape, rules, random), [starts], round(SECONDS * RATE)
+    if goals is not None:
+        rules = rules._replace(separate=0.0, gather=0.0, align=0.0)
+    pull: Points | float = 0.0
     for frame in range(total):
-        heading = bend * min(1.0, 1.6 * frame / total)
-        frames.append(advance(frames[-1], np.exp(1j * heading) * next(wishes), rules))
+        now, done = frames[-1], frame / total
+        if goals is not None:
+            spots = goals.places - (1 - done) * SECONDS * goals.velocities
+            pull = PULL * (spots - now.places) + 2 * np.sqrt(PULL) * (goals.velocities - now.velocities)
+        wish = np.exp(1j * bends * min(1.0, 1.6 * done))[:, None] * next(wishes)
+        frames.append(advance(now, wish, rules, min(1.0, 2 * done) * pull))
     return stacked(frames)
 
 
-def bend_to(run: Trajectories, goal: Configuration) -> Points:
+def bend_to(run: Configuration, goal: Configuration) -> Points:
     """Bend trajectories (F + 1, N) to end at a goal with its velocities; their start stays as it is.
 
     Added is a (3 s² - 2 s³) + b (s³ - s²), s = t / T: zero and level at the start. a and b are such that the
@@ -113,7 +111,7 @@ def bend_to(run: Trajectories, goal: Configuration) -> Points:
     Examples
     --------
     >>> places = np.linspace(0, 1, 11)[:, None] + 0j
-    >>> run = Trajectories(places, np.ones((11, 1), complex))
+    >>> run = Configuration(places, np.ones((11, 1), complex))
     >>> bend_to(run, Configuration(np.array([1 + 1j]), np.array([1 + 0j])))[[0, 10], 0]
     array([0.+0.j, 1.+1.j])
 
@@ -169,35 +167,39 @@ def accelerations(paths: Points) -> Array:
 
 
 def clips_from(
-    start: int, nodes: Sequence[Configuration], runs: Trajectories
-) -> list[tuple[GroupClip, tuple[float, bool, bool, float]]]:
-    """Make a clip to each node out of the run that ends most like it [LCF05, clips].
-
-    Parameters
-    ----------
-    start : the node that all runs leave.
-    nodes : the goals.
-    runs : shape (F + 1, R, N), as `run_from` gives them.
+    start: int,
+    nodes: Sequence[Configuration],
+    bends: Sequence[float],
+    rules: Flock,
+    random: np.random.Generator,
+) -> tuple[list[GroupClip], int]:
+    """Make clips from one node to each, for each bend and each shift aside [LCF05, clips].
 
     Returns
     -------
-    For each node a clip, and what `Drawn` says of it: bent, collided before, collided after, hardest.
+    The clips in which nobody comes nearer than 0.60 m or needs more than 2.2 m/s², and how many were made.
     """
-    ends = Configuration(*(part[-1] for part in runs))
-    made = []
-    for end, goal in enumerate(nodes):
-        match = compare(ends, goal, rounds=4)
-        best = int(match.rms.argmin())
-        order, turn, move = match.order[best], complex(match.turn[best]), complex(match.move[best])
-        there = Configuration(turn * goal.places[order] + move, turn * goal.velocities[order])
-        bent = bend_to(Trajectories(*(part[:, best] for part in runs)), there)
-        paths, free = part(bent)
-        velocities = np.gradient(paths, 1 / RATE, axis=0)
-        velocities[0], velocities[-1] = nodes[start].velocities, there.velocities
-        middle = paths.mean(axis=1)
-        reach = np.ptp(middle.real) / 2 + middle.real.min(), np.ptp(middle.imag) / 2 + middle.imag.min()
-        disc = complex(*reach), float(np.abs(paths - complex(*reach)).max())
-        clip = GroupClip(start, end, paths, velocities, order, turn, move, disc)
-        before = bool(nearest_two(bent).min() < APART)
-        made.append((clip, (float(match.rms[best]), before, not free, float(accelerations(paths).max()))))
-    return made
+    every = Configuration(*(np.array(part) for part in zip(*nodes, strict=True)))  # (K, N)
+
+    def copies(count: int) -> Configuration:
+        return Configuration(*(np.tile(part, (count, 1)) for part in nodes[start]))
+
+    angles = np.asarray(bends)
+    free = run_from(copies(len(angles)), angles, rules, random)
+    match = compare(Configuration(*(part[-1][:, None] for part in free)), every, rounds=4)  # (B, K)
+    rows, ends, shift = map(np.ravel, np.meshgrid(range(len(angles)), range(len(nodes)), SHIFTS))
+    order, turn, move = (part[rows, ends] for part in match[1:])
+    move = move + 1j * shift * turn
+    places, velocities = (turn[:, None] * np.take_along_axis(part[ends], order, axis=-1) for part in every)
+    goals = Configuration(places + move[:, None], velocities)
+    runs, clips = run_from(copies(len(rows)), angles[rows], rules, random, goals), []
+    for row, end in enumerate(ends.tolist()):
+        goal, run = (Configuration(*(part[..., row, :] for part in some)) for some in (goals, runs))
+        paths, apart = part(bend_to(run, goal))
+        if apart and accelerations(paths).max() <= HARDEST:
+            speeds = np.gradient(paths, 1 / RATE, axis=0)
+            speeds[0], speeds[-1] = nodes[start].velocities, goal.velocities
+            clips.append(
+                GroupClip(start, end, paths, speeds, order[row], complex(turn[row]), complex(move[row]))
+            )
+    return clips, len(rows)

@@ -10,24 +10,29 @@ import numpy as np
 from mocap._shared.arrays import Points
 from mocap.errors import MocapError, MocapWarning
 from mocap.methods.groups.configurations import cluster, seen_from_itself
-from mocap.methods.groups.flocking import Configuration, Flock, Trajectories, simulate
-from mocap.methods.groups.group_clips import BENDS, HARDEST, Drawn, GroupClip, clips_from, run_from
+from mocap.methods.groups.flocking import APART, Configuration, Flock, Trajectories, simulate
+from mocap.methods.groups.group_clips import BENDS, HARDEST, GroupClip, clips_from
+
+CORRIDORS = (2.5, 2.0, 1.7)  # metres from wall to wall
+COLUMN = 60.0  # seconds in each
 
 
 @dataclass(frozen=True, eq=False)
 class GroupGraph:
     """Configurations of N members as nodes, and clips that lead from one to another.
 
+    `tried` counts all clips that were made; those that nobody could walk are left out.
+
     Examples
     --------
-    >>> graph = build_group(4, nodes=3, simulated=60.0, reach=0.4)
+    >>> graph = build_group(4, nodes=3, corridors=(), simulated=60.0, reach=0.4)
     >>> graph.members, len(graph.nodes), {clip.start for clip in graph.clips} == {0, 1, 2}
     (4, 3, True)
     """
 
     nodes: tuple[Configuration, ...]
     clips: tuple[GroupClip, ...]
-    drawn: Drawn
+    tried: int
 
     @property
     def members(self) -> int:
@@ -73,17 +78,15 @@ def make_clips(
     *,
     rules: Flock | None = None,
     bends: Sequence[float] = BENDS,
-    seeds: int = 6,
     seed: int = 0,
 ) -> GroupGraph:
-    """Join nodes by clips of four seconds, one for each ordered pair and each bend [ours, after LCF05].
+    """Join nodes by clips of four seconds, for each ordered pair, bend and shift aside [ours, after LCF05].
 
     Parameters
     ----------
     nodes : configurations, each seen from itself.
     rules : of the simulation.
     bends : radians by which runs turn.
-    seeds : runs for each node and bend, among which each goal has its choice.
     seed : of their whims.
 
     Returns
@@ -92,8 +95,7 @@ def make_clips(
 
     Raises
     ------
-    MocapError : for a node that stands; where no clip is kept, with how many
-        collide and how many are too hard.
+    MocapError : for a node that stands, and where no clip is kept.
 
     Warns
     -----
@@ -105,31 +107,24 @@ def make_clips(
         seen_from_itself(node)  # refuses who stands
     rules, random = rules or Flock(), np.random.default_rng(seed)
     rules.check()
-    made = [
-        one
-        for start, node in enumerate(nodes)
-        for bend in bends
-        for one in clips_from(start, nodes, run_from(node, bend, seeds, rules, random))
-    ]
-    facts = zip(*(about for _, about in made), strict=True)
-    bent, before, after, hardest = (np.array(column) for column in facts)
-    drawn = Drawn(bent, np.stack([before, after], axis=-1), hardest)
-    clips = tuple(clip for clip, (_, _, collides, hard) in made if not collides and hard <= HARDEST)
+    made = [clips_from(start, nodes, bends, rules, random) for start in range(len(nodes))]
+    clips, tried = tuple(clip for kept, _ in made for clip in kept), sum(count for _, count in made)
     if not clips:
         raise MocapError(
-            f"None of {len(made)} clips can be kept: in {int(after.sum())} members collide, "
-            f"{int((hardest > HARDEST).sum())} need more than {HARDEST:g} m/s²."
+            f"None of {tried} clips can be kept: members come nearer than {APART:g} m, or need more than "
+            f"{HARDEST:g} m/s²."
         )
     if missing := len(nodes) ** 2 - len({(clip.start, clip.end) for clip in clips}):
         pairs = f"{missing} of {len(nodes) ** 2} pairs"
         warnings.warn(f"No clip joins {pairs} of nodes.", MocapWarning, stacklevel=2)
-    return GroupGraph(tuple(nodes), clips, drawn)
+    return GroupGraph(tuple(nodes), clips, tried)
 
 
 def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which rules)
     members: int,
     *,
     nodes: int = 8,
+    corridors: Sequence[float] = CORRIDORS,
     simulated: float = 300.0,
     reach: float = 0.5,
     rules: Flock | None = None,
@@ -137,11 +132,16 @@ def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which ru
 ) -> GroupGraph:
     """Build a group motion graph: simulate, cluster, and join the nodes by clips [LCF05, graph].
 
+    A group that only ever walked over open ground has no narrow node, and passes no gap narrower than
+    itself. So it also walks a minute through corridors; what comes again there are *columns*, as further
+    nodes [ours].
+
     Parameters
     ----------
     members : from 2 on.
-    nodes, reach : as for `cluster`.
-    simulated : seconds of flocking to take the nodes from.
+    nodes, reach : as for `cluster`, on open ground.
+    corridors : metres from wall to wall; one column or two come of each; none: the group stays wide.
+    simulated : seconds of flocking over open ground to take the nodes from.
     rules, seed : as for `simulate`.
 
     Raises
@@ -154,12 +154,15 @@ def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which ru
 
     Examples
     --------
-    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> sorted({(clip.start, clip.end) for clip in graph.clips})
     [(0, 0), (0, 1), (1, 0), (1, 1)]
     """
-    flock = simulate(members, simulated, rules=rules, seed=seed)
-    return make_clips(cluster(flock, nodes=nodes, reach=reach).nodes, rules=rules, seed=seed)
+    found = cluster(simulate(members, simulated, rules=rules, seed=seed), nodes=nodes, reach=reach).nodes
+    for width in corridors:
+        narrow = simulate(members, COLUMN, corridor=width, rules=rules, seed=seed)
+        found += cluster(narrow, nodes=2, reach=reach).nodes
+    return make_clips(found, rules=rules, seed=seed)
 
 
 def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: int = 0) -> list[int]:
@@ -167,7 +170,7 @@ def random_group_walk(graph: GroupGraph, clips: int, *, start: int = 0, seed: in
 
     Examples
     --------
-    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> len(random_group_walk(graph, 5))
     5
 
@@ -201,7 +204,7 @@ def play_group(graph: GroupGraph, walk: Sequence[int], start: Placed | None = No
 
     Examples
     --------
-    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> play_group(graph, random_group_walk(graph, 5)).places.shape
     (201, 3)
 

@@ -3,12 +3,17 @@
 On open ground this is all one needs. In a pocket of obstacles it stays for ever.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Points
 from mocap.errors import MocapError
-from mocap.methods.groups.flocking import RATE, Configuration, Flock, Trajectories, advance, stacked, whims
+from mocap.methods.groups.flocking import RATE, Configuration, Disc, Flock, advance, stacked, unit, whims
 from mocap.methods.groups.planning import Scene
+
+DISC_FROM = 2.0  # metres from a disc at which a member begins to steer away
+DISC_FORCE = 3.0  # m/s² per metre
 
 
 def steer_group(
@@ -18,7 +23,7 @@ def steer_group(
     rules: Flock | None = None,
     seed: int = 0,
     limit: float = 120.0,
-) -> tuple[Trajectories, int]:
+) -> tuple[Configuration, int]:
     """Simulate a flock that steers to each point in turn and away from discs [Rey87].
 
     Parameters
@@ -50,18 +55,36 @@ def steer_group(
     goal = 0
     while goal < len(scene.points) and len(frames) <= limit * RATE:
         ahead = scene.points[goal] - frames[-1].places.mean()
-        now = advance(frames[-1], np.exp(1j * np.angle(ahead)) * next(wishes), rules, scene.discs)
+        now = advance(
+            frames[-1],
+            np.exp(1j * np.angle(ahead)) * next(wishes),
+            rules,
+            away_from(scene.discs, frames[-1].places),
+        )
         frames.append(now)
         goal += bool(abs(now.places.mean() - scene.points[goal]) < scene.near)
     return stacked(frames), goal
 
 
-def clearances(flock: Trajectories, scene: Scene) -> Array:
+def away_from(discs: Sequence[Disc], places: Points) -> Points:
+    """Accelerate members (N,) away from discs nearer than 2 m, by 3 m/s² for each metre.
+
+    Examples
+    --------
+    >>> away_from([(1 + 0j, 0.5)], np.array([0j, 5j])).round(6)
+    array([-4.5+0.j,  0. +0.j])
+    """
+    off = places[:, None] - np.array([centre for centre, _ in discs], complex)
+    rim = np.abs(off) - np.array([radius for _, radius in discs])
+    return np.asarray((DISC_FORCE * np.maximum(DISC_FROM - rim, 0) * unit(off)).sum(axis=1))
+
+
+def clearances(flock: Configuration, scene: Scene) -> Array:
     """Measure how far the nearest member comes from each disc's rim, metres; below 0 inside it.
 
     Examples
     --------
-    >>> clearances(Trajectories(np.array([[0j, 3j]]), np.zeros((1, 2))), Scene((1j,), ((5j, 1.0),)))
+    >>> clearances(Configuration(np.array([[0j, 3j]]), np.zeros((1, 2))), Scene((1j,), ((5j, 1.0),)))
     array([1.])
 
     Notebook: 19-group-graphs

@@ -110,32 +110,33 @@ def walk_group(
 
     Notebook: 19-group-graphs
     """
-    if not flock.places.shape[-1]:
-        raise MocapError("A plan has one member or more, got none.")
-    if len(flock.places) <= RATE:
+    frames, members = flock.places.shape
+    if not members or frames <= RATE:
         raise MocapError(
-            f"A plan that is walked lasts a second or more, got {(len(flock.places) - 1) / RATE:g} s: "
-            "does it lead away from where the group starts?"
+            f"A plan that is walked has a member or more and lasts 1 s or more, got {members} and "
+            f"{max(frames - 1, 0) / RATE:g} s: does it lead away from where the group starts?"
         )
     source = graph.source if isinstance(graph, CompiledGraph) else graph
     marked = with_plants(source)
     compiled = compile_graph(graph if marked is source else marked)
-    walked = [_walk_one(compiled, places, bend=bend) for places in progress(list(flock.places.T))]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MocapWarning)  # what matters is said of all together
+        walked = [_walk_one(compiled, places, bend=bend) for places in progress(list(flock.places.T))]
     motions = tuple(motion for motion, _ in walked)
     kept = float(np.mean([share for _, share in walked]))
-    wanted = np.stack([_at_rate(places, compiled.fps) for places in flock.places.T], axis=-1)
     if kept < KEPT:
         warnings.warn(
             f"{1 - kept:.0%} of the planted frames were let go: these clips take other steps than the plan.",
             MocapWarning,
             stacklevel=2,
         )
+    seconds, clock = np.arange(len(motions[0])) / compiled.fps, np.arange(frames) / RATE
+    wanted = np.stack([np.interp(seconds, clock, places) for places in flock.places.T], axis=-1)
     return GroupWalkers(motions, kept, wanted)
 
 
 def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool) -> tuple[Motion, float]:
     """Walk one member's way, (F,) complex at ten places per second; say which share of plants is kept."""
-    wanted = _at_rate(places, graph.fps)
     # Carried on straight, so that a walk along it lasts until its end and does not wait there.
     step = (places[-1] - places[-11]) / 10 if abs(places[-1] - places[-11]) > MOVES else MOVES
     further = np.concatenate([places, places[-1] + step * np.arange(1, round(BEYOND * RATE) + 1)])
@@ -145,24 +146,13 @@ def _walk_one(graph: CompiledGraph, places: Points, *, bend: bool) -> tuple[Moti
     times = [(float(along[k]), float(k / RATE)) for k in some]
     # A walk that is put onto its way need not be searched for so thoroughly.
     settings = Settings(late=LATE, width=NARROW if bend else None, tries=1 if bend else 3)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)  # what matters is said of all together
-        found = follow_path(graph, path, Wishes(times=times), settings=settings)
-    walked = found.motion()[: len(wanted)]
+    found = follow_path(graph, path, Wishes(times=times), settings=settings)
+    walked = found.motion()[: round((len(places) - 1) / RATE * graph.fps) + 1]
     if bend:
         ride = ride_of(walked)
         seconds = np.arange(len(walked)) / graph.fps
         asked = moving_frames(path, np.interp(seconds, np.arange(len(further)) / RATE, along))
         own = moving_frames(ride.path, ride.along)
         walked = (asked @ own.inverse()).apply_motion(walked)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MocapWarning)
-        cleaned = clean_up(walked)
+    cleaned = clean_up(walked)
     return cleaned, plants_kept(cleaned, walked)
-
-
-def _at_rate(places: Points, fps: float) -> Points:
-    """Say where a member is at another rate."""
-    seconds = np.arange(round((len(places) - 1) / RATE * fps) + 1) / fps
-    clock = np.arange(len(places)) / RATE
-    return np.interp(seconds, clock, places.real) + 1j * np.interp(seconds, clock, places.imag)

@@ -15,7 +15,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices, Points
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.groups.flocking import APART, RATE, Disc
-from mocap.methods.groups.group_clips import GroupClip
+from mocap.methods.groups.group_clips import SHIFTS, GroupClip
 from mocap.methods.groups.group_graphs import GroupGraph, Placed
 
 PACE = 1.05  # m/s, at which a group is expected to go on
@@ -142,17 +142,7 @@ class _State(NamedTuple):
     goal: int
     frames: int
     seconds: float  # until the last point, where all are passed
-    before: "_State | None"
-    clip: int
-
-    def walk(self) -> list[int]:
-        """List the numbers of the clips that led here."""
-        clips: list[int] = []
-        state: _State | None = self
-        while state is not None and state.before is not None:
-            clips.append(state.clip)
-            state = state.before
-        return clips[::-1]
+    clips: tuple[int, ...]  # that led here
 
 
 def plan_group(
@@ -160,7 +150,7 @@ def plan_group(
     scene: Scene,
     *,
     start: Placed | None = None,
-    weight: float = 2.0,
+    weight: float = 1.5,
     most: int = MOST,
 ) -> GroupWalk:
     """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
@@ -185,7 +175,7 @@ def plan_group(
     Examples
     --------
     >>> from mocap.methods.groups.group_graphs import build_group
-    >>> graph = build_group(3, nodes=2, simulated=40.0, reach=0.4)
+    >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> found = plan_group(graph, Scene((9 + 2j,), ((5 + 0j, 0.5),)))
     >>> 7 < found.seconds < 20
     True
@@ -198,13 +188,13 @@ def plan_group(
         raise MocapError(f"A plan weighs what is left by 0 or more, got {weight}.")
     obstacles, points = Obstacles(scene), len(scene.points)
     exits = {node: Exits.of(graph, node) for node in {clip.start for clip in graph.clips}}
-    waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, None, -1))], 0, 0
+    waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, ()))], 0, 0
     seen: set[tuple[float, ...]] = set()
     while waiting and len(seen) < most:
         state = heappop(waiting)[2]
         farthest = max(farthest, state.goal)
         if state.goal == points:
-            return GroupWalk(state.walk(), state.seconds, len(seen), obstacles.tested, obstacles.spared)
+            return GroupWalk(list(state.clips), state.seconds, len(seen), obstacles.tested, obstacles.spared)
         if (key := _key(state, timed=bool(scene.others))) in seen:
             continue
         seen.add(key)
@@ -220,13 +210,11 @@ def plan_group(
 
 
 def _why(graph: GroupGraph, scene: Scene, most: int) -> str:
-    """Say why no way was found, and what would help; the gap named just lets the narrowest node through."""
-    wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body
-    if not most:
-        helps = "Start farther off or turned, take fewer members, or leave gaps"
-        return f"obstacles closed every way. {helps} of {wide:.1f} m."
-    helps = "Set a point on the way, take fewer members, allow more states, or leave gaps"
-    return f"the limit of {most} states ended the search. {helps} of {wide:.1f} m."
+    """Say why no way was found, and what would help; the gap named lets the narrowest node through."""
+    wide = min(np.ptp(node.places.imag) for node in graph.nodes) + 2 * scene.body + SHIFTS[-1]
+    why = f"the limit of {most} states ended the search" if most else "obstacles closed every way"
+    helps = "Set a point on the way, allow more states" if most else "Start farther off or turned"
+    return f"{why}. {helps}, take fewer members, or leave gaps of {wide:.1f} m."
 
 
 def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
@@ -268,4 +256,4 @@ def _go_on(exits: Exits, rows: Indices, state: _State, scene: Scene) -> Iterator
     passed = np.where(goals == len(points), state.frames + frames, last) / RATE
     for row, at, seconds, more in zip(rows, goals.tolist(), passed.tolist(), left.tolist(), strict=True):
         clip = exits.clips[row]
-        yield more, _State(state.at.after(clip), at, last, seconds, state, exits.numbers[row])
+        yield more, _State(state.at.after(clip), at, last, seconds, (*state.clips, exits.numbers[row]))

@@ -14,13 +14,19 @@ def flock(count: int = 12, seconds: float = 120.0) -> Trajectories:
     return simulate(count, seconds)
 
 
-def graph(count: int = 12, nodes: int = 8) -> GroupGraph:
-    return _graph(count, nodes)
+def graph(count: int = 12, nodes: int = 8, **settings) -> GroupGraph:
+    return _graph(count, nodes, **settings)
 
 
-@cache
-def _graph(count: int, nodes: int) -> GroupGraph:
-    return build_group(count, nodes=nodes)
+_graph = cache(lambda count, nodes, **settings: build_group(count, nodes=nodes, **settings))
+
+
+def gap(width: float, at: complex, length: float = 0.0) -> Scene:
+    """A wall of discs across the way with one gap, and behind it walls as long as the corridor is."""
+    sides = [(at + sign * 1j * (width / 2 + 1 + 1.6 * k), 1.0) for sign in (-1, 1) for k in range(9)]
+    along = np.arange(0.0, length, 0.6)
+    sides += [(at + sign * 1j * (width / 2 + 0.5) + z, 0.5) for sign in (-1, 1) for z in along]
+    return Scene((complex(at.real + length + (10 if length else 14)),), tuple(sides))
 
 
 def course(seed: int, points: int = 5, discs: int = 8) -> Scene:

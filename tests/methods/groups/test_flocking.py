@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from mocap.errors import MocapError
 from mocap.methods.groups.flocking import (
     APART,
+    BODY,
     RATE,
     Flock,
     Trajectories,
@@ -17,6 +18,7 @@ from mocap.methods.groups.flocking import (
     simulate,
     steering_force,
 )
+from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
 
 
@@ -64,10 +66,16 @@ def test_who_sees_nobody_is_pulled_by_nobody():
     np.testing.assert_allclose(alone, 0, atol=1e-12)
 
 
-def test_a_disc_pushes_away():
-    at = Trajectories(np.array([0j, 50j]), np.ones(2, complex))
-    pushed = steering_force(at, np.ones(2, complex), Flock(keep=0), [(1.5 + 0j, 0.5)])
-    assert pushed[0].real < 0 and abs(pushed[1]) < 1e-12
+def test_a_disc_pushes_away_from_two_metres_on():
+    pushed = away_from([(1.5 + 0j, 0.5)], np.array([0j, 50j, -1.1 + 0j, -0.9 + 0j]))
+    np.testing.assert_allclose(pushed, [-3, 0, 0, -0.3], atol=1e-9)
+
+
+def test_in_a_corridor_a_flock_keeps_between_the_walls_its_pace_and_its_distance():
+    places, velocities = simulate(12, 30, corridor=2.0)
+    assert np.abs(places.imag).max() < 1.0 - BODY + 0.05
+    assert nearest_two(places).min() > APART and 0.8 < np.abs(velocities).mean() < 1.2
+    assert places[-1].real.min() > places[0].real.max() + 20
 
 
 def test_runs_side_by_side_are_the_runs_one_by_one():
@@ -98,6 +106,7 @@ def test_two_are_pushed_just_apart(gap):
         ({"seconds": np.nan}, "more than 0 seconds"),
         ({"seconds": 1e-9}, "more than 0 seconds"),
         ({"count": 2.5}, "two members or more, got 2.5"),
+        ({"corridor": 1.2}, "wider than 1.3 m, got 1.2 m"),
         ({"rules": Flock(space=-1.0)}, "not below 0; space is -1.0"),
         ({"rules": Flock(pace=np.nan)}, "finite and not below 0; pace is nan"),
         ({"count": np.nan}, "two members or more, got nan"),

@@ -8,7 +8,7 @@ from mocap.methods.groups.flocking import APART, RATE, Trajectories, nearest_two
 from mocap.methods.groups.group_graphs import Placed, play_group
 from mocap.methods.groups.group_steering import clearances, steer_group
 from mocap.methods.groups.planning import Exits, Obstacles, Scene, plan_group
-from tests.methods.groups.built import course, graph, pocket
+from tests.methods.groups.built import course, gap, graph, pocket
 
 
 def walked(found, start=None):
@@ -27,25 +27,44 @@ def passed(flock, scene):
     return goal
 
 
-@pytest.mark.parametrize(
-    ("seeds", "least"),
-    [(range(5, 9), 4), pytest.param(range(12), 10, marks=pytest.mark.exhaustive)],
-    ids=["four", "twelve"],
-)
-def test_courses_are_found_and_every_one_is_clear(seeds, least):
-    """Ten of twelve; in seed 0 discs close every way from the start. As in [LCF05, search]."""
-    found = 0
+def planned(scene, **settings):
+    """Plan for twelve; whoever is passed, clear and apart is planned well."""
+    found = plan_group(graph(), scene, **settings)
+    flock = walked(found)
+    assert passed(flock, scene) == len(scene.points)
+    assert clearances(flock, scene).min() >= scene.body - 1e-9
+    assert nearest_two(flock.places).min() >= APART
+    return found
+
+
+@pytest.mark.parametrize("seeds", [(5, 8), pytest.param(range(12), marks=pytest.mark.exhaustive)])
+def test_courses_are_found_and_every_one_is_clear(seeds):
+    """As in [LCF05, search]."""
     for seed in seeds:
-        scene = course(seed)
-        try:
-            flock = walked(plan_group(graph(), scene))
-        except NoWalk:
-            continue
-        found += 1
-        assert passed(flock, scene) == len(scene.points)
-        assert clearances(flock, scene).min() >= scene.body - 1e-9
-        assert nearest_two(flock.places).min() >= APART
-    assert found >= least
+        planned(course(seed))
+
+
+PLACES = (16 + 0j, 16 + 2j, 16 - 2j, 20 + 3j, 14 - 1j)
+HARD = [(width, at, long) for width, long in ((4, 0), (3, 0), (2.5, 0), (2, 0), (2.5, 10)) for at in PLACES]
+
+
+@pytest.mark.parametrize(
+    "some", [[(2, 16 + 0j, 0), (2.5, 16 + 0j, 10)], pytest.param(HARD, marks=pytest.mark.exhaustive)]
+)
+def test_twelve_pass_gaps_and_corridors_no_later_than_steered(some):
+    for width, at, length in some:
+        scene = gap(width, at, length)
+        found = planned(scene)
+        for seed in range(3):
+            steered, points = steer_group(graph().nodes[0], scene, seed=seed, limit=found.seconds)
+            assert not points or found.seconds <= len(steered.places) / RATE
+
+
+@pytest.mark.exhaustive
+def test_without_columns_no_gap_of_three_metres_is_passed():
+    for at in PLACES:
+        with pytest.raises(NoWalk):
+            plan_group(graph(corridors=()), gap(3, at))
 
 
 def test_bounds_spare_most_tests():
@@ -54,11 +73,10 @@ def test_bounds_spare_most_tests():
     assert found.spared >= 0.7 * (found.spared + found.tested) > 1000
 
 
-@pytest.mark.parametrize("depth", [4.5, 7.0])
+@pytest.mark.parametrize("depth", [1.5, pytest.param(7.0, marks=pytest.mark.exhaustive)])
 def test_a_plan_leaves_the_pocket_that_steering_never_leaves(depth):
     scene = pocket(depth)
-    flock = walked(plan_group(graph(), scene))
-    assert passed(flock, scene) == 1 and clearances(flock, scene).min() >= scene.body - 1e-9
+    planned(scene, weight=3.0)
     stuck, points = steer_group(graph().nodes[0], scene, limit=60.0)
     assert points == 0 and stuck.places[-1].real.mean() < 16
 
@@ -70,8 +88,8 @@ def test_on_open_ground_steering_is_enough():
 
 
 def test_more_weight_finds_a_way_with_fewer_states():
-    few, many = (plan_group(graph(), course(5), weight=weight).expanded for weight in (3.0, 1.5))
-    assert few < many
+    few, many = (plan_group(graph(), course(8), weight=weight).expanded for weight in (2.0, 1.0))
+    assert few < many / 4
 
 
 def test_two_groups_pass_each_other():
@@ -81,12 +99,12 @@ def test_two_groups_pass_each_other():
     alone = plan_group(graph(), Scene((0j,)), start=back)
     careful = plan_group(graph(), Scene((0j,), others=tuple(first.places.T[:, :, None])), start=back)
 
-    def gap(found):
+    def least(found):
         flock = walked(found, back)
         frames = np.minimum(np.arange(len(flock.places)), len(first.places) - 1)
         return np.abs(flock.places[:, :, None] - first.places[frames][:, None]).min()
 
-    assert gap(alone) < APART <= gap(careful)
+    assert least(alone) < APART <= least(careful)
     assert careful.spared > 0
 
 
@@ -103,24 +121,20 @@ def test_where_no_way_is_found_it_says_how_far_it_came():
         plan_group(graph(), Scene((60 + 0j,)), most=5)
 
 
-def wall(gap):
-    """Discs in a row from side to side, with one gap in the middle."""
-    return tuple((12 + 1j * side * (gap / 2 + 0.8 + 1.2 * k), 0.8) for side in (-1, 1) for k in range(12))
-
-
 def test_what_a_refusal_advises_helps():
     """Turned by half a radian, past a point beside the pocket, through a gap as it says, or as fewer."""
+    rock = Scene((20 + 0j,), ((4.2 + 0j, 1.9),))
     with pytest.raises(NoWalk, match=r"closed every way\. Start farther off or turned, take fewer members"):
-        plan_group(graph(), course(0))
-    assert plan_group(graph(), course(0), start=Placed(0, np.exp(-0.5j)))
-    with pytest.raises(NoWalk, match="Set a point on the way, take fewer members"):
+        plan_group(graph(), rock)
+    assert plan_group(graph(), rock, start=Placed(0, np.exp(-0.5j))) and plan_group(graph(3), rock)
+    with pytest.raises(NoWalk, match="Set a point on the way, allow more states"):
         plan_group(graph(), pocket(4.5), most=100)
     scene = pocket(4.5)
     assert plan_group(graph(), Scene((10 + 8j, *scene.points), scene.discs), most=100)
-    with pytest.raises(NoWalk, match=r"allow more states, or leave gaps of 3.9 m\.$"):
-        plan_group(graph(), Scene((24 + 0j,), wall(3.2)), most=700)
-    assert plan_group(graph(), Scene((24 + 0j,), wall(3.9)), most=700)
-    assert plan_group(graph(3), Scene((24 + 0j,), wall(3.2)), most=700)
+    with pytest.raises(NoWalk, match=r"take fewer members, or leave gaps of 1.9 m\.$"):
+        plan_group(graph(), gap(1.6, 16 + 0j), most=300)
+    assert plan_group(graph(), gap(1.9, 16 + 0j), most=700)
+    assert plan_group(graph(3), gap(1.6, 16 + 0j), most=300)
 
 
 @pytest.mark.parametrize("limit", [np.nan, 0.0, np.inf])
@@ -193,4 +207,4 @@ def test_all_clips_at_once_are_as_free_as_one_by_one():
         rows = Obstacles(scene).free(exits[node], at, frame).tolist()
         assert rows == free_one_by_one(group, at, frame, scene)
         found.append(len(rows))
-    assert min(found) < 10 and max(found) == 40
+    assert min(found) < 10 and max(found) > 150
