@@ -139,10 +139,8 @@ def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
     if np.ptp(weights) == 0:
         return np.asarray(diagonal_sum(products, len(weights)) * weights[0])
     rows, columns = (count - len(weights) + 1 for count in products.shape)
-    total = np.asarray(weights[0] * products[:rows, :columns])
-    for f in range(1, len(weights)):
-        total += weights[f] * products[f : f + rows, f : f + columns]
-    return total
+    parts = (weight * products[f : f + rows, f : f + columns] for f, weight in enumerate(weights))
+    return np.asarray(sum(parts))
 
 
 def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
@@ -217,9 +215,7 @@ def distance_grid(
     grid = np.empty([len(p) - window + 1 for p in points], dtype)
     for tile in tiles(*grid.shape, upper=same):
         grid[tile] = cloud_distances(rows.part(tile[0]), columns.part(tile[1]), frames)
-    if same:
-        _mirror(grid)
-    return grid
+    return np.triu(grid) + np.triu(grid, 1).T if same else grid
 
 
 def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[slice, slice]]:
@@ -233,15 +229,6 @@ def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[sli
     for row in range(0, rows, TILE[0]):
         for column in range(row if upper else 0, columns, TILE[1]):
             yield slice(row, min(row + TILE[0], rows)), slice(column, min(column + TILE[1], columns))
-
-
-def _mirror(grid: Floats) -> None:
-    """Copy the entries above the diagonal to below it, a few rows at a time."""
-    for start in range(0, len(grid), TILE[0]):
-        stop = start + TILE[0]
-        corner = np.triu(grid[start:stop, start:stop])
-        grid[start:stop, start:stop] = corner + np.triu(corner, 1).T
-        grid[stop:, start:stop] = grid[start:stop, stop:].T
 
 
 def _matching_points(a: Motion | ArrayLike, b: Motion | ArrayLike, window: int) -> list[Floats]:

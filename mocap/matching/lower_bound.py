@@ -118,11 +118,9 @@ def projections(
 ) -> Floats:
     """Project the f of windows, some at a time; in the cloud's precision, shape (N, d)."""
     mean, axes = directions
-    found = np.empty((len(starts), axes.shape[1]), cloud.heights.dtype)
-    for start in range(0, len(starts), AT_ONCE):
-        part = slice(start, start + AT_ONCE)
-        found[part] = (window_numbers(cloud, starts[part], weights) - mean) @ axes
-    return found
+    parts = (starts[start : start + AT_ONCE] for start in range(0, len(starts), AT_ONCE))
+    each = [(window_numbers(cloud, part, weights) - mean) @ axes for part in parts]
+    return np.concatenate(each).astype(cloud.heights.dtype)
 
 
 def whole_windows(cloud: Cloud) -> NDArray[np.intp]:

@@ -121,22 +121,15 @@ def euler_grid(
     bones = [j for j, name in enumerate(skeleton.names) if j and weights.get(name) and skeleton.dofs[j]]
     if not bones:
         raise MocapError(f"This skeleton has none of the bones with a weight: {', '.join(weights)}.")
-    columns = np.cumsum([len(skeleton.dofs[bone]) for bone in bones])[:-1]
+    columns = np.cumsum([0, *(len(skeleton.dofs[bone]) for bone in bones)])[:-1]
 
     def apart(p: Array, q: Array) -> Array:
-        total = np.zeros((len(p), len(q)))
-        each = zip(bones, np.split(p, columns, axis=1), np.split(q, columns, axis=1), strict=True)
-        for bone, angles, others in each:
-            square = np.zeros_like(total)
-            for own, other in zip(angles.T / 360, others.T / 360, strict=True):
-                turns = own[:, None] - other
-                if np.abs(turns).max() > 0.5:
-                    turns -= np.rint(turns)
-                square += np.multiply(turns, turns, out=turns)
-            total += weights[skeleton.names[bone]] * 360 * np.sqrt(square)
-        return total
+        gaps = p.T[:, :, None] - q.T[:, None]  # (dofs, rows, columns), turns
+        square = np.add.reduceat((gaps - np.rint(gaps)) ** 2, columns)  # (bones, rows, columns)
+        return np.asarray(np.tensordot(prices, np.sqrt(square), 1))
 
-    angles = [np.hstack([file_angles(clip, bone) for bone in bones]) for clip in (a, b)]
+    prices = [360 * weights[skeleton.names[bone]] for bone in bones]
+    angles = [np.hstack([file_angles(clip, bone) for bone in bones]) / 360 for clip in (a, b)]
     return diagonal_sum(_all_pairs(apart, *angles), window)
 
 

@@ -184,12 +184,9 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
         raise MocapError(
             f"A path needs a grid of finite numbers, of two dimensions; got shape {costs.shape}."
         )
-    if not 1 <= slope <= 63:
-        raise MocapError(f"A slope limit is a whole number from 1 to 63, got {slope}.")
-    if not 0 <= slack < min(costs.shape):
-        raise MocapError(
-            f"Slack is from 0 to less than the {min(costs.shape)} frames of a clip, got {slack}."
-        )
+    if not (1 <= slope <= 63 and 0 <= slack < min(costs.shape)):
+        short = f"slack from 0 to less than the {min(costs.shape)} frames of a clip"
+        raise MocapError(f"A path needs a slope from 1 to 63 and {short}, got {slope} and {slack}.")
     starts = np.zeros(costs.shape, bool)
     starts[0, : slack + 1] = starts[: slack + 1, 0] = True
     ends = np.argwhere(starts[::-1, ::-1])

@@ -22,7 +22,6 @@ from mocap.matching.point_clouds import distinct_joints, point_cloud, require_ne
 
 Integers = NDArray[np.integer[Any]]
 Method = Literal["auto", "products", "bound"]
-Precision = Literal["auto", "single", "double"]
 Thresholds = float | Mapping[tuple[str, str], float]
 """One threshold in metres, or one for each pair of labels."""
 
@@ -32,13 +31,12 @@ class Search(TypedDict, total=False):
 
     joint_weights: ArrayLike | None
     taper: ArrayLike | None
-    precision: Precision
     method: Method
     progress: Progress
     executor: Executor | None
 
 
-FEW = 20_000  # frames up to which "auto" is "double"
+FEW = 20_000  # frames up to which the work is done in 64 bits
 
 
 class Transition(NamedTuple):
@@ -124,7 +122,6 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     below: Thresholds,
     joint_weights: ArrayLike | None = None,
     taper: ArrayLike | None = None,
-    precision: Precision = "auto",
     method: Method = "auto",
     progress: Progress = iter,
     executor: Executor | None = None,
@@ -143,10 +140,6 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         where that pair is not named itself. Where several pairs apply the strictest counts; where none
         applies there is no transition.
     joint_weights, taper : of the points and of the frames of a window, as for `distance_grid`.
-    precision : "double" works in 64 bits and finds the minima of `distance_grid`. "single" works in 32
-        bits, up to twice as fast. Where a valley of the grid is flat, it can find a minimum a few frames
-        further, or twice: measured on CMU subject 16, 1 minimum in 2000 at 30 frames per second, and 7 in
-        1000 at 120. "auto" is "double" up to 20 000 frames in all clips together, and "single" above.
     method : how to search; the transitions are the same. "products" measures all pairs of windows by matrix
         products. "bound" measures only those that a lower bound of the distance leaves (`lower_bound` has
         the proof). "auto" is "bound" above 5 000 windows, if a sample says that it leaves few pairs.
@@ -160,12 +153,15 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     -------
     Transitions both ways between all pairs, within a clip too, ordered by clip and frame; costs are right
     to a micrometre. Windows of one clip that overlap are left out: they would lead from a moment to itself.
+    Above 20 000 frames in all clips the work is done in 32 bits, up to twice as fast. Where a valley of the
+    grid is flat, a minimum is then found a few frames further, or twice: of CMU subject 16's, 1 in 2000 at 30
+    frames per second, and 7 in 1000 at 120.
 
     Raises
     ------
     SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, points
         out of reach, thresholds that are not above 0, labels that no clip has, weights that are negative, all
-        0 or of the wrong shape, and another precision or method.
+        0 or of the wrong shape, and another method.
 
     Examples
     --------
@@ -186,13 +182,12 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         check_window(window, len(clip), f"'{clip.name}'")
     each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}
     _check_thresholds(each, clips)
-    for name, choice, choices in (("precision", precision, Precision), ("method", method, Method)):
-        if choice not in (known := get_args(choices)):
-            raise MocapError(f'A {name} is "{known[0]}", "{known[1]}" or "{known[2]}", got {choice!r}.')
+    if method not in get_args(Method):
+        raise MocapError(f'A method is "auto", "products" or "bound", got {method!r}.')
     gap = int(window == 1)  # longer windows that run off a clip keep the clips apart by themselves
     if not clips:
         return _both_ways(np.empty((6, 0)), clips, gap)
-    double = precision == "double" or (precision == "auto" and sum(map(len, clips)) <= FEW)
+    double = sum(map(len, clips)) <= FEW
     joints = len(distinct_joints(clips[0].skeleton))
     weights = Weights(unit_weights(joint_weights, joints), unit_weights(taper, window))
     ready = join_clouds(clips, weights, gap, np.float64 if double else np.float32)
@@ -209,8 +204,7 @@ def _check_thresholds(below: Mapping[Any, float], clips: Sequence[Motion]) -> No
     known = sorted({label for clip in clips for label in clip.labels})
     for pair, metres in below.items():
         if not metres > 0:
-            where = f" for {pair}" if pair else ""
-            raise MocapError(f"The threshold must be above 0 m, got {metres} m{where}.")
+            raise MocapError(f"A threshold is above 0 m, got {metres} m{f' for {pair}' if pair else ''}.")
         for label in set(pair or ()) - set(known):
             raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
 

@@ -144,7 +144,9 @@ def test_both_methods_give_the_same_transitions(window, below):
 
 @pytest.mark.parametrize("window", [1, 2, 8])
 def test_in_32_bits_both_methods_differ_in_flat_valleys_only(window):
-    every, few = both_ways(CLIPS, window=window, below=0.1, precision="single")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(transitions, "FEW", 0)
+        every, few = both_ways(CLIPS, window=window, below=0.1)
     places, others = (
         set(zip(*(c.tolist() for c in found.columns[:4]), strict=True)) for found in (every, few)
     )
@@ -212,7 +214,9 @@ def real_clips(real_data, pattern):
 
 def assert_all_found(clips):
     for below in (0.02, 0.04, 0.06, 0.1) if SWEEP else (0.04, 0.1):
-        every, few = both_ways(clips, window=10, below=below, precision="double")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(transitions, "FEW", np.inf)
+            every, few = both_ways(clips, window=10, below=below)
         assert same(few, every), below
 
 

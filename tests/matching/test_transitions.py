@@ -15,7 +15,7 @@ from mocap.matching import pair_search, transitions
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.minima import local_minima
 from mocap.matching.point_clouds import point_cloud
-from mocap.matching.transitions import find_transitions
+from mocap.matching.transitions import find_transitions, join_clouds
 from tests.strategies import random_motion, wave
 
 CLIPS = [wave(70, name="a"), wave(50, phase=1.0, name="b", seed=1)]
@@ -43,25 +43,27 @@ def test_the_transform_leaves_the_cost_that_is_told():
         assert t.cost < 0.1
 
 
-@pytest.mark.parametrize("below", [0, -1, np.nan])
-def test_a_threshold_must_be_positive(below):
-    with pytest.raises(MocapError, match=rf"threshold must be above 0 m, got {below} m\.$"):
-        find_transitions(CLIPS, window=8, below=below)
+WALKS = [replace(clip, labels={"walk": True}) for clip in CLIPS]
+FAR = replace(CLIPS[1], root_positions=CLIPS[1].root_positions + 1e6)
 
 
-def test_clips_must_go_together():
-    with pytest.raises(MocapError, match="'c' has 7 frames, too few for a window of 8"):
-        find_transitions([*CLIPS, replace(wave(7), name="c")], window=8, below=0.1)
-    with pytest.raises(SkeletonMismatch):
-        find_transitions([CLIPS[0], random_motion(0, frames=20)], window=8, below=0.1)
-    with pytest.raises(MocapError, match="resample one first"):
-        find_transitions([CLIPS[0], replace(CLIPS[1], fps=60.0)], window=8, below=0.1)
-    far = replace(CLIPS[1], root_positions=CLIPS[1].root_positions + 1e6)
-    with pytest.raises(MocapError, match=r"within 1e[+]06 m; 'b' holds"):
-        find_transitions([CLIPS[0], far], window=8, below=0.1)
-
-
-def test_no_clips_have_no_transitions():
+@pytest.mark.parametrize(
+    ("clips", "below", "error", "message"),
+    [
+        (CLIPS, 0, MocapError, r"A threshold is above 0 m, got 0 m\.$"),
+        (CLIPS, np.nan, MocapError, r"got nan m\.$"),
+        (WALKS, {("walk", "run"): 0.1}, MocapError, "No clip has the label 'run'; there are: walk"),
+        (WALKS, {("walk", "walk"): -1}, MocapError, r"above 0 m, got -1 m for \('walk', 'walk'\)"),
+        (WALKS, {}, MocapError, "no threshold"),
+        ([*CLIPS, wave(7)], 0.1, MocapError, "'wave' has 7 frames, too few for a window of 8"),
+        ([CLIPS[0], random_motion(0, frames=20)], 0.1, SkeletonMismatch, "joint"),
+        ([CLIPS[0], replace(CLIPS[1], fps=60.0)], 0.1, MocapError, "resample one first"),
+        ([CLIPS[0], FAR], 0.1, MocapError, r"within 1e[+]06 m; 'b' holds"),
+    ],
+)
+def test_what_has_no_transitions_is_refused(clips, below, error, message):
+    with pytest.raises(error, match=message):
+        find_transitions(clips, window=8, below=below)
     none = find_transitions([], window=8, below=0.1)
     assert (len(none), list(none), repr(none)) == (0, [], "Transitions(0)")
 
@@ -97,17 +99,15 @@ def test_transitions_are_a_sequence_of_records():
         found[len(found)]
 
 
-def test_by_default_the_precision_is_double_up_to_a_number_of_frames_and_single_above(monkeypatch):
-    exact, rough = (find_transitions(CLIPS, window=8, below=0.1, precision=p) for p in ("double", "single"))
-    monkeypatch.setattr(transitions, "FEW", 120)  # as many as the clips have
-    assert same(find_transitions(CLIPS, window=8, below=0.1), exact)
-    monkeypatch.setattr(transitions, "FEW", 119)
-    assert same(find_transitions(CLIPS, window=8, below=0.1), rough)
-
-
-def test_another_precision_is_refused():
-    with pytest.raises(MocapError, match='A precision is "auto", "single" or "double", got'):
-        find_transitions(CLIPS, window=8, below=0.1, precision="half")
+def test_few_frames_are_compared_in_64_bits_and_many_in_32(monkeypatch):
+    used = []
+    monkeypatch.setattr(
+        transitions, "join_clouds", lambda *given: used.append(given[-1]) or join_clouds(*given)
+    )
+    for few in (120, 119):  # the clips have 120
+        monkeypatch.setattr(transitions, "FEW", few)
+        find_transitions(CLIPS, window=8, below=0.1)
+    assert used == [np.float64, np.float32]
 
 
 def test_how_high_the_clips_are_does_not_matter():
@@ -152,16 +152,6 @@ def test_a_cost_is_below_its_threshold():
         pairs = {("up", "up"): below, ("on", "on"): 9.0}
         found = find_transitions([clip, other], window=1, below=pairs)
         assert np.count_nonzero((found.source == 0) & (found.target == 0)) == count
-
-
-def test_labels_and_their_thresholds_must_make_sense():
-    clips = [replace(clip, labels={"walk": True}) for clip in CLIPS]
-    with pytest.raises(MocapError, match="No clip has the label 'run'; there are: walk"):
-        find_transitions(clips, window=8, below={("walk", "run"): 0.1})
-    with pytest.raises(MocapError, match=r"above 0 m, got -1 m for \('walk', 'walk'\)"):
-        find_transitions(clips, window=8, below={("walk", "walk"): -1})
-    with pytest.raises(MocapError, match="no threshold"):
-        find_transitions(clips, window=8, below={})
 
 
 @pytest.mark.sweep
