@@ -104,7 +104,7 @@ def spline(points: ArrayLike, *, closed: bool = False) -> GroundPath:
     >>> spline([[0, 0], [1, 1], [0, 2], [-1, 1]], closed=True)
     GroundPath(311 points, 6.2 m)
 
-    Notebook: 08-path-synthesis
+    Notebook: 00-quickstart
     """
     through = GroundPath(np.asarray(points, float)).points
     if closed:
@@ -163,7 +163,7 @@ def s_curve(length: float = 20.0) -> GroundPath:
     >>> s_curve(10.0)
     GroundPath(501 points, 10.0 m)
 
-    Notebook: 08-path-synthesis
+    Notebook: 08c-judging-a-search
     """
     bend = 0.9 * np.pi
     return arcs((0, 0), bend / 2, [(length / 2, -bend), (length / 2, bend)])

@@ -21,7 +21,7 @@ from mocap.body.motion import resample
 from mocap.course.notebooks import execute, library, notebooks_in, read
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.errors import MocapError
-from mocap.widgets.walk_page import walk_page
+from mocap.widgets.walking_page import walk_page
 
 HERE = Path(__file__).parent
 MOVING = HERE / "moving.js"

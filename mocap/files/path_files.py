@@ -57,8 +57,6 @@ def load_path(path: str | Path, *, scale: float | None = None) -> GroundPath:
     ...     _ = file.write_text('<svg><path d="M 0 0 V -300 H -400"/></svg>')
     ...     load_path(file).points.tolist()
     [[0.0, 0.0], [0.0, 3.0], [4.0, 3.0]]
-
-    Notebook: 08-path-synthesis
     """
     path = Path(path)
     if scale is not None and not (np.isfinite(scale) and scale > 0):

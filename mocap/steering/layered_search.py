@@ -88,7 +88,7 @@ def select(scores: Array, cells: Indices, width: int) -> Indices:
     >>> select(np.array([3.0, 1.0, 2.0]), np.array([[7, 7, 7], [1, 1, 2]]), 5)
     array([1, 2])
 
-    Notebook: 08-path-synthesis
+    Notebook: 08c-judging-a-search
     """
     order = np.argsort(scores, kind="stable")
     cells = cells[:, order]

@@ -207,7 +207,7 @@ def follow_as_2002(
     >>> followed.progress, followed.found.stopped
     (1.0, 'out of nodes')
 
-    Notebook: 08-path-synthesis
+    Notebook: 08c-judging-a-search
     """
     compiled = compile_graph(graph)
     route = make_route(compiled, path, wishes)

@@ -17,7 +17,7 @@ Reading order (notebooks 00 to 19)
 10. `company`: characters that take their steps together, and how long each takes to obey
 11. `steered_widget`: characters side by side that obey one command of the reader
 15. `walk_figure`: the capsules of a body
-16. `walk_page`: a page on which a figure walks along drawn lines
+16. `walking_page`: a page on which a figure walks along drawn lines
 
 References
 ----------
@@ -36,6 +36,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "pointing": ["handles"],
         "film": ["save_animation"],
         "steered_widget": ["steered"],
-        "walk_page": ["walk_page"],
+        "walking_page": ["walk_page"],
     },
 )

@@ -1,4 +1,4 @@
-// The page: a reader draws, the walk grows while it is played, and what plays lights up. `walk_page.py` fills it.
+// The page: a reader draws, the walk grows while it is played, and what plays lights up. `walking_page.py` fills it.
 
 import { prepare, unpack, Walk, nearest } from "./walk_search.js";
 import { bodyAt, edgeAt, footprints } from "./walk_body.js";

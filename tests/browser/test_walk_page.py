@@ -11,7 +11,7 @@ from PIL import Image
 import mocap
 from mocap import body, datasets, graphs, plain
 from mocap.body import rotations
-from mocap.widgets.walk_page import HERE, STEPS, pack_graph, walk_page
+from mocap.widgets.walking_page import HERE, STEPS, pack_graph, walk_page
 
 SEARCH = """([about, packed, z, x]) => {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));

@@ -1,6 +1,7 @@
 """Random input and answers, right and wrong, of exercises about walks."""
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -76,10 +77,13 @@ def shortest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[flo
     return best
 
 
-# ---- Notebook 08
+# ---- Notebooks 08 and 08c
 
 
 Line = Callable[[Array], Array]
+Walk = tuple[complex, complex, float, float]
+Edge = tuple[int, Points, complex, complex, float]
+Longer = list[tuple[int, complex, complex, float, float]]
 
 
 def draw_polyline(rng: np.random.Generator) -> Array:
@@ -112,9 +116,23 @@ def draw_survivors(rng: np.random.Generator) -> tuple[Indices, Array, int]:
     return rng.integers(0, 2, size=(count, 4)), rng.permutation(count) / 100, int(rng.integers(3, 7))
 
 
-Walk = tuple[complex, complex, float, float]
-Edge = tuple[int, Points, complex, complex, float]
-Longer = list[tuple[int, complex, complex, float, float]]
+def draw_look_ahead(rng: np.random.Generator) -> tuple[Walk, Points, Line, float]:
+    """Draw a walk, its root in the coming frames, and a line."""
+    corners = draw_polyline(rng) @ [1, 1j]
+    reached = np.append(0, np.cumsum(abs(np.diff(corners))))
+    along = float(rng.uniform(0, reached[-1]))
+    ahead = (rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)) @ [1, 1j]).cumsum()
+    turn, here = draw_turn(rng), complex(np.interp(along, reached, corners))
+    walk = turn, here + 0.1 - turn * ahead[0], along, 0.7
+    return walk, ahead, partial(np.interp, xp=reached, fp=corners), 0.4
+
+
+def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:
+    turn, move, along, _ = walk
+    s = along + np.cumsum(abs(np.diff(ahead)))
+    off = abs(turn * ahead[1:] + move - line(s))
+    cost = float((off**2).sum())
+    return min(cost, most)
 
 
 def draw_lengthen(rng: np.random.Generator) -> tuple[Walk, list[Edge], Line, float]:

@@ -6,15 +6,16 @@ in the file of its subject.
 
 Reading order (notebooks 00 to 09)
 ----------------------------------
-1. `small_graphs`: a motion graph's nodes and edges on two clips, and the homework's segments in rows
-2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
-3. `windows`: what a window is, what two windows have in common, their lower bound, and sums along diagonals
-4. `laying_clouds`: one cloud of points laid on another, from above
-5. `ground`: turns, headings, and one clip aligned with another, seen from above
-6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
-7. `eight_nodes`: Tarjan's search with its low links, and the walks that branch and bound takes up
-8. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
-9. `pens`: arrows, words, discs and steps that several of them share
+ 1. `small_graphs`: a motion graph's nodes and edges on two clips, and the homework's segments in rows
+ 2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
+ 3. `windows`: what a window is, what two windows have in common, their lower bound, and sums along diagonals
+ 4. `laying_clouds`: one cloud of points laid on another, from above
+ 5. `ground`: turns, headings, and one clip aligned with another, seen from above
+ 6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
+ 7. `eight_nodes`: Tarjan's search with its low links, and the walks that branch and bound takes up
+ 8. `layers`: the layered search along a line, with the line of its code that runs
+ 9. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
+10. `pens`: arrows, words, discs and steps that several of them share
 
 References
 ----------
@@ -40,6 +41,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "tarjan_states",
             "tarjan_step",
         ],
+        "layers": ["layer_states", "layer_step"],
         "distances_to_paths": ["two_distances"],
     },
 )

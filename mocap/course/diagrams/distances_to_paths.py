@@ -34,7 +34,7 @@ def two_distances(path: GroundPath, walk: GroundPath, *, step: int = MOMENTS - 1
     >>> [line.get_ydata()[-1].round(3).item() for line in right.lines[:2]]
     [30.0, 30.0]
 
-    Notebook: 08-path-synthesis
+    Notebook: 08c-judging-a-search
     """
     figure = plt.figure(figsize=(8, 3.8), layout="constrained")
     ground, curves = figure.subplots(1, 2, width_ratios=(1, 1.3))

@@ -25,8 +25,16 @@ from mocap.errors import MocapError
 HEAD = '''"""My motion graph: what I wrote in the course, and what passed its check.
 
 The notebooks run these functions in place of the package's. Delete one of them, or this file, to start anew.
+By itself it walks along a line: python my_graph.py clips/ path.csv -o walk.bvh
 """
 '''
+FOOT = """
+
+if __name__ == "__main__":
+    from mocap.course.lab import own
+
+    own.main(__file__)
+"""
 HEADING = re.compile(r"^(# -+ (\w+)(?: \(.*\))? -+\n)", re.MULTILINE)
 
 
@@ -54,6 +62,7 @@ def split(text: str) -> tuple[str, list[tuple[str, str, str]]]:
     >>> split("import math\n# ---- f (notebook 01) ----\ndef f(): ...\n")
     ('import math\n', [('f', '# ---- f (notebook 01) ----\n', 'def f(): ...\n')])
     """
+    text = text.replace(FOOT, "\n" * FOOT.count("\n"))  # what follows it keeps its line
     head, *rest = HEADING.split(text)
     return head, list(zip(rest[1::3], rest[::3], rest[2::3], strict=True))
 
@@ -197,7 +206,7 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     )
     imports = "\n".join(sorted(lines | plain.imports))
     start = f"{HEAD}\n{imports}\n" if imports else HEAD
-    text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)])
+    text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)]) + FOOT
     try:
         write_text(file, text)
     except OSError as error:

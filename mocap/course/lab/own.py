@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap import plain
+from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import whose
@@ -88,22 +90,23 @@ def _search(graph: OwnGraph, path: GroundPath, by: Tools) -> Any:  # noqa: ANN40
 
 
 def _place_exercises(search: Any, graph: OwnGraph, path: GroundPath, by: Tools) -> None:  # noqa: ANN401
-    """Let `edge_cost` look ahead, `lengthen` lengthen, and `survivors` go on."""
+    """Let `look_ahead` look ahead, `lengthen` lengthen, and `survivors` go on."""
     least = LEAST / graph.clips[0].fps
     numbers = {node: number for number, node in enumerate(graph.graph)}
 
-    def price(walk: Walk, ahead: Ground) -> tuple[float, float]:
-        placed = walk.turn * np.append(search.before[walk.node], ahead) + walk.move
-        cost, along = by.edge_cost(np.stack([placed.imag, placed.real], 1), path.at, walk.along, least)
-        return cost, along
+    def look_ahead(walk: Walk) -> Walk:
+        ahead = np.append(search.before[walk.node], search.ahead[walk.node])
+        stands = walk.turn, walk.move, walk.along, walk.cost
+        return walk._replace(
+            expected=by.look_ahead(stands, ahead, lambda s: path.at(s) @ [1j, 1], plain.RESCUE)
+        )
 
     def lengthen(walk: Walk, edge: Edge) -> Walk:
         data, track = graph.graph.edges[edge], search.tracks[edge]
         edges = [(edge[1], track, *data["lay"], SEAM * (data["kind"] == "transition"))]
         stands = walk.turn, walk.move, walk.along, walk.cost
         ((_, turn, move, along, cost),) = by.lengthen(stands, edges, path.at, least)
-        longer = Walk(cost, 0, along, edge[1], turn, move, edge, walk)
-        return longer._replace(expected=search.look_ahead(longer).expected)
+        return look_ahead(Walk(cost, 0, along, edge[1], turn, move, edge, walk))
 
     def best_of(walks: list[Walk]) -> list[Walk]:
         stand = []
@@ -114,7 +117,7 @@ def _place_exercises(search: Any, graph: OwnGraph, path: GroundPath, by: Tools) 
         costs = np.array([walk.cost + walk.expected for walk in walks])
         return [walks[number] for number in by.survivors(np.array(stand), costs, WIDTH)]
 
-    search.price, search.lengthen, search.best_of = price, lengthen, best_of
+    search.look_ahead, search.lengthen, search.best_of = look_ahead, lengthen, best_of
 
 
 def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools) -> OwnWalk:
@@ -242,6 +245,22 @@ def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
     print(f"My walk, and the same steps by the package's functions alone: {far} apart at most.")
     alt = "Bodies walk along a black path, above in my walk, below in the package's."
     return Beside(stack(figures, alt).picture, alt, motion, apart)
+
+
+def main(file: str) -> int:
+    """Walk along a line by the functions in a file, as `python -m mocap.plain` does: clips, a path, -o."""
+    os.environ["MOCAP_MINE"] = file
+    ours = tools()
+    pages = pages_of(ours, WINDOW, BELOW)
+
+    def follow(clips: Sequence[Motion], graph: nx.MultiDiGraph, line: Ground) -> tuple[Array, Array]:
+        own, path = OwnGraph(tuple(clips), WINDOW, graph), np.stack([line.imag, line.real], axis=1)
+        walked = play_own(own, follow_own(own, path, ours), ours)
+        return walked.root_positions, walked.rotations
+
+    pages.follow = follow
+    print(f"{whose(*NAMES[:-1])}.")
+    return int(pages.main())
 
 
 def _own_walk(clips: Sequence[Motion], path: GroundPath, by: Tools) -> tuple[Motion, list[int]]:

@@ -27,8 +27,8 @@ from mocap.plain import Found, Ground, Lay
 
 NAMES = (
     *("climb", "window_sums", "inner_minima", "best_angle", "best_shift", "undo", "choice_points"),
-    *("successors_of", "tarjan", "component_to_keep", "lay_on", "edge_cost", "lengthen", "survivors"),
-    *("product_of", "hamilton", "move_points", "quintic", "mix", "next_edge"),
+    *("successors_of", "tarjan", "component_to_keep", "lay_on", "edge_cost", "lengthen", "look_ahead"),
+    *("survivors", "product_of", "hamilton", "move_points", "quintic", "mix", "next_edge"),
 )
 """The exercises in the order in which a motion graph needs them."""
 

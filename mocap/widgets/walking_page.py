@@ -53,43 +53,40 @@ def numbers(values: ArrayLike, order: int = 0) -> bytes:
 
 def pack_graph(graph: MotionGraph) -> tuple[dict[str, Any], bytes]:
     """Pack a motion graph: what its numbers mean, and the numbers, not yet deflated."""
-    clips, edges = graph.clips, list(graph.graph.edges(data=True))
-    motion = b""
-    for clip in clips:
+    edges, motion = list(graph.graph.edges(data=True)), b""
+    for clip in graph.clips:
         roots = np.rint(clip.root_positions / STEPS["metres"])
         turns = np.rint(rotations.continuous(clip.rotations) / STEPS["parts"])
         channels = [*roots.T, *turns.reshape(len(clip), -1).T]
         motion += b"".join(numbers(channel, 2) for channel in channels)
     place = {node: number for number, node in enumerate(graph.graph)}
-    labels = sorted({label for clip in clips for label in clip.labels})
+    labels = sorted({label for clip in graph.clips for label in clip.labels})
     rows = np.array([_row(graph, labels, (start, end), edge) for start, end, edge in edges])
     ends = np.array([(place[start], place[end]) for start, end, _ in edges])
     packed = [numbers(ends[:, 0], 1), numbers(ends[:, 1], 1), *(numbers(column) for column in rows.T)]
     nodes = [numbers([node[part] for node in graph.graph], 1) for part in (0, 1)]
-    skeleton = clips[0].skeleton
-    about = {
+    going = sorted({label for _, _, edge in edges for label in edge["labels"]} - {"stand"})
+    counts = {"nodes": len(place), "edges": len(edges), "labels": labels, "going": going}
+    return _about(graph) | counts, motion + b"".join([*nodes, *packed])
+
+
+def _about(graph: MotionGraph) -> dict[str, Any]:
+    """Say what the numbers mean, and how the search is set."""
+    skeleton = graph.clips[0].skeleton
+    return {
         "fps": graph.fps,
         "window": graph.window,
-        "clips": [{"name": clip.name, "frames": len(clip)} for clip in clips],
+        "clips": [{"name": clip.name, "frames": len(clip)} for clip in graph.clips],
         "joints": list(skeleton.names),
         "parents": skeleton.parents.tolist(),
         "offsets": skeleton.offsets.round(4).tolist(),
-        "labels": labels,
-        "nodes": len(place),
-        "edges": len(edges),
         "steps": STEPS,
         "figure": figure(skeleton),
         "feet": feet(skeleton),
-        "going": sorted({label for _, _, edge in edges for label in edge["labels"]} - {"stand"}),
         "search": {
-            "width": plain.WIDTH,
-            "layer": plain.LAYER,
-            "look": plain.LOOK,
-            "rescue": plain.RESCUE,
-            "seam": plain.SEAM,
+            name.lower(): getattr(plain, name) for name in ("WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")
         },
     }
-    return about, motion + b"".join([*nodes, *packed])
 
 
 def _row(graph: MotionGraph, labels: list[str], ends: tuple[Node, Node], edge: dict[str, Any]) -> list[int]:

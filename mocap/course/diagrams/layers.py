@@ -1,0 +1,158 @@
+"""The layered search line by line: lengthen, cross out, keep the best, and look ahead [KGP02, 5.1]."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mocap._shared.arrays import Array
+from mocap.plotting import ASKED, CURVES, PATH, QUIET
+
+STRIDE, TURNS = 0.7, np.radians([-30, 0, 30])  # of the three edges at each node, as in notebook 07
+PROGRAM = """waiting = {0: [start]}
+while waiting:
+    layer = min(waiting)
+    walks = waiting.pop(layer)
+    score = {walk: walk.cost + look_ahead(walk)}
+    apart = cross_out_alike(walks, score)
+    kept = the K best of apart, by score
+    for walk in kept:
+        for edge in edges_from(walk.node):
+            longer = lengthen(walk, edge)
+            if longer is at the end:
+                best = the cheaper of best, longer
+            else:
+                waiting[layer_of(longer)] += [longer]""".splitlines()
+"""The loop that the pictures run; `plain.Search.layers` is the same one on clips."""
+
+
+class Steps(NamedTuple):
+    """A walk of steps: where it has been, complex numbers z + ix, its heading, and what it costs so far."""
+
+    places: tuple[complex, ...]
+    heading: float
+    cost: float
+
+
+class LayerState(NamedTuple):
+    """What the search knows when it has worked through one line of `PROGRAM`.
+
+    line : the number of this line.
+    message : what it has just done.
+    kept, crossed : walks that go on, and walks that were crossed out in this layer.
+    score : what a layer's walks are compared by, once it is known.
+    best : the cheapest walk at the end so far.
+    """
+
+    line: int
+    message: str
+    kept: list[Steps]
+    crossed: list[Steps]
+    score: dict[Steps, float]
+    best: Steps | None = None
+
+
+def layer_states(line: Array, count: int, *, width: int = 4, look: bool = True) -> list[LayerState]:
+    """Run the layered search for a walk of some steps along a line, and keep its state after each stage.
+
+    A step is 70 cm long and turns by -30°, 0° or 30°. It costs the squared distance from where the line is at
+    equal length. So the steps made are the layer, and walks stand alike at one place with one heading.
+
+    Parameters
+    ----------
+    line : where the line is after each step, shape (count + 2,), complex numbers z + ix in metres.
+    count : the steps of a complete walk.
+    width : how many walks of a layer go on.
+    look : whether a walk's score includes what one more step straight ahead would cost.
+
+    Examples
+    --------
+    >>> states = layer_states(STRIDE * np.arange(4), 2)
+    >>> states[-1].message, round(states[-1].best.cost, 3)
+    ('at the end: the cheapest costs 0.00 m²', 0.0)
+
+    Notebook: 08-path-synthesis
+    """
+    return list(_run(line, count, width, look))
+
+
+def lengthened(walk: Steps, turn: float, line: Array) -> Steps:
+    """Let a walk make one more step."""
+    heading = walk.heading + turn
+    place = walk.places[-1] + STRIDE * np.exp(1j * heading)
+    off = abs(place - line[len(walk.places)]) ** 2
+    return Steps((*walk.places, place), heading, walk.cost + float(off))
+
+
+def _run(line: Array, count: int, width: int, look: bool) -> Iterator[LayerState]:
+    walks = [Steps((0j,), 0.0, 0.0)]
+    for layer in range(count):
+        yield LayerState(3, f"layer {layer}: {len(walks)} waiting", walks, [], {})
+        score = {walk: (lengthened(walk, 0, line) if look else walk).cost for walk in walks}
+        ahead = "cost, and the next step straight on" if look else "cost alone"
+        yield LayerState(4, f"layer {layer}: score = {ahead}", walks, [], score)
+        ranked = sorted(walks, key=lambda walk: -score[walk])  # of those alike, the last stays: the best one
+        apart = {(np.round(walk.places[-1], 3), round(walk.heading, 3)): walk for walk in ranked}
+        crossed = [walk for walk in walks if walk not in apart.values()]
+        yield LayerState(5, f"layer {layer}: {len(crossed)} crossed out", [*apart.values()], crossed, score)
+        kept = sorted(apart.values(), key=lambda walk: score[walk])[:width]
+        crossed = [walk for walk in walks if walk not in kept]
+        yield LayerState(6, f"layer {layer}: the best {len(kept)} go on", kept, crossed, score)
+        walks = [lengthened(walk, turn, line) for walk in kept for turn in TURNS]
+        yield LayerState(
+            9 if layer == count - 1 else 13, f"layer {layer}: {len(walks)} longer walks", walks, [], {}
+        )
+    best = min(walks, key=lambda walk: walk.cost)
+    yield LayerState(11, f"at the end: the cheapest costs {best.cost:.2f} m²", walks, [], {}, best)
+
+
+def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: bool = True) -> Figure:
+    """Draw the layered search after some of its stages: walks on the ground, and the line of code that ran.
+
+    Parameters
+    ----------
+    line, count, width, look : as for `layer_states`.
+    step : the number of stages, from 0 on; the last one where it is too large.
+
+    Examples
+    --------
+    >>> layer_step(STRIDE * np.arange(7), 5, step=2).axes[0].get_title()
+    'layer 0: 0 crossed out'
+
+    Notebook: 08-path-synthesis
+    """
+    states = layer_states(line, count, width=width, look=look)
+    state = states[min(step, len(states) - 1)]
+    figure, (ground, code) = plt.subplots(1, 2, figsize=(9.5, 4.6), layout="constrained", width_ratios=(5, 6))
+    ground.plot(line[:-1].imag, line[:-1].real, color=ASKED, linewidth=3, alpha=0.7, label="asked for")
+    for walk in state.crossed:
+        _draw(ground, walk, QUIET, "crossed out", alpha=0.5, marker="x")
+    for walk in state.kept:
+        _draw(ground, walk, CURVES[0], "waiting", marker="o")
+    for walk, score in state.score.items():
+        if walk in state.kept:
+            tip = walk.places[-1]
+            where = {"xytext": (6, 5), "textcoords": "offset points"}
+            box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+            ground.annotate(f"{score:.1f}", (tip.imag, tip.real), **where, bbox=box, fontsize=9)
+    if state.best:
+        _draw(ground, state.best, PATH, "best", marker="o", linewidth=3.5)
+    ground.set(aspect="equal", xlabel="x (m)", ylabel="z (m)", xlim=(2.1, -1.4), ylim=(-0.3, 3.1))
+    ground.set_title(state.message, fontsize=10)
+    handles = {label: handle for handle, label in zip(*ground.get_legend_handles_labels(), strict=True)}
+    figure.legend(handles.values(), handles, loc="outside lower left", ncols=4, frameon=False, fontsize=9)
+    code.set(xlim=(0, 1), ylim=(len(PROGRAM), -1))
+    code.set_axis_off()
+    code.axhspan(state.line - 0.5, state.line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
+    for number, text in enumerate(PROGRAM):
+        code.text(0.02, number, text, va="center", family="monospace", fontsize=9.5)
+    return figure
+
+
+def _draw(ax: Axes, walk: Steps, colour: str, name: str, *, marker: str, **look: float) -> None:
+    places = np.array(walk.places)
+    ax.plot(places.imag, places.real, color=colour, **{"linewidth": 1.4, **look})
+    ax.plot(places[-1].imag, places[-1].real, marker, color=colour, markersize=6, label=name)
