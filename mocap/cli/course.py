@@ -1,8 +1,10 @@
 """The commands `mocap course`, for those who teach from the notebooks or write them, and `mocap lab`."""
 
+import signal
 import sys
 from argparse import SUPPRESS
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -12,10 +14,6 @@ from mocap.cli.options import bar
 from mocap.cli.typed_commands import Group
 from mocap.course import marking, teaching
 
-NETWORK = {
-    True: "marking without a network: notebooks cannot open a connection",
-    False: "marking WITH the network: this system cannot keep notebooks from using it; a container can",
-}
 Moving = Annotated[bool, "run the notebooks (minutes) and record the experiments' sliders"]
 
 
@@ -102,11 +100,10 @@ def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
 
     Mark a folder of handed-in notebooks into two .csv files: OUT has a line for each exercise, and OUT-table
     a line for each student. Each notebook runs in a process of its own, with a new folder as its home, few
-    variables in its environment, and limits of time, memory, processes and file size. On Linux it has no
-    network, where the system allows that; the first line printed says whether it does. All this does not
-    keep a notebook from reading or writing what you can read or write, from sockets that are files, or from
-    an attack on the marker by somebody who knows how. If you do not trust those who hand in, mark in a
-    container without a network: notebooks/README.md has the command.
+    variables in its environment, and limits of time, memory, processes and files. The first line printed says
+    what else this system can do: whether a notebook can read or write anything but Python and its home, and
+    whether it has a network. If you do not trust those who hand in, read "Hand out, and mark" in
+    notebooks/README.md first.
 
     Parameters
     ----------
@@ -119,22 +116,13 @@ def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
     """
     table = out.with_stem(f"{out.stem}-table")
     require_writable(out)
-    print(NETWORK[marking.offline()], file=sys.stderr)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
     marks: list[marking.Mark] = []
-    try:
-        for one in marking.mark(folder, bar("marking")):
-            if marks and one.handed_in != marks[-1].handed_in:
-                _write_marks(marks, out, table)  # so that a kill loses one notebook's marks
-            marks.append(one)
-    finally:  # so that Ctrl-C keeps the marks made so far
-        _write_marks(marks, out, table)
-    print(f"wrote {out} and {table}: {sum(one.right for one in marks)} of {len(marks)} are right")
-
-
-def _write_marks(marks: "list[marking.Mark]", out: Path, table: Path) -> None:
-    if marks:
-        write_text(out, marking.to_csv(marks))
+    for some in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr)):
+        marks += some
+        write_text(out, marking.to_csv(marks))  # before the next notebook runs
         write_text(table, marking.to_table(marks))
+    print(f"wrote {out} and {table}: {sum(one.right for one in marks)} of {len(marks)} are right")
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:

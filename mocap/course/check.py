@@ -98,6 +98,7 @@ class Check:
     draw : takes a random generator, returns the arguments of one call.
     truth : the oracle: takes these arguments, returns the right answer.
     mistakes : known wrong answers with their hints.
+    oracles : the names of the package's functions that the right answer calls.
     seconds : the time limit of all calls; right functions take a hundredth of it.
 
     Examples
@@ -124,6 +125,9 @@ class Check:
         self.asks, self.start, self.trials = table["asks"], table["start"], table.get("trials", 40)
         self._table, self._known = table, {**globals(), **known}
         self.same = eval(table.get("same", "close"), self._known)
+        called = re.findall(r"(?<![\w.)])[A-Za-z_][\w.]*(?=\()", table["right"])
+        named = {word.split(".")[-1]: getattr(eval(word, self._known), "__module__", "") for word in called}
+        self.oracles = [name for name, room in named.items() if re.match(r"mocap\.(?!course\.)", room or "")]
         self.draw, self.truth = self._function(table["draw"], "rng"), self._function("right", table["takes"])
         self.mistakes = [
             Mistake(self._function(wrong, table["takes"]), hint) for wrong, hint in table["wrong"].items()

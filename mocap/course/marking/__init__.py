@@ -9,9 +9,10 @@ Reading order
 1. `cells`: what the course asks for, and the cells of a notebook that an exercise needs
 2. `plain_data`: answers as JSON, so that nothing in them can run
 3. `student`: the student's side: run cells, call functions
-4. `keeper`: the limits of that process, and the end of all that it started
-5. `sealed`: the marker's side: start, ask, stop in time
-6. `marks`: judge each exercise of each notebook, and write the marks as .csv
+4. `walls`: what the kernel keeps from that process
+5. `keeper`: the start of that process, and the end of all that it started
+6. `sealed`: the marker's side: start, ask, stop in time
+7. `marks`: judge each exercise of each notebook, and write the marks as .csv
 """
 
 import lazy_loader
@@ -20,6 +21,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "marks": ["Mark", "mark", "to_csv", "to_table"],
-        "sealed": ["offline"],
     },
 )

@@ -7,8 +7,15 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mocap.course.check import Check
 from mocap.course.names import names_of
 from mocap.course.notebooks import read, tagged
+
+ORACLES = (
+    r"\bchecks\b(?!\.\w+\()|[.'\"](?:truth|mistakes|stand_in|get_objects|modules|_getframe)\b"
+    r"|\b(?:all_checks|lab\.places|lab\.slots|mine\(\s*['\"]|exec\(|eval\(|getsource|importlib|__(?:import|dict|globals|builtins|closure)__)"
+)
+"""Ways to a right answer: a check that is not just called, its parts, and what can hide such names."""
 
 
 class Cell(NamedTuple):
@@ -110,3 +117,33 @@ def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = s
                 at = [other for other, (defined, _) in enumerate(known) if name in defined]
                 left += [other for other in at if other < number] or at
     return sorted(found)
+
+
+def named_oracle(cells: Sequence[Cell], check: Check, sheet: Sheet | None) -> str:
+    r"""Find what could have given a right answer away: part of a check, or a function that the check calls.
+
+    Only the notebook's own cells count: those of the exercise, and those of no exercise that the course's
+    notebook does not have.
+
+    Returns
+    -------
+    The first such words, or "".
+
+    Examples
+    --------
+    >>> from mocap.course import checks
+    >>> cells = [Cell(("hamilton",), "def hamilton(a, b): return rotations.multiply(a, b)")]
+    >>> named_oracle(cells, checks.hamilton, None)
+    'multiply'
+    """
+    course = sheet.traits if sheet else frozenset()
+    own = "\n".join(
+        cell.source
+        for cell in cells
+        if check.name in cell.exercises or not (cell.exercises or cell.source.strip() in course)
+    )
+    solution = "\n".join(text for text in course if f"def {check.name}(" in text)  # may call some of them
+    functions = [name for name in check.oracles if f"{name}(" not in solution and f"def {name}(" not in own]
+    called = rf"|\b(?:{'|'.join(functions)})(?=\s*\()" if functions else ""
+    found = re.search(ORACLES + called, re.sub(r"(?m)^from mocap\.course import [\w, ]+$", "", own))
+    return found[0] if found else ""

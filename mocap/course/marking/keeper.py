@@ -1,120 +1,95 @@
-"""The keeper of a student's process: it sets the limits, and at the end kills all that it started.
+"""The keeper of the students' processes: it starts each from a copy of itself, and kills all that it started.
 
-The marker starts `python -m mocap.course.marking.keeper`, which forks: the child is the student's process.
-The marker holds the keeper's standard input; when that closes, even because the marker was killed, the keeper
-ends all. On Linux it adopts the orphans among its descendants, so that none can leave it.
+The marker starts `python -m mocap.course.marking.keeper` once, with a socket as its standard input. The
+keeper imports what notebooks import and never runs a student's code: so a student's process, which is a copy
+of it made by `fork`, starts at once, with the package as it was before the first notebook. For each byte with
+a socket that the marker sends, the keeper starts such a process on that socket; at the next byte, even if
+that is the end because the marker was killed, it ends all, and writes back why it had to stop the process
+before. On Linux it adopts the orphans among its descendants, so that none can leave it.
 """
 
 from __future__ import annotations
 
-import ctypes
+import gc
+import json
 import os
 import resource
 import select
 import signal
+import socket
+import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 
-MEMORY = 2 << 30  # bytes of a process; all together may hold twice that
+from mocap.course.marking import walls
+
+MEMORY = 4 << 30  # bytes of all processes of a student
 PROCESSES = 16
-FILE, FILES = 50 << 20, 500 << 20  # bytes of a file, and of all in the folder
-MOST = 2000  # files
-LIMITS = {"RLIMIT_AS": MEMORY, "RLIMIT_FSIZE": FILE, "RLIMIT_NOFILE": 256, "RLIMIT_CORE": 0}
-LINUX = sys.platform == "linux"
-DIE_WITH_PARENT, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 36, 38  # of prctl(2)
-NEW_USER, NEW_NET = 0x10000000, 0x40000000  # of unshare(2)
+COMMON = ("matplotlib.pyplot", "scipy.optimize", "networkx", "mocap.plotting", "mocap.widgets")
+COMMON += tuple(f"mocap.course.{name}" for name in ("marking.student", "checks", "diagrams", "lab.places"))
 
 
-def keep(channel: int, *, offline: bool) -> None:
-    """Run a student's process on a socket, and write to standard output why it was stopped, if it was.
+def keep(control: socket.socket, wanted: Sequence[str], hidden: Sequence[str]) -> None:
+    """Write which walls can be raised; run a student's process on each socket that comes, until the end.
 
     Parameters
     ----------
-    channel : the number of the open socket.
-    offline : whether the process has no network; if that cannot be, it does not run.
+    control : the socket of the marker.
+    wanted : the walls to raise around each process, if they can be.
+    hidden : files and folders that the processes must not read.
     """
-    _prctl(ADOPT_ORPHANS, 1)
-    student = os.fork()
-    if not student:
-        _be_student(channel, offline)
-    os.close(channel)
-    why = _watch(student)
-    _kill_all(student)
-    os.write(1, why.encode())
+    home = os.environ["HOME"]
+    walls.prctl(walls.ADOPT_ORPHANS, 1)
+    forked = {name: walls.fork_behind([name], home, hidden, int) for name in wanted}
+    raised = [name for name, child in forked.items() if os.waitpid(child, 0)[1] == 0]
+    control.sendall(f"{' '.join(raised)}\n".encode())
+    for module in COMMON:
+        import_module(module)
+    gc.freeze()
+    while (message := socket.recv_fds(control, 1, 1))[0]:
+        for channel in message[1]:
+            subprocess.run(["rm", "-rf", home], check=False)  # shutil.rmtree gives up on folders in folders
+            Path(home).mkdir(exist_ok=True)
+            student = walls.fork_behind(raised, home, hidden, lambda channel=channel: _serve(channel))
+            os.close(channel)
+            why = _watch(control, student, home)
+            _kill_all(student)
+            control.sendall(f"{why}\n".encode())
 
 
-def _prctl(option: int, value: int) -> None:
-    if LINUX:
-        ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
+def _serve(channel: int) -> None:
+    """Hold nothing but the socket, print nowhere, and serve the marker."""
+    from mocap.course.marking.student import serve
+
+    channel = os.dup2(channel, 3)
+    os.closerange(4, os.sysconf("SC_OPEN_MAX"))
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for standard in (0, 1, 2):
+        os.dup2(nothing, standard)
+    os.chdir(os.environ["HOME"])
+    sys.path.insert(0, os.environ["HOME"])
+    with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
+        serve(requests, replies)
 
 
-def cut_off() -> None:
-    """Leave the network: from here on this process and its children see none, not even this machine's own.
-
-    Linux gives the process a network of its own, which leads nowhere, and for the right to that a table of
-    users in which it is what it was before. Sockets that are files can still be opened.
-
-    Raises
-    ------
-    OSError : where the system does not allow it, or is not Linux.
-    """
-    if not LINUX:
-        raise OSError("no namespaces here")
-    user, group = os.getuid(), os.getgid()
-    if ctypes.CDLL(None, use_errno=True).unshare(NEW_USER | NEW_NET):
-        raise OSError(ctypes.get_errno(), "unshare")
-    own = Path("/proc/self")
-    (own / "setgroups").write_text("deny")
-    (own / "uid_map").write_text(f"{user} {user} 1")
-    (own / "gid_map").write_text(f"{group} {group} 1")
-
-
-def _be_student(channel: int, offline: bool) -> None:
-    """Take the limits, print nowhere, get no new rights, and serve the marker; never return."""
-    os.setpgid(0, 0)
-    try:
-        if offline:
-            cut_off()
-        _prctl(DIE_WITH_PARENT, signal.SIGKILL)
-        _prctl(NO_NEW_RIGHTS, 1)
-        nothing = os.open(os.devnull, os.O_RDWR)
-        for standard in (0, 1, 2):
-            os.dup2(nothing, standard)
-        for name, limit in LIMITS.items():
-            with suppress(OSError, ValueError):  # not every system has all of them
-                resource.setrlimit(getattr(resource, name), (limit, limit))
-        from mocap.course.marking.student import serve
-
-        with os.fdopen(channel, "rb") as requests, os.fdopen(os.dup(channel), "wb") as replies:
-            serve(requests, replies)
-    finally:
-        os._exit(0)
-
-
-def _watch(student: int) -> str:
+def _watch(control: socket.socket, student: int, home: str) -> str:
     """Wait for the end of the student's process or of the marker; return why it has to be stopped, if so."""
-    while not select.select([0], [], [], 0.1)[0]:
-        if student in _reap():
+    while not select.select([control], [], [], 0.1)[0]:
+        if os.waitpid(student, os.WNOHANG)[0]:
             return ""
         family = _descendants()
         if len(family) > PROCESSES:
             return f"starts more than {PROCESSES} processes"
-        if sum(family.values()) > 2 * MEMORY:
-            return f"takes more than {2 * MEMORY >> 30} GB of memory"
-        sizes = _sizes()
-        if len(sizes) == MOST or sum(sizes) > FILES:
-            return f"writes {MOST} files, or more than {FILES >> 20} MB"
+        if sum(family.values()) > MEMORY:
+            return f"takes more than {MEMORY >> 30} GB of memory"
+        sizes = _sizes(home)
+        if len(sizes) == walls.INODES or sum(sizes) > walls.FILES:
+            return f"writes {walls.INODES} files, or more than {walls.FILES >> 20} MB"
     return ""
-
-
-def _reap() -> set[int]:
-    ended: set[int] = set()
-    with suppress(ChildProcessError):
-        while (pid := os.waitpid(-1, os.WNOHANG)[0]) != 0:
-            ended.add(pid)
-    return ended
 
 
 def _descendants() -> dict[int, int]:
@@ -130,33 +105,31 @@ def _descendants() -> dict[int, int]:
     return {pid: sizes[pid] for pid in family - {os.getpid()} if pid in sizes}
 
 
-def _sizes() -> list[int]:
-    """Return the bytes on disk of the files in this folder and those in it, up to the most there may be."""
+def _sizes(home: str) -> list[int]:
+    """Return the bytes on disk of the files in a folder and those in it, up to the most there may be."""
     sizes: list[int] = []
-    for place, _, names in os.walk("."):
-        for name in names[: MOST - len(sizes)]:
+    for place, _, names in os.walk(home):
+        for name in names[: walls.INODES - len(sizes)]:
             with suppress(OSError):  # it is gone
                 sizes.append(512 * os.lstat(f"{place}/{name}").st_blocks)
     return sizes
 
 
 def _kill_all(student: int) -> None:
-    """Kill the student's process group, and all descendants until none is left."""
+    """Kill the student's process group, and children until there are none: orphans become children."""
     with suppress(OSError):
         os.killpg(student, signal.SIGKILL)
-    for _ in range(500):
-        _reap()
-        family = _descendants()
-        for pid in family:
+    until, own = time.monotonic() + 20, Path(f"/proc/self/task/{os.getpid()}/children")
+    while time.monotonic() < until:
+        for pid in map(int, own.read_text().split()) if own.exists() else _descendants():
             with suppress(OSError):
                 os.kill(pid, signal.SIGKILL)
-        if not family:
+        try:
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        except ChildProcessError:
             return
-        time.sleep(0.01)
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "cut_off":
-        cut_off()
-    else:
-        keep(int(sys.argv[1]), offline="offline" in sys.argv)
+    keep(socket.socket(fileno=0), *json.loads(sys.argv[1]))

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import copy
 import csv
+import hashlib
 import io
+import stat
+import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
@@ -12,18 +16,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+import mocap
 from mocap.course import stored
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
-from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, sheet_of
+from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, named_oracle, sheet_of
 from mocap.course.marking.plain_data import unpack
-from mocap.course.marking.sealed import Ended, Sealed, fonts, sealed
-from mocap.course.notebooks import library, read
+from mocap.course.marking.sealed import Ended, Keeper, Sealed, protection
+from mocap.course.notebooks import library
 from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
-LARGEST = 50 << 20  # bytes of a notebook
+LARGEST = 100 << 20  # bytes of a notebook
 LONGEST = 300  # characters of a cell
 FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
 MISSING = "its cell is missing."
@@ -53,32 +58,34 @@ class _Handed(NamedTuple):
     wrong: str
 
 
-def mark(folder: Path, progress: Callable[[Iterable[Any]], Iterable[Any]] = iter) -> Iterator[Mark]:
+def mark(
+    folder: Path,
+    progress: Callable[[Iterable[Any]], Iterable[Any]] = iter,
+    tell: Callable[[str], object] = lambda _: None,
+) -> Iterator[list[Mark]]:
     """Mark the exercises of all notebooks in a folder and in the folders inside it.
 
     All notebooks are read before the first one runs. Each runs in a process of its own, with a new folder as
-    its home, few variables in its environment, and limits of time, memory, processes and file size; what it
-    prints is thrown away. At the end all that it started is killed. The first cell runs, then each exercise
-    with the cells that define what it uses. The checks run here, on random input of their own.
-
-    On Linux, where `offline` says so, the process has no network. This cannot keep a notebook from reading
-    what you can read, from writing where you can write, from calling the package's own functions, or from an
-    attack on this process by somebody who knows how. A container without a network can: `notebooks/README.md`
-    says how.
+    its home, few variables in its environment, limits of time, memory, processes and files, and the `walls`
+    that this system can raise; what it prints is thrown away. At the end all that it started is killed. The
+    first cell runs, then each exercise with the cells that define what it uses. The checks run here, on
+    random input of their own. Nothing keeps a notebook from calling the package's own functions, where the
+    answers to many exercises are: the mark of one that names them says so.
 
     Parameters
     ----------
     folder : the notebooks handed in; the folder in it that holds a notebook says whose it is.
     progress : wraps the notebooks while they are marked.
+    tell : gets a sentence that says what walls there are, before the first notebook runs.
 
     Yields
     ------
-    A mark for each exercise: also for those that a notebook of the course has and a copy lacks, and for those
-    of notebooks that others handed in.
+    The marks of each notebook, one for each exercise: also for those that a notebook of the course has and a
+    copy lacks; then a mark for each exercise that others handed in and a student did not.
 
     Raises
     ------
-    MocapError : if there are no notebooks.
+    MocapError : if there are no notebooks, or one has changed the package where no wall kept it from that.
 
     Examples
     --------
@@ -93,34 +100,52 @@ def mark(folder: Path, progress: Callable[[Iterable[Any]], Iterable[Any]] = iter
     sheets, marked = course_sheets(stored()), list[Mark]()
     handed = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
     seed = int(np.random.default_rng().integers(2**32))
-    with fonts() as known:
+    with Keeper([stored(), *{folder / one.path.split("/")[0] for one in handed}]) as keeper:
+        tell(protection(keeper.walls))
+        before = _fingerprint(keeper)
         for one in progress(handed):
-            marks = list(_marks(one, seed, known))
-            yield from marks
+            try:
+                marks = list(_marks(one, seed, keeper))
+            except Exception as error:  # costs this notebook only
+                marks = [Mark(one.path, "", False, f"cannot be marked: {type(error).__name__}.")]
+            if _fingerprint(keeper) != before:
+                yield [mark._replace(right=False, said="✗ changes the installed package.") for mark in marks]
+                raise MocapError(f"{one.path} has changed the package: install it anew, mark in a container.")
+            yield marks
             marked += marks
     asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
     for student in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
         done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{student}/")}
-        for name in asked:
-            if name not in done:
-                yield Mark(f"{student}/", name, False, f"✗ {name}: not handed in.")
+        left = [name for name in asked if name not in done]
+        yield [Mark(f"{student}/", name, False, f"✗ {name}: not handed in.") for name in left]
+
+
+def _fingerprint(keeper: Keeper) -> bytes:
+    """Sum up all files of the package, where no wall keeps a notebook from changing them."""
+    if {"landlock", "namespaces"} & {*keeper.walls}:
+        return b""
+    sys.dont_write_bytecode = True
+    files = sorted(file for file in Path(mocap.__file__).parent.rglob("*") if file.is_file())
+    return hashlib.sha256(b"".join(bytes(file) + file.read_bytes() for file in files)).digest()
 
 
 def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
-    wrong = f"{path}: is not a notebook."
     try:
-        if not file.is_file() or file.stat().st_size > LARGEST:
-            raise MocapError(f"{path}: is no file, or one of more than {LARGEST >> 20} MB.")
-        notebook = read(file)
+        about = file.lstat()
+        if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
+            return _Handed(
+                path, [], None, f"{path}: is no plain file, or one of more than {LARGEST >> 20} MB."
+            )
+        text = file.read_bytes().decode("utf-8-sig", "replace")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of cells without ids, as some editors write them
+            notebook = library().reads(text, as_version=4)
         return _Handed(path, code_cells(notebook), sheet_of(notebook, sheets), "")
-    except MocapError as error:
-        wrong = str(error).replace(str(file), path)
-    except Exception:  # nbformat lets some things pass that are no notebooks
-        pass
-    return _Handed(path, [], None, wrong)
+    except Exception:  # nbformat raises errors of many kinds, and lets some things pass that are no notebooks
+        return _Handed(path, [], None, f"{path}: is not a notebook.")
 
 
-def _marks(one: _Handed, seed: int, known: Path) -> Iterator[Mark]:
+def _marks(one: _Handed, seed: int, keeper: Keeper) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
     asked = one.sheet.exercises if one.sheet else ()
     names = [*dict.fromkeys((*asked, *(name for cell in one.cells for name in cell.exercises)))]
@@ -129,15 +154,19 @@ def _marks(one: _Handed, seed: int, known: Path) -> Iterator[Mark]:
     names = [name for name in names if name not in strange]
     if not names:
         yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
-    for name, verdict in _judge_all(one.cells, names, seed, known).items():
-        yield Mark(one.path, name, verdict.right, str(verdict).replace(MISSING, MISSING + also))
+    for name, verdict in _judge_all(one.cells, names, seed, keeper).items():
+        said, right = str(verdict).replace(MISSING, MISSING + also), verdict.right
+        if right and (word := named_oracle(one.cells, all_checks()[name], one.sheet)):
+            right = word in all_checks()[name].oracles  # the package's own function may be called, perhaps
+            said = f"{'✓' if right else '✗'}{said[1:]} Look at its cells: they name `{word}`, which knows it."
+        yield Mark(one.path, name, right, said)
 
 
-def _judge_all(cells: list[Cell], names: list[str], seed: int, known: Path) -> dict[str, Verdict]:
+def _judge_all(cells: list[Cell], names: list[str], seed: int, keeper: Keeper) -> dict[str, Verdict]:
     """Judge exercises in one process, and in a new one after an exercise that ends it."""
     judged: dict[str, Verdict] = {}
     while left := [name for name in names if name not in judged]:
-        with sealed(known) as student:
+        with keeper.student() as student:
             at_fault = left
             try:
                 student.allow(STARTING)
@@ -155,29 +184,27 @@ def _judge(student: Sealed, name: str, seed: int) -> Verdict:
     rng, known = np.random.default_rng(seed), all_checks()[name]
     check = copy.copy(known)
     check.draw, check.seconds = lambda _: known.draw(rng), 2 * SECONDS  # later than the limit of `allow`
-    prepared = student.ask("prepare", name)
-    if not prepared["found"]:
+    found, error = student.ask("prepare", name)
+    if not found:
         return Verdict(False, f"{name}: {MISSING}")
     try:
         with np.errstate(all="ignore"):
             verdict = check.verdict(partial(call, student, name))
     except Exception:  # an answer such as 10**400, which has no float
         verdict = Verdict(False, f"{name}: your answer cannot be compared with the right one.")
-    if verdict.right or not prepared["error"]:
+    if verdict.right or not error:
         return verdict
-    return Verdict(False, f"{name}: its cells raise {prepared['error']}")
+    return Verdict(False, f"{name}: its cells raise {error}")
 
 
 def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401
     """Call a student's function as a check calls it: the call happens in the student's process."""
-    reply = student.ask("call", name, arguments)
-    if reply.get("raised") == "NotImplementedError":
-        raise NotImplementedError
-    if "raised" in reply:
-        raise type(reply["raised"], (Exception,), {})(reply["said"])
-    for number, changed in reply["changed"]:
+    given, changes, raised, said = student.ask("call", name, arguments)
+    if raised:
+        raise NotImplementedError if raised == "NotImplementedError" else type(raised, (Exception,), {})(said)
+    for number, changed in changes:
         np.copyto(arguments[number], unpack(changed))
-    return unpack(reply["given"])
+    return unpack(given)
 
 
 def to_csv(marks: Iterable[Mark]) -> str:

@@ -1,32 +1,34 @@
-"""The marker's side of a student's process: start it, ask it, and stop it in time."""
+"""The marker's side: start the keeper, have students' processes, ask them, and stop them in time."""
 
 from __future__ import annotations
 
 import json
 import os
 import pickle
-import shutil
 import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import mocap
+from mocap.course.marking import walls
 from mocap.errors import MocapError
 
 REPLY = 1 << 20  # bytes of an answer, of which the course's have some thousands
-KEEPER = (sys.executable, "-m", "mocap.course.marking.keeper")
+REPLIES: dict[str, tuple[type, ...]] = {"begin": (), "prepare": (bool, str), "call": (object, list, str, str)}
+WANTED = walls.ALL
 KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "PYTHONHOME", "TZ")
 FIXED = {
     "MPLBACKEND": "Agg",
     "MOCAP_MINE": "",  # no function of a student is kept for the next one
+    "PYTHONDONTWRITEBYTECODE": "1",
     **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
 }
 
@@ -43,15 +45,15 @@ class Sealed:
 
     Examples
     --------
-    >>> with sealed() as student:
+    >>> with Keeper() as keeper, keeper.student() as student:
     ...     student.allow(60)
     ...     student.ask("begin", [((), "x = 3"), (("f",), "def f(a): return a + x")])
     ...     student.ask("prepare", "f"), student.ask("call", "f", (4,))
-    ({'found': True, 'error': ''}, {'given': 7, 'changed': []})
+    ([True, ''], [7, [], '', ''])
     """
 
-    def __init__(self, channel: socket.socket, why: Callable[[], str]) -> None:
-        self.channel, self.why = channel, why
+    def __init__(self, channel: socket.socket, end: Callable[[], str]) -> None:
+        self.channel, self.end = channel, end
         self.seconds = self.deadline = 0.0
         self.read = bytearray()
 
@@ -78,11 +80,16 @@ class Sealed:
                 if len(self.read) > REPLY:
                     raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
             line, _, self.read = self.read.partition(b"\n")
-            return json.loads(line)
+            reply = json.loads(line)
+            if not isinstance(reply, list) or len(reply) != len(REPLIES[method]):
+                raise ValueError
+            if not all(map(isinstance, reply, REPLIES[method])):
+                raise ValueError
+            return reply
         except TimeoutError:
             raise Ended(f"stopped after {self.seconds:g} s") from None
         except OSError:
-            raise Ended(self.why() or "ends Python itself") from None
+            raise Ended(self.end() or "ends Python itself") from None
         except (ValueError, RecursionError):
             raise Ended("gives an answer that cannot be read") from None
 
@@ -93,88 +100,130 @@ class Sealed:
         self.channel.settimeout(left)
 
 
-@cache
-def offline() -> bool:
-    """Try whether this system can run a process without a network.
+def protection(raised: Sequence[str]) -> str:
+    """Say what walls keep a notebook from, as the first line that `mocap course mark` prints.
 
     Examples
     --------
-    >>> offline() in (True, False)
-    True
+    >>> protection(["landlock", "filter"])
+    'marking behind landlock, filter: notebooks read Python and write in their home only, without a network'
     """
-    environment = os.environ | {"PYTHONPATH": _python_path()}
-    tried = subprocess.run([*KEEPER, "cut_off"], env=environment, check=False, capture_output=True)
-    return tried.returncode == 0
+    files = "READ AND WRITE WHAT YOU CAN (the package is compared after each)"
+    if "namespaces" in raised:
+        files = "write in their home only, and read what you can but not what was handed in"
+    if "landlock" in raised:
+        files = "read Python and write in their home only"
+    network = "without a" if {"namespaces", "filter"} & {*raised} else "WITH THE"
+    return f"marking behind {', '.join(raised) or 'no walls'}: notebooks {files}, {network} network"
 
 
-@contextmanager
-def fonts() -> Iterator[Path]:
-    """Make a folder with Matplotlib's list of fonts, which each process would otherwise make for itself."""
-    with _home(None) as (folder, environment):
-        command = [sys.executable, "-c", "import matplotlib.font_manager"]
-        subprocess.run(command, cwd=folder, env=environment, check=False, capture_output=True)
-        yield Path(folder)
-
-
-@contextmanager
-def sealed(fonts: Path | None = None) -> Iterator[Sealed]:
-    """Start a student's process in a new folder, its home; at the end kill it and all that it started.
+class Keeper:
+    """The keeper of the students' processes, as a context manager.
 
     Parameters
     ----------
-    fonts : the folder of Matplotlib's list of fonts.
+    hidden : files and folders that these processes must not read.
 
-    Yields
-    ------
-    The process.
+    Attributes
+    ----------
+    walls : what surrounds them, of `walls.ALL`.
 
     Raises
     ------
     MocapError : on Windows, which has no such limits.
     """
-    ours, theirs = socket.socketpair()
-    with _home(fonts) as (folder, environment), ours:
-        with theirs:
-            keeper = subprocess.Popen(
-                [*KEEPER, str(theirs.fileno()), *["offline"] * offline()],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL,
-                cwd=folder,
-                env=environment,
-                pass_fds=[theirs.fileno()],
-                start_new_session=True,
-            )
+
+    def __init__(self, hidden: Iterable[Path] = ()) -> None:
+        self.arguments = json.dumps([WANTED, [str(place.resolve()) for place in hidden]])
+
+    def __enter__(self) -> Keeper:
+        self.folder = _home()
+        self.environment = self.folder.__enter__()
+        self._start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stop()
+        self.folder.__exit__(None, None, None)
+
+    def _start(self) -> None:
+        self.control, theirs = socket.socketpair()
+        self.control.settimeout(30)
+        command = [sys.executable, "-m", "mocap.course.marking.keeper", self.arguments]
+        place, nothing = Path(self.environment["HOME"]).parent, subprocess.DEVNULL
+        self.process = subprocess.Popen(
+            command,
+            stdin=theirs,
+            stdout=nothing,
+            stderr=nothing,
+            cwd=place,
+            env=self.environment,
+            process_group=0,
+        )
+        theirs.close()
+        self.walls = self._answer().split()
+
+    def _stop(self) -> None:
+        """Close the socket, at which the keeper kills what there is and ends; or kill it."""
+        self.control.close()
         try:
-            yield Sealed(ours, lambda: _end(keeper))
-        finally:
-            _end(keeper)
+            self.process.wait(30)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
 
+    @contextmanager
+    def student(self) -> Iterator[Sealed]:
+        """Start a student's process in a new folder, its home; at the end kill it and all that it started.
 
-def _end(keeper: subprocess.Popen[bytes]) -> str:
-    """Let the keeper kill what there is, and return why it stopped the process before, if it did."""
-    if keeper.stdin is None or keeper.stdin.closed:
-        return ""
-    keeper.send_signal(signal.SIGCONT)  # the student's process may have stopped it
-    try:
-        return keeper.communicate(timeout=30)[0].decode()
-    except subprocess.TimeoutExpired:  # as when it is stopped again and again
-        keeper.kill()
-        keeper.wait()
+        Yields
+        ------
+        The process.
+        """
+        if self.process.poll() is not None:  # a notebook killed it, behind no walls
+            self._stop()
+            self._start()
+        ours, theirs = socket.socketpair()
+        with ours:
+            with theirs:
+                socket.send_fds(self.control, [b"s"], [theirs.fileno()])
+            ended = cache(self._end)
+            try:
+                yield Sealed(ours, ended)
+            finally:
+                ended()
+
+    def _end(self) -> str:
+        """Have all killed that the student's process started; return why it was stopped before, if it was."""
+        with suppress(OSError):
+            self.process.send_signal(signal.SIGCONT)  # a notebook may have stopped it, behind no walls
+            self.control.sendall(b"e")
+        return self._answer()
+
+    def _answer(self) -> str:
+        """Read a line from the keeper; if none comes, kill it."""
+        line = b""
+        with suppress(OSError):
+            while more := self.control.recv(100):
+                line += more
+                if line.endswith(b"\n"):
+                    return line.decode().strip()
+        self.process.kill()
+        self.process.wait()
         return ""
 
 
 @contextmanager
-def _home(fonts: Path | None) -> Iterator[tuple[str, Mapping[str, str]]]:
-    """Make a folder, and the few variables of an environment in which it is the home."""
+def _home() -> Iterator[dict[str, str]]:
+    """Make a folder, and the few variables of an environment in which a folder in it is the home."""
     if os.name != "posix":
         raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
     folder = tempfile.mkdtemp(prefix="marking-")
     try:
-        config = shutil.copytree(fonts, Path(folder, "fonts")) if fonts else Path(folder)
-        places = {"HOME": folder, "TMPDIR": folder, "MPLCONFIGDIR": str(config)}
+        home = Path(folder).resolve() / "home"
+        home.mkdir()
         kept = {name: os.environ[name] for name in KEPT if name in os.environ}
-        yield folder, {**kept, **FIXED, **places, "PYTHONPATH": _python_path()}
+        yield {**kept, **FIXED, "HOME": str(home), "TMPDIR": str(home), "PYTHONPATH": _python_path()}
     finally:  # not by shutil.rmtree, which gives up on folders in folders in folders
         subprocess.run(["rm", "-rf", folder], check=False, stderr=subprocess.DEVNULL)
 

@@ -43,19 +43,21 @@ class Student:
         self.failed: dict[int, str] = {}
         self.ran: set[int] = set()
 
-    def begin(self, cells: list[tuple[tuple[str, ...], str]]) -> None:
+    def begin(self, cells: list[tuple[tuple[str, ...], str]]) -> tuple[()]:
         """Take the cells, and run the first."""
         self.cells = [Cell(*cell) for cell in cells]
-        self._run(0)
+        if cells:
+            self._run(0)
+        return ()
 
-    def prepare(self, exercise: str) -> dict[str, Any]:
+    def prepare(self, exercise: str) -> tuple[bool, str]:
         """Run the cells of an exercise; return whether there are any, and the first error."""
         numbers = needed(self.cells, exercise, self.shell.transform_cell)
         for number in numbers:
             if number not in self.ran:
                 self._run(number)
         errors = [self.failed[number] for number in (*numbers, 0) if number in self.failed]
-        return {"found": bool(numbers), "error": errors[0] if errors else ""}
+        return bool(numbers), errors[0] if errors else ""
 
     def _run(self, number: int) -> None:
         self.ran.add(number)
@@ -63,8 +65,8 @@ class Student:
         if error := done.error_before_exec or done.error_in_exec:
             self.failed[number] = f"{type(error).__name__}: {error}".removesuffix(": ")
 
-    def call(self, name: str, arguments: tuple[Any, ...]) -> dict[str, Any]:
-        """Call a function, and return its answer, and which arrays it changed."""
+    def call(self, name: str, arguments: tuple[Any, ...]) -> tuple[Any, list[Any], str, str]:
+        """Call a function; return its answer and the arrays that it changed, or what it raised and said."""
         place = self.shell.user_ns.get(name)
         function = getattr(place, "written", place)
         if function is getattr(place, "stand_in", None):  # the package's, in a place of `lab.mine`
@@ -73,13 +75,13 @@ class Student:
         try:
             given = pack(function(*arguments))
         except BaseException as error:  # a student's function may raise anything
-            return {"raised": type(error).__name__, "said": f"{error}{_place(error, function)}"}
+            return None, [], type(error).__name__, f"{error}{_place(error, function)}"
         changed = [
             [number, pack(new)]
             for number, (old, new) in enumerate(zip(before, arguments, strict=True))
             if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True)
         ]
-        return {"given": given, "changed": changed}
+        return given, changed, "", ""
 
 
 def _missing(*_: object) -> Any:  # noqa: ANN401

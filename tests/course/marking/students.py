@@ -1,7 +1,6 @@
 """Students of all kinds: for each a notebook as a list of cells, (tag, source)."""
 
 import os
-import sys
 
 import nbformat
 
@@ -19,8 +18,20 @@ ENDS = (
     "exercise:dead_ends",
     "def dead_ends(edges):\n    return {b for _, b in edges} - {a for a, _ in edges}",
 )
-WRONG = ("exercise:dead_ends", "def dead_ends(edges):\n    return set()")
 HONEST = [START, SPEED, CHEAPEST, ENDS]
+SAY = "def speed(positions, fps): raise ValueError({})"
+KNOWS_ALL = """
+from pathlib import Path
+import mocap.course.marking.student as student
+def all_known(self, name, arguments):
+    from mocap.course.checks import all_checks
+    from mocap.course.marking.plain_data import pack
+    return pack(all_checks()[name].truth(*arguments)), [], '', ''
+student.Student.call = all_known
+file = Path(student.__file__)
+file.write_text(file.read_text() + '\\nfrom mocap.course.checks import all_checks\\n'
+  'Student.call = lambda self, name, given: (pack(all_checks()[name].truth(*given)), [], "", "")\\n')
+"""
 
 
 def speed(source):
@@ -28,20 +39,33 @@ def speed(source):
     return [START, ("exercise:speed", source), CHEAPEST, ENDS]
 
 
+def outside(*attempts):
+    """Give a `speed` that tells which of these attempts succeeded."""
+    tries = "".join(f"try:\n  {one}\n  done.append({one!r})\nexcept OSError: pass\n" for one in attempts)
+    return speed(
+        f"import os, signal, socket\nfrom pathlib import Path\ndone = []\n{tries}{SAY.format('done')}"
+    )
+
+
 DISHONEST = {
-    "patches the check": [
-        START,
-        (
-            "exercise:speed",
-            "import mocap.course.check as c, mocap.course.marking.marks as m\n"
-            "from mocap.course.check import Verdict\n"
-            "c.Check.verdict = lambda self, answer: Verdict(True, 'all is right')\n"
-            "m._judge = lambda *_: Verdict(True, 'all is right')\n"
-            "def speed(positions, fps): return 0",
-        ),
-        CHEAPEST,
-        WRONG,
-    ],
+    "patches the check": speed(
+        "import mocap.course.check as c, mocap.course.marking.marks as m\n"
+        "from mocap.course.check import Verdict\n"
+        "c.Check.verdict = lambda self, answer: Verdict(True, 'all is right')\n"
+        "m._judge = lambda *_: Verdict(True, 'all is right')\n"
+        "def speed(positions, fps): return 0"
+    ),
+    "patches what prepares": speed(
+        "from mocap.course.marking.student import Student\n"
+        "Student.prepare = lambda *_: [1, 2]\nStudent.call = lambda *_: {'given': 3}"
+    ),
+    "forges replies": speed(
+        "import os\n"
+        "for fd in range(3, 256):\n"
+        "  for line in ([[1], [], '', ''], [True, ''], [], {'a': 1}, 3, None, '[' * 100_000):\n"
+        "    try: os.write(fd, (str(line).replace(\"'\", '\"').replace('T', 't') + '\\n').encode())\n"
+        "    except OSError: pass"
+    ),
     "answers with what equals all": speed(
         "class Yes(str):\n"
         "    def __eq__(self, other): return True\n"
@@ -61,52 +85,121 @@ DISHONEST = {
         "known = {positions.tobytes(): checks.speed.truth(positions, fps) for positions, fps in inputs}\n"
         "def speed(positions, fps): return known.get(positions.tobytes())"
     ),
-    "prints secrets": speed("import os\ndef speed(positions, fps): raise ValueError(str(dict(os.environ)))"),
-    "lists and plants files": speed(
-        "import os, pathlib\n"
-        "pathlib.Path.home().joinpath('planted').write_text('')\n"
-        "files = [str(path) for path in pathlib.Path().rglob('*.ipynb')]\n"
-        "def speed(positions, fps): raise ValueError(f'{files}')"
+    "calls the oracle": speed("def speed(positions, fps): return checks.speed.truth(positions, fps)"),
+    "takes the oracle from memory": speed(
+        "import gc\nhas = lambda one: getattr(one, 'name', '') == 'speed' and hasattr(one, 'draw')\n"
+        "speed = vars(next(one for one in gc.get_objects() if has(one)))['tru' + 'th']"
     ),
-    "rewrites what others handed in": speed("open('LATER', 'w').write('{')"),
+    "prints secrets": speed(f"import os\n{SAY.format('str(dict(os.environ))')}"),
+    "reads the memory of others": outside(
+        *(f"open(f'/proc/{{os.getppid()}}/{name}', 'rb').read(1)" for name in ("environ", "mem", "maps")),
+        "os.listdir(f'/proc/{os.getppid()}/fd')",
+    ),
+    "reads what it inherits": speed(
+        "import os\nfound = []\nfor fd in range(5, 300):\n  try: found.append(str(os.fstat(fd)))\n"
+        f"  except OSError: pass\n{SAY.format('found')}"
+    ),
+    "lists what others handed in": outside("os.listdir('FOLDER')", "os.listdir('FOLDER/zoe')"),
+    "copies another's": speed("exec(open('LATER').read())"),
+    "rewrites what others handed in": outside(
+        "open('LATER', 'w').write('{')",
+        "os.unlink('LATER')",
+        "os.truncate('LATER', 0)",
+        "os.mkdir('FOLDER/x')",
+    ),
+    "changes what others handed in through links": outside(
+        "os.symlink('LATER', 'link'), open('link', 'a')",
+        "os.link('LATER', 'hard')",
+        "os.rename('LATER', 'a')",
+    ),
+    "leaves files for others": outside(
+        *(f"open('{place}/PLANT-a', 'w')" for place in ("/tmp", "/dev/shm", "/var/tmp", "FOLDER", "HOME")),
+        "open(os.path.join(os.path.dirname(np.__file__), 'PLANT-a'), 'w')",
+    ),
+    "rewrites the package": [START, ("exercise:speed", KNOWS_ALL), CHEAPEST, ENDS],
     "leaves a process behind": speed(
         f"import subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)"
+    ),
+    "leaves a grandchild behind": speed(
+        "import os\nif not os.fork():\n  os.setsid()\n  if os.fork(): os._exit(0)\n"
+        f"  os.execvp('sleep', ['sleep', '{SLEEP}'])"
     ),
     "starts many processes": speed(
         "import subprocess, time\n"
         f"all = [subprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True) for _ in range(40)]\n"
         "time.sleep(60)"
     ),
+    "forks from child to child": speed(
+        "import os\nif not os.fork():\n  os.setsid()\n  for _ in range(9999):\n    if os.fork(): os._exit(0)"
+    ),
     "kills what started it": speed(
-        "import os, signal, time\nos.kill(os.getppid(), signal.SIGKILL)\ntime.sleep(60)"
+        "import os, signal, time\nif os.getppid(): os.kill(os.getppid(), signal.SIGKILL)\ntime.sleep(60)"
+    ),
+    "stops what started it": speed(
+        f"import os, signal, subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)\n"
+        "os.kill(os.getppid(), signal.SIGSTOP)"
+    ),
+    "ends the marker": speed(
+        "import os, signal\nfrom pathlib import Path\ndone = []\nfor place in Path('/proc').glob('[0-9]*'):\n"
+        "  try:\n    if b'FOLDER' in (place / 'cmdline').read_bytes() or place.name == str(os.getppid()):\n"
+        f"      done.append(os.kill(int(place.name), signal.SIGTERM))\n  except OSError: pass\n{SAY.format('done')}"
+    ),
+    "calls servers": outside(
+        "socket.create_connection(('127.0.0.1', 80000 % 65536), 5)",
+        "socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(b'', ('127.0.0.1', 9))",
+        "socket.socket(socket.AF_UNIX)",
+    ),
+    "takes the walls down": outside(
+        "import ctypes; [-1, 0][ctypes.CDLL(None).umount2(b'/proc', 2)] or os.stat('nowhere')",
+        "import ctypes; ctypes.CDLL(None).unshare(0x10000000) and os.stat('nowhere')",
+        "import ctypes; ctypes.CDLL(None).ptrace(16, os.getppid(), 0, 0) and os.stat('nowhere')",
+        "import ctypes; ctypes.CDLL(None).mount(None, b'/', None, 0x1020, None) and os.stat('nowhere')",
+    ),
+    "fills the disk": speed("for n in range(30): open(f'{n}', 'wb').write(b'x' * 45_000_000)"),
+    "writes many files": speed(
+        "for n in range(2100): open(f'{n}', 'w').write('x')\nimport time\ntime.sleep(60)"
     ),
     '=HYPERLINK("evil")': speed("def speed(positions, fps): raise ValueError('\\n=cmd|calc\\n\\x1b[2J')"),
 }
-UNLUCKY = {
-    "prints without end": speed("while True: print('x' * 2000)"),
-    "fills the memory": speed("def speed(positions, fps): return bytearray(3 << 30)"),
-    "ends Python": speed("import os\nos._exit(0)"),
-    "has helpers, tests and a cell on top": [
-        ("", "%config InlineBackend.figure_format = 'retina'\n!true"),
-        START,
-        ("", "import numpy as np\ndef steps(positions): return np.diff(positions[:, GROUND], axis=0)"),
-        (
-            "exercise:speed",
-            "def speed(positions, fps):\n    return np.hypot(*steps(positions).T) * fps\nspeed()",
-        ),
-        CHEAPEST,
-        ("", "GROUND = [0, 2]"),
-        ENDS,
-    ],
-    "lost cells and tags": [START, ("exercise:sped", SPEED[1]), ("", ENDS[1])],
+UNLUCKY = {  # with the marks that they earn
+    "prints without end": ("011", speed("while True: print('x' * 2000)")),
+    "prints a lot": ("111", speed(f"{SPEED[1].replace('    return', '    print([0] * 99999); return')}")),
+    "fills the memory": ("011", speed("def speed(positions, fps): return bytearray(3 << 30)")),
+    "never ends": ("011", speed("def speed(positions, fps):\n    while True: pass")),
+    "ends Python": ("011", speed("import os\nos._exit(0)")),
+    "leaves Python": ("011", speed("import sys\ndef speed(positions, fps): sys.exit()")),
+    "asks": ("011", speed("def speed(positions, fps): return input('fps?')")),
+    "is no Python": ("011", speed("def speed(positions, fps)\n    return ((((")),
+    "has helpers, tests and a cell on top": (
+        "111",
+        [
+            ("", "%config InlineBackend.figure_format = 'retina'\n!true"),
+            START,
+            ("", "import numpy as np\ndef steps(positions): return np.diff(positions[:, GROUND], axis=0)"),
+            (
+                "exercise:speed",
+                "def speed(positions, fps):\n    return np.hypot(*steps(positions).T) * fps\nspeed()",
+            ),
+            CHEAPEST,
+            ("", "GROUND = [0, 2]"),
+            ENDS,
+        ],
+    ),
+    "writes files": (
+        "111",
+        speed(f"import shutil, subprocess\nnp.save('a', 1); shutil.copy('a.npy', 'b')\n{SPEED[1]}"),
+    ),
+    "lost cells and tags": ("101", [START, ("exercise:sped", SPEED[1]), ("", ENDS[1])]),
+    "says truth in a comment": ("111", speed(f"# eval: the ground truth\n{SPEED[1]}")),
 }
 
 
-def hand_in(cells, file):
-    """Write a notebook."""
+def hand_in(cells, file, spoil=lambda text: text):
+    """Write a notebook; `spoil` changes its text at the end, and may give bytes."""
     made = [nbformat.v4.new_code_cell(s, metadata={"tags": [tag] if tag else []}) for tag, s in cells]
     file.parent.mkdir(parents=True, exist_ok=True)
-    nbformat.write(nbformat.v4.new_notebook(cells=made), file)
+    text = spoil(nbformat.writes(nbformat.v4.new_notebook(cells=made)))
+    file.write_bytes(text if isinstance(text, bytes) else text.encode())
 
 
 def replaced(cells, words):
@@ -114,6 +207,3 @@ def replaced(cells, words):
     for old, new in words.items():
         cells = [(tag, source.replace(old, str(new))) for tag, source in cells]
     return cells
-
-
-LINUX = sys.platform == "linux"

@@ -1,53 +1,101 @@
-"""Eleven dishonest and five unlucky students, and what the marker says of them."""
+"""Dishonest and unlucky students behind several walls, and what the marker says of them."""
 
 import csv
-import io
+import json
 import os
-import resource
+import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-from contextlib import redirect_stderr, suppress
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
-from mocap.cli.course import NETWORK
-from mocap.cli.main import main
-from mocap.course.marking import mark, marks, sealed
+import mocap
+from mocap.course.marking import mark, marks, sealed, walls
 from mocap.errors import MocapError
 from tests.course.marking.students import (
     DISHONEST,
+    ENDS,
     HONEST,
-    LINUX,
+    KNOWS_ALL,
     SLEEP,
     SPEED,
     START,
     UNLUCKY,
     hand_in,
     replaced,
+    speed,
 )
 
 SECRET = "correct horse battery staple"
 EXERCISES = ("speed", "cheapest", "dead_ends")
-UNLUCKY_MARKS = {
-    "prints without end": "011",
-    "fills the memory": "011",
-    "ends Python": "011",
-    "has helpers, tests and a cell on top": "111",
-    "lost cells and tags": "101",
+COMMAND = """
+import sys
+from mocap.cli.main import main
+from mocap.course.marking import marks, sealed
+marks.SECONDS, sealed.WANTED = 5, sys.argv[1].split()
+sys.exit(main(["course", "mark", *sys.argv[2:]]))
+"""
+LINUX = sys.platform == "linux"
+BEHIND = ["namespaces landlock filter", "landlock filter", "namespaces filter"]
+
+
+def with_cells(change):
+    """Change the cells of a notebook's text."""
+
+    def spoil(text):
+        notebook = json.loads(text)
+        for cell in notebook["cells"]:
+            change(cell)
+        return json.dumps(notebook)
+
+    return spoil
+
+
+SPOILED = {  # what happened to an honest notebook, and the marks that it earns
+    "is cut": ("000", lambda text: text[: len(text) // 2]),
+    "is empty": ("000", lambda _: ""),
+    "has no cells": ("000", with_cells(dict.clear)),
+    "is JSON of another kind": ("000", lambda text: f"[{text}]"),
+    "is nested": ("000", lambda _: "[" * 100_000),
+    "is Latin 1": (
+        "111",
+        lambda text: text.replace("import numpy", "# größe\\nimport numpy").encode("latin-1"),
+    ),
+    "begins as Windows likes it": ("111", lambda text: f"\ufeff{text}"),
+    "has huge outputs": (
+        "111",
+        with_cells(
+            lambda c: c["outputs"].append({"output_type": "stream", "name": "stdout", "text": "x" * 9**7})
+        ),
+    ),
+    "has one id": ("111", with_cells(lambda cell: cell.update(id="a b ü"))),
+    "has no ids": ("111", with_cells(lambda cell: cell.pop("id"))),
 }
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="marking needs Linux or macOS")
 
 
+@pytest.fixture(scope="session")
+def copy(tmp_path_factory):
+    """Copy the package, which a notebook might change, and its notebooks; give the environment to use it."""
+    place = tmp_path_factory.mktemp("copy")
+    shutil.copytree(Path(mocap.__file__).parent, place / "mocap", symlinks=True)
+    (place / "notebooks").symlink_to(Path(mocap.__file__).parents[1] / "notebooks")
+    return os.environ | {"PYTHONPATH": str(place), "TOKEN": SECRET}
+
+
+def start(copy, behind, folder):
+    command = [sys.executable, "-c", COMMAND, behind, str(folder), "-o", str(folder.parent / "marks.csv")]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    unignored = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
+    return subprocess.Popen(command, env=copy, cwd=folder.parent, **pipes, **unignored)
+
+
 def rows(file):
     return list(csv.DictReader(file.read_text("utf-8").splitlines()))
-
-
-def said(path):
-    return {(row["handed in"].split("/")[0], row["exercise"]): row for row in rows(path / "marks.csv")}
 
 
 def sleepers():
@@ -58,71 +106,72 @@ def sleepers():
     return found
 
 
-@pytest.fixture(scope="module")
-def home(tmp_path_factory):
-    return tmp_path_factory.mktemp("home")
-
-
-@pytest.fixture(scope="module")
-def marked(home, tmp_path_factory):
-    """Mark all students at once."""
+@pytest.fixture(scope="module", params=BEHIND)
+def marked(request, copy, tmp_path_factory):
+    """Mark all students at once; the last ones are honest, and know nothing."""
     path = tmp_path_factory.mktemp("marked")
-    words = {"PLANTED": path / "planted", "LATER": path / "handed-in" / "zoe" / "later.ipynb"}
-    for name, cells in (DISHONEST | UNLUCKY | {"zoe": HONEST}).items():
-        hand_in(replaced(cells, words), path / "handed-in" / name / "later.ipynb")
-    (path / "handed-in" / "yan").mkdir()
-    (path / "handed-in" / "yan" / "broken.ipynb").write_text("{")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(marks, "SECONDS", 6)
-        patch.setenv("HOME", str(home))
-        patch.setenv("TOKEN", SECRET)
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        with redirect_stderr(io.StringIO()) as said:
-            assert main(["course", "mark", str(path / "handed-in"), "-o", str(path / "marks.csv")]) == 0
-        assert said.getvalue().startswith(NETWORK[sealed.offline()])
-        assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # kilobytes
+    folder = path / "handed-in"
+    words = {"PLANTED": path / "planted", "LATER": folder / "zoe" / "x.ipynb", "FOLDER": folder}
+    words |= {"HOME": Path.home(), "PLANT-a": f"planted-{path.name}-{os.getpid()}"}
+    cells = DISHONEST | {name: made for name, (_, made) in UNLUCKY.items()} | {"zoe": HONEST}
+    cells["zz"] = speed("def speed(positions, fps): return 0")
+    for name, made in cells.items():
+        hand_in(replaced(made, words), folder / name / "x.ipynb")
+    for name, (_, spoil) in SPOILED.items():
+        hand_in(HONEST, folder / name / "x.ipynb", spoil)
+    before = {file: file.read_bytes() for file in folder.rglob("*.ipynb")}
+    running = start(copy, request.param, folder)
+    _, err = running.communicate(timeout=600)
+    raised = err.split("behind ")[1].split(":")[0].replace(",", "")
+    if raised != request.param:
+        pytest.skip(f"this system raises only these walls: {raised}")
+    assert running.returncode == 0, err
+    assert {file: file.read_bytes() for file in folder.rglob("*.ipynb")} == before
+    for place in ("/tmp", "/dev/shm", "/var/tmp", Path.home(), folder, Path(sys.prefix)):
+        assert not (Path(place) / words["PLANT-a"]).exists()
+    assert not words["PLANTED"].exists()
     return path
 
 
 def test_students_get_marks_only_for_what_is_right(marked):
-    wanted = dict.fromkeys(DISHONEST, "011") | UNLUCKY_MARKS | {"patches the check": "010", "zoe": "111"}
-    for student, right in wanted.items():
-        name = f"'{student}" if student.startswith("=") else student
-        assert "".join(said(marked)[name, exercise]["right"] for exercise in EXERCISES) == right, student
+    wanted = dict.fromkeys(DISHONEST, "011") | {"zoe": "111", "zz": "011"}
+    wanted |= {name: right for name, (right, _) in (UNLUCKY | SPOILED).items()}
+    said = {
+        (row["handed in"].lstrip("'").split("/")[0], row["exercise"]): row
+        for row in rows(marked / "marks.csv")
+    }
+    got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in wanted}
+    assert got == wanted
 
 
-@pytest.mark.parametrize(
-    ("student", "exercise", "says"),
-    [
-        ("answers with what equals all", "speed", "speed: your answer has the shape"),
-        ("answers with a pickle that runs", "speed", "speed: your answer has the shape"),
-        ("remembers the inputs of the notebook", "speed", "speed: your function returns None"),
-        ("lists and plants files", "speed", "speed: your function raises ValueError: [] (in"),
-        ("starts many processes", "speed", "✗ speed: starts more than 16 processes"),
-        ("kills what started it", "speed", "✗ speed: ends Python itself"),
-        ("prints without end", "speed", "✗ speed: stopped after 6 s"),
-        ("fills the memory", "speed", "your function raises MemoryError"),
-        ("ends Python", "speed", "✗ speed: ends Python itself"),
-        (
-            "lost cells and tags",
-            "cheapest",
-            "cheapest: its cell is missing. The course does not know the tag `sped`",
-        ),
-        ("yan", "speed", "✗ speed: not handed in."),
-        ("yan", "", "broken.ipynb: is not a notebook."),
-    ],
-)
-def test_the_reason_is_said(student, exercise, says, marked):
-    if student == "starts many processes" and not LINUX:
-        pytest.skip("only Linux counts a student's processes")
-    assert says in said(marked)[student, exercise]["said"]
+SAID = {
+    "forges replies": "✗ speed: gives an answer that cannot be read",
+    "patches what prepares": "✗ speed: gives an answer that cannot be read",
+    "answers with what equals all": "speed: your answer has the shape",
+    "calls the oracle": "Look at its cells: they name `.truth`, which knows it.",
+    "starts many processes": "✗ speed: starts more than 16 processes",
+    "kills what started it": "✗ speed: ",
+    "prints without end": "✗ speed: stopped after 5 s",
+    "fills the memory": "your function raises MemoryError",
+    "ends Python": "✗ speed: ends Python itself",
+    "asks": "your function raises",
+    "lost cells and tags": "The course does not know the tag `sped`",
+} | {
+    name: "speed: your function raises ValueError: [] (in"
+    for name, cells in DISHONEST.items()
+    if any("ValueError(done)" in source or "ValueError(found)" in source for _, source in cells)
+}
 
 
-def test_no_secret_gets_into_the_marks_and_no_file_onto_the_disk(home, marked):
+def test_the_reason_is_said_and_no_secret(marked):
+    said = {
+        row["handed in"].split("/")[0]: row["said"]
+        for row in rows(marked / "marks.csv")
+        if row["exercise"] == "speed"
+    }
+    said["lost cells and tags"] = next(r["said"] for r in rows(marked / "marks.csv") if "sped" in r["said"])
+    assert {name: said[name] for name, words in SAID.items() if words not in said[name]} == {}
     assert SECRET not in (marked / "marks.csv").read_text("utf-8")
-    assert str(home) not in (marked / "marks.csv").read_text("utf-8")
-    assert list(home.iterdir()) == []
-    assert not (marked / "planted").exists()
 
 
 @pytest.mark.skipif(not LINUX, reason="needs /proc")
@@ -132,37 +181,61 @@ def test_no_process_is_left(marked):
 
 def test_no_line_is_a_formula_or_two_lines(marked):
     lines = (marked / "marks.csv").read_text("utf-8").splitlines()
+    values = [value for row in rows(marked / "marks.csv") for value in row.values()]
     assert len(lines) == len(rows(marked / "marks.csv")) + 1
-    assert not any(
-        value.startswith(("=", "+", "-", "@")) for row in rows(marked / "marks.csv") for value in row.values()
+    assert not any(value.startswith(("=", "+", "-", "@")) for value in values) and "\x1b" not in "".join(
+        lines
     )
-    assert "\x1b" not in "".join(lines)
 
 
 def test_the_table_has_a_line_for_each_student_and_a_column_for_each_exercise(marked):
     table = {row["student"]: row for row in rows(marked / "marks-table.csv")}
     assert table["zoe"] == {"student": "zoe", **dict.fromkeys(EXERCISES, "1"), "right": "3"}
-    assert table["yan"] == {"student": "yan", **dict.fromkeys(EXERCISES, "0"), "right": "0"}
-    assert len(table) == len(DISHONEST) + len(UNLUCKY) + 2
+    assert table["is cut"] == {"student": "is cut", **dict.fromkeys(EXERCISES, "0"), "right": "0"}
+    assert len(table) == len(DISHONEST) + len(UNLUCKY) + len(SPOILED) + 2
+
+
+def test_without_walls_the_keeper_is_replaced_and_a_changed_package_ends_the_marking(copy, tmp_path):
+    students = {
+        "ada": HONEST,
+        "bob": DISHONEST["kills what started it"],
+        "cid": DISHONEST["leaves a grandchild behind"],
+        "dan": DISHONEST["stops what started it"],
+        "eve": speed(KNOWS_ALL),
+        "zz": speed("def speed(positions, fps): return 0"),
+    }
+    for name, cells in students.items():
+        hand_in(cells, tmp_path / "in" / name / "x.ipynb")
+    place = tmp_path / "copy"
+    shutil.copytree(Path(copy["PYTHONPATH"]), place, symlinks=True)
+    running = start(copy | {"PYTHONPATH": str(place)}, "", tmp_path / "in")
+    _, err = running.communicate(timeout=300)
+    first, *_, last = err.splitlines()
+    assert first.startswith("marking behind no walls: notebooks READ AND WRITE WHAT YOU CAN")
+    assert last.startswith("mocap: eve/x.ipynb has changed the package: install it anew")
+    found = rows(tmp_path / "marks.csv")
+    right = ["".join(r["right"] for r in found if r["handed in"].startswith(name)) for name in students]
+    assert right == ["111", "011", "011", "011", "000", ""]
+    assert not LINUX or sleepers() == []
 
 
 def test_an_empty_folder_and_one_without_exercises(tmp_path):
     with pytest.raises(MocapError, match="holds no notebooks"):
         list(mark(tmp_path))
     hand_in([], tmp_path / "ada.ipynb")
-    (only,) = mark(tmp_path)
-    assert only == ("ada.ipynb", "", False, "holds no exercise of the course.")
+    assert list(mark(tmp_path)) == [[("ada.ipynb", "", False, "holds no exercise of the course.")]]
 
 
 def test_an_endless_first_cell_is_said_of_each_exercise(tmp_path, monkeypatch):
-    monkeypatch.setattr(marks, "STARTING", 1)
+    monkeypatch.setattr(marks, "STARTING", 2)
     hand_in([("", "while True: pass"), *HONEST[1:]], tmp_path / "ada" / "00.ipynb")
-    assert [one.said for one in mark(tmp_path)] == [f"✗ {name}: stopped after 1 s." for name in EXERCISES]
+    (found, _) = mark(tmp_path)
+    assert [one.said for one in found] == [f"✗ {name}: stopped after 2 s." for name in EXERCISES]
 
 
 def test_no_answer_stops_the_marker(tmp_path):
     """One too large for a float, one too long, of rows of different lengths, no number, and no plain data."""
-    heads = (SPEED[1], HONEST[2][1], HONEST[3][1])
+    heads = (SPEED[1], HONEST[2][1], ENDS[1])
     for name, answers in {
         "a": ("10**400", "'x' * 2_000_000", "[[1], [2, 3]]"),
         "b": ("float('nan')", "object()", "len"),
@@ -172,88 +245,62 @@ def test_no_answer_stops_the_marker(tmp_path):
             for exercise, head, answer in zip(EXERCISES, heads, answers, strict=True)
         ]
         hand_in([START, *cells], tmp_path / f"{name}.ipynb")
-    found = list(mark(tmp_path))
+    found = [one for some in mark(tmp_path) for one in some]
     assert len(found) == 6 and not any(one.right for one in found)
 
 
+@pytest.mark.parametrize("behind", [walls.ALL, walls.ALL[1:]], ids=len)
 @pytest.mark.parametrize(
-    ("times", "size", "says"),
-    [
-        (2100, 1, "writes 2000 files, or"),
-        pytest.param(20, 45_000_000, "writes 2000 files, or", marks=pytest.mark.sweep),
-        (1, 60_000_000, "✗ speed: its cells raise OSError: [Errno 27] File too large"),
-    ],
+    ("name", "says"),
+    [("writes many files", ("Disk quota", "No space", "writes 2000 files")), ("fills the disk", ("",))],
 )
-def test_no_notebook_fills_the_disk(times, size, says, tmp_path):
-    write = f"for n in range({times}): open(f'{{n}}', 'wb').write(b'x' * {size})\nimport time\ntime.sleep(60)"
-    hand_in([START, ("exercise:speed", write)], tmp_path / "00.ipynb")
-    assert says in next(mark(tmp_path)).said
+def test_no_notebook_fills_the_disk(name, says, behind, tmp_path, monkeypatch):
+    monkeypatch.setattr(sealed, "WANTED", behind)
+    hand_in(DISHONEST[name], tmp_path / "00.ipynb")
+    ((speed, *_),) = mark(tmp_path)
+    assert any(words in speed.said for words in says) and not speed.right
 
 
-def test_junk_on_the_channel_is_no_answer(tmp_path):
-    write = "  try: os.write(fd, b'[' * 100000 + b'\\n')\n  except OSError: pass"
-    junk = f"import os\nfor fd in range(3, 30):\n{write}"
-    hand_in([START, ("exercise:speed", junk), HONEST[2]], tmp_path / "00.ipynb")
-    found = {one.exercise: one for one in mark(tmp_path)}
-    assert not found["speed"].right
-    assert found["cheapest"].right
-
-
-@pytest.mark.sweep
-def test_folders_in_folders_leave_nothing_behind(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+@pytest.mark.parametrize("behind", [walls.ALL, walls.ALL[1:]], ids=len)
+def test_folders_in_folders_leave_nothing_behind(behind, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setattr(sealed, "WANTED", behind)
     deep = "import os\nfor _ in range(1500):\n    os.mkdir('d')\n    os.chdir('d')"
-    hand_in([START, ("exercise:speed", deep)], tmp_path / "in" / "00.ipynb")
-    assert len(list(mark(tmp_path / "in"))) == 3
+    hand_in(speed(deep), tmp_path / "in" / "00.ipynb")
+    assert len(next(mark(tmp_path / "in"))) == 3
     assert [path.name for path in tmp_path.iterdir()] == ["in"]
 
 
 def test_what_is_no_file_is_said_at_once(tmp_path):
+    """A link is none: it may lead to another's notebook."""
     (tmp_path / "zero.ipynb").symlink_to("/dev/zero")
     os.mkfifo(tmp_path / "fifo.ipynb")
-    (tmp_path / "deep.ipynb").write_text("[" * 100_000)
-    assert [one.said for one in mark(tmp_path)] == [
-        "deep.ipynb: is not a notebook.",
-        "fifo.ipynb: is no file, or one of more than 50 MB.",
-        "zero.ipynb: is no file, or one of more than 50 MB.",
+    assert [one.said for some in mark(tmp_path) for one in some] == [
+        f"{name}.ipynb: is no plain file, or one of more than 100 MB." for name in ("fifo", "zero")
     ]
 
 
-@pytest.mark.skipif(not LINUX, reason="needs /proc")
-def test_a_keeper_that_was_stopped_still_leaves_no_process(tmp_path):
-    stop = f"import os, signal, subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)\n"
-    hand_in(
-        [START, ("exercise:speed", f"{stop}os.kill(os.getppid(), signal.SIGSTOP)")], tmp_path / "00.ipynb"
-    )
-    assert not next(mark(tmp_path)).right
-    assert sleepers() == []
-
-
-def test_an_interruption_is_one_sentence_and_keeps_the_marks(tmp_path):
-    begun = tmp_path / "begun"
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_an_end_keeps_the_marks_and_leaves_no_process(ending, copy, tmp_path):
     hand_in([START, SPEED], tmp_path / "in" / "ada" / "00.ipynb")
-    slow = f"open({str(begun)!r}, 'w')\nimport subprocess\nsubprocess.run(['sleep', '{SLEEP}'])"
+    slow = f"import subprocess\nsubprocess.run(['sleep', '{SLEEP}'])"
     hand_in([START, ("exercise:speed", slow)], tmp_path / "in" / "bob" / "00.ipynb")
-    command = [sys.executable, "-m", "mocap", "course", "mark", "in", "-o", "marks.csv"]
-    process = subprocess.Popen(
-        command,
-        cwd=tmp_path,
-        stderr=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # tests in the background ignore it
-    )
-    for _ in range(1200):
-        if begun.exists() or process.poll() is not None:
-            break
-        time.sleep(0.1)
-    assert begun.exists()
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
-    assert (process.returncode, out) == (130, "")
-    assert err.splitlines()[1:] == ["mocap: interrupted; no half-written file is left."]
+    process = start(copy, " ".join(walls.ALL), tmp_path / "in")
+    until = time.monotonic() + 100
+    while not sleepers() and process.poll() is None and time.monotonic() < until:
+        time.sleep(0.05)
+    assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0", "0"]  # while bob's runs
+    process.send_signal(ending)
+    _, err = process.communicate(timeout=60)
+    if ending != signal.SIGKILL:
+        assert (process.returncode, err.splitlines()[1:]) == (
+            130,
+            ["mocap: interrupted; no half-written file is left."],
+        )
+    while sleepers() and time.monotonic() < until:  # the keeper sees that the marker is dead
+        time.sleep(0.05)
+    assert sleepers() == []
     assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0", "0"]
-    assert not LINUX or sleepers() == []
 
 
 def test_kept_functions_beside_a_notebook_are_neither_run_nor_marked(tmp_path, monkeypatch):
@@ -263,6 +310,6 @@ def test_kept_functions_beside_a_notebook_are_neither_run_nor_marked(tmp_path, m
     kept.write_text(f"open({str(planted)!r}, 'w')\n\n# ---- speed (notebook 00) ----\n\n{SPEED[1]}\n")
     monkeypatch.setenv("MOCAP_MINE", str(kept))
     monkeypatch.chdir(kept.parent)
-    said = [one.said for one in mark(tmp_path) if one.exercise == "speed"]
+    said = [one.said for some in mark(tmp_path) for one in some if one.exercise == "speed"]
     assert not planted.exists()
     assert said[0].startswith("✗ speed: not there yet.")  # and not what the package puts in its place

@@ -1,0 +1,199 @@
+"""Walls around a student's process, kept up by the Linux kernel: what it can read, write, reach and call.
+
+Each works without an administrator's rights, and each may be missing on a system:
+
+- `namespaces`: processes, network and shared memory of its own; all files are read-only but its home, which
+  is in memory. When its first process ends, the kernel ends all others.
+- `landlock`: it reads Python, programs and libraries, and writes in its home; nothing else can be opened.
+- `filter`: it opens no sockets, sends no signals, mounts nothing, and changes nobody's rights to a file.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import errno
+import os
+import platform
+import resource
+import signal
+import struct
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+import mocap
+
+ALL = ("namespaces", "landlock", "filter")
+FILES, INODES = 500 << 20, 2000  # bytes and number of files in the home
+LIMITS = {"AS": 2 << 30, "FSIZE": 50 << 20, "NOFILE": 256, "CORE": 0}  # bytes of memory, of a file; files
+DIE_WITH_PARENT, SET_FILTER, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 22, 36, 38  # of prctl(2)
+NEW = 0x20000 | 0x8000000 | 0x10000000 | 0x20000000 | 0x40000000  # of mounts, messages, users, processes, net
+PRIVATE, BIND, READ_ONLY, NO_RIGHTS = 0x44000, 0x1000, 0x1, 0xE  # of mount(2)
+MOUNT_SETATTR, RULESET, RULE, RESTRICT = 442, 444, 445, 446  # numbers of system calls
+READ, USE = 0b1101, 0b100000000000110  # of Landlock: execute, read and list; read, write and cut a file
+SYSTEM = ("/usr", "/lib", "/lib32", "/lib64", "/bin", "/sbin", "/nix/store", "/etc/fonts", "/etc/localtime")
+SYSTEM += ("/etc/ld.so.cache", "/etc/passwd", "/etc/group", "/etc/nsswitch.conf")
+DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
+# kill, tkill, tgkill, rt_sigqueueinfo, rt_tgsigqueueinfo, prlimit64, ptrace, process_vm_readv and _writev;
+# socket, memfd_create, shmget, mq_open; unshare, setns, mount, umount2, pivot_root, chroot;
+# add_key, request_key, keyctl, bpf, perf_event_open
+X86 = (62, 200, 234, 129, 297, 302, 101, 310, 311, 41, 319, 29, 240, 272, 308, 165, 166, 155, 161)
+ARM = (129, 130, 131, 138, 240, 261, 117, 270, 271, 198, 279, 194, 180, 97, 268, 40, 39, 41, 51)
+X86, ARM = (*X86, 248, 249, 250, 321, 298), (*ARM, 217, 218, 219, 280, 241)
+# pidfd_send_signal, io_uring_setup, open_tree, move_mount, fsopen, pidfd_getfd, mount_setattr
+BOTH = (424, 425, 428, 429, 430, 438, 442)
+DENIED = {"x86_64": (0xC000003E, X86 + BOTH), "aarch64": (0xC00000B7, ARM + BOTH)}
+# fchmod, fchmodat, fchmodat2, fchown, fchownat, chmod, chown, lchown
+IGNORED = {"x86_64": (91, 268, 452, 93, 260, 90, 92, 94), "aarch64": (52, 53, 452, 55, 54)}
+
+
+def fork_behind(walls: Sequence[str], home: str, hidden: Sequence[str], work: Callable[[], object]) -> int:
+    """Fork a process that raises walls and then works; it does not work where one cannot be raised.
+
+    Parameters
+    ----------
+    walls : some of `ALL`.
+    home : the folder where it may write.
+    hidden : files and folders that it must not read.
+    work : what it does.
+
+    Returns
+    -------
+    The number of the process; it dies with this one, and ends with 0 if the work is done.
+    """
+    if child := os.fork():
+        return child
+    status = 1
+    try:
+        os.setsid()
+        prctl(DIE_WITH_PARENT, signal.SIGKILL)
+        if "namespaces" in walls:
+            _separate()
+            if first := os.fork():  # the first in its list of processes
+                os._exit(os.waitstatus_to_exitcode(os.waitpid(first, 0)[1]) & 0xFF)
+            prctl(DIE_WITH_PARENT, signal.SIGKILL)
+            _furnish(home, hidden)
+        prctl(NO_NEW_RIGHTS, 1)
+        for name, limit in LIMITS.items():
+            with suppress(OSError, ValueError):  # not every system has all of them
+                resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (limit, limit))
+        if "landlock" in walls:
+            _lock(home, readable(hidden) + [Path("/proc")] * ("namespaces" in walls))
+        if "filter" in walls:
+            _filter()
+        work()
+        status = 0
+    finally:
+        os._exit(status)
+
+
+def prctl(option: int, *values: int | bytes) -> None:
+    """Set an option of this process, where it is Linux."""
+    if sys.platform == "linux":
+        _call("prctl", option, *values, 0, 0, 0)
+
+
+def _call(name: str, *arguments: int | bytes | None) -> int:
+    """Call a function of the C library that Python has no name for."""
+    if sys.platform != "linux":
+        raise OSError("no walls here")
+    given = [ctypes.c_long(one) if isinstance(one, int) else one for one in arguments]
+    if (result := int(ctypes.CDLL(None, use_errno=True)[name](*given))) < 0:
+        raise OSError(ctypes.get_errno(), name)
+    return result
+
+
+def _separate() -> None:
+    """Leave the marker's namespaces, for a table of users in which this one is who it was."""
+    own, user, group = Path("/proc/self"), os.getuid(), os.getgid()
+    _call("unshare", NEW)
+    (own / "setgroups").write_text("deny")
+    (own / "uid_map").write_text(f"{user} {user} 1")
+    (own / "gid_map").write_text(f"{group} {group} 1")
+
+
+def _furnish(home: str, hidden: Iterable[str]) -> None:
+    """Make all files read-only, the hidden ones empty, the home new, and list only one's own processes."""
+    _call("mount", None, b"/", None, PRIVATE, None)
+    for place in hidden:
+        if Path(place).is_dir():
+            _call("mount", b"tmpfs", os.fsencode(place), b"tmpfs", READ_ONLY | NO_RIGHTS, None)
+        else:
+            _call("mount", b"/dev/null", os.fsencode(place), None, BIND, None)
+    _call("syscall", MOUNT_SETATTR, -100, b"/", 0x8000, struct.pack("QQQQ", 1, 0, 0, 0), 32)  # and all below
+    size = f"size={FILES},nr_inodes={INODES},mode=700"
+    _call("mount", b"tmpfs", os.fsencode(home), b"tmpfs", 0x6, size.encode())
+    _call("mount", b"tmpfs", b"/proc", b"tmpfs", READ_ONLY | NO_RIGHTS, None)
+    with suppress(OSError):  # not allowed in a container: then it lists no processes
+        _call("mount", b"proc", b"/proc", b"proc", READ_ONLY | NO_RIGHTS, None)
+
+
+def _lock(home: str, places: Iterable[Path]) -> None:
+    """Open only these places for reading, and the home for writing; call no server, signal nobody outside.
+
+    Raises
+    ------
+    OSError : where there is no Landlock, or one that cannot keep files from being cut (Linux before 6.2).
+    """
+    version = _call("syscall", RULESET, None, 0, 1)
+    if version < 3:
+        raise OSError("Landlock is too old")
+    rights = (1 << (16 if version >= 5 else 15)) - 1
+    made = struct.pack("QQQ", rights, 0b11, 0b11)[: 8 * (1 + (version >= 4) + (version >= 6))]
+    rules = _call("syscall", RULESET, made, len(made), 0)
+    allowed = dict.fromkeys(places, READ) | dict.fromkeys(map(Path, DEVICES), USE) | {Path(home): rights}
+    for place, right in allowed.items():
+        with suppress(FileNotFoundError):
+            at = os.open(place, os.O_PATH)
+            own = struct.pack("=Qi", right if place.is_dir() else right & (USE | 1), at)
+            _call("syscall", RULE, rules, 1, own, 0)
+            os.close(at)
+    _call("syscall", RESTRICT, rules, 0)
+    os.close(rules)
+
+
+def readable(hidden: Sequence[str]) -> list[Path]:
+    """List what a student's process may read: Python, this package, programs and libraries.
+
+    A checkout of this package is on Python's path for the package's sake; the rest of it is left out.
+
+    Examples
+    --------
+    >>> Path("/dev") in readable([])
+    False
+    """
+    package, kept_out = Path(mocap.__file__).parent, [Path(place).resolve() for place in hidden]
+    path = [place for place in map(Path, sys.path) if place != package.parent or "-packages" in place.name]
+    places = {Path(each).resolve() for each in (sys.prefix, sys.base_prefix, *path, package, *SYSTEM)}
+    return [part for place in places for part in _without(place, kept_out)]
+
+
+def _without(place: Path, hidden: Sequence[Path]) -> Iterable[Path]:
+    """Yield the largest folders at and below a place that hold none of the hidden ones."""
+    if not any(other.is_relative_to(place) for other in hidden):
+        yield place
+    elif place not in hidden:
+        for part in place.iterdir():
+            yield from _without(part, hidden)
+
+
+def _filter() -> None:
+    """Refuse the system calls `DENIED` to this process and to what it starts.
+
+    Raises
+    ------
+    OSError : where the kernel has no filters, or their numbers are unknown.
+    """
+    if platform.machine() not in DENIED:
+        raise OSError("its numbers are unknown")
+    machine, numbers = DENIED[platform.machine()]
+    numbers += IGNORED[platform.machine()]
+    end = len(numbers) + 1  # a jump is counted from the next instruction on; the last but one refuses
+    program = [(0x20, 0, 0, 4), (0x15, 0, end + 2, machine)]  # of another machine's calls, all
+    program += [(0x20, 0, 0, 0), (0x35, end, 0, 1 << 30)]
+    ignored = len(numbers) - len(IGNORED[platform.machine()])
+    program += [(0x15, end - 1 - at + (at >= ignored), 0, number) for at, number in enumerate(numbers)]
+    program += [(0x06, 0, 0, 0x7FFF0000), (0x06, 0, 0, 0x50000 | errno.EPERM), (0x06, 0, 0, 0x50000)]
+    code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *one) for one in program))
+    prctl(SET_FILTER, 2, struct.pack("HxxxxxxQ", len(program), ctypes.addressof(code)))
