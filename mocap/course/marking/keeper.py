@@ -20,9 +20,11 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from functools import partial
 from importlib import import_module
+from itertools import islice
 from pathlib import Path
 
 from mocap.course.marking import walls
@@ -30,7 +32,7 @@ from mocap.course.marking import walls
 MEMORY = 4 << 30  # bytes of all processes of a student
 PROCESSES = 16
 COMMON = ("matplotlib.pyplot", "scipy.optimize", "networkx", "mocap.plotting", "mocap.widgets")
-COMMON += tuple(f"mocap.course.{name}" for name in ("marking.student", "checks", "diagrams", "lab.places"))
+OURS = ("marking.student", "checks", "diagrams", "lab.places")
 
 
 def keep(control: socket.socket, wanted: Sequence[str], hidden: Sequence[str]) -> None:
@@ -47,14 +49,14 @@ def keep(control: socket.socket, wanted: Sequence[str], hidden: Sequence[str]) -
     forked = {name: walls.fork_behind([name], home, hidden, int) for name in wanted}
     raised = [name for name, child in forked.items() if os.waitpid(child, 0)[1] == 0]
     control.sendall(f"{' '.join(raised)}\n".encode())
-    for module in COMMON:
+    for module in (*COMMON, *(f"mocap.course.{name}" for name in OURS)):
         import_module(module)
     gc.freeze()
     while (message := socket.recv_fds(control, 1, 1))[0]:
         for channel in message[1]:
             subprocess.run(["rm", "-rf", home], check=False)  # shutil.rmtree gives up on folders in folders
             Path(home).mkdir(exist_ok=True)
-            student = walls.fork_behind(raised, home, hidden, lambda channel=channel: _serve(channel))
+            student = walls.fork_behind(raised, home, hidden, partial(_serve, channel))
             os.close(channel)
             why = _watch(control, student, home)
             _kill_all(student)
@@ -81,54 +83,51 @@ def _watch(control: socket.socket, student: int, home: str) -> str:
     while not select.select([control], [], [], 0.1)[0]:
         if os.waitpid(student, os.WNOHANG)[0]:
             return ""
-        family = _descendants()
+        family = [*_descendants(os.getpid())]
         if len(family) > PROCESSES:
             return f"starts more than {PROCESSES} processes"
-        if sum(family.values()) > MEMORY:
+        if sum(family) > MEMORY:
             return f"takes more than {MEMORY >> 30} GB of memory"
-        sizes = _sizes(home)
+        sizes = [*islice(_sizes(home), walls.INODES)]
         if len(sizes) == walls.INODES or sum(sizes) > walls.FILES:
             return f"writes {walls.INODES} files, or more than {walls.FILES >> 20} MB"
     return ""
 
 
-def _descendants() -> dict[int, int]:
-    """Return the descendants of this process and their bytes of memory; nothing where /proc is missing."""
-    parents, sizes = {}, {}
-    for folder in Path("/proc").glob("[0-9]*"):
-        with suppress(OSError):  # it has ended
-            pid, fields = int(folder.name), (folder / "stat").read_text("latin-1").rpartition(")")[2].split()
-            parents[pid], sizes[pid] = int(fields[1]), int(fields[21]) * resource.getpagesize()
-    family = {os.getpid()}
-    while more := {pid for pid, parent in parents.items() if parent in family} - family:
-        family |= more
-    return {pid: sizes[pid] for pid in family - {os.getpid()} if pid in sizes}
+def _children(pid: int) -> list[int]:
+    """List the processes that a process started, or adopted; none where it is not Linux."""
+    with suppress(OSError):  # it has ended
+        files = Path(f"/proc/{pid}/task").glob("*/children")
+        return [int(child) for file in files for child in file.read_text().split()]
+    return []
 
 
-def _sizes(home: str) -> list[int]:
-    """Return the bytes on disk of the files in a folder and those in it, up to the most there may be."""
-    sizes: list[int] = []
+def _descendants(pid: int) -> Iterator[int]:
+    """Yield the bytes of memory of each descendant."""
+    for child in _children(pid):
+        with suppress(OSError):
+            yield int(Path(f"/proc/{child}/statm").read_text().split()[1]) * resource.getpagesize()
+        yield from _descendants(child)
+
+
+def _sizes(home: str) -> Iterator[int]:
+    """Yield the bytes on disk of each file in a folder and in those in it."""
     for place, _, names in os.walk(home):
-        for name in names[: walls.INODES - len(sizes)]:
+        for name in names:
             with suppress(OSError):  # it is gone
-                sizes.append(512 * os.lstat(f"{place}/{name}").st_blocks)
-    return sizes
+                yield 512 * os.lstat(f"{place}/{name}").st_blocks
 
 
 def _kill_all(student: int) -> None:
     """Kill the student's process group, and children until there are none: orphans become children."""
-    with suppress(OSError):
-        os.killpg(student, signal.SIGKILL)
-    until, own = time.monotonic() + 20, Path(f"/proc/self/task/{os.getpid()}/children")
-    while time.monotonic() < until:
-        for pid in map(int, own.read_text().split()) if own.exists() else _descendants():
-            with suppress(OSError):
-                os.kill(pid, signal.SIGKILL)
-        try:
+    until = time.monotonic() + 20
+    with suppress(ChildProcessError):
+        while time.monotonic() < until:
+            for kill, pid in [(os.killpg, student), *((os.kill, child) for child in _children(os.getpid()))]:
+                with suppress(OSError):
+                    kill(pid, signal.SIGKILL)
             while os.waitpid(-1, os.WNOHANG)[0]:
                 pass
-        except ChildProcessError:
-            return
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import stat
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -22,7 +23,7 @@ from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
 from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, named_oracle, sheet_of
 from mocap.course.marking.plain_data import unpack
-from mocap.course.marking.sealed import Ended, Keeper, Sealed, protection
+from mocap.course.marking.sealed import Ended, Sealed, protection
 from mocap.course.notebooks import library
 from mocap.errors import MocapError
 
@@ -100,29 +101,29 @@ def mark(
     sheets, marked = course_sheets(stored()), list[Mark]()
     handed = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
     seed = int(np.random.default_rng().integers(2**32))
-    with Keeper([stored(), *{folder / one.path.split("/")[0] for one in handed}]) as keeper:
-        tell(protection(keeper.walls))
-        before = _fingerprint(keeper)
+    with closing(Sealed([stored(), *{folder / one.path.split("/")[0] for one in handed}])) as student:
+        tell(protection(student.walls))
+        before = _fingerprint(student.walls)
         for one in progress(handed):
             try:
-                marks = list(_marks(one, seed, keeper))
+                marks = list(_marks(one, seed, student))
             except Exception as error:  # costs this notebook only
                 marks = [Mark(one.path, "", False, f"cannot be marked: {type(error).__name__}.")]
-            if _fingerprint(keeper) != before:
+            if _fingerprint(student.walls) != before:
                 yield [mark._replace(right=False, said="✗ changes the installed package.") for mark in marks]
                 raise MocapError(f"{one.path} has changed the package: install it anew, mark in a container.")
             yield marks
             marked += marks
     asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
-    for student in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
-        done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{student}/")}
+    for who in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
+        done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{who}/")}
         left = [name for name in asked if name not in done]
-        yield [Mark(f"{student}/", name, False, f"✗ {name}: not handed in.") for name in left]
+        yield [Mark(f"{who}/", name, False, f"✗ {name}: not handed in.") for name in left]
 
 
-def _fingerprint(keeper: Keeper) -> bytes:
+def _fingerprint(walls: Iterable[str]) -> bytes:
     """Sum up all files of the package, where no wall keeps a notebook from changing them."""
-    if {"landlock", "namespaces"} & {*keeper.walls}:
+    if {"landlock", "namespaces"} & {*walls}:
         return b""
     sys.dont_write_bytecode = True
     files = sorted(file for file in Path(mocap.__file__).parent.rglob("*") if file.is_file())
@@ -133,9 +134,8 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
     try:
         about = file.lstat()
         if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
-            return _Handed(
-                path, [], None, f"{path}: is no plain file, or one of more than {LARGEST >> 20} MB."
-            )
+            wrong = f"{path}: is no plain file, or one of more than {LARGEST >> 20} MB."
+            return _Handed(path, [], None, wrong)
         text = file.read_bytes().decode("utf-8-sig", "replace")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of cells without ids, as some editors write them
@@ -145,7 +145,7 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
         return _Handed(path, [], None, f"{path}: is not a notebook.")
 
 
-def _marks(one: _Handed, seed: int, keeper: Keeper) -> Iterator[Mark]:
+def _marks(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
     asked = one.sheet.exercises if one.sheet else ()
     names = [*dict.fromkeys((*asked, *(name for cell in one.cells for name in cell.exercises)))]
@@ -154,7 +154,7 @@ def _marks(one: _Handed, seed: int, keeper: Keeper) -> Iterator[Mark]:
     names = [name for name in names if name not in strange]
     if not names:
         yield Mark(one.path, "", False, one.wrong or f"holds no exercise of the course.{also}")
-    for name, verdict in _judge_all(one.cells, names, seed, keeper).items():
+    for name, verdict in _judge_all(one.cells, names, seed, student).items():
         said, right = str(verdict).replace(MISSING, MISSING + also), verdict.right
         if right and (word := named_oracle(one.cells, all_checks()[name], one.sheet)):
             right = word in all_checks()[name].oracles  # the package's own function may be called, perhaps
@@ -162,21 +162,21 @@ def _marks(one: _Handed, seed: int, keeper: Keeper) -> Iterator[Mark]:
         yield Mark(one.path, name, right, said)
 
 
-def _judge_all(cells: list[Cell], names: list[str], seed: int, keeper: Keeper) -> dict[str, Verdict]:
+def _judge_all(cells: list[Cell], names: list[str], seed: int, student: Sealed) -> dict[str, Verdict]:
     """Judge exercises in one process, and in a new one after an exercise that ends it."""
     judged: dict[str, Verdict] = {}
     while left := [name for name in names if name not in judged]:
-        with keeper.student() as student:
-            at_fault = left
-            try:
-                student.allow(STARTING)
-                student.ask("begin", [tuple(cell) for cell in cells])
-                for name in left:
-                    at_fault = [name]
-                    student.allow(SECONDS)
-                    judged[name] = _judge(student, name, seed)
-            except Ended as ended:
-                judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault}
+        student.renew()
+        at_fault = left
+        try:
+            student.allow(STARTING)
+            student.ask("begin", [tuple(cell) for cell in cells])
+            for name in left:
+                at_fault = [name]
+                student.allow(SECONDS)
+                judged[name] = _judge(student, name, seed)
+        except Ended as ended:
+            judged |= {name: Verdict(False, f"{name}: {ended}.") for name in at_fault}
     return judged
 
 

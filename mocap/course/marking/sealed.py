@@ -11,9 +11,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, suppress
-from functools import cache
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -41,21 +40,103 @@ class Ended(BaseException):
 
 
 class Sealed:
-    """A student's process, which answers requests until a deadline.
+    """A student's process behind walls, which answers requests until a deadline; one after the other.
+
+    Parameters
+    ----------
+    hidden : files and folders that these processes must not read.
+
+    Attributes
+    ----------
+    walls : what surrounds them, of `walls.ALL`.
+
+    Raises
+    ------
+    MocapError : on Windows, which has no such limits.
 
     Examples
     --------
-    >>> with Keeper() as keeper, keeper.student() as student:
+    >>> from contextlib import closing
+    >>> with closing(Sealed()) as student:
+    ...     student.renew()
     ...     student.allow(60)
     ...     student.ask("begin", [((), "x = 3"), (("f",), "def f(a): return a + x")])
     ...     student.ask("prepare", "f"), student.ask("call", "f", (4,))
+    []
     ([True, ''], [7, [], '', ''])
     """
 
-    def __init__(self, channel: socket.socket, end: Callable[[], str]) -> None:
-        self.channel, self.end = channel, end
-        self.seconds = self.deadline = 0.0
-        self.read = bytearray()
+    def __init__(self, hidden: Iterable[Path] = ()) -> None:
+        if os.name != "posix":
+            raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
+        self.arguments = json.dumps([WANTED, [str(place.resolve()) for place in hidden]])
+        self.folder, self.running = Path(tempfile.mkdtemp(prefix="marking-")).resolve(), False
+        (self.folder / "home").mkdir()
+        self._start()
+
+    def _start(self) -> None:
+        """Start the keeper, in a folder and with few variables in its environment."""
+        more = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
+        path = [Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in more)]
+        kept = {name: os.environ[name] for name in KEPT if name in os.environ}
+        kept |= dict.fromkeys(("HOME", "TMPDIR"), str(self.folder / "home"))
+        kept["PYTHONPATH"] = os.pathsep.join(map(str, path))
+        self.control, theirs = socket.socketpair()
+        self.control.settimeout(30)
+        self.lines = self.control.makefile()
+        command = [sys.executable, "-m", "mocap.course.marking.keeper", self.arguments]
+        place, given, nothing = self.folder, kept | FIXED, subprocess.DEVNULL
+        with theirs:
+            self.process = subprocess.Popen(
+                command,
+                0,
+                None,
+                theirs.fileno(),
+                nothing,
+                nothing,
+                cwd=place,
+                env=given,
+                start_new_session=True,
+            )
+        self.walls = self._answer().split()
+
+    def renew(self) -> None:
+        """End the process and all that it started, and start another one in a new home."""
+        self._end()
+        if self.process.poll() is not None:  # a notebook killed the keeper, behind no walls
+            self._start()
+        self.read, self.running = bytearray(), True
+        self.channel, theirs = socket.socketpair()
+        with theirs:
+            socket.send_fds(self.control, [b"s"], [theirs.fileno()])
+
+    def close(self) -> None:
+        """End the process and all that it started, and its keeper."""
+        self._end()
+        self.process.kill()
+        self.process.wait()
+        # not by shutil.rmtree, which gives up on folders in folders in folders
+        subprocess.run(["rm", "-rf", self.folder], check=False, stderr=subprocess.DEVNULL)
+
+    def _end(self) -> str:
+        """Have all killed that the process started; return why it had been stopped before, if it had."""
+        if not self.running:
+            return ""
+        self.running = False
+        self.channel.close()
+        with suppress(OSError):
+            self.process.send_signal(signal.SIGCONT)  # a notebook may have stopped it, behind no walls
+            self.control.sendall(b"e")
+        return self._answer()
+
+    def _answer(self) -> str:
+        """Read a line from the keeper; if none comes, kill it."""
+        with suppress(OSError):
+            if line := self.lines.readline():
+                return line.strip()
+        self.process.kill()
+        self.process.wait()
+        return ""
 
     def allow(self, seconds: float) -> None:
         """Set the deadline, this many seconds from now."""
@@ -81,16 +162,15 @@ class Sealed:
                     raise Ended(f"gives an answer of more than {REPLY >> 20} MB")
             line, _, self.read = self.read.partition(b"\n")
             reply = json.loads(line)
-            if not isinstance(reply, list) or len(reply) != len(REPLIES[method]):
-                raise ValueError
-            if not all(map(isinstance, reply, REPLIES[method])):
-                raise ValueError
+            for one, kind in zip(reply, REPLIES[method], strict=True):  # a notebook may have forged it
+                if not isinstance(one, kind):
+                    raise TypeError
             return reply
         except TimeoutError:
             raise Ended(f"stopped after {self.seconds:g} s") from None
         except OSError:
-            raise Ended(self.end() or "ends Python itself") from None
-        except (ValueError, RecursionError):
+            raise Ended(self._end() or "ends Python itself") from None
+        except (ValueError, TypeError, RecursionError):
             raise Ended("gives an answer that cannot be read") from None
 
     def _wait(self) -> None:
@@ -108,128 +188,8 @@ def protection(raised: Sequence[str]) -> str:
     >>> protection(["landlock", "filter"])
     'marking behind landlock, filter: notebooks read Python and write in their home only, without a network'
     """
-    files = "READ AND WRITE WHAT YOU CAN (the package is compared after each)"
-    if "namespaces" in raised:
-        files = "write in their home only, and read what you can but not what was handed in"
-    if "landlock" in raised:
-        files = "read Python and write in their home only"
+    files = ["READ AND WRITE WHAT YOU CAN (the package is compared after each)"]
+    files += ["write in their home only, but read what you can"] * ("namespaces" in raised)
+    files += ["read Python and write in their home only"] * ("landlock" in raised)
     network = "without a" if {"namespaces", "filter"} & {*raised} else "WITH THE"
-    return f"marking behind {', '.join(raised) or 'no walls'}: notebooks {files}, {network} network"
-
-
-class Keeper:
-    """The keeper of the students' processes, as a context manager.
-
-    Parameters
-    ----------
-    hidden : files and folders that these processes must not read.
-
-    Attributes
-    ----------
-    walls : what surrounds them, of `walls.ALL`.
-
-    Raises
-    ------
-    MocapError : on Windows, which has no such limits.
-    """
-
-    def __init__(self, hidden: Iterable[Path] = ()) -> None:
-        self.arguments = json.dumps([WANTED, [str(place.resolve()) for place in hidden]])
-
-    def __enter__(self) -> Keeper:
-        self.folder = _home()
-        self.environment = self.folder.__enter__()
-        self._start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._stop()
-        self.folder.__exit__(None, None, None)
-
-    def _start(self) -> None:
-        self.control, theirs = socket.socketpair()
-        self.control.settimeout(30)
-        command = [sys.executable, "-m", "mocap.course.marking.keeper", self.arguments]
-        place, nothing = Path(self.environment["HOME"]).parent, subprocess.DEVNULL
-        self.process = subprocess.Popen(
-            command,
-            stdin=theirs,
-            stdout=nothing,
-            stderr=nothing,
-            cwd=place,
-            env=self.environment,
-            process_group=0,
-        )
-        theirs.close()
-        self.walls = self._answer().split()
-
-    def _stop(self) -> None:
-        """Close the socket, at which the keeper kills what there is and ends; or kill it."""
-        self.control.close()
-        try:
-            self.process.wait(30)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
-
-    @contextmanager
-    def student(self) -> Iterator[Sealed]:
-        """Start a student's process in a new folder, its home; at the end kill it and all that it started.
-
-        Yields
-        ------
-        The process.
-        """
-        if self.process.poll() is not None:  # a notebook killed it, behind no walls
-            self._stop()
-            self._start()
-        ours, theirs = socket.socketpair()
-        with ours:
-            with theirs:
-                socket.send_fds(self.control, [b"s"], [theirs.fileno()])
-            ended = cache(self._end)
-            try:
-                yield Sealed(ours, ended)
-            finally:
-                ended()
-
-    def _end(self) -> str:
-        """Have all killed that the student's process started; return why it was stopped before, if it was."""
-        with suppress(OSError):
-            self.process.send_signal(signal.SIGCONT)  # a notebook may have stopped it, behind no walls
-            self.control.sendall(b"e")
-        return self._answer()
-
-    def _answer(self) -> str:
-        """Read a line from the keeper; if none comes, kill it."""
-        line = b""
-        with suppress(OSError):
-            while more := self.control.recv(100):
-                line += more
-                if line.endswith(b"\n"):
-                    return line.decode().strip()
-        self.process.kill()
-        self.process.wait()
-        return ""
-
-
-@contextmanager
-def _home() -> Iterator[dict[str, str]]:
-    """Make a folder, and the few variables of an environment in which a folder in it is the home."""
-    if os.name != "posix":
-        raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
-    folder = tempfile.mkdtemp(prefix="marking-")
-    try:
-        home = Path(folder).resolve() / "home"
-        home.mkdir()
-        kept = {name: os.environ[name] for name in KEPT if name in os.environ}
-        yield {**kept, **FIXED, "HOME": str(home), "TMPDIR": str(home), "PYTHONPATH": _python_path()}
-    finally:  # not by shutil.rmtree, which gives up on folders in folders in folders
-        subprocess.run(["rm", "-rf", folder], check=False, stderr=subprocess.DEVNULL)
-
-
-def _python_path() -> str:
-    """Say where Python finds this package, and what the marker's own Python was given."""
-    given = filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))
-    places = (Path(mocap.__file__).parents[1], *(Path(place).resolve() for place in given))
-    return os.pathsep.join(map(str, places))
+    return f"marking behind {', '.join(raised) or 'no walls'}: notebooks {files[-1]}, {network} network"

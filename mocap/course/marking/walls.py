@@ -29,23 +29,24 @@ FILES, INODES = 500 << 20, 2000  # bytes and number of files in the home
 LIMITS = {"AS": 2 << 30, "FSIZE": 50 << 20, "NOFILE": 256, "CORE": 0}  # bytes of memory, of a file; files
 DIE_WITH_PARENT, SET_FILTER, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 22, 36, 38  # of prctl(2)
 NEW = 0x20000 | 0x8000000 | 0x10000000 | 0x20000000 | 0x40000000  # of mounts, messages, users, processes, net
-PRIVATE, BIND, READ_ONLY, NO_RIGHTS = 0x44000, 0x1000, 0x1, 0xE  # of mount(2)
+PRIVATE, READ_ONLY, NO_RIGHTS = 0x44000, 0x1, 0xE  # of mount(2)
 MOUNT_SETATTR, RULESET, RULE, RESTRICT = 442, 444, 445, 446  # numbers of system calls
 READ, USE = 0b1101, 0b100000000000110  # of Landlock: execute, read and list; read, write and cut a file
-SYSTEM = ("/usr", "/lib", "/lib32", "/lib64", "/bin", "/sbin", "/nix/store", "/etc/fonts", "/etc/localtime")
-SYSTEM += ("/etc/ld.so.cache", "/etc/passwd", "/etc/group", "/etc/nsswitch.conf")
+SYSTEM = [f"/{name}" for name in ("usr", "lib", "lib32", "lib64", "bin", "sbin", "nix/store", "etc/fonts")]
+SYSTEM += [f"/etc/{name}" for name in ("localtime", "ld.so.cache", "passwd", "group", "nsswitch.conf")]
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom")
 # kill, tkill, tgkill, rt_sigqueueinfo, rt_tgsigqueueinfo, prlimit64, ptrace, process_vm_readv and _writev;
 # socket, memfd_create, shmget, mq_open; unshare, setns, mount, umount2, pivot_root, chroot;
 # add_key, request_key, keyctl, bpf, perf_event_open
-X86 = (62, 200, 234, 129, 297, 302, 101, 310, 311, 41, 319, 29, 240, 272, 308, 165, 166, 155, 161)
-ARM = (129, 130, 131, 138, 240, 261, 117, 270, 271, 198, 279, 194, 180, 97, 268, 40, 39, 41, 51)
-X86, ARM = (*X86, 248, 249, 250, 321, 298), (*ARM, 217, 218, 219, 280, 241)
+X86 = [62, 200, 234, 129, 297, 302, 101, 310, 311, 41, 319, 29, 240, 272, 308, 165, 166, 155, 161]
+ARM = [129, 130, 131, 138, 240, 261, 117, 270, 271, 198, 279, 194, 180, 97, 268, 40, 39, 41, 51]
 # pidfd_send_signal, io_uring_setup, open_tree, move_mount, fsopen, pidfd_getfd, mount_setattr
-BOTH = (424, 425, 428, 429, 430, 438, 442)
-DENIED = {"x86_64": (0xC000003E, X86 + BOTH), "aarch64": (0xC00000B7, ARM + BOTH)}
-# fchmod, fchmodat, fchmodat2, fchown, fchownat, chmod, chown, lchown
-IGNORED = {"x86_64": (91, 268, 452, 93, 260, 90, 92, 94), "aarch64": (52, 53, 452, 55, 54)}
+BOTH = [424, 425, 428, 429, 430, 438, 442]
+# of these, and their kin with other numbers, all seem to succeed: chmod, fchmodat2, fchmodat, chown, fchownat
+DENIED = {
+    "x86_64": (0xC000003E, [*X86, 248, 249, 250, 321, 298, *BOTH], [90, 91, 452, 268, 92, 93, 94, 260]),
+    "aarch64": (0xC00000B7, [*ARM, 217, 218, 219, 280, 241, *BOTH], [52, 452, 53, 55, 54]),
+}
 
 
 def fork_behind(walls: Sequence[str], home: str, hidden: Sequence[str], work: Callable[[], object]) -> int:
@@ -90,16 +91,14 @@ def fork_behind(walls: Sequence[str], home: str, hidden: Sequence[str], work: Ca
 
 def prctl(option: int, *values: int | bytes) -> None:
     """Set an option of this process, where it is Linux."""
-    if sys.platform == "linux":
-        _call("prctl", option, *values, 0, 0, 0)
+    _call("prctl", option, *values, 0, 0, 0)
 
 
 def _call(name: str, *arguments: int | bytes | None) -> int:
-    """Call a function of the C library that Python has no name for."""
-    if sys.platform != "linux":
-        raise OSError("no walls here")
+    """Call a function of the C library that Python has no name for; where it is not Linux, give 0."""
     given = [ctypes.c_long(one) if isinstance(one, int) else one for one in arguments]
-    if (result := int(ctypes.CDLL(None, use_errno=True)[name](*given))) < 0:
+    result = int(ctypes.CDLL(None, use_errno=True)[name](*given)) if sys.platform == "linux" else 0
+    if result < 0:
         raise OSError(ctypes.get_errno(), name)
     return result
 
@@ -116,11 +115,8 @@ def _separate() -> None:
 def _furnish(home: str, hidden: Iterable[str]) -> None:
     """Make all files read-only, the hidden ones empty, the home new, and list only one's own processes."""
     _call("mount", None, b"/", None, PRIVATE, None)
-    for place in hidden:
-        if Path(place).is_dir():
-            _call("mount", b"tmpfs", os.fsencode(place), b"tmpfs", READ_ONLY | NO_RIGHTS, None)
-        else:
-            _call("mount", b"/dev/null", os.fsencode(place), None, BIND, None)
+    for place in filter(os.path.isdir, hidden):
+        _call("mount", b"tmpfs", os.fsencode(place), b"tmpfs", READ_ONLY | NO_RIGHTS, None)
     _call("syscall", MOUNT_SETATTR, -100, b"/", 0x8000, struct.pack("QQQQ", 1, 0, 0, 0), 32)  # and all below
     size = f"size={FILES},nr_inodes={INODES},mode=700"
     _call("mount", b"tmpfs", os.fsencode(home), b"tmpfs", 0x6, size.encode())
@@ -165,7 +161,7 @@ def readable(hidden: Sequence[str]) -> list[Path]:
     """
     package, kept_out = Path(mocap.__file__).parent, [Path(place).resolve() for place in hidden]
     path = [place for place in map(Path, sys.path) if place != package.parent or "-packages" in place.name]
-    places = {Path(each).resolve() for each in (sys.prefix, sys.base_prefix, *path, package, *SYSTEM)}
+    places = {Path(f"{each}").resolve() for each in (sys.prefix, sys.base_prefix, *path, package, *SYSTEM)}
     return [part for place in places for part in _without(place, kept_out)]
 
 
@@ -185,15 +181,14 @@ def _filter() -> None:
     ------
     OSError : where the kernel has no filters, or their numbers are unknown.
     """
-    if platform.machine() not in DENIED:
-        raise OSError("its numbers are unknown")
-    machine, numbers = DENIED[platform.machine()]
-    numbers += IGNORED[platform.machine()]
-    end = len(numbers) + 1  # a jump is counted from the next instruction on; the last but one refuses
-    program = [(0x20, 0, 0, 4), (0x15, 0, end + 2, machine)]  # of another machine's calls, all
-    program += [(0x20, 0, 0, 0), (0x35, end, 0, 1 << 30)]
-    ignored = len(numbers) - len(IGNORED[platform.machine()])
-    program += [(0x15, end - 1 - at + (at >= ignored), 0, number) for at, number in enumerate(numbers)]
-    program += [(0x06, 0, 0, 0x7FFF0000), (0x06, 0, 0, 0x50000 | errno.EPERM), (0x06, 0, 0, 0x50000)]
-    code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *one) for one in program))
+    if sys.platform != "linux" or platform.machine() not in DENIED:
+        raise OSError("no filter for this machine")
+    machine, numbers, without_effect = DENIED[platform.machine()]
+    allow, fail, pretend = 0x7FFF0000, 0x50000 | errno.EPERM, 0x50000
+    program = [(0x20, 0, 0, 4), (0x15, 1, 0, machine), (0x06, 0, 0, fail)]  # fail, if for another machine
+    program += [(0x20, 0, 0, 0), (0x35, 0, 1, 1 << 30), (0x06, 0, 0, fail)]
+    for answer, group in ((fail, numbers), (pretend, without_effect)):
+        program += [step for one in group for step in ((0x15, 0, 1, one), (0x06, 0, 0, answer))]
+    program += [(0x06, 0, 0, allow)]
+    code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in program))
     prctl(SET_FILTER, 2, struct.pack("HxxxxxxQ", len(program), ctypes.addressof(code)))

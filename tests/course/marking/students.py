@@ -96,10 +96,11 @@ DISHONEST = {
         "os.listdir(f'/proc/{os.getppid()}/fd')",
     ),
     "reads what it inherits": speed(
-        "import os\nfound = []\nfor fd in range(5, 300):\n  try: found.append(str(os.fstat(fd)))\n"
-        f"  except OSError: pass\n{SAY.format('found')}"
+        "import os, stat\nfound = []\nfor fd in range(300):\n  try: mode = os.fstat(fd).st_mode\n"
+        "  except OSError: continue\n  if stat.S_ISREG(mode) or stat.S_ISFIFO(mode): found.append(fd)\n"
+        f"{SAY.format('found')}"
     ),
-    "lists what others handed in": outside("os.listdir('FOLDER')", "os.listdir('FOLDER/zoe')"),
+    "reads what others handed in": outside("open('LATER')", "open('FOLDER/zoe/../zoe/x.ipynb')"),
     "copies another's": speed("exec(open('LATER').read())"),
     "rewrites what others handed in": outside(
         "open('LATER', 'w').write('{')",
@@ -140,9 +141,9 @@ DISHONEST = {
         "os.kill(os.getppid(), signal.SIGSTOP)"
     ),
     "ends the marker": speed(
-        "import os, signal\nfrom pathlib import Path\ndone = []\nfor place in Path('/proc').glob('[0-9]*'):\n"
+        "import os, pathlib\ndone = []\nfor place in pathlib.Path('/proc').glob('[0-9]*'):\n"
         "  try:\n    if b'FOLDER' in (place / 'cmdline').read_bytes() or place.name == str(os.getppid()):\n"
-        f"      done.append(os.kill(int(place.name), signal.SIGTERM))\n  except OSError: pass\n{SAY.format('done')}"
+        f"      done.append(os.kill(int(place.name), 15))\n  except OSError: pass\n{SAY.format('done')}"
     ),
     "calls servers": outside(
         "socket.create_connection(('127.0.0.1', 80000 % 65536), 5)",

@@ -1,11 +1,14 @@
 """Which cells an exercise needs, and which notebook of the course a copy is of."""
 
+import re
+
 import nbformat
 import pytest
 
 from mocap.course import read, stored
-from mocap.course.marking.cells import Cell, code_cells, course_sheets, needed, sheet_of
-from mocap.course.marking.marks import all_checks
+from mocap.course.checks import all_checks
+from mocap.course.marking.cells import Cell, code_cells, course_sheets, named_oracle, needed, sheet_of
+from mocap.course.notebooks import tagged
 
 
 @pytest.fixture(scope="module")
@@ -51,3 +54,33 @@ def test_nothing_is_needed_for_what_is_not_there():
 def test_a_cell_may_hold_two_exercises():
     cell = nbformat.v4.new_code_cell("", metadata={"tags": ["exercise:a", "exercise:b"]})
     assert code_cells(nbformat.v4.new_notebook(cells=[cell])) == [Cell(("a", "b"), "")]
+
+
+def test_no_solution_of_the_course_names_an_oracle(sheets):
+    for sheet in sheets:
+        notebook = read(stored() / f"{sheet.name}.ipynb")
+        solutions = {name: cell.source for name, cell in tagged(notebook, "solution")}
+        for name, cell in tagged(notebook, "exercise"):
+            cell.source = "\n".join(re.findall(r"```python\n(.*?)```", solutions[name], re.DOTALL))
+        for name in sheet.exercises:
+            assert named_oracle(code_cells(notebook), all_checks()[name], sheet) == ""
+
+
+@pytest.mark.parametrize(
+    ("source", "word"),
+    [
+        ("def hamilton(a, b): return checks.hamilton.truth(a, b)", "checks"),
+        ("c = checks\ndef hamilton(a, b): return c.hamilton.stand_in(a, b)", "checks"),
+        ("def hamilton(a, b): return getattr(c, 'truth')(a, b)", "'truth"),
+        ("from mocap.course.checks import all_checks", "checks"),
+        ("hamilton = lab.mine('hamilton')", "mine('"),
+        ("def hamilton(a, b): return rotations.multiply(a, b)", "multiply"),
+        ("exec(open('../ada/03.ipynb').read())", "exec("),
+        ("def multiply(a, b): ...\ndef hamilton(a, b): return multiply(a, b)", ""),
+        ("checks.hamilton(hamilton)\n# the truth about mistakes, or eval", ""),
+    ],
+)
+def test_what_knows_the_answer_is_named(source, word):
+    assert named_oracle([Cell(("hamilton",), source)], all_checks()["hamilton"], None) == word
+    assert named_oracle([Cell((), source)], all_checks()["hamilton"], None) == word
+    assert named_oracle([Cell(("other",), source)], all_checks()["hamilton"], None) == ""

@@ -148,7 +148,7 @@ SAID = {
     "forges replies": "✗ speed: gives an answer that cannot be read",
     "patches what prepares": "✗ speed: gives an answer that cannot be read",
     "answers with what equals all": "speed: your answer has the shape",
-    "calls the oracle": "Look at its cells: they name `.truth`, which knows it.",
+    "calls the oracle": "Look at its cells: they name `checks`, which knows it.",
     "starts many processes": "✗ speed: starts more than 16 processes",
     "kills what started it": "✗ speed: ",
     "prints without end": "✗ speed: stopped after 5 s",

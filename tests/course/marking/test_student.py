@@ -61,8 +61,13 @@ def test_a_function_that_ends_python_only_raises(ending):
 
 
 def test_a_reply_that_is_none_is_no_answer():
-    shape = {"given": 1, "changed": [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]]}  # another than given
-    for reply in ({}, {"given": 1}, {"given": ["eval", "1"], "changed": []}, [], 3, shape):
+    changes = [
+        [[0, ["array", "<f8", [1, 1], "AAAAAAAAAAA="]]],
+        [[7, 1]],
+        [3],
+        [["a", None]],
+    ]  # of another shape
+    for reply in ([["eval", "1"], [], "", ""], [1, [], "\0", ""], *([1, one, "", ""] for one in changes)):
         answer = partial(call, SimpleNamespace(ask=lambda *_, reply=reply: reply), "f")
         assert not DOUBLE.verdict(answer).right
 

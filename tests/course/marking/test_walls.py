@@ -1,0 +1,151 @@
+"""What each wall around a student's process keeps it from, and what it leaves alone."""
+
+import ctypes
+import os
+import platform
+import signal
+import socket
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from mocap.course.marking import walls
+from mocap.course.marking.sealed import protection
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux has these walls")
+OURS = os.getpid()
+
+
+def succeeds(raised, home, hidden, work):
+    """Say whether a process behind walls does some work without an error."""
+    return os.waitpid(walls.fork_behind(raised, str(home), [str(hidden)], work), 0)[1] == 0
+
+
+@cache
+def holds(wall):
+    return succeeds([wall], "/var", "/var", int)
+
+
+def require(wall):
+    if not holds(wall):
+        pytest.skip(f"this system has no {wall}")
+
+
+def library(name, *arguments):
+    if ctypes.CDLL(None)[name](*arguments) < 0:
+        raise OSError(name)
+
+
+@pytest.fixture
+def place(tmp_path):
+    for name in ("home", "hidden"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "hidden" / "file").write_text("1")
+    (tmp_path / "file").write_text("1")
+    return tmp_path
+
+
+def attempts(place):
+    """List what a process might do outside of its home: by name, the work and the walls that forbid it."""
+    file, hidden = place / "file", place / "hidden" / "file"
+    return {
+        "read": (file.read_text, "landlock"),
+        "read what is hidden": (hidden.read_text, "landlock namespaces"),
+        "list": (lambda: [*place.iterdir()], "landlock"),
+        "write": (lambda: file.write_text("2"), "landlock namespaces"),
+        "make": (lambda: (place / "new").write_text("2"), "landlock namespaces"),
+        "cut": (lambda: os.truncate(file, 0), "landlock namespaces"),
+        "remove": (file.unlink, "landlock namespaces"),
+        "rename": (lambda: file.rename(place / "home" / "mine"), "landlock namespaces"),
+        "link": (lambda: os.link(file, place / "other"), "landlock namespaces"),
+        "share memory": (lambda: Path("/dev/shm", f"planted-{OURS}").write_text(""), "landlock namespaces"),
+        "read another's memory": (lambda: Path(f"/proc/{OURS}/environ").read_bytes(), "landlock namespaces"),
+        "signal": (lambda: os.kill(OURS, 0), "filter namespaces"),
+        "trace": (lambda: library("ptrace", 16, OURS, 0, 0), "filter namespaces landlock"),
+        "call a server": (
+            lambda: socket.create_connection(("127.0.0.1", PORT)),
+            "landlock filter namespaces",
+        ),
+        "make a socket": (lambda: socket.socket(socket.AF_UNIX), "filter"),
+        "mount": (lambda: library("mount", b"tmpfs", b"/mnt", b"tmpfs", 0, None), "landlock filter"),
+        "read in memory": (lambda: os.memfd_create("a"), "filter"),
+    }
+
+
+PORT = 0
+NAMES = attempts(Path()).keys()
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("wall", walls.ALL)
+def test_a_wall_forbids_what_it_says_and_no_more(wall, name, place, monkeypatch):
+    require(wall)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        monkeypatch.setattr(sys.modules[__name__], "PORT", server.getsockname()[1])
+        work, forbidding = attempts(place)[name]
+        if os.getuid() and name in ("mount", "trace"):
+            forbidding += " landlock filter namespaces"  # only root may do it without walls
+        if name == "signal" and wall == "landlock":
+            pytest.skip("Landlock forbids signals from Linux 6.12 on")
+        assert succeeds([wall], place / "home", place / "hidden", work) == (wall not in forbidding.split())
+    if wall != "filter":
+        assert (place / "hidden" / "file").read_text() == "1"
+    for planted in Path("/dev/shm").glob(f"planted-{OURS}"):
+        planted.unlink()
+
+
+@pytest.mark.parametrize("wall", walls.ALL)
+def test_at_home_all_works(wall, place):
+    require(wall)
+
+    def work():
+        here = place / "home"
+        (here / "folder").mkdir()
+        (here / "a").write_text("3")
+        (here / "a").chmod(0o600)
+        (here / "a").rename(here / "folder" / "b")
+        (here / "c").symlink_to("folder/b")
+        assert (here / "c").read_text() == "3"
+        assert os.system("echo > /dev/null && ls / > /dev/null || true") == 0
+
+    assert succeeds([wall], place / "home", place / "hidden", work)
+
+
+def test_in_namespaces_the_end_of_the_first_process_ends_all_others(place):
+    require("namespaces")
+    reading, writing = os.pipe()
+
+    def work():
+        if not os.fork() and not os.fork():
+            os.setsid()
+            signal.pause()  # holds the pipe
+
+    assert succeeds(["namespaces"], place / "home", place / "hidden", work)
+    os.close(writing)
+    assert os.read(reading, 1) == b""
+    os.close(reading)
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "given", "wanted"),
+    [(sys, "platform", "darwin", walls.ALL), (platform, "machine", lambda: "abacus", ["filter"])],
+)
+def test_where_a_wall_cannot_be_raised_nothing_runs(module, name, given, wanted, place, monkeypatch):
+    monkeypatch.setattr(module, name, given)
+    done = place / "home" / "done"
+    assert not any(succeeds([wall], place / "home", place / "hidden", done.touch) for wall in wanted)
+    assert not done.exists()
+
+
+@pytest.mark.parametrize(
+    ("raised", "says"),
+    [
+        (walls.ALL, "read Python and write in their home only, without a network"),
+        (("namespaces",), "write in their home only, but read what you can, without a network"),
+        ((), "behind no walls: notebooks READ AND WRITE WHAT YOU CAN"),
+    ],
+)
+def test_the_first_line_says_which_walls_there_are(raised, says):
+    assert says in protection(raised)
