@@ -1,9 +1,6 @@
 """The CMU database, against a server of its own that does all the things servers do."""
 
 import hashlib
-import threading
-from collections import Counter
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
@@ -33,53 +30,18 @@ AMC = "1\nroot 0 0 0 0 0 0\nspine 0\n2\nroot 0 0 1 0 0 0\nspine 9\n"
 FILES = {"07/07.asf": ASF, "07/07_01.amc": AMC, "07/07_02.amc": AMC, "08/08.asf": ASF, "08/08_01.amc": AMC}
 
 
-class Server(ThreadingHTTPServer):
-    """Serves FILES; `how` names what goes wrong, `asked` counts the requests."""
-
-    def __init__(self):
-        super().__init__(("127.0.0.1", 0), Handler)
-        self.how, self.asked = {}, Counter()
-
-
-class Handler(BaseHTTPRequestHandler):
-    def do_GET(self):
-        name = self.path.removeprefix("/subjects/")
-        self.server.asked[name] += 1
-        how, body = self.server.how.get(name, "good"), FILES[name].encode()
-        if how == "missing" or (how == "busy at first" and self.server.asked[name] < 3):
-            self.send_error(404 if how == "missing" else 503)
-            return
-        self.send_response(200)
-        self.send_header("Content-Length", str(len(body)))
-        self.end_headers()
-        self.wfile.write({"wrong": body.upper(), "half": body[: len(body) // 2]}.get(how, body))
-
-    def log_message(self, *_):
-        pass
-
-
 @pytest.fixture
-def server(monkeypatch, tmp_path):
-    server = Server()
-    thread = threading.Thread(target=server.serve_forever, args=(0.01,))
-    thread.start()
+def server(monkeypatch, tmp_path, server):
     kinds = ["walk", "Run, walk", "sleepwalking"]
+    server.files |= {name: text.encode() for name, text in FILES.items()}
     rows = {
-        name: {
-            "sha256": hashlib.sha256(text.encode()).hexdigest(),
-            "frames": "2",
-            "description": kinds[index % 3],
-        }
-        for index, (name, text) in enumerate(FILES.items())
+        name: {"sha256": hashlib.sha256(text).hexdigest(), "frames": "2", "description": kinds[index % 3]}
+        for index, (name, text) in enumerate(server.files.items())
     }
     monkeypatch.setattr(cmu_database, "_registry", lambda: rows)
-    monkeypatch.setattr(cmu_database, "BASE_URL", f"http://127.0.0.1:{server.server_port}/subjects")
+    monkeypatch.setattr(cmu_database, "BASE_URL", server.url)
     monkeypatch.setenv("MOCAP_DATA", str(tmp_path / "cache"))
-    monkeypatch.setattr("pooch.core.time.sleep", lambda seconds: None)
-    yield server
-    server.shutdown()
-    server.server_close()
-    thread.join()
+    return server
 
 
 def kept(tmp_path):
@@ -157,7 +119,7 @@ def test_a_file_that_broke_in_the_cache_is_fetched_again(server, tmp_path):
 
 
 def test_line_ends_make_no_difference(server, tmp_path, monkeypatch):
-    monkeypatch.setitem(FILES, "07/07_01.amc", AMC.replace("\n", "\r\n"))
+    server.files["07/07_01.amc"] = AMC.replace("\n", "\r\n").encode()
     assert len(cmu_database.cmu("07_01")) == 2
     assert (tmp_path / "cache/07/07_01.amc").read_bytes() == AMC.encode()
 

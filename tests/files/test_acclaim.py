@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from mocap.body.kinematics import joint_positions
 from mocap.errors import FormatError
@@ -128,36 +129,12 @@ def test_bones_that_would_stretch_are_refused(write):
         read_clip(write, asf)
 
 
-# Forward kinematics by hand: nothing of mocap, no NumPy.
-
-
-def product(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
-
-
-def turned(a, v):
-    return [sum(a[i][k] * v[k] for k in range(3)) for i in range(3)]
-
-
-def transposed(a):
-    return [list(row) for row in zip(*a, strict=True)]
-
-
-def turn(axis, degrees):
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return {
-        "x": [[1, 0, 0], [0, c, -s], [0, s, c]],
-        "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]],
-        "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]],
-    }[axis]
+# Forward kinematics by hand: nothing of mocap.
 
 
 def turns(order, angles):
-    """The first letter's turn happens first, so it stands on the right."""
-    whole = turn("x", 0)
-    for axis, angle in zip(order.lower(), angles, strict=True):
-        whole = product(turn(axis, angle), whole)
-    return whole
+    """Turns about fixed axes, the first one first."""
+    return Rotation.from_euler(order.lower(), angles, degrees=True) if order else Rotation.identity()
 
 
 def by_hand(asf, amc_text, frame):
@@ -169,18 +146,19 @@ def by_hand(asf, amc_text, frame):
     unit = 0.0254 / float(head.split("length")[1].split()[0])
     lines = amc_text.split(f"\n{frame + 1}\n")[1].split(f"\n{frame + 2}\n")[0].splitlines()
     numbers = {line.split()[0]: [float(word) for word in line.split()[1:]] for line in lines}
-    x, y, z, *angles = numbers["root"]
-    ends, globals_ = {"root": [x * unit, y * unit, z * unit]}, {"root": turns("xyz", angles)}
+    ends = {"root": np.multiply(unit, numbers["root"][:3])}
+    globals_ = {"root": turns("xyz", numbers["root"][3:])}
     for line in asf[asf.index(":hierarchy") :].splitlines()[2:]:
         parent, *children = line.split() or [""]
         for name in children:
             *axis, order = bones[name]["axis"]
             c = turns(order, [float(axis["XYZ".index(letter)]) for letter in order])
             m = turns("".join(dof[1] for dof in bones[name].get("dof", [])), numbers.get(name, []))
-            globals_[name] = product(globals_[parent], product(product(c, m), transposed(c)))
+            globals_[name] = globals_[parent] * c * m * c.inv()
             length = float(bones[name]["length"][0]) * unit
-            vector = turned(globals_[name], [float(word) * length for word in bones[name]["direction"]])
-            ends[name] = [a + b for a, b in zip(ends[parent], vector, strict=True)]
+            ends[name] = ends[parent] + globals_[name].apply(
+                np.array(bones[name]["direction"], float) * length
+            )
     return ends
 
 

@@ -94,20 +94,6 @@ def test_clips_that_changed_are_named(saved):
     assert storage.load(saved, [same, b]).clips[0] is same
 
 
-def test_what_is_no_graph_is_refused(tmp_path, saved):
-    text, empty, array, other = (tmp_path / f"{name}.npz" for name in ("text", "empty", "array", "other"))
-    text.write_text("HIERARCHY")
-    empty.touch()
-    with array.open("wb") as file:
-        np.save(file, np.arange(3))
-    np.savez(other, a=1)
-    half = tmp_path / "half.npz"
-    half.write_bytes(saved.read_bytes()[:-200])
-    for path in (text, empty, array, other, half):
-        with pytest.raises(FormatError, match="expected a motion graph saved by mocap, version 1, got"):
-            storage.read(path)
-
-
 @pytest.mark.parametrize(
     ("arrays", "words"),
     [
