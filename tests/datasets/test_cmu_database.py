@@ -78,10 +78,7 @@ def test_a_subject_and_a_kind(server):
 @pytest.mark.parametrize(
     ("how", "message"),
     [
-        (
-            "missing",
-            r"07_01.amc answers 404: try again later, or put a copy of .*MOCAP_DATA",
-        ),
+        ("missing", r"07_01.amc answers 404: try again later, or put a copy of .*MOCAP_DATA"),
         ("half", r"07_01.amc breaks off or does not answer: try again later, or put a copy"),
         ("wrong", r"07_01.amc is not the file listed: its checksum differs; put a copy"),
     ],

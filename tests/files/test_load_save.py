@@ -215,8 +215,7 @@ def test_some_other_real_files_load(real_data):
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["cmu/16/16_17.amc", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", "odd/golf_01.amc"],
+    "name", ["cmu/16/16_17.amc", "bvh/pymo/AV_8Walk_Meredith_HVHA_Rep1.bvh", "odd/golf_01.amc"]
 )
 def test_memory_stays_within_twenty_times_the_file(real_data, name):
     tracemalloc.start()

@@ -71,12 +71,7 @@ def six_channels(places, local, names=("hips", "spine", "head")):
     """Write a chain of joints with six channels each, in centimetres."""
     rows = ["HIERARCHY"]
     for depth, name in enumerate(names):
-        rows += [
-            f"{'JOINT' if depth else 'ROOT'} {name}",
-            "{",
-            "OFFSET 0 0 0",
-            "CHANNELS 6",
-        ]
+        rows += [f"{'JOINT' if depth else 'ROOT'} {name}", "{", "OFFSET 0 0 0", "CHANNELS 6"]
         rows[-1] += " Xposition Yposition Zposition Zrotation Xrotation Yrotation"
         rows += ["JOINT side", "{", "OFFSET 9 0 0", "CHANNELS 0", "}"] if depth == 0 else []
     rows += ["}"] * len(names) + ["MOTION", f"Frames: {len(places)}", "Frame Time: 0.033333"]
