@@ -11,6 +11,7 @@ from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, Widen, bar, check_out, number, tell, write_out
 from mocap.errors import MocapError, MocapWarning
+from mocap.files.conversion import require_apart, with_file
 
 FORMATS = (".bvh", ".glb", ".amc")
 LASTS = number(0.2, 600)  # seconds; no shorter than the seam
@@ -243,15 +244,10 @@ def retarget(
     Example: mocap retarget clips/ --to hero.bvh -o worn/
     """
     require_folder(out)
-    found, failed = files.find_files(clips), []
-    targets: dict[Path, Path] = {}
-    for source in found:
-        target = out / f"{source.stem}.{format}"
-        options.require_other(target, [*found, to])
-        if (first := targets.setdefault(target, source)) != source:
-            raise MocapError(f"{first} and {source} would both become {target}: retarget them one by one.")
-    stance, skeleton = _body(to, to_scale)
-    for target, source in bar("retargeting")(list(targets.items())):
+    pairs = [(source, out / f"{source.stem}.{format}") for source in files.find_files(clips)]
+    require_apart(pairs, [to])
+    (stance, skeleton), failed = _body(to, to_scale), []
+    for source, target in bar("retargeting")(pairs):
         try:
             motion = reading.load(source)
             stands = editing.stance_of(motion)
@@ -260,9 +256,8 @@ def retarget(
             make_folder(out)
             files.save(worn, target, widen=widen)
         except MocapError as error:
-            named = any(str(path) in str(error) for path in (source, target))
-            failed.append(str(error) if named else f"{source}: {error}")
-    return options.tell_of_failures("retargeted", len(targets), failed, f", in {out}")
+            failed.append(with_file(error, source, target))
+    return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
 def _body(path: Path, scale: float | None) -> "tuple[editing.Stance | None, body.Skeleton]":

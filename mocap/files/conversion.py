@@ -1,7 +1,7 @@
 """Convert motion files, whole folders too, several at a time."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from itertools import repeat
 from pathlib import Path
@@ -48,14 +48,26 @@ def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[t
     if source.is_dir():
         found = find_files([source], deep=True)
         pairs = [(path, (target / path.relative_to(source)).with_suffix(suffix)) for path in found]
-    sources = {os.path.realpath(path) for path, _ in pairs}
+    require_apart(pairs)
+    return pairs
+
+
+def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ()) -> None:
+    """Raise where two files to read would become one, or a file to write is one of those to read.
+
+    Examples
+    --------
+    >>> require_apart([(Path("a/walk.bvh"), Path("walk.bvh")), (Path("b/walk.bvh"), Path("walk.bvh"))])
+    Traceback (most recent call last):
+    mocap.errors.MocapError: a/walk.bvh and b/walk.bvh would both become walk.bvh: take them one by one.
+    """
+    sources = {os.path.realpath(path) for path in (*read, *(path for path, _ in pairs))}
     taken: dict[Path, Path] = {}
     for path, new in pairs:
         if os.path.realpath(new) in sources:
-            raise MocapError(f"{new} is one of the files to convert: choose another name or folder.")
+            raise MocapError(f"{new} is one of the files to read: choose another name or folder.")
         if (first := taken.setdefault(new, path)) != path:
-            raise MocapError(f"{first} and {path} would both become {new}: convert them one by one.")
-    return pairs
+            raise MocapError(f"{first} and {path} would both become {new}: take them one by one.")
 
 
 def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Progress = iter) -> list[str]:
@@ -95,6 +107,11 @@ def _convert(source: Path, target: Path, options: Options) -> str:
         make_folder(target.parent)
         save(motion, target, widen=options.widen)
     except MocapError as error:
-        named = any(str(path) in str(error) for path in (source, target))
-        return str(error) if named else f"{source}: {error}"
+        return with_file(error, source, target)
     return ""
+
+
+def with_file(error: MocapError, source: Path, target: Path) -> str:
+    """Give the sentence of an error, with the file in front where it does not name it."""
+    named = any(str(path) in str(error) for path in (source, target))
+    return str(error) if named else f"{source}: {error}"

@@ -156,9 +156,12 @@ REFUSED = [
     ("info a.bvh --skeleton nothing.asf", "--skeleton is for .amc clips"),
     ("info a.bvh --nope", "unrecognized arguments: --nope (see mocap info --help)"),
     ("info gone.bvh", "Cannot read"),
+    ("info 'a\n\x1b[31m'", r"Cannot read a\n\x1b[31m: No such file or directory."),
+    ("graph build nowhere -o x.npz", "Cannot read nowhere: No such file or directory."),
+    ("graph nowhere -o x.npz", "Cannot read nowhere: No such file or directory."),
     ("view gone.bvh", "Cannot read"),
-    ("convert a.bvh a.bvh", "is one of the files to convert"),
-    ("convert . .", "is one of the files to convert"),
+    ("convert a.bvh a.bvh", "is one of the files to read"),
+    ("convert . .", "is one of the files to read"),
     ("data list --subject 5", "No trial of subject 5"),
 ]
 
