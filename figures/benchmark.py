@@ -30,7 +30,7 @@ from mocap.datasets.downloads import kept_in
 from mocap.errors import MocapError, MocapWarning
 
 PAGE = Path(__file__).with_name("BENCHMARK.md")
-SCALES = {"puppy0512_motion_graph": 0.0254}  # metres of a file's unit, by folders; else centimetres
+SCALES = {"pymo": 0.0254}  # metres of a file's unit, by folders; else centimetres
 ENTERED = "entered"
 
 

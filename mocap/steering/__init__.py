@@ -26,7 +26,7 @@ Reading order (notebooks 08, 12, 17, 18)
 13. `characters`: the protocol, the pose that a step gives, and how soon a steered character obeys
 14. `graph_control`: a character on a motion graph, and how it looks ahead
 15. `foot_turning`: a character that turns about the foot that stands, beyond what its clips turn
-16. `judged_control`: one protocol for all characters, and a path along which they are led
+16. `judged_control`: one protocol for all characters
 
 References
 ----------
@@ -51,6 +51,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "characters": ["Character", "Pose", "measure_delay", "steer"],
         "graph_control": ["Controller"],
         "foot_turning": ["FootTurner"],
-        "judged_control": ["command_headings", "judge_control", "pursue"],
+        "judged_control": ["command_headings", "judge_control"],
     },
 )

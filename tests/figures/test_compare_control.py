@@ -5,7 +5,7 @@ from pathlib import Path
 import compare_control
 import pytest
 
-from mocap import quality, steering
+from mocap import quality
 from mocap.body import SHAPES
 from mocap.methods.motion_matching import MotionMatcher, tabulate
 
@@ -20,7 +20,7 @@ def rows(label):
 
 
 def led(make, shape, speed):
-    off = steering.pursue(make(), SHAPES[shape](), speed=speed).off
+    off, _ = compare_control.lead(make(), SHAPES[shape](), speed)
     return f"{off.mean():.2f}, {off.max():.2f}"
 
 
