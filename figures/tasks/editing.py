@@ -2,7 +2,7 @@
 
 `misses` is the largest distance of a joint from its pin; `shakes` the 95th percentile of the accelerations
 over the clip's own, from half a second before the event to half a second after it; `tips` how far the way
-from the root to the base of the neck leans otherwise, at most. Pins are boxes: row f of `low` and `high` holds
+from the root to the base of the neck leans otherwise, at most. Pins are boxes: row f of `low` and `high` has
 x, y and z of each of the `joints`, metres; -inf and inf leave an axis free.
 """
 
