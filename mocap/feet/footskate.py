@@ -4,17 +4,16 @@ Captured feet drift while they stand, and blended feet slide. So each plant gets
 where the ankle must be (2); the root moves so that both legs reach (3); the legs bend (4); and around each
 plant the corrections come and go smoothly (5).
 
-Three things differ from the paper. Step 5 is taken with step 2, as one curve that bends least, instead of by
-fades. While only the ball stands, the foot may turn about it, so that the ankle need not follow. And no bone
-is stretched, because a skeleton's lengths are fixed: instead the root rises or falls by what keeps the knees
-bent as they were, smoothed where a knee would jolt. A plant that would move the root by more than 2 cm, or
-would still jolt a knee, is let go there.
+Four things differ from the paper. Step 5 is taken with step 2, as one curve that bends least, instead of by
+fades. While only the ball stands, the foot may turn about it, so that the ankle need not follow. The root
+only rises or falls, and no bone is stretched, because a skeleton's lengths are fixed. And the root's way and
+all knees are found together, by the same sum that step 5 makes least, so that no knee pops. A plant that
+would move the root by more than 2 cm, or would still jolt a knee, is let go there.
 """
 
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
@@ -24,23 +23,10 @@ from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import Leg, legs_of
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.feet.ankle_targets import FootTarget, foot_target
+from mocap.feet.ankle_targets import foot_target
 from mocap.feet.footplants import least_frames, settle
-from mocap.feet.knee_smoothing import smooth_knees
-from mocap.feet.leg_track import ROUNDING, UP, LegTrack, pose_leg, track_leg
-from mocap.feet.root_height import MOST, root_rise
-
-# Share of its bound by which a knee may still jolt when it is smoothed. Half or twice as much changes
-# nothing on the four sets; with 0.01 captured walks keep all planted frames, and the worst knee accelerates
-# by 0.3 % more than before.
-JOLT = 0.001
-
-
-class Excess(NamedTuple):
-    """By how much plants go beyond a bound: `amount` (F,) where it is above 0; `legs` says whose plants."""
-
-    legs: slice
-    amount: Array
+from mocap.feet.least_bending import MOST, Excess, hold_plants
+from mocap.feet.leg_track import UP, pose_leg, track_leg
 
 
 def clean_up(
@@ -60,8 +46,8 @@ def clean_up(
     Returns
     -------
     The same frames. Within each plant its joint stays in one place, but for rounding. Only the root's height,
-    by at most 2 cm, and the rotations of hips, knees and ankles differ. Contacts are settled: gaps shorter
-    than 0.05 s are closed, and plants as short, or let go, are no longer marked.
+    by at most 2 cm for a leg of 0.85 m, and the rotations of hips, knees and ankles differ. Contacts are
+    settled: gaps shorter than 0.05 s are closed, and plants as short, or let go, are no longer marked.
 
     Raises
     ------
@@ -70,7 +56,7 @@ def clean_up(
     Warns
     -----
     MocapWarning : for plants that are let go. To hold them would take a longer leg, move the root further, or
-        make a knee's acceleration larger than it was and than 99.9 % of the knees' own.
+        make a knee jump in 1/30 s by 0.6 % of the leg's length further than it did, and than is usual.
 
     Examples
     --------
@@ -91,24 +77,21 @@ def clean_up(
     while True:
         # Steps 1, 2 and 5: each plant gets a place, and between plants the ankles go from place to place.
         targets = [foot_target(track, own, held or {}) for track, own in zip(tracks, marks, strict=True)]
-        # Step 3: the root rises or falls.
-        rise = root_rise(tracks, targets)
-        targets, rise, excesses = _within_bounds(tracks, targets, rise)
+        # Steps 3 and 4: the root rises or falls, and the knees bend.
+        rise, bends, excesses = hold_plants(tracks, targets)
         if not excesses or not marks.any():
             break
         # Each round unmarks at least one planted frame, so the rounds end: at the latest when none is left.
         marks = let_go(marks, excesses, least_frames(motion.fps))
-    contacts = _by_name(tracks, marks)
-    _warn_of_plants_let_go(motion, _by_name(tracks, asked), contacts)
-    # Step 4: the legs bend.
     pose, up = motion.rotations.copy(), rise[:, None] * UP
-    for track, target in zip(tracks, targets, strict=True):
-        wanted = target.ankle - track.hip - up
-        # A foot in the air comes as near as the leg reaches; a planted one's target is within reach.
-        share = np.minimum(track.reach / np.linalg.norm(wanted, axis=-1), 1.0)
-        wanted *= np.where(target.planted, 1.0, share)[:, None]
-        pose[:, track.leg[:3]] = pose_leg(track, wanted, target.turn)
-    roots, contacts = motion.root_positions + up, {**motion.contacts, **contacts}
+    for track, target, bend in zip(tracks, targets, bends, strict=True):
+        pose[:, track.leg[:3]] = pose_leg(track, bend, target.ankle - track.hip - up, target.turn)
+    names = [motion.skeleton.names[joint] for leg in legs for joint in leg[2:]]
+    found, gone = (
+        dict(zip(names, some.reshape(len(names), -1), strict=True)) for some in (marks, asked & ~marks)
+    )
+    _warn_of_plants_let_go(motion, gone, MOST * tracks[0].length)
+    roots, contacts = motion.root_positions + up, {**motion.contacts, **found}
     return replace(motion, root_positions=roots, rotations=pose, contacts=contacts)
 
 
@@ -122,31 +105,6 @@ def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
         )
     span = least_frames(motion.fps)
     return np.array([[settle(motion.contacts[name], span) for name in pair] for pair in names])
-
-
-def _by_name(tracks: Sequence[LegTrack], marks: Mask) -> dict[str, Mask]:
-    """Give marks (L, 2, F) the names of their joints."""
-    pairs = zip(tracks, marks, strict=True)
-    return {name: row for track, own in pairs for name, row in zip(track.names[2:], own, strict=True)}
-
-
-def _within_bounds(
-    tracks: Sequence[LegTrack], targets: Sequence[FootTarget], rise: Array
-) -> tuple[list[FootTarget], Array, list[Excess]]:
-    """Smooth the knees where all plants are within reach, and list what still goes beyond its bound.
-
-    Returns the targets and the root's rise, (F,) metres, and the excesses.
-    """
-    every, targets = slice(None), list(targets)
-    excesses = [Excess(every, np.abs(rise) - MOST)]
-    for number, (track, target) in enumerate(zip(tracks, targets, strict=True)):
-        wanted = target.ankle - track.hip - rise[:, None] * UP
-        lack = np.linalg.norm(wanted, axis=-1) - track.reach - ROUNDING
-        excesses.append(Excess(slice(number, number + 1), np.where(target.planted, lack, -1.0)))
-    if not any((excess.amount > 0).any() for excess in excesses):
-        targets, rise, jolts = smooth_knees(tracks, targets, rise)
-        excesses = [Excess(every, np.abs(rise) - MOST), Excess(every, jolts - JOLT)]
-    return targets, rise, [excess for excess in excesses if (excess.amount > 0).any()]
 
 
 def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
@@ -176,16 +134,15 @@ def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     return kept
 
 
-def _warn_of_plants_let_go(motion: Motion, asked: Mapping[str, Mask], held: Mapping[str, Mask]) -> None:
+def _warn_of_plants_let_go(motion: Motion, gone: Mapping[str, Mask], most: float) -> None:
     """Warn of plants that were let go, in the order of the motion's contacts."""
-    names = [name for name in motion.contacts if name in asked]
-    gone = [f"{name} {a}-{b - 1}" for name in names for a, b in runs(asked[name] & ~held[name])]
-    if gone:
-        more = f" and {len(gone) - 2} more" if len(gone) > 2 else ""
+    plants = [f"{name} {a}-{b - 1}" for name in motion.contacts if name in gone for a, b in runs(gone[name])]
+    if plants:
+        more = f" and {len(plants) - 2} more" if len(plants) > 2 else ""
         warnings.warn(
             f"'{shortened(motion.name, 30)}': to hold these plants would move the root by more than "
-            f"{100 * MOST:.0f} cm, stretch a leg or jolt a knee, so they are let go: "
-            f"{', '.join(gone[:2])}{more}.",
+            f"{100 * most:.2g} cm, stretch a leg or jolt a knee, so they are let go: "
+            f"{', '.join(plants[:2])}{more}.",
             MocapWarning,
             stacklevel=3,
         )

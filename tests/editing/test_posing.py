@@ -1,6 +1,5 @@
 """Whole warps: a hand to a post, a higher jump, a deeper crouch, on generated clips."""
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -144,9 +143,6 @@ def check_crouch(jump, half, least):
     down = cardinal([low - half, low, low + half], [0, -0.15, 0], np.arange(len(jump)), flat=[0, 2])
     sunk = replace(jump, root_positions=jump.root_positions + down[:, None] * UP)
     assert slide(sunk) > 2 * slide(warped)  # the root alone: the feet go through the floor
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        assert planted(clean_up(sunk)) < 0.97 * planted(jump)
 
 
 # ---------------------------------------------------------------------------------------- bad input

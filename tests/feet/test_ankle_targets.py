@@ -20,6 +20,7 @@ MARKS = np.array([WALK.contacts[joint] for joint in ("lfoot", "ltoes")])
 
 
 def test_a_foot_that_stands_still_stays_as_it_is():
+    """As in [KSG02, step 2]."""
     target = foot_target(track_leg(WALK, LEFT, POSES), MARKS, {})
     assert target.ankle == pytest.approx(POSES.positions[:, LEFT.ankle], abs=1e-7)
     assert target.turn == pytest.approx(0, abs=1e-6)
@@ -54,6 +55,7 @@ def curve(seed):
 
 @given(seeds)
 def test_the_filled_curve_keeps_what_is_known_and_bends_least(seed):
+    """As in [KSG02, step 5]."""
     values, known = curve(seed)
     filled = smooth_fill(values, known, 30.0)
     assert np.array_equal(filled[known], values[known])
@@ -79,6 +81,7 @@ def test_few_frames_can_be_filled(frames):
 
 @given(seeds, st.floats(0.05, 0.3))
 def test_plants_that_overlap_are_a_foot_s_length_apart(seed, length):
+    """As in [KSG02, step 1]."""
     random = np.random.default_rng(seed)
     ankle = random.normal(size=(40, 3)) * 0.01
     direction = random.normal(size=(40, 3)) * 0.1 + [0, 0, 1]

@@ -213,7 +213,7 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
     """
     if not clips:
         raise MocapError("Motion matching needs at least one clip, got none.")
-    clips = require_alike(clips)
+    require_alike(clips)
     rate, longest = clips[0].fps, max(clips, key=len)
     if len(longest) <= END * rate + 1:
         raise MocapError(
@@ -224,7 +224,7 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
     return PoseDatabase(
-        clips,
+        tuple(clips),
         _marks([clip.labels for clip in clips], frames),
         _marks([clip.contacts for clip in clips], frames),
         frozen(values, np.float64),

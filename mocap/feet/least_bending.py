@@ -1,0 +1,183 @@
+"""The root's height and the knees that hold all plants and bend the least: step 3 of [KSG02].
+
+While a foot stands, the root's height says how its knee is bent; a knee in the air may bend as it likes. So
+the unknowns are the root's rise in each frame, and each knee's extra angle in each frame in the air. The best
+are those whose corrections e, of the root and of each knee, are the least of
+
+    Σ w |e_{f-1} - 2 e_f + e_{f+1}|² + κ⁴ Σ |e_f|²
+
+over the whole clip: the sum of step 5. A planted knee's angle follows (step 4). They are found by damped
+Gauss-Newton steps; what is unknown in a frame meets only its neighbours, so a step solves a banded system.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.linalg import solveh_banded
+from scipy.ndimage import maximum_filter1d
+
+from mocap._shared.arrays import Array
+from mocap.body import rotations
+from mocap.feet.ankle_targets import FootTarget
+from mocap.feet.bending_sums import band_product, bending_bands
+from mocap.feet.leg_track import ROUNDING, UP, LegTrack
+
+# Of the leg's length: 2 cm for a leg of 0.85 m. A plant that would move the root further is let go.
+MOST = 0.024
+
+# Of the leg's length: 5 mm. A knee may jump by so much from one picture of a film (30 Hz) to the next beyond
+# what is usual. Of a figure 400 pixels high that is less than one; four times as much is plain to see.
+UNSEEN = 0.006
+SHOWN = 1 / 30  # seconds between two pictures
+USUAL = 99.9  # percent of a clip's own jumps: what all but one in a thousand stay below is no jolt
+
+# Seconds in which a correction of the root and of knees dies away, 1 / κ. With 0.1 knees turn half as far
+# again.
+NEAR = 0.05
+
+# How much a metre of the root counts, where a metre of a knee counts 1, and one beyond a bound 30, all
+# squared. With 4 for the root knees turn by 3.6° instead of 2.6° (95 % of the frames of slow and straight
+# legged walks); with 10 or 100 for bounds plants and jolts are the same.
+ROOT, STIFF = 2.0, 30.0
+SHY = 0.7  # of `MOST`: a root that is further off is beyond its bound
+
+# At most: solutions, each with what jolts counting double; steps in each; the gain of a step that is the last
+# one. With 5 solutions twice as many captured clips lose plants.
+TRIES, STEPS, GAIN = 10, 12, 1e-3
+AIM = 0.9  # of `UNSEEN`: what a solution aims at, for each doubling comes only nearer
+
+STEP = 1e-5  # metres and radians, for slopes
+
+Legs = Sequence[tuple[LegTrack, FootTarget]]
+Excess = tuple[slice, Array]
+"""By how much plants go beyond a bound: whose plants, and the amount (F,), above 0 where they do."""
+
+
+def hold_plants(
+    tracks: Sequence[LegTrack], targets: Sequence[FootTarget]
+) -> tuple[Array, list[Array], list[Excess]]:
+    """Find the smoothest correction that brings planted ankles to their targets.
+
+    In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
+
+    What still jolts counts double, and double again, so that the frames around it share it.
+
+    Parameters
+    ----------
+    tracks : the legs in F frames.
+    targets : where each one's ankle must be; while it is in the air, the leg only points there.
+
+    Returns
+    -------
+    The root's rise (F,), metres; each knee's angle (F,), radians; and what goes beyond its bound: the root's
+    rise, a knee that jumps too far from one picture of a film to the next, a leg that is too short.
+    """
+    legs = list(zip(tracks, targets, strict=True))
+    frames, fps, length = len(targets[0].ankle), tracks[0].motion.fps, tracks[0].length
+    change, stress = np.zeros((1 + len(legs), frames)), np.ones((len(legs), frames))
+    span = max(1, round(SHOWN * fps))
+    for _ in range(TRIES):
+        change = _least_bent(legs, stress, change)
+        beyond = _jolts(tracks, _displacements(legs, change)[1 : 1 + len(legs)], span)
+        jolting = beyond > AIM * UNSEEN * length
+        if not jolting.any():
+            break
+        stress *= np.where(maximum_filter1d(jolting, 2 * span + 1, axis=1), 2.0, 1.0)
+    excesses = [
+        (slice(None), np.abs(change[0]) - MOST * length),
+        (slice(None), beyond.max(axis=0) - UNSEEN * length),
+    ]
+    bends = []
+    for n, (track, target) in enumerate(legs):
+        bend, wanted = _pose(track, target, change[0], change[1 + n])
+        lack = np.linalg.norm(wanted, axis=-1) - track.long(0.0) - ROUNDING
+        excesses.append((slice(n, n + 1), np.where(target.planted, lack, -1.0)))
+        bends.append(bend)
+    return change[0], bends, [excess for excess in excesses if (excess[1] > 0).any()]
+
+
+def _pose(track: LegTrack, target: FootTarget, rise: Array, extra: Array) -> tuple[Array, Array]:
+    """Give the knee's angle (F,), radians, and the way from hip to ankle (F, 3), for a risen root."""
+    wanted = target.ankle - track.hip - rise[:, None] * UP
+    held = target.side * track.bend(np.linalg.norm(wanted, axis=-1))
+    return np.where(target.planted, held, track.own + extra), wanted
+
+
+def _displacements(legs: Legs, change: Array) -> Array:
+    """Give how far root and knees are moved, then how far each is beyond its bound, (2 + 2 L, F, 3)."""
+    rise, most = change[0][:, None] * UP, SHY * MOST * legs[0][0].length
+    moved, beyond = [ROOT * rise], [rise - np.clip(rise, -most, most)]
+    for (track, target), extra in zip(legs, change[1:], strict=True):
+        bend, wanted = _pose(track, target, change[0], extra)
+        knee = rise + track.hip + rotations.rotate(track.turns(bend, wanted)[1], track.knee - track.hip)
+        moved.append(knee - track.knee)
+        lack = np.maximum(np.linalg.norm(wanted, axis=-1) - track.limit, 0.0)
+        beyond.append(np.where(target.planted, lack, 0.0)[:, None] * UP)
+    return np.array(moved + beyond)
+
+
+def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
+    """Improve a change (1 + L, F) of the root's rise and of the knees' angles in the air.
+
+    `stress` (L, F) says how much the acceleration of each knee counts in each frame.
+    """
+    near = (NEAR * legs[0][0].motion.fps) ** -4.0
+    bending = [bending_bands(weight, near) for weight in (np.ones(change.shape[1]), *stress)]
+    bounds = [bending_bands(none, STIFF**2 * near) for none in np.zeros_like(change)]
+    bands = np.array(bending + bounds)
+    top = np.min([np.where(g.planted, t.highest(g.ankle), np.inf) for t, g in legs], axis=0)
+    change = np.array([np.minimum(change[0], top), *change[1:]])
+    here, damping = _displacements(legs, change), 1e-3
+    for _ in range(STEPS):
+        lower = [_displacements(legs, change - STEP * row[:, None]) for row in np.eye(len(change))]
+        pull = band_product(bands, here)
+        tried = change - _gauss_newton((here - np.array(lower)) / STEP, bands, pull, damping)
+        tried[0] = np.minimum(tried[0], top)
+        there = _displacements(legs, tried)
+        cost, less = (here * pull).sum(), (there * band_product(bands, there)).sum()
+        if less < cost:
+            change, here, damping = tried, there, 0.2 * damping
+        else:
+            damping *= 10
+        if (1 - GAIN) * cost <= less <= cost:
+            break
+    return change
+
+
+def _gauss_newton(slopes: Array, bands: Array, pull: Array, damping: float) -> Array:
+    """Solve (Σ Sᵀ B S + damping · diagonal) x = Σ Sᵀ pull for a step x, (K, F).
+
+    Parameters
+    ----------
+    slopes : S, how far each of M rows moves for each of K unknowns, (K, M, F, 3).
+    bands : B, a symmetric matrix for each row by its three lower diagonals, (M, 3, F).
+    pull : B times what the rows are now, (M, F, 3).
+    """
+    kinds, _, frames, _ = slopes.shape
+    # The unknowns of a frame stand side by side, so the whole has 3 K lower diagonals.
+    whole = np.zeros((3 * kinds, frames, kinds))
+    for later, one, other in np.ndindex(3, kinds, kinds):
+        if (row := later * kinds + other - one) >= 0:
+            then = np.roll(slopes[other], -later, axis=1)
+            whole[row, :, one] = np.einsum("mf,mfc,mfc->f", bands[:, later], slopes[one], then)
+    # Where nothing depends on an unknown, as on a planted knee's extra angle, the step is 0.
+    whole[0] += damping * whole[0] + 1e-9 * whole[0].max() + np.finfo(float).tiny
+    target = np.einsum("kmfc,mfc->fk", slopes, pull).ravel()
+    step = solveh_banded(whole.reshape(3 * kinds, -1), target, lower=True)
+    return np.asarray(step.reshape(frames, kinds).T)
+
+
+def _jolts(tracks: Sequence[LegTrack], moved: Array, span: int) -> Array:
+    """Measure how much further each knee jumps than it did, and than is usual, (L, F), metres.
+
+    A jump is the second difference over `span` frames.
+    """
+    own = np.array([track.knee for track in tracks])
+    if own.shape[1] <= 2 * span:
+        return np.full(own.shape[:2], -np.inf)
+    before, after = (
+        np.linalg.norm(k[:, 2 * span :] - 2 * k[:, span:-span] + k[:, : -2 * span], axis=-1)
+        for k in (own, own + moved)
+    )
+    usual = np.maximum(np.percentile(before, USUAL, method="lower"), before)
+    return np.pad(after - usual, ((0, 0), (span, span)), constant_values=-np.inf)
