@@ -3,20 +3,10 @@
 from itertools import groupby
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap._shared.arrays import frozen, ranges, runs
-
-
-def test_frozen_arrays_are_copies_that_refuse_writing():
-    values = np.zeros(3)
-    copy = frozen(values, np.float64)
-    values[0] = 7
-    assert copy.tolist() == [0, 0, 0]
-    with pytest.raises(ValueError, match="read-only"):
-        copy[0] = 1
+from mocap._shared.arrays import ranges, runs
 
 
 @given(st.lists(st.booleans()))

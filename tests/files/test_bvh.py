@@ -283,42 +283,31 @@ def test_what_is_written_reads_back(tmp_path_factory, motion):
     assert bvh.read(path).skeleton.names == back.skeleton.names  # depth first by now
 
 
-def spinning(axes, angles):
-    """One joint that turns about all axes at once."""
-    turns = euler.from_euler(axes, np.radians(angles))[:, None]
-    return Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((len(angles), 3)), turns, 30.0)
-
-
-@pytest.mark.parametrize("axes", ["ZXY", "XYZ"])
-def test_curves_are_continuous(tmp_path, axes):
+def test_curves_are_continuous(tmp_path):
     steps = np.arange(400)[:, None] * [3.0, 2.0, -1.0] + [
         0.3,
         0.7,
         0.2,
     ]  # x goes through ±90° again and again
-    bvh.write(spinning(axes, steps), tmp_path / "a.bvh")
+    turns = euler.from_euler("ZXY", np.radians(steps))[:, None]
+    spinning = Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((400, 3)), turns, 30.0)
+    bvh.write(spinning, tmp_path / "a.bvh")
     written = np.loadtxt((tmp_path / "a.bvh").read_text().split("Frame Time")[1].splitlines()[1:])[:, 3:]
-    back = bvh.read(tmp_path / "a.bvh")
-    assert rotations.angle_between(back.rotations, spinning(axes, steps).rotations).max() < 1e-6
-    if axes == "ZXY":  # what was put in, up to whole turns, comes out
-        assert np.allclose(written - steps, (written - steps)[0], atol=1e-5)
-    else:
-        assert np.abs(np.diff(written, axis=0)).max() < 180
+    assert np.allclose(written - steps, (written - steps)[0], atol=1e-5)  # up to whole turns
 
 
-@pytest.mark.parametrize("name", ["a{b", " a", "a\nb", "a\tb", ""])
-def test_names_that_would_break_the_file_are_refused(tmp_path, name):
-    motion = Motion(Skeleton([name], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], 30.0)
-    with pytest.raises(MocapError, match="cannot hold a joint called"):
+NAMES_REFUSED = [(name, 30.0, "cannot hold a joint called") for name in ("a{b", " a", "a\nb", "a\tb", "")]
+
+
+@pytest.mark.parametrize(
+    ("name", "fps", "message"),
+    [*NAMES_REFUSED, ("a", 1e-3, "resample it first"), ("a", 1e6, "resample it first")],
+)
+def test_names_and_rates_that_would_not_read_back_are_refused(tmp_path, name, fps, message):
+    motion = Motion(Skeleton([name], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], fps)
+    with pytest.raises(MocapError, match=message):
         bvh.write(motion, tmp_path / "a.bvh")
     assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("fps", [1e-3, 1e6])
-def test_rates_that_would_not_read_back_are_refused(tmp_path, fps):
-    motion = Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], fps)
-    with pytest.raises(MocapError, match="resample it first"):
-        bvh.write(motion, tmp_path / "a.bvh")
 
 
 def test_world_positions_that_others_found(real_data):

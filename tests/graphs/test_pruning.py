@@ -1,6 +1,5 @@
 """What is left is what brute force leaves; what goes, goes for a reason that holds."""
 
-import gc
 import warnings
 
 import networkx as nx
@@ -10,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.errors import MocapWarning, NoWalk
-from mocap.graphs.components import reached
 from mocap.graphs.pruning import Reason, notes_example, prune_graph
 
 WALK, RUN, BOTH = frozenset({"walk"}), frozenset({"run"}), frozenset({"walk", "run"})
@@ -115,24 +113,6 @@ def test_every_reason_holds(rows, by_labels):
         assert holds(reason, end if end in found.orphans else start)
 
 
-def reached_by_a_loop(graph, start):
-    """Visit the successors of every node that is found."""
-    seen = set(start)
-    waiting = list(seen)
-    while waiting:
-        new = set(graph.successors(waiting.pop())) - seen
-        seen |= new
-        waiting += new
-    return seen
-
-
-@given(edges, st.sets(st.integers(0, 7)))
-def test_what_is_reached(rows, start):
-    graph = graph_of(rows)
-    for way in (graph, graph.reverse(copy=False)):
-        assert reached(way, start & set(graph)) == reached_by_a_loop(way, start & set(graph))
-
-
 def test_the_graph_of_the_notes():
     """As in [KGP02, 3.4]."""
     graph = notes_example()
@@ -191,13 +171,3 @@ def test_without_a_cycle_there_is_no_walk():
     with pytest.raises(NoWalk, match="no cycle of edges with the same labels"):
         prune_graph(mixed, by_labels=True)
     assert len(prune_graph(mixed).graph) == 2
-
-
-def test_the_garbage_collector_is_left_as_it_was():
-    for switch in (gc.disable, gc.enable):
-        switch()
-        before = gc.isenabled()
-        prune_graph(notes_example())
-        with pytest.raises(NoWalk):
-            prune_graph(nx.MultiDiGraph())
-        assert gc.isenabled() == before
