@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap import load, resample
-from mocap.matching.distance_grids import Cloud, cloud, cloud_distances
+from mocap.matching.distance_grids import cloud, cloud_distances
 from mocap.matching.lower_bound import (
     MOST,
     Weights,
@@ -16,7 +15,7 @@ from mocap.matching.lower_bound import (
     whole_windows,
     window_numbers,
 )
-from mocap.matching.point_clouds import point_cloud, unit_weights
+from mocap.matching.point_clouds import unit_weights
 from tests.strategies import planar, seeds
 
 precisions = pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -65,18 +64,6 @@ def test_no_planar_transform_changes_the_numbers(seed, transform):
     assert numbers == pytest.approx(others, abs=1e-9)
 
 
-@given(seeds)
-def test_the_numbers_are_heights_and_distances_from_the_middle_of_the_window(seed):
-    clip = np.random.default_rng(seed).normal(size=(5, 4, 3))
-    weights = Weights(np.full(4, 1 / 4), np.full(5, 1 / 5))
-    ready = cloud(clip, np.zeros(4), *weights, np.float64)
-    ((*heights_and_radii,),) = window_numbers(ready, np.array([0]), weights)
-    middle = clip[..., [0, 2]].mean((0, 1))
-    radii = np.linalg.norm(clip[..., [0, 2]] - middle, axis=-1)
-    wanted = np.concatenate([clip[..., 1], radii], axis=1).ravel() / np.sqrt(20)
-    assert heights_and_radii == pytest.approx(wanted)
-
-
 @precisions
 def test_the_margin_is_small_beside_a_threshold_and_grows_with_the_bodies(dtype):
     body = np.random.default_rng(0).normal(size=(40, 31, 3)) * [0.3, 0.5, 0.3]
@@ -110,24 +97,3 @@ def test_directions_are_orthonormal_and_those_of_most_variance_come_first():
     assert np.all(np.diff(spread) < 0) and spread[0] == pytest.approx(
         np.linalg.eigvalsh(np.cov(numbers.T, bias=True))[-1]
     )
-
-
-@precisions
-def test_the_bound_is_below_the_distance_of_real_windows(real_data, dtype):
-    random = np.random.default_rng(0)
-    paths = sorted((real_data / "cmu").glob("*/*.amc"))
-    points = [point_cloud(resample(load(path), 30)) for path in random.permutation(np.array(paths))[:4]]
-    window, level = 10, points[0][..., 1].mean(0)
-    weights = Weights(unit_weights(None, 31), unit_weights(None, window))
-    parts = [cloud(each[:300], level, *weights, dtype) for each in points if len(each) > 40]
-    ready = Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
-    starts = whole_windows(ready)
-    numbers = window_numbers(ready, starts, weights)
-    count = len(ready.sizes) - window + 1
-    whole = ready.part(slice(0, count))
-    cost = np.sqrt(cloud_distances(whole, whole, weights.taper).astype(float))[np.ix_(starts, starts)]
-    least = apart(projections(ready, starts, weights, principal_directions(numbers, 16)))
-    far = reach(ready, 0.04)
-    assert np.all(least[cost < 0.04] <= far)
-    assert np.all(least <= np.sqrt(cost**2 + far**2 - 0.04**2) + far - 0.04)
-    assert np.mean(least < 0.04) < 0.2

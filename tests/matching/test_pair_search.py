@@ -64,22 +64,6 @@ def test_blocks_and_tiles_do_not_show(by_bound, below, seed, lengths, window, bl
     assert found[2] ** 2 == pytest.approx(grid[i, j], abs=1e-6)
 
 
-def test_no_more_is_measured_than_tiles_and_their_neighbours(monkeypatch):
-    shapes = []
-
-    def recorded(a, b, taper):
-        grid = cloud_distances(a, b, taper)
-        shapes.append(grid.shape)
-        return grid
-
-    monkeypatch.setattr(pair_search, "cloud_distances", recorded)
-    monkeypatch.setattr(pair_search, "BLOCK", 10)
-    monkeypatch.setattr(distance_grids, "TILE", (3, 4))
-    find_minima(clouds([30], 2, 0), equal(2), 0.8)
-    assert (max(rows for rows, _ in shapes), max(columns for _, columns in shapes)) == (5, 6)
-    assert len(shapes) == 3 * 12 + 7 + 7 + 6  # of the blocks on the diagonal, only the tiles above it
-
-
 @each_way
 def test_clips_without_a_whole_window_have_no_minima(by_bound):
     short = clouds([3], 3, 0)

@@ -19,7 +19,7 @@ from mocap.matching.point_clouds import (
     unit_weights,
 )
 from tests.oracles import squared_distance
-from tests.strategies import planar, seeds, wave
+from tests.strategies import seeds, wave
 
 
 @given(seeds)
@@ -34,34 +34,12 @@ def test_no_optimiser_finds_a_better_alignment(seed):
         assert best <= found.fun + 1e-6
 
 
-@given(seeds, planar)
-def test_alignment_finds_the_transform_that_was_applied(seed, transform):
-    points = np.random.default_rng(seed).normal(size=(8, 3))
-    found = align(transform.apply_points(points), points)
-    assert found.apply_points(points) == pytest.approx(transform.apply_points(points), abs=1e-9)
-
-
-@given(seeds, planar, planar)
-def test_the_distance_does_not_change_when_either_cloud_is_moved(seed, move_a, move_b):
-    a, b = np.random.default_rng(seed).normal(size=(2, 8, 3))
-    weights = np.full(8, 1 / 8)
-    before = squared_distance(align(a, b), a, b, weights)
-    a, b = move_a.apply_points(a), move_b.apply_points(b)
-    assert squared_distance(align(a, b), a, b, weights) == pytest.approx(before, abs=1e-8)
-
-
 def test_alignment_works_on_many_clouds_at_once():
     a, b = np.random.default_rng(0).normal(size=(2, 3, 4, 9, 3))
     together = align(a, b)
     assert np.shape(together.angle) == (3, 4)
     one = align(a[2, 1], b[2, 1])
     assert [field[2, 1] for field in together] == pytest.approx(list(one))
-
-
-@pytest.mark.parametrize("weights", [[1, 1], [1, -1, 1], [0, 0, 0], [1, np.nan, 1]])
-def test_weights_must_make_sense(weights):
-    with pytest.raises(MocapError, match="Weights must be 3 numbers, not negative and not all 0"):
-        align(np.eye(3), np.eye(3), weights)
 
 
 def test_of_many_senseless_weights_the_message_shows_the_range():

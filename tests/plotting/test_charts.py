@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
-from mocap.blending import plants_on_clock, register
 from mocap.methods.match_webs import Match
 from mocap.plotting import (
     box_chart,
@@ -13,10 +12,8 @@ from mocap.plotting import (
     plant_bars,
     quartile_band,
     seen_beside_measured,
-    space_image,
 )
 from mocap.plotting.style import ASTRAY, COLOURS, CURVES, QUIET, SOURCES
-from tests.blending.registered import walks
 
 AT = np.arange(3.0)
 FOUND = [
@@ -76,10 +73,8 @@ def test_good_bad_and_other_targets_have_their_colours():
 
 
 def test_bars_start_and_stop_with_the_plants():
-    pair, rows = register([walks()[0.8, 0], walks()[1.4, 0]]), {}
-    for name, clip, curve in zip(("slow", "brisk"), pair.clips, pair.times, strict=True):
-        plants = plants_on_clock(clip, curve)
-        rows[name] = {"left": plants["lfoot"], "right": plants["rfoot"]}
+    plants = np.array([[0.0, 0.7], [1.2, 1.9]])
+    rows = {"slow": {"left": plants, "right": plants + 0.6}, "brisk": {"left": plants[:1], "right": plants}}
     ax = plant_bars(rows)
     drawn = iter(ax.collections)
     for row, sides in enumerate(rows.values()):
@@ -114,10 +109,3 @@ def test_a_kind_keeps_its_colour_and_a_query_alone_is_a_tree():
     assert colours_of(few)[0] == to_rgba(SOURCES[1])
     alone = match_tree(FOUND[:1], ["walk"], wrong=[False], order=[])
     assert len(alone.collections[0].get_segments()) == 0
-
-
-def test_arrows_go_from_wishes_to_what_was_got():
-    ax = space_image([[0, 1], [2, 3], [1, 2]], 2, wishes=[[1, 1], [0, 0]], got=[[1, 2], [1, 0]])
-    _, _, wishes, arrows, _ = ax.collections
-    assert (arrows.U.tolist(), arrows.V.tolist()) == ([0, 1], [1, 0])
-    assert np.asarray(wishes.get_offsets()).tolist() == [[1, 1], [0, 0]]

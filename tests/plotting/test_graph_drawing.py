@@ -7,7 +7,6 @@ from matplotlib.colors import to_rgba
 
 from mocap.errors import MocapError
 from mocap.graphs.motion_graph import build
-from mocap.graphs.pruning import prune
 from mocap.plotting import graph_drawing
 from mocap.plotting.style import COLOURS, SOURCES
 from tests.strategies import wave
@@ -68,14 +67,6 @@ def test_from_each_clip_to_each_the_cheapest_are_shown_with_their_nodes(graph):
     assert sorted(leaves.get_xdata()) == pytest.approx(sorted(start for start, _ in expected))
     assert sorted(enters.get_xdata()) == pytest.approx(sorted(end for _, end in expected))
     assert "the 2 cheapest from each clip to each clip" in arcs.axes.texts[0].get_text()
-
-
-def test_before_and_after_pruning_share_their_axes(graph):
-    pruned = prune(graph)
-    before, after = graph_drawing.before_and_after(graph, pruned)
-    assert len(before.get_segments()) == graph.count("transition")
-    assert len(after.get_segments()) == pruned.count("transition")
-    assert f"{graph.graph.number_of_nodes()} nodes" in before.axes.get_title()
 
 
 def test_a_small_graph_has_one_disc_per_node_and_one_arrow_per_edge():

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from matplotlib.patches import Circle
 
-from mocap.blending import mix, register
+from mocap.datasets import sample
 from mocap.feet.footplants import find_footprints
 from mocap.plotting import asked_and_walked, draw_group_plan, footprints, ground_tracks, path_from_above
 from mocap.plotting.style import SOURCES
-from tests.blending.registered import HALF, walks
 from tests.strategies import wave
 
 
@@ -41,12 +40,10 @@ def test_the_path_asked_for_lies_under_the_path_walked():
 
 
 def test_tracks_have_the_ways_and_the_facings():
-    pair = register([walks()[0.8, 0], walks()[1.4, 0]])
-    blend = mix(pair, HALF)
-    lines = ground_tracks([*pair.parts, blend])
-    assert [line.get_color() for line in lines] == list(SOURCES[:3])
-    assert lines[2].get_xdata() == pytest.approx(blend.root_positions[:, 0])
-    ahead = np.diff(lines[2].axes.collections[-1].get_segments(), axis=1)[:, 0]
+    lines = ground_tracks([wave(90), walk := sample("walk_straight")[:240]])
+    assert [line.get_color() for line in lines] == list(SOURCES[:2])
+    assert lines[1].get_xdata() == pytest.approx(walk.root_positions[:, 0])
+    ahead = np.diff(lines[1].axes.collections[-1].get_segments(), axis=1)[:, 0]
     assert np.hypot(*ahead.T) == pytest.approx(0.25)
     assert np.abs(np.degrees(np.arctan2(*ahead.T))).max() < 30
 

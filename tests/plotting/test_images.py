@@ -5,12 +5,10 @@ To draw them anew: `pytest tests/plotting/test_images.py --mpl-generate-path=tes
 
 import matplotlib.pyplot as plt
 import networkx as nx
-import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from mocap.matching.distance_grids import distance_grid
-from mocap.plotting import graph_drawing, grids, stick_figures
+from mocap.plotting import graph_drawing, stick_figures
 from tests.strategies import wave
 
 pytest.importorskip("pytest_mpl", reason="pip install pytest-mpl")
@@ -41,20 +39,6 @@ def without_text(figure):
 @alike()
 def test_ghosts_look_as_ever():
     return stick_figures.stick_figure(wave(60), [0, 25, 50])[0].dot.figure
-
-
-@alike()
-def test_two_motions_laid_over_each_other_look_as_ever():
-    stick_figures.laid_over(wave(20), wave(20, phase=0.5), every=9)
-    plt.gca().get_legend().remove()
-    return plt.gcf()
-
-
-@alike(tolerance=10)  # an image is scaled in another way by each version
-def test_the_distance_image_looks_as_ever():
-    grid = distance_grid(wave(80), wave(90, phase=1.0), window=10)
-    grids.distance_image(grid, fps=30, minima=np.argwhere(grid == grid.min()), ax=bare())
-    return without_text(plt.gcf())
 
 
 @alike()

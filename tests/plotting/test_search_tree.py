@@ -68,12 +68,3 @@ def test_the_picture_shows_each_branch_once():
     assert picture.after() == [pending, cut, expanded, best, crosses, rings]
     ends = picture.places[tree.complete]
     assert len(np.unique(ends[:, 0])) == len(ends)  # each has its own column
-
-
-def test_the_tree_is_drawn_at_the_places_given():
-    tree = grow_tree(problem_on(random_graph(2), 3), 0, ())
-    places = np.random.default_rng(0).normal(size=(len(tree.cost), 2))
-    picture = TreePicture(tree, places=places)
-    picture.after()
-    (start, _), *_, (_, end) = picture.best.get_segments()
-    assert start == pytest.approx(places[0]) and end == pytest.approx(places[tree.best(tree.expanded)])

@@ -74,11 +74,6 @@ def test_a_stick_figure_has_every_bone_where_the_joints_are_in_the_colour_of_its
     assert figure.dot.get_data_3d()[2] == pytest.approx(joint_positions(motion)[2, 5, 1])
 
 
-def test_earlier_poses_are_ghosts():
-    alphas = [figure.bones.get_alpha() for figure in stick_figures.stick_figure(wave(30), [0, 10, 20])]
-    assert alphas == sorted(alphas) and alphas[-1] == 1
-
-
 def test_two_motions_laid_over_each_other_have_a_colour_each():
     first, second = wave(20, name="a"), wave(20, phase=1, name="b")
     figures = stick_figures.laid_over(first, second, every=5)
