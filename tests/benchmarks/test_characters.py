@@ -92,7 +92,6 @@ def test_to_prepare_matching_is_cheap_beside_a_graph():
     assert tabled <= 0.8 * built
 
 
-@pytest.mark.filterwarnings("ignore:.*blends there hardly differ")
 def test_nine_kinds_and_fifteen_edges_are_built_in_the_time_of_some_motion_graphs():
     """In seconds, where a motion graph of the same clips takes one; the paper's took minutes."""
     sneak, jog = ([resample(sample(name), 30)] for name in ("sneak", "jog"))

@@ -37,8 +37,8 @@ class Wants(NamedTuple):
     def check(self) -> None:
         """Raise MocapError for what makes no sense."""
         for name, value in self._asdict().items():
-            if not np.isfinite(value) or value < 0 or (value == 0 and name in ("every", "halflife", "fade")):
-                least = "above 0" if name in ("every", "halflife", "fade") else "from 0 on"
+            least = "above 0" if name in ("every", "halflife", "fade") else "from 0 on"
+            if not (0 <= value < np.inf and (value or least == "from 0 on")):
                 raise MocapError(f"'{name}' is a number {least}, got {value}.")
 
 

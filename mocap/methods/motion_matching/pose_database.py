@@ -175,10 +175,9 @@ def standardise(values: Array, weights: Mapping[str, float]) -> tuple[Array, Arr
     >>> [round(float(values[:, GROUPS[name]].std(axis=0).mean()), 2) for name in GROUPS]
     [0.75, 1.0, 1.0, 1.0, 1.5]
     """
-    if set(weights) != set(GROUPS) or not all(np.isfinite(w) and w >= 0 for w in weights.values()):
-        raise MocapError(f"Weights are numbers from 0 on for {', '.join(GROUPS)}; got {dict(weights)}."[:200])
-    if not any(weights.values()):
-        raise MocapError("All weights are 0: then all frames are alike.")
+    given = list(weights.values())
+    if set(weights) != set(GROUPS) or not (all(0 <= w < np.inf for w in given) and any(given)):
+        raise MocapError(f"Weights are numbers from 0 on, not all 0, for {', '.join(GROUPS)}: {given}."[:200])
     scale = np.empty(values.shape[1])
     for name, columns in GROUPS.items():
         deviation = float(values[:, columns].std(axis=0).mean())
@@ -216,10 +215,8 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
     require_alike(clips)
     rate, longest = clips[0].fps, max(clips, key=len)
     if len(longest) <= END * rate + 1:
-        raise MocapError(
-            f"No clip is longer than the {END:g} s that a search leaves out at its end; "
-            f"the longest, '{longest.name}', lasts {longest.duration:.2f} s."
-        )
+        lasts = f"the longest, '{longest.name}', lasts {longest.duration:.2f} s"
+        raise MocapError(f"A search leaves out the last {END:g} s of each clip; {lasts}.")
     frames = [len(clip) for clip in clips]
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))

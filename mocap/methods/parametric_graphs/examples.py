@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.arrays import Array, Mask, Points
+from mocap._shared.arrays import Array, Indices, Mask, Points
 from mocap.blending.registering import register
 from mocap.body import rotations
 from mocap.body.motion import Motion, require_alike
@@ -75,9 +75,9 @@ class Examples:
         first, last = np.searchsorted(self.grid, [-1e-9, 1 - 1e-9])
         return int(first), int(last)
 
-    def take(self, which: Mask) -> "Examples":
+    def take(self, which: Mask | Indices) -> "Examples":
         """Keep some of the examples."""
-        if not np.any(which):
+        if not len(self.values[which]):
             raise MocapError(f"None of {len(self)} examples is left.")
         parts = ("seconds", "speeds", "turning", "heights", "poses", "contacts", "values")
         return replace(self, **{part: getattr(self, part)[which] for part in parts})

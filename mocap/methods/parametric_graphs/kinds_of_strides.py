@@ -1,6 +1,5 @@
 """From clips to a graph in one call: kinds of strides, changes between them, and all their edges [ours]."""
 
-import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -13,17 +12,16 @@ from numpy.typing import NDArray
 from mocap._shared.arrays import Array, Indices
 from mocap._shared.easing import quintic_step
 from mocap.body.motion import Motion
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapError, NoWalk
 from mocap.methods.parametric_graphs.examples import Examples
 from mocap.methods.parametric_graphs.parametric_edges import Sampling, smallest_good
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
-from mocap.methods.parametric_graphs.stride_spaces import Space, make_space, measure_mixes, said
+from mocap.methods.parametric_graphs.stride_spaces import Space, make_space, measure_mixes
 from mocap.methods.parametric_graphs.strides import cut_strides
 
 WIDTH = np.radians(14)  # of the bell, for strides
 WIDEST = np.radians(75)  # of turn per stride, to either side
 LEAST, MOST = 0.04, 0.08  # metres: T_GOOD where none is given
-BOTH = np.radians(10)  # per stride: who turns less to one side does not obey there
 FROM, TO = 0.2, 0.8  # phases between which a change takes place
 NEAR = np.radians(5)  # a turn that the other kind nearly has
 EXAMPLES = 60  # of a change, at most
@@ -60,11 +58,6 @@ def build_kinds(
     NoWalk : for an edge that cannot be had, with what would help.
     MocapError : for no kinds, unknown names, and a kind, by name, whose strides are too few or hardly vary.
 
-    Warns
-    -----
-    MocapWarning : for a kind with hardly any stride in some part of its range, as `make_space`; and for one
-        that hardly turns to one side.
-
     Examples
     --------
     >>> from mocap import body, datasets
@@ -94,25 +87,13 @@ def build_kinds(
         with _naming(name):
             strides[name] = changing_strides(strides[one], strides[other])
         edges += [(one, name), (name, other)]
-    spaces = {name: _space(name, some, widest, warn=name in kinds) for name, some in strides.items()}
+    spaces = {}
+    for name, some in strides.items():
+        low, high = np.clip(np.percentile(some.values[:, 0], [4, 96]), -widest, widest)
+        with _naming(name):
+            spaces[name] = make_space(some, WIDTH, min(low, high - 1e-6), high)
     good = _least(spaces, edges, sampling) if good is None else good
     return build_parametric(spaces, edges, good=good, sampling=sampling)
-
-
-def _space(name: str, strides: Examples, widest: float, *, warn: bool) -> Space:
-    low, high = np.clip(np.percentile(strides.values[:, 0], [4, 96]), -widest, widest)
-    with warnings.catch_warnings(), _naming(name):
-        if not warn:  # a change has the gaps of its kinds
-            warnings.simplefilter("ignore", MocapWarning)
-        space = make_space(strides, WIDTH, min(low, high - 1e-6), high)
-        if max(low, -high) > -BOTH:
-            warnings.warn(
-                f"{name} turns by {said('turn', low)} to {said('turn', high)} per stride, hardly to the "
-                f"{'left' if high < BOTH else 'right'}: there it does not obey; add clips, or mirror these.",
-                MocapWarning,
-                stacklevel=3,
-            )
-        return space
 
 
 @contextmanager
@@ -174,34 +155,33 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     if len(first.grid) != len(second.grid) or not np.allclose(first.grid, second.grid):
         raise MocapError("A change goes between examples over the same phases.")
     first.require_joinable(second)
-    first, second = (
-        _held(some, *ends) if stands == which else some
-        for which, some, ends in (("first", first, (-1, FROM)), ("second", second, (TO, 2)))
-    )
     one, other = _pairs(first, second, any_turn=bool(stands))
-    share = quintic_step((first.grid - FROM) / (TO - FROM))
+    first, second = first.take(one), second.take(other)
+    first = _held(first, -1, FROM) if stands == "first" else first
+    second = _held(second, TO, 2) if stands == "second" else second
+    grid, share = first.grid, quintic_step((first.grid - FROM) / (TO - FROM))
 
     def faded(before: NDArray[Any], after: NDArray[Any]) -> NDArray[Any]:
         amount = share.reshape(-1, *[1] * (before.ndim - 2))
         return np.asarray((1 - amount) * before + amount * after)
 
-    start, end = first.poses[one], second.poses[other]
-    poses = faded(start, np.where((start * end).sum(axis=-1, keepdims=True) < 0, -end, end))
-    before, after = (first.grid < 1, first.grid > 0) if stands else (share < 0.5, share >= 0.5)
-    step = first.grid[1] - first.grid[0]
-    rates = (np.gradient(part, step, axis=1) for part in (first.seconds[one], second.seconds[other]))
-    faded_parts: dict[str, Any] = {
-        part: faded(getattr(first, part)[one], getattr(second, part)[other])
-        for part in ("speeds", "turning", "heights")
-    }
+    apart = (first.poses * second.poses).sum(axis=-1, keepdims=True) < 0  # q and -q are one rotation
+    poses = faded(first.poses, np.where(apart, -second.poses, second.poses))
+    until, since = (grid < 1, grid > 0) if stands else (share < 0.5, share >= 0.5)
+    marks = [
+        np.where(some[:, None], own, 1) for some, own in ((until, first.contacts), (since, second.contacts))
+    ]
     made = replace(
         first,
-        **faded_parts,
-        seconds=first.integrated(faded(*rates)),  # how long a phase lasts is what fades
+        speeds=faded(first.speeds, second.speeds),
+        turning=faded(first.turning, second.turning),
+        heights=faded(first.heights, second.heights),
+        # How long a phase lasts is what fades.
+        seconds=first.integrated(
+            faded(*(np.gradient(k.seconds, grid[1] - grid[0], axis=1) for k in (first, second)))
+        ),
         poses=poses / np.linalg.norm(poses, axis=-1, keepdims=True),
-        contacts=np.where(before[:, None], first.contacts[one], 1)
-        * np.where(after[:, None], second.contacts[other], 1),
-        values=np.zeros((len(one), 2)),
+        contacts=marks[0] * marks[1],
         sway=(first.sway + second.sway) / 2,
         offset=(first.offset + second.offset) / 2,
         dropped=0,
@@ -211,18 +191,11 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
 
 def _held(examples: Examples, low: float, high: float) -> Examples:
     """Let examples stand still before one phase and after another."""
-    rows = np.searchsorted(examples.grid, np.clip(examples.grid, low, high) - 1e-9).clip(
-        0, len(examples.grid) - 1
-    )
+    rows = np.searchsorted(examples.grid, np.clip(examples.grid, low, high) - 1e-9)
     goes = rows == np.arange(len(rows))
-    return replace(
-        examples,
-        heights=examples.heights[:, rows],
-        poses=examples.poses[:, rows],
-        speeds=examples.speeds * goes,
-        turning=examples.turning * goes,
-        contacts=np.maximum(examples.contacts, ~goes[:, None]),
-    )
+    moved = {part: getattr(examples, part) * goes for part in ("speeds", "turning")}
+    stood = {part: getattr(examples, part)[:, rows] for part in ("heights", "poses")}
+    return replace(examples, **moved, **stood, contacts=np.maximum(examples.contacts, ~goes[:, None]))
 
 
 def _pairs(first: Examples, second: Examples, any_turn: bool) -> tuple[Indices, Indices]:

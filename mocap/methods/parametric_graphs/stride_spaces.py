@@ -5,14 +5,13 @@ bells about what is asked: many strides fill few parameters. Few examples of man
 at a time.
 """
 
-import warnings
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapError
 from mocap.methods.match_webs.motion_spaces import MotionSpace
 from mocap.methods.match_webs.wishes import nearest_samples
 from mocap.methods.parametric_graphs.examples import Examples, mixed_way
@@ -21,7 +20,6 @@ Space = MotionSpace[Examples]
 
 PARAMETERS = ("turn", "speed")
 SMALLEST = 1e-3  # a bell's weight below this share of the largest counts as 0
-FEWEST = 5  # strides within two widths of each part of a range
 SAMPLES = 120, 400  # of a space asked by one parameter, and by two
 
 
@@ -89,10 +87,6 @@ def make_space(
     MocapError : for unknown parameters, a range that is none or holds too few samples, a width that is not
         above 0, fewer strides than d + 2, and strides that do not vary.
 
-    Warns
-    -----
-    MocapWarning : where fewer than five strides are within two widths of some part of the range.
-
     Examples
     --------
     >>> from mocap import body, datasets
@@ -115,7 +109,11 @@ def make_space(
     ):
         raise MocapError(f"A range has ends low < high and a width above 0, got {ends}.")
     values = strides.values[:, columns]
-    _require_variety(names, values, width)
+    if len(values) < len(names) + 2 or (np.ptp(values, axis=0) < width / 2).any():
+        raise MocapError(
+            f"A space asked by {' and '.join(names)} takes {len(names) + 2} strides or more that vary, got "
+            f"{len(values)} with {_spans(names, values)}: add clips, longer ones, or ask by something else."
+        )
     if len(names) == 1:
         asked = np.linspace(lowest - width, highest + width, SAMPLES[0])
     else:
@@ -130,49 +128,19 @@ def make_space(
     if len(space.reached) < len(names) + 2:
         raise MocapError(
             f"Only {len(space.reached)} of {len(asked)} samples lie in the range: they come to "
-            + " and ".join(_spans(names, come))
-            + "."
+            f"{_spans(names, come)}."
         )
-    if len(names) == 1:  # of two parameters the samples are the range
-        _warn_of_gaps(names[0], values[:, 0], width[0], np.linspace(lowest, highest, 25)[:, 0])
     return space
+
+
+def _spans(names: tuple[str, ...], values: Array) -> str:
+    ends = zip(names, values.min(axis=0), values.max(axis=0), strict=True)
+    return " and ".join(f"a {name} of {said(name, low)} to {said(name, high)}" for name, low, high in ends)
 
 
 def said(name: str, value: float) -> str:
     """Say a parameter with its unit."""
     return f"{np.degrees(value):.0f}°" if name == "turn" else f"{value:.2f} m" + "/s" * (name == "speed")
-
-
-def _spans(names: tuple[str, ...], values: Array) -> list[str]:
-    ends = zip(names, values.min(axis=0), values.max(axis=0), strict=True)
-    return [f"a {name} of {said(name, low)} to {said(name, high)}" for name, low, high in ends]
-
-
-def _require_variety(names: tuple[str, ...], values: Array, width: Array) -> None:
-    """Refuse strides that are too few, or hardly differ in what they shall be asked by."""
-    if len(values) < len(names) + 2:
-        raise MocapError(
-            f"A space asked by {' and '.join(names)} takes {len(names) + 2} strides or more, "
-            f"got {len(values)}: add clips, or longer ones, for a stride needs room at its ends."
-        )
-    spread = np.ptp(values, axis=0) / width
-    if spread.min() < 1 / 2:
-        raise MocapError(
-            f"{len(values)} strides hardly vary, with {_spans(names, values)[spread.argmin()]}: "
-            "ask by something else, or add clips that vary."
-        )
-
-
-def _warn_of_gaps(name: str, values: Array, width: float, parts: Array) -> None:
-    """Warn of parts of a range with hardly any stride."""
-    near = (np.abs(parts[:, None] - values) <= 2 * width).sum(axis=1)
-    if near.min() < FEWEST:
-        warnings.warn(
-            f"Only {near.min()} of {len(values)} strides are near a {name} of "
-            f"{said(name, parts[near.argmin()])}: blends there hardly differ; narrow the range or add clips.",
-            MocapWarning,
-            stacklevel=3,
-        )
 
 
 def draw_parameters(space: Space, count: int, random: np.random.Generator) -> Array:

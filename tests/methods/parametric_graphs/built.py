@@ -18,7 +18,7 @@ from mocap.methods.parametric_graphs import (
     cut_strides,
     make_space,
 )
-from mocap.methods.parametric_graphs.kinds_of_strides import changing_strides
+from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, changing_strides
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
@@ -37,6 +37,16 @@ def clips():
 @cache
 def strides(feet="lrl", by="strikes"):
     return cut_strides(clips(), feet=feet, by=by)
+
+
+@cache
+def jogs():
+    return cut_strides([resample(samples.sample("jog"), 30)], label="jog")
+
+
+@cache
+def walk_and_jog():
+    return build_kinds({"walk": clips(), "jog": jogs()}, sampling=SMALL)
 
 
 @cache

@@ -2,32 +2,33 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from mocap.errors import MocapError, NoWalk
 from mocap.methods.parametric_graphs.parametric_motion_graphs import build_parametric
-from tests.methods.parametric_graphs.built import SMALL, by_turn_and_speed, space, stepping, walking
-from tests.methods.parametric_graphs.kinds import kinds, many_kinds
-
-
-def test_seven_kinds_and_eleven_edges():
-    graph = many_kinds()
-    assert len(graph.graph) == 7 and graph.graph.number_of_edges() == 11
-    assert graph.graph.has_edge("walk to jog", "jog") and not graph.graph.has_edge("walk", "jog")
-    assert graph.fps == 30
+from tests.methods.parametric_graphs.built import (
+    SMALL,
+    by_turn_and_speed,
+    space,
+    stepping,
+    walk_and_jog,
+    walking,
+)
 
 
 def test_by_default_all_edges_that_can_be_had_are_there():
-    some = {name: kinds()[name] for name in ("walk", "jog")}
+    """As in [HG07, graph]."""
+    some = {name: walk_and_jog().space(name) for name in ("walk", "jog")}
     graph = build_parametric(some, good=0.05, sampling=SMALL)
-    assert set(graph.graph.edges) == {("walk", "walk"), ("jog", "jog")}
+    assert set(graph.graph.edges) == {("walk", "walk"), ("jog", "jog")} and graph.fps == 30
 
 
 def test_the_report_names_each_edge_and_its_boxes():
     assert walking().report().startswith("walk → walk: boxes of ")
     assert "of turn, from 1." in walking().report()
     assert len(stepping().report().splitlines()) == 2
+    both = build_parametric({"walk": by_turn_and_speed()}, good=0.06, sampling=SMALL)
+    assert "m/s of speed" in both.report()
 
 
 @pytest.mark.parametrize(
@@ -55,9 +56,3 @@ def test_spaces_of_two_rates_are_no_graph_even_without_an_edge_between_them():
     slow = replace(space(), examples=replace(space().examples, fps=60.0))
     with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
         build_parametric({"a": space(), "b": slow}, [("a", "a"), ("b", "b")], good=0.05, sampling=SMALL)
-
-
-def test_a_space_asked_by_speed_says_so():
-    graph = build_parametric({"walk": by_turn_and_speed()}, good=0.06, sampling=SMALL)
-    assert "m/s of speed" in graph.report()
-    assert np.isfinite(graph.edge("walk", "walk").least)
