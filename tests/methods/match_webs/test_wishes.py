@@ -65,6 +65,7 @@ def test_a_hit_gives_that_sample():
 
 
 def test_the_weights_of_neighbours_are_those_of_the_paper():
+    """As in [HG07, Eqs. 1-2]."""
     assert neighbour_weights([1, 2, 4]) == pytest.approx([3 / 4, 1 / 4, 0])
     assert neighbour_weights([2, 2, 2]).tolist() == [1, 0, 0]
     assert neighbour_weights([3]).tolist() == [1]

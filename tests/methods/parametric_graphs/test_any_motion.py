@@ -82,6 +82,7 @@ def test_a_graph_of_hands_is_saved_and_comes_back(tmp_path):
 
 
 def test_actions_are_registered_and_their_margins_run_at_their_own_pace():
+    """As in [HG07, examples]."""
     walk = clips()[3]
     strikes = 1 + np.flatnonzero(np.diff(walk.contacts["lfoot"].astype(int)) == 1)[1:5]
     cut = cut_actions([walk] * 3, list(pairwise(strikes)))

@@ -56,6 +56,7 @@ def test_it_is_the_mix_that_its_weights_say_and_knows_what_it_came_to():
 
 @pytest.mark.parametrize(("source", "target"), [("lrl", "lrl"), ("lr", "rl")])
 def test_costs_are_those_of_a_distance_grid(source, target):
+    """As in [HG07, 3.1]."""
     first, second = space(source), space(target)
     at, to = np.array([[-0.2], [0.0], [0.3]]), np.array([[0.1], [-0.4]])
     found = optimal_transitions(first, second, at, to)

@@ -66,6 +66,7 @@ def test_costs_at_the_looked_up_phases_are_nearly_the_best():
 
 @given(arrays(float, (6, 2), elements=PLACES), arrays(float, (4, 2), elements=PLACES))
 def test_a_shrunk_box_holds_no_bad_target_and_lies_in_the_good_ones(good, bad):
+    """As in [HG07, 3.2]."""
     scale = np.array([2.0, 5.0])
     low, high = shrink_box(good, bad, scale, eps=0.01)
     assert (low >= good.min(axis=0)).all() and (high <= good.max(axis=0)).all()
