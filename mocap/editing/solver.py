@@ -12,17 +12,15 @@ and the weight in place of [Gle98]'s Lagrange multipliers are ours.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from mocap._shared.arrays import Array
 from mocap.body.motion import Motion
-from mocap.body.skeleton import Skeleton
 from mocap.editing.bodies import Body, body_of, require_reachable
 from mocap.editing.displacements import displaced
-from mocap.editing.pins import Pins, Rows, pin_errors, require_pins_of
+from mocap.editing.pins import Pins, pin_errors, require_pins_of
 from mocap.editing.steps import Basis, Curve, Linear, linear
 from mocap.errors import MocapError, warn
 
@@ -127,7 +125,8 @@ def solve_quietly(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body |
         rows = np.flatnonzero(missed) if way.alone else slice(None)
         change = np.zeros_like(change)
         if missed.any():
-            change[rows], left = _descend(*_pared(base, pins, body, rows), way)
+            some = Motion(base.skeleton, base.root_positions[rows], base.rotations[rows], base.fps)
+            change[rows], left = _descend(some, pins.at(rows), body, way)
             base = displaced(base, body.displacement(change, len(base.skeleton)))
             worst += left
     return Solved(base, worst, change, body)
@@ -154,24 +153,6 @@ def _descend(base: Motion, pins: Pins, body: Body, way: Basis) -> tuple[Array, l
         if not more.any() or now.worst < MET:
             break
     return curve.basis @ c, worst
-
-
-def _pared(base: Motion, pins: Pins, body: Body, rows: Rows) -> tuple[Motion, Pins, Body]:
-    """Keep some frames, and only joints that are pinned or turn, and those above: the others play no part."""
-    skeleton = base.skeleton
-    turns = [turn for turn in pins.turns if turn.world or turn.joint in body.joints]
-    ends = (*pins.joints, *body.joints, *(turn.joint for turn in turns))
-    kept = sorted({0}.union(*(skeleton.path_to_root(int(joint)) for joint in ends)))
-    number = {joint: n for n, joint in enumerate(kept)}
-    small = Skeleton(
-        [skeleton.names[joint] for joint in kept],
-        np.array([number.get(int(skeleton.parents[joint]), -1) for joint in kept]),
-        skeleton.offsets[kept],
-    )
-    motion = Motion(small, base.root_positions[rows], base.rotations[rows][:, kept], base.fps, base.name)
-    own = replace(pins, joints=tuple(number[joint] for joint in pins.joints), turns=())
-    own = replace(own, turns=tuple(turn._replace(joint=number[turn.joint]) for turn in turns)).at(rows)
-    return motion, own, body._replace(joints=np.searchsorted(kept, body.joints))
 
 
 def warn_of_gaps(motion: Motion, pins: Pins, tolerance: float = TOLERANCE) -> None:

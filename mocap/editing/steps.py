@@ -82,8 +82,9 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
     change = body.displacement(x, len(base.skeleton))
     moved = displaced(base, change)
     poses = forward_kinematics(moved)
-    spins = poses.matrices @ right_jacobian(change.turns)
-    axes = np.einsum("ftij,tj->fti", spins[:, body.joints], body.axes)  # in the world, (F, T, 3)
+    joints, which = np.unique(body.joints, return_inverse=True)
+    spins = poses.matrices[:, joints] @ right_jacobian(change.turns[:, joints])
+    axes = np.einsum("ftij,tj->fti", spins[:, which], body.axes)  # in the world, (F, T, 3)
     slopes = np.zeros((len(base), len(pins.joints), 3, x.shape[1]))
     slopes[..., :3] = np.eye(3)
     for number, end in enumerate(pins.joints):

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
@@ -10,12 +10,12 @@ from typing import NamedTuple
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
-from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion
 from mocap.body.planar import heading
 from mocap.editing.displacements import displaced
-from mocap.editing.edits import posed
+from mocap.editing.edits import edit, posed
 from mocap.editing.keys import HALF_SECOND, Key, offsets
+from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.editing.retiming import retime
 from mocap.errors import FormatError, MocapError
 from mocap.feet.footskate import clean_up
@@ -118,9 +118,8 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
     motion : F frames.
     plan : as `load_plan` reads it.
     window : seconds.
-    feet : keep feet that stand in their places, at the keys by `posed`, and between them by `feet.clean_up`;
-        asks for the motion's `contacts`. The clean-up may raise the root, so arms and head are then brought
-        to their places once more.
+    feet : keep feet that stand in their places, at the keys by `posed`, and between them by `edit`, which
+        brings the joints to their places as well; asks for the motion's `contacts`.
 
     Raises
     ------
@@ -156,8 +155,12 @@ def warp(motion: Motion, plan: WarpPlan, *, window: float = HALF_SECOND, feet: b
             keys.append(Key(frame, pose, any(wish.level for wish in wishes)))
         motion = _through(motion, keys, window)
         if feet:
-            motion = clean_up(motion)
-            motion = _through(motion, [_again(motion, key, wanted[key.frame]) for key in keys], window)
+            asked = [
+                pin(motion, joint, [frame], place)
+                for frame, places in wanted.items()
+                for joint, place in places.items()
+            ]
+            motion = edit(motion, join_pins(plant_pins(motion), *asked))
     if plan.times:
         motion = retime(motion, [(new, min(old, last)) for _, new, old in plan.times])
         motion = clean_up(motion) if feet else motion
@@ -190,18 +193,6 @@ def _places(motion: Motion, frame: int, wishes: Sequence[Wish]) -> dict[str, Arr
     at, turn = joint_positions(now)[0], rotations.about_y(heading(now.rotations[0, 0]))
     index = motion.skeleton.index
     return {w.joint: at[index(w.joint)] + rotations.rotate(turn, w.move) for w in wishes if w.move}
-
-
-def _again(motion: Motion, key: Key, places: Mapping[str, Array]) -> Key:
-    """Make a key for the joints that no leg carries and that carry none: the root and the legs stay."""
-    skeleton = motion.skeleton
-    hips = {leg.hip for leg in find_legs(skeleton)}
-    trunk = {joint for hip in hips for joint in skeleton.path_to_root(hip)}
-    paths = {name: skeleton.path_to_root(skeleton.index(name)) for name in places}
-    loose = [name for name, path in paths.items() if path[0] not in trunk and not hips & set(path)]
-    free = {name: places[name] for name in loose}
-    root = skeleton.names[:1]
-    return key._replace(pose=posed(motion, key.frame, free, feet=False, still=root) if free else None)
 
 
 def _through(motion: Motion, keys: Sequence[Key], window: float) -> Motion:
