@@ -165,7 +165,7 @@ def _cell(values: Array) -> str:
         return "none"
     low, middle, high = np.percentile(done, [25, 50, 75])
     size = int(np.floor(np.log10(max(abs(high), 1e-3))))
-    digits = max(0, 1 + (size == 0) - size) if np.abs(done).max() > 5e-5 else 0
+    digits = max(0, 1 + (size == 0) - size) if abs(high) > 5e-5 else 0
     return f"{middle:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"
 
 

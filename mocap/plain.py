@@ -428,7 +428,7 @@ def main(given: Sequence[str] | None = None) -> int:
         clips = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
         if not clips:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")
-        require_alike(clips)
+        clips = require_alike(clips)
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
         roots, turns = follow(clips, graph, line)

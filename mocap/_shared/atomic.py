@@ -20,6 +20,15 @@ UNFINISHED = ".mocap-unfinished-"  # and some letters: the folders of files that
 
 
 @contextmanager
+def _told(what: str) -> Iterator[None]:
+    """Say of an error of the system what it hinders."""
+    try:
+        yield
+    except OSError as error:
+        raise MocapError(f"Cannot {what}: {error.strerror or error}.") from error
+
+
+@contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
     """Write a new file beside the old one, then replace the old one in a single step.
 
@@ -45,19 +54,14 @@ def replacing(path: str | Path) -> Iterator[Path]:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
-    try:
-        real = Path(os.path.realpath(path))
-        if real.is_symlink():
-            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-        with _workshop(real.parent) as folder:  # a folder: a file in it gets ordinary permissions
-            new = folder / Path(path).name
-            yield new
-            _sync(new, os.O_RDWR)
-            new.replace(real)
-            with suppress(OSError):  # not every system can
-                _sync(real.parent, os.O_RDONLY)
-    except OSError as error:
-        raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
+    real = Path(os.path.realpath(path))
+    with _told(f"write {path}"), _workshop(real) as folder:
+        new = folder / Path(path).name
+        yield new
+        _sync(new, os.O_RDWR)
+        new.replace(real)
+        with suppress(OSError):  # not every system can
+            _sync(real.parent, os.O_RDONLY)
 
 
 def _sync(path: Path, how: int) -> None:
@@ -69,15 +73,20 @@ def _sync(path: Path, how: int) -> None:
 
 
 @contextmanager
-def _workshop(place: Path) -> Iterator[Path]:
-    """Make a folder for what is being written, after removing those of processes that were killed."""
+def _workshop(path: Path) -> Iterator[Path]:
+    """Make a folder beside a file to write, after removing those of processes that were killed.
+
+    A folder, because a file in it gets ordinary permissions.
+    """
+    if path.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    made, place = tempfile.TemporaryDirectory, path.parent
     with ExitStack() as stack:
         with _locked(place, wait=True):
             _tidy(place)
-            made = tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=place, ignore_cleanup_errors=True)
-            folder = Path(stack.enter_context(made))
-            stack.enter_context(_locked(folder))
-        yield folder
+            folder = stack.enter_context(made(prefix=UNFINISHED, dir=place, ignore_cleanup_errors=True))
+            stack.enter_context(_locked(Path(folder)))
+        yield Path(folder)
 
 
 @cache
@@ -120,14 +129,11 @@ def require_writable(path: str | Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot write nowhere/walk.bvh: No such file or directory.
     """
-    path = Path(path)
-    try:
-        if path.is_dir():
-            raise MocapError(f"Cannot write {path}: it is a folder.")
-        with _workshop(Path(os.path.realpath(path)).parent):
-            pass
-    except OSError as error:
-        raise MocapError(f"Cannot write {path}: {error.strerror or error}.") from error
+    real = Path(os.path.realpath(path))
+    if real.is_dir():
+        raise MocapError(f"Cannot write {path}: it is a folder.")
+    with _told(f"write {path}"), _workshop(real):
+        pass
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -145,12 +151,10 @@ def require_folder(path: Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot make the folder ...below: Not a directory.
     """
-    try:
+    with _told(f"make the folder {path}"):
         nearest = next((place for place in (path, *path.parents) if place.exists()), Path())
-        with _workshop(nearest):
+        with _workshop(nearest / UNFINISHED):
             pass
-    except OSError as error:
-        raise MocapError(f"Cannot make the folder {path}: {error.strerror or error}.") from error
 
 
 def make_folder(path: Path) -> None:
@@ -162,7 +166,5 @@ def make_folder(path: Path) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: Cannot make the folder ...atomic.py: File exists.
     """
-    try:
+    with _told(f"make the folder {path}"):
         path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MocapError(f"Cannot make the folder {path}: {error.strerror}.") from error

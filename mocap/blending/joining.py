@@ -46,7 +46,7 @@ def blend(a: Motion, b: Motion, weights: ArrayLike) -> Motion:
 
     Notebook: 04-blending
     """
-    require_alike([a, b])
+    a, b = require_alike([a, b])
     alpha = np.asarray(weights, float)
     if len(a) != len(b) or alpha.shape != (len(a),):
         raise MocapError(
@@ -83,7 +83,7 @@ def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
 
     Notebook: 04-blending
     """
-    require_alike([a, b])
+    a, b = require_alike([a, b])
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")
     for clip, start in ((a, i), (b, j)):

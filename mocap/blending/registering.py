@@ -103,6 +103,7 @@ def register(
     Notebook: 15-registration
     """
     warp = warp or Warp()
+    clips = require_alike(clips)
     step = _checked(clips, reference, slack, warp)
     rate = clips[0].fps / step
     clouds = [point_cloud(clip[::step]) for clip in clips]
@@ -124,7 +125,7 @@ def register(
         frames //= 2
     centres = tuple(_window_centres(clip, warp.window / rate) for clip in clips)
     plants, means = match_contacts(clips, times, span), frozen(costs, np.float64)
-    found = Registration(tuple(clips), reference, times, angles, centres, span, means, plants)
+    found = Registration(clips, reference, times, angles, centres, span, means, plants)
     _warn(found, rate, alike=slack == 0)
     return found
 
@@ -133,7 +134,6 @@ def _checked(clips: Sequence[Motion], reference: int, slack: float, warp: Warp) 
     """Check what `register` is given; return how many frames make one step at the warp's rate."""
     if len(clips) < 2:
         raise MocapError(f"A registration needs two clips or more, got {len(clips)}.")
-    require_alike(clips)
     if reference not in range(len(clips)):
         raise MocapError(f"The reference is one of the clips 0 to {len(clips) - 1}, got {reference}.")
     if not (np.isfinite(warp.rate) and warp.rate > 0):

@@ -213,8 +213,8 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     """
     if not motions:
         raise MocapError("There is nothing to concatenate.")
+    motions = require_alike(motions)
     first = motions[0]
-    require_alike(motions)
     counts = np.array([len(motion) for motion in motions])
     frames = np.stack([np.repeat(np.arange(len(motions)), counts), ranges(0 * counts, counts)], axis=1)
     return replace(
@@ -227,8 +227,11 @@ def concatenate(motions: Sequence[Motion], name: str | None = None) -> Motion:
     )
 
 
-def require_alike(motions: Sequence[Motion]) -> None:
-    """Raise unless all motions share one skeleton and one frame rate.
+def require_alike(motions: Sequence[Motion]) -> tuple[Motion, ...]:
+    """Raise unless all motions share one skeleton, but for end sites, and one frame rate.
+
+    Files of one laboratory may differ in end sites, which bound the last bones and never turn. All motions
+    get those of the motion with the most joints, the first one of these [ours].
 
     Raises
     ------
@@ -242,16 +245,33 @@ def require_alike(motions: Sequence[Motion]) -> None:
     Traceback (most recent call last):
     mocap.errors.MocapError: 'walk' runs at 120 Hz, 'walk' at 30 Hz: resample one first.
     """
-    for motion in motions[1:]:
+    if not motions:
+        return ()
+    most, alike = max(motions, key=lambda motion: len(motion.skeleton)), []
+    for motion in motions:
         try:
-            motions[0].skeleton.require_same(motion.skeleton)
+            alike.append(_with_ends(motion, most.skeleton))
         except SkeletonMismatch as error:
-            raise SkeletonMismatch(f"'{motions[0].name}' and '{motion.name}': {error}") from None
+            raise SkeletonMismatch(f"'{most.name}' and '{motion.name}': {error}") from None
         if motion.fps != motions[0].fps:
             raise MocapError(
                 f"'{motions[0].name}' runs at {motions[0].fps:g} Hz, '{motion.name}' at {motion.fps:g} Hz: "
                 "resample one first."
             )
+    return tuple(alike)
+
+
+def _with_ends(motion: Motion, skeleton: Skeleton) -> Motion:
+    """Put a motion on a skeleton that is the same but for end sites; those that it lacked do not turn."""
+    own = motion.skeleton
+    if own is skeleton:
+        return motion
+    joints = skeleton.joints_in(own)
+    if own.names == skeleton.names and np.allclose(own.offsets, skeleton.offsets, rtol=0, atol=1e-6):
+        return motion
+    rotations = np.where((joints < 0)[:, None], [1.0, 0, 0, 0], motion.rotations[:, joints])
+    contacts = {joint: mark for joint, mark in motion.contacts.items() if joint in skeleton.names}
+    return replace(motion, skeleton=skeleton, rotations=rotations, contacts=contacts)
 
 
 def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:

@@ -9,7 +9,7 @@ from textwrap import shorten
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.arrays import Array, frozen
+from mocap._shared.arrays import Array, Indices, frozen
 from mocap.errors import MocapError, SkeletonMismatch
 
 _SIDES = [("left", "right"), ("Left", "Right"), ("_l", "_r"), ("_L", "_R"), ("l", "r"), ("L", "R")]
@@ -175,3 +175,27 @@ class Skeleton:
             raise SkeletonMismatch(
                 f"The skeletons' bones differ: '{self.names[joint]}' sits {100 * gaps[joint]:.2g} cm apart."
             )
+
+    def joints_in(self, other: Skeleton) -> Indices:
+        """Find each joint in a skeleton that may have other end sites: its number there, -1 for none, (J,).
+
+        Raises
+        ------
+        SkeletonMismatch : where they differ in more than end sites.
+
+        Examples
+        --------
+        >>> short = Skeleton(["neck", "head"], [-1, 0], np.zeros((2, 3)))
+        >>> Skeleton(["neck", "head", "head_end"], [-1, 0, 1], np.zeros((3, 3))).joints_in(short)
+        array([ 0,  1, -1])
+        """
+        self._without_ends().require_same(other._without_ends())
+        return np.array([other.names.index(name) if name in other.names else -1 for name in self.names])
+
+    def _without_ends(self) -> Skeleton:
+        """Leave out the end sites: leaves with the names that reading a BVH file gives them."""
+        above = (f"{self.names[parent]}_end" for parent in self.parents)
+        ends = [name.startswith(end) for name, end in zip(self.names, above, strict=True)]
+        keep = [joint for joint, end in enumerate(ends) if joint in self.parents or not end]
+        parents = [keep.index(self.parents[joint]) if joint else -1 for joint in keep]
+        return Skeleton([self.names[joint] for joint in keep], np.array(parents), self.offsets[keep])

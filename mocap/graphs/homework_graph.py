@@ -67,7 +67,7 @@ def segment_distances(
 
     Notebook: 05-motion-graph
     """
-    require_alike(clips)
+    clips = require_alike(clips)
     for clip in clips:
         check_window(window, min(segment, len(clip)), f"A segment of '{clip.name}'")
     pieces = [clip[cut] for clip in clips for cut in segments(len(clip), segment)]

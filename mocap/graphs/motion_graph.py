@@ -148,13 +148,13 @@ def from_transitions(
     Notebook: 05b-choice-points
     """
     _require_names(clips)
-    require_alike(clips)
+    clips = require_alike(clips)
     for t in transitions:
         for clip, start in ((t.source, t.leave), (t.target, t.enter)):
             if not (0 <= clip < len(clips) and 0 <= start <= len(clips[clip]) - window):
                 span = f"{window} frames from frame {start} of clip {clip}"
                 raise MocapError(f"A transition of {span} lies outside the clips.")
-    return MotionGraph(tuple(clips), window, cut_and_join(clips, transitions, window))
+    return MotionGraph(clips, window, cut_and_join(clips, transitions, window))
 
 
 def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], window: int) -> nx.MultiDiGraph:

@@ -5,6 +5,7 @@ The file holds no frames of the clips and no code: it is safe to read a file fro
 
 import itertools
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap._shared.progress import Progress
-from mocap.body.motion import Motion, fingerprint
+from mocap.body.motion import Motion, fingerprint, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, is_bundled, sample
@@ -126,6 +127,8 @@ def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
     """
     found = read(path)
     by_name = {clip.name: clip for clip in clips}
+    with suppress(KeyError, MocapError):  # one end sites for all; what does not go together is named below
+        by_name.update(zip(found.names, require_alike([by_name[name] for name in found.names]), strict=True))
     for name, frames, known in zip(found.names, found.frames, found.fingerprints, strict=True):
         if name not in by_name:
             given = shortened(", ".join(by_name) or "none")

@@ -233,7 +233,7 @@ def tiles(rows: int, columns: int, *, upper: bool = False) -> Iterator[tuple[sli
 
 def _matching_points(a: Motion | ArrayLike, b: Motion | ArrayLike, window: int) -> list[Floats]:
     if isinstance(a, Motion) and isinstance(b, Motion):
-        require_alike([a, b])
+        a, b = require_alike([a, b])
     points: list[Floats] = []
     for clip in (a, b):
         name = f"'{clip.name}'" if isinstance(clip, Motion) else "the clip"

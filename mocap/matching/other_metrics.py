@@ -63,7 +63,7 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
 
     Notebook: 02-matching
     """
-    _require_windows(a, b, window)
+    a, b = _alike(a, b, window)
 
     def apart(p: Array, q: Array) -> Array:
         cosines = np.abs(p[:, 3:] @ q[:, 3:].T)  # of half the angle; q and -q are the same turn
@@ -114,7 +114,7 @@ def euler_grid(
 
     Notebook: 02-matching
     """
-    _require_windows(a, b, window)
+    a, b = _alike(a, b, window)
     if unusable := {n: w for n, w in weights.items() if not (np.isfinite(w) and w >= 0)}:
         raise MocapError(f"Weights must be numbers, not negative, got {unusable}.")
     skeleton = a.skeleton
@@ -190,7 +190,7 @@ def pose_grid(a: Motion, b: Motion, *, window: int, velocities: float = 0.0) -> 
 
     Notebook: 02-matching
     """
-    _require_windows(a, b, window)
+    a, b = _alike(a, b, window)
     if not (np.isfinite(velocities) and velocities >= 0):
         raise MocapError(f"velocities must be seconds, 0 or more, got {velocities}.")
 
@@ -215,10 +215,11 @@ def _angular_velocities(motion: Motion) -> Array:
     return np.concatenate([speeds, speeds[-1:]])
 
 
-def _require_windows(a: Motion, b: Motion, window: int) -> None:
-    require_alike([a, b])
+def _alike(a: Motion, b: Motion, window: int) -> tuple[Motion, ...]:
+    alike = require_alike([a, b])
     for clip in (a, b):
         check_window(window, len(clip), f"'{clip.name}'")
+    return alike
 
 
 def _all_pairs(apart: Callable[[Array, Array], Array], a: Array, b: Array) -> Array:

@@ -118,7 +118,7 @@ def rms_distance(first: Motion, second: Motion) -> float:
 
     Notebook: 02-matching
     """
-    require_alike([first, second])
+    first, second = require_alike([first, second])
     points, others = matching_clouds(point_cloud(first).reshape(-1, 3), point_cloud(second).reshape(-1, 3))
     return float(np.sqrt(((points - others) ** 2).sum(-1).mean()))
 

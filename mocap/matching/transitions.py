@@ -177,7 +177,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
 
     Notebook: 05b-choice-points
     """
-    require_alike(clips)
+    clips = require_alike(clips)
     for clip in clips:
         check_window(window, len(clip), f"'{clip.name}'")
     each: Mapping[Any, float] = below if isinstance(below, Mapping) else {None: below}

@@ -118,7 +118,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     """
     if not clips:
         raise MocapError("A seam is measured against its clips; none were given.")
-    require_alike(clips)
+    clips = require_alike(clips)
     found = [jumps(clip)[0] for clip in clips]
     leap = LEAP * float(np.percentile(np.concatenate(found), MOSTLY))
     return Spread(tuple(np.where(jump > leap, np.nan, jump) for jump in found))
@@ -238,7 +238,7 @@ def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weigh
     Notebook: 04-blending
     """
     inside = np.asarray(weights, float)
-    require_alike([result, first, second])
+    result, first, second = require_alike([result, first, second])
     if not len(result) == len(first) == len(second):
         lengths = f"{len(first)}, {len(second)} and {len(result)}"
         raise MocapError(f"Two clips and their blend must have as many frames; these have {lengths}.")

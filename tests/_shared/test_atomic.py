@@ -43,6 +43,19 @@ def test_a_full_disk_is_one_sentence_and_loses_nothing(tmp_path, monkeypatch):
     assert path.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
 
 
+def test_a_file_is_on_the_disk_before_it_replaces_the_old_one_and_its_folder_after(tmp_path, monkeypatch):
+    synced = []
+
+    def sync(number):
+        synced.append((os.fstat(number).st_ino, (tmp_path / "walk.bvh").exists()))
+
+    monkeypatch.setattr(os, "fsync", sync)
+    with replacing(tmp_path / "walk.bvh") as beside:
+        beside.write_text("new")
+    file, folder = (tmp_path / "walk.bvh").stat().st_ino, tmp_path.stat().st_ino
+    assert synced == [(file, False), (folder, True)]
+
+
 def test_a_new_file_has_ordinary_permissions_and_links_are_followed(tmp_path):
     (tmp_path / "plain").write_text("")
     (tmp_path / "link").symlink_to("new")

@@ -102,7 +102,7 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     >>> of_clips([walk, walk], 40, (10, 20)).pick[:4]
     (0, 10, 1, 20)
     """
-    require_alike(clips)
+    clips = require_alike(clips)
     first, second = clips[0], clips[-1]
     _require_short(len(first) + len(second))
     grid, places, by = _measured(first, second, window)

@@ -67,7 +67,7 @@ def build_own(clips: Sequence[Motion], window: int, threshold: float, by: Tools)
 
     Notebook: 08b-steering
     """
-    require_alike(clips)
+    clips = require_alike(clips)
     if not 2 <= window <= min(map(len, clips), default=0):
         raise MocapError(f"A graph takes one clip or more, and a window up to the shortest, got {window}.")
     pages = pages_of(by, window, threshold)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -133,7 +134,7 @@ def build_web(
     """
     if not clips:
         raise MocapError("A web needs clips, got none.")
-    require_alike(clips)
+    clips = require_alike(clips)
     if not (np.isfinite(below) and below > 0):
         raise MocapError(f"A web needs a distance above 0 m, got below={below}.")
     if window == 1:
@@ -147,9 +148,7 @@ def build_web(
     paths = find_paths(ready, np.unique(starts), weights.taper, below, progress)
     cells = np.concatenate([np.empty((0, 3)), *paths])
     offsets = np.cumsum([0, *map(len, paths)])
-    return MatchWeb(
-        tuple(clips), starts, window, float(below), cells[:, :2] + window // 2, cells[:, 2], offsets
-    )
+    return MatchWeb(clips, starts, window, float(below), cells[:, :2] + window // 2, cells[:, 2], offsets)
 
 
 def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
@@ -227,6 +226,8 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
     names = arrays["names"].tolist()
     if len(names) != len(clips):
         raise MocapError(f"{path} was built of {len(names)} clips, got {len(clips)}.")
+    with suppress(MocapError):  # what does not go together is named below
+        clips = require_alike(clips)
     for name, known, clip in zip(names, arrays["fingerprints"].tolist(), clips, strict=True):
         if fingerprint(clip) != known and not (clip.name == name and is_bundled(clip)):
             raise MocapError(

@@ -212,7 +212,7 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
     """
     if not clips:
         raise MocapError("Motion matching needs at least one clip, got none.")
-    require_alike(clips)
+    clips = require_alike(clips)
     rate, longest = clips[0].fps, max(clips, key=len)
     if len(longest) <= END * rate + 1:
         lasts = f"the longest, '{longest.name}', lasts {longest.duration:.2f} s"
@@ -221,7 +221,7 @@ def tabulate(clips: Sequence[Motion], *, weights: Mapping[str, float] = WEIGHTS)
     values, mean, scale = standardise(np.concatenate([features(clip) for clip in clips]), weights)
     tracks: Any = (np.concatenate(part) for part in zip(*map(_tracks, clips), strict=True))
     return PoseDatabase(
-        tuple(clips),
+        clips,
         _marks([clip.labels for clip in clips], frames),
         _marks([clip.contacts for clip in clips], frames),
         frozen(values, np.float64),

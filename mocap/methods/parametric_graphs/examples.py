@@ -181,7 +181,7 @@ def cut_actions(
     """
     if not clips or len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
-    require_alike(clips)
+    clips = require_alike(clips)
     grid = np.arange(-round(margin * FINE), round((1 + margin) * FINE) + 1) / FINE
     found = []
     for clip, (first, last) in zip(clips, spans, strict=True):

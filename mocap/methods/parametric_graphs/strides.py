@@ -73,7 +73,7 @@ def cut_strides(
         raise MocapError(f"A margin is above 0 and at most {WIDEST} of a stride, got {margin}.")
     if not clips:
         raise MocapError("Examples are cut out of one clip or more, got none.")
-    require_alike(clips)
+    clips = require_alike(clips)
     clips = [clip if clip.contacts else mark_plants(clip) for clip in clips]
     step, beyond = 2 / (len(feet) - 1) / FINE, round(margin * FINE)
     grid = np.asarray(np.arange(-beyond, round(1 / step) + beyond + 1) * step, float)

@@ -1,0 +1,97 @@
+"""Lead twelve through walls with one gap, and through random discs, to a point behind.
+
+There: 100 when the middle of the group comes within a metre of it. Takes: seconds until then. Nearest two:
+how near members come to each other, metres. Rim: how near to a disc's rim. `steered` has no plan; it has
+three goes with other whims, of which the quickest counts.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.body import Motion
+from mocap.errors import MocapError, NoWalk
+from mocap.methods.groups import (
+    RATE,
+    GroupGraph,
+    Scene,
+    build_group,
+    clearances,
+    plan_group,
+    play_group,
+    steer_group,
+)
+from mocap.methods.groups.flocking import Configuration
+from tasks import Case
+
+CLIPS: dict[str, tuple[str, ...]] = {"gaps": (), "random discs": ()}
+MEMBERS, WIDTHS, SPOTS, SEEDS, LIMIT = 12, (4.0, 3.0, 2.5, 2.0), (12, 16), range(8), 90.0
+MEASURES = {"there, %": False, "takes, s": True, "nearest two, m": False, "rim, m": False}
+BASELINES = ("steered",)
+
+
+def scenes(collection: str) -> Iterator[tuple[str, Scene]]:
+    """Yield walls with a gap, or discs at random."""
+    if collection == "gaps":
+        for width in WIDTHS:
+            for spot in SPOTS:
+                wall = [spot + 1j * side * (width / 2 + 0.6 + 1.1 * n) for side in (-1, 1) for n in range(12)]
+                yield f"gap-{width}-{spot}", Scene((spot + 14 + 0j,), tuple((disc, 0.6) for disc in wall))
+    else:
+        for seed in SEEDS:
+            draw = np.random.default_rng(seed)
+            discs = draw.uniform(6, 18, 7) + 1j * draw.uniform(-6, 6, 7)
+            yield f"discs-{seed}", Scene((24 + 0j,), tuple((complex(disc), 1.0) for disc in discs))
+
+
+def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
+    """Yield scenes: points (z, x) to pass, discs (z, x, radius), and where members start (z, x)."""
+    start = group().nodes[0].places
+    for name, scene in scenes(collection):
+        discs = [[disc.real, disc.imag, radius] for disc, radius in scene.discs]
+        points = [[point.real, point.imag] for point in scene.points]
+        given = {"points": points, "discs": discs, "start": np.stack([start.real, start.imag], axis=1)}
+        yield Case(collection, name, given, scene)
+
+
+@cache
+def group() -> GroupGraph:
+    """Build the graph of the group."""
+    return build_group(MEMBERS)
+
+
+def flat(places: Array) -> Array:
+    """Give places (F, N) as rows of z and x, (F, 2 N)."""
+    return np.concatenate([places.real, places.imag], axis=1)
+
+
+def steered(case: Case) -> Array:
+    """Steer three times, and take the quickest that comes there."""
+    ways = [steer_group(group().nodes[0], case.truth, seed=seed, limit=LIMIT) for seed in range(3)]
+    there = [flock for flock, points in ways if points == len(case.truth.points)]
+    if not there:
+        raise NoWalk("Steered, the group does not come there.")
+    return flat(min((flock.places for flock in there), key=len))
+
+
+def planned(case: Case) -> Array:
+    """Plan a way and walk it."""
+    plan = plan_group(group(), case.truth)
+    return flat(play_group(group(), plan.clips).places[: round(plan.seconds * RATE) + 1])
+
+
+METHODS = {"steered": steered, "planned": planned}
+
+
+def score(case: Case, answer: Array) -> tuple[float, float, float, float]:
+    """Measure a way: rows of ten per second, all z before all x."""
+    if answer.shape[1] != 2 * MEMBERS:
+        raise MocapError(f"{case.name} asks for rows of {2 * MEMBERS} numbers, got {answer.shape}.")
+    places = answer[:, :MEMBERS] + 1j * answer[:, MEMBERS:]
+    near = np.abs(places.mean(axis=1) - case.truth.points[-1]) <= case.truth.near + 1e-6
+    apart = np.abs(places[:, :, None] - places[:, None]) + 9 * np.eye(MEMBERS)
+    rim = clearances(Configuration(places, np.zeros_like(places)), case.truth).min()
+    soon = near.argmax() / RATE if near.any() else np.nan
+    return 100.0 * near.any(), float(soon), float(apart.min()), float(rim)

@@ -1,0 +1,69 @@
+"""Walk along lines that no clip turns along: a sine, a spiral, a zigzag, a heart, ten random lines of 7 m.
+
+Off: the root's mean distance from the line; worst: its largest; left out: the largest distance of a point of
+the line from the walk. Skate: how fast low feet slide. Jolting: frames whose velocity jumps further than in
+99.9 % of the clips' own. `layered search` is not bent; `laid on the line` is bent, and its feet left alone.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+from asked_lines import LINES, random_line
+
+from mocap._shared.arrays import Array
+from mocap.body import GroundPath, Motion, on_ground
+from mocap.editing import LIMIT
+from mocap.steering import BentWalk, follow_path
+from tasks import WALKS, Case, graph
+from tasks._measures import jolting, skate
+from tasks.following import ALONG
+
+CLIPS = {
+    "bundled clips": (*WALKS, "stop_and_go"),
+    "CMU 16, seven straight walks": tuple(f"16/16_{n}" for n in (15, 16, 21, 22, 31, 32, 47)),
+    "CMU 02, two walks": ("02/02_01", "02/02_02"),
+    "CMU 49, a walk and dance": tuple(f"49/49_{n:02}" for n in (1, 9, 12)),
+}
+SEEDS, SPACING = range(500, 510), 0.02
+MEASURES = {"off, cm": True, "worst, cm": True, "left out, cm": True, "skate, cm/s": True, "jolting, %": True}
+BASELINES = ("layered search", "laid on the line")
+
+
+def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
+    """Yield the lines."""
+    lines = {name: draw() for name, draw in LINES.items()}
+    lines |= {f"line-{seed}": GroundPath(random_line(seed).at(ALONG)) for seed in SEEDS}
+    for name, line in lines.items():
+        fine = line.at(np.arange(0, line.length, SPACING))
+        yield Case(collection, name, {"line": fine, "clips": tuple(clips)})
+
+
+@cache
+def bent(clips: tuple[Motion, ...], line: bytes) -> BentWalk:
+    """Lay a walk on a line."""
+    points = np.frombuffer(line).reshape(-1, 2)
+    found = follow_path(graph(clips), GroundPath(points), bend=LIMIT)
+    assert isinstance(found, BentWalk)
+    return found
+
+
+def of(case: Case) -> BentWalk:
+    """Lay a walk on the line of a case."""
+    return bent(case.given["clips"], np.ascontiguousarray(case.given["line"]).tobytes())
+
+
+METHODS = {
+    "layered search": lambda case: follow_path(
+        graph(case.given["clips"]), GroundPath(case.given["line"])
+    ).motion(),
+    "laid on the line": lambda case: of(case).bent.laid,
+    "bent": lambda case: of(case).motion(),
+}
+
+
+def score(case: Case, answer: Motion) -> Array:
+    """Measure how near a walk is to its line, and what its feet do."""
+    apart = np.abs(on_ground(answer.root_positions)[:, None] - on_ground(case.given["line"]))
+    metres = [apart.min(axis=1).mean(), apart.min(axis=1).max(), apart.min(axis=0).max()]
+    return np.array([*(100 * far for far in metres), skate(answer), jolting(answer, case.given["clips"])])
