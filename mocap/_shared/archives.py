@@ -10,8 +10,9 @@ import re
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -33,15 +34,57 @@ HEADER = re.compile(
 )
 
 
-class Member(NamedTuple):
-    """An array of a file as its header claims it; `read` unpacks it. Anything else is an `object`."""
+class Member:
+    """An array of a file: `dtype` and `shape` as its header claims them, and `read`, which unpacks it.
 
-    dtype: np.dtype[Any]
-    shape: tuple[int, ...]
-    read: Callable[[], NDArray[Any]]
+    What has no header of an array of numbers, truths or letters is an `object` without a shape.
+    """
+
+    def __init__(self, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> None:
+        self.archive, self.entry = archive, entry
 
     def __str__(self) -> str:
         return f"{self.dtype}{self.shape}"
+
+    @cached_property
+    def header(self) -> re.Match[bytes] | None:
+        """The header that the array starts with, if it is one."""
+        with self.archive.open(self.entry) as packed:
+            found = HEADER.match(packed.read(START))
+        return found if found and found.end() == 10 + int.from_bytes(found[1], "little") else None
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The type of the numbers."""
+        return np.dtype(self.header[2].decode() if self.header else object)
+
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """The shape, for which the member has as many bytes as it takes."""
+        if not self.header:
+            return ()
+        shape = tuple(map(int, re.findall(rb"\d+", self.header[4])))
+        if self.header.end() + math.prod(shape) * self.dtype.itemsize != self.entry.file_size:
+            raise zipfile.BadZipFile
+        return shape
+
+    def read(self) -> NDArray[Any]:
+        """Unpack the array, in the order and the bytes of this machine."""
+        if not self.header:
+            raise zipfile.BadZipFile
+        shape, data, at = self.shape, np.empty(self.entry.file_size, np.uint8), 0
+        with self.archive.open(self.entry) as packed:
+            while part := packed.read(CHUNK):  # all at once would take twice the memory
+                data[at : at + len(part)] = np.frombuffer(part, np.uint8)
+                at += len(part)
+        order: Literal["F", "C"] = "F" if self.header[3] == b"True" else "C"
+        whole = data[self.header.end() : at].view(self.dtype).reshape(shape, order=order)
+        array = whole.astype(self.dtype.newbyteorder("="), "C", copy=False)
+        if last := LAST.get(self.dtype.kind):
+            codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
+            if np.any((codes > last) | (codes >> 11 == 27)):  # no letter, half of one, no truth
+                raise UnicodeError
+        return array
 
 
 def _no_rules(_: Arrays) -> Iterable[tuple[str, ArrayLike]]:
@@ -191,7 +234,7 @@ def open_archive(path: str | Path, ours: str, room: int = ROOM) -> Iterator[dict
 
 
 def _members(archive: zipfile.ZipFile, room: int) -> dict[str, Member]:
-    """Check the directory of an archive, and the headers of its arrays: nothing else is unpacked yet."""
+    """Check the directory of an archive; nothing is unpacked yet."""
     entries = sorted(archive.infolist(), key=lambda entry: entry.header_offset)
     ends = [entry.header_offset + 30 + len(entry.filename) + entry.compress_size for entry in entries]
     starts = [*(entry.header_offset for entry in entries[1:]), archive.start_dir]
@@ -200,30 +243,4 @@ def _members(archive: zipfile.ZipFile, room: int) -> dict[str, Member]:
     overlapping = any(end > start for end, start in zip(ends, starts, strict=True))
     if odd or twice or overlapping or sum(entry.file_size for entry in entries) > room:
         raise zipfile.BadZipFile
-    return {entry.filename.removesuffix(".npy"): _member(archive, entry) for entry in entries}
-
-
-def _member(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Member:
-    with archive.open(entry) as packed:
-        header = HEADER.match(packed.read(START))
-    if not header or header.end() != 10 + int.from_bytes(header[1], "little"):
-        return Member(np.dtype(object), (), lambda: np.array(None))
-    dtype, shape = np.dtype(header[2].decode()), tuple(map(int, re.findall(rb"\d+", header[4])))
-    if header.end() + math.prod(shape) * dtype.itemsize != entry.file_size:
-        raise zipfile.BadZipFile
-
-    def read() -> NDArray[Any]:
-        data, at = np.empty(entry.file_size, np.uint8), 0
-        with archive.open(entry) as packed:
-            while part := packed.read(CHUNK):  # all at once would take twice the memory
-                data[at : at + len(part)] = np.frombuffer(part, np.uint8)
-                at += len(part)
-        whole = data[header.end() : at].view(dtype).reshape(shape, order="F" if header[3] == b"True" else "C")
-        array = whole.astype(dtype.newbyteorder("="), "C", copy=False)
-        if last := LAST.get(dtype.kind):
-            codes: NDArray[Any] = array.reshape(-1).view(np.uint32 if last > 1 else np.uint8)
-            if np.any((codes > last) | (codes >> 11 == 27)):  # no letter, half of one, no truth
-                raise UnicodeError
-        return array
-
-    return Member(dtype, shape, read)
+    return {entry.filename.removesuffix(".npy"): Member(archive, entry) for entry in entries}

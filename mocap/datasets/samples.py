@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mocap._shared.archives import open_archive
 from mocap.body.motion import Motion, fingerprint, resample
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
@@ -22,9 +23,12 @@ STORE = Path(__file__).with_name("clips.npz")  # from `figures/bundled_clips.py`
 SAMPLES = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "sneak", "jog", "stop_and_go")
 """The names of the bundled clips from which motion graphs are built; `sample` has some more."""
 
-with np.load(STORE) as _store:
-    SKELETON = Skeleton(_store["names"].tolist(), _store["parents"], _store["offsets"])
-    _KEYS = [key.removesuffix("/moving") for key in _store.files if key.endswith("/moving")]
+OURS = "the clips that come with mocap"
+
+with open_archive(STORE, OURS) as _store:
+    _names, _parents, _offsets = (_store[key].read() for key in ("names", "parents", "offsets"))
+    _KEYS = [key.removesuffix("/moving") for key in _store if key.endswith("/moving")]
+SKELETON = Skeleton(_names.tolist(), _parents, _offsets)
 
 
 @cache
@@ -50,8 +54,8 @@ def sample(name: str = "walk_circle") -> Motion:
     if name not in _KEYS:
         raise MocapError(f"No bundled clip '{name}'; there are: {', '.join(_KEYS)}.")
     keys = ("digits", "moving", "flipped", "labels", "kind", "contacts")
-    with np.load(STORE) as store:
-        digits, moving, flipped, labels, kind, contacts = (store[f"{name}/{key}"] for key in keys)
+    with open_archive(STORE, OURS) as store:
+        digits, moving, flipped, labels, kind, contacts = (store[f"{name}/{key}"].read() for key in keys)
     folded = sum(plane.astype(np.int64) << 8 * place for place, plane in enumerate(digits))
     numbers: Any = (folded >> 1) ^ -(folded & 1)
     for _ in range(ORDER):

@@ -100,11 +100,10 @@ def _count(path: str | Path, members: Mapping[str, Member], key: str) -> int:
     """Count the frames of an array, which has rows of numbers, as many as are read, or more."""
     if key not in members:
         raise FormatError(path, None, "arrays 'poses' and 'trans', as AMASS archives have", f"no '{key}'")
-    kind, shape, _ = members[key]
-    if len(shape) != 2 or shape[1] < WIDTHS[key] or kind.kind not in "fiu":
-        expected = f"{WIDTHS[key]} numbers for each frame in '{key}'"
-        raise FormatError(path, None, expected, str(members[key]))
-    return shape[0]
+    found = members[key]
+    if len(found.shape) != 2 or found.shape[1] < WIDTHS[key] or found.dtype.kind not in "fiu":
+        raise FormatError(path, None, f"{WIDTHS[key]} numbers for each frame in '{key}'", str(found))
+    return found.shape[0]
 
 
 def _finite(path: str | Path, key: str, values: NDArray[Any]) -> Array:
@@ -119,10 +118,10 @@ def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
     key = next((key for key in RATES if key in members), None)
     if key is None:
         raise FormatError(path, None, f"'{RATES[0]}'", "none: give fps=")
-    kind, shape, read = members[key]
-    rate = read().item() if math.prod(shape) == 1 and kind.kind in "fiu" else None
+    found = members[key]
+    rate = found.read().item() if math.prod(found.shape) == 1 and found.dtype.kind in "fiu" else None
     if rate is None or not 0 < rate < 1e6:
-        got = str(members[key]) if rate is None else str(rate)
+        got = str(found) if rate is None else str(rate)
         raise FormatError(path, None, f"one number above 0 in '{key}'", got)
     return float(rate)
 

@@ -176,7 +176,7 @@ def changed(members, chance):
 
 def packed(members, compression=zipfile.ZIP_DEFLATED):
     """Zip members, given as pairs of name and data: a name may come twice."""
-    with zipfile.ZipFile(file := io.BytesIO(), "w", compression) as archive:
+    with zipfile.ZipFile(file := io.BytesIO(), "w", compression, compresslevel=1) as archive:
         for name, data in members:
             archive.writestr(name, data)
     return bytearray(file.getvalue())
@@ -204,7 +204,7 @@ def tampered(honest, chance):
 
 
 @pytest.mark.filterwarnings("error", "ignore:Duplicate name", "ignore:.*betas")
-@pytest.mark.parametrize("count", [500 if SWEEP else 200, pytest.param(20_000, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("count", [500, pytest.param(20_000, marks=pytest.mark.exhaustive)])
 def test_tampered_archives_are_read_or_refused_in_a_sentence(honest, tmp_path, count):
     path, read = tmp_path / "a.npz", 0
     for seed in range(count):
