@@ -20,7 +20,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
 from importlib import import_module
@@ -35,16 +35,10 @@ COMMON = ("matplotlib.pyplot", "scipy.optimize", "networkx", "mocap.plotting", "
 OURS = ("marking.student", "checks", "diagrams", "lab.places")
 
 
-def keep(control: socket.socket, wanted: Sequence[str], hidden: Sequence[str]) -> None:
-    """Write which walls can be raised; run a student's process on each socket that comes, until the end.
-
-    Parameters
-    ----------
-    control : the socket of the marker.
-    wanted : the walls to raise around each process, if they can be.
-    hidden : files and folders that the processes must not read.
-    """
-    home = os.environ["HOME"]
+def keep(control: socket.socket) -> None:
+    """Read what walls to raise and what to hide; write which can be raised; run a process on each socket."""
+    home = Path(os.environ["HOME"])
+    wanted, hidden = json.loads(control.makefile().readline())
     walls.prctl(walls.ADOPT_ORPHANS, 1)
     forked = {name: walls.fork_behind([name], home, hidden, int) for name in wanted}
     raised = [name for name, child in forked.items() if os.waitpid(child, 0)[1] == 0]
@@ -52,15 +46,20 @@ def keep(control: socket.socket, wanted: Sequence[str], hidden: Sequence[str]) -
     for module in (*COMMON, *(f"mocap.course.{name}" for name in OURS)):
         import_module(module)
     gc.freeze()
-    while (message := socket.recv_fds(control, 1, 1))[0]:
-        for channel in message[1]:
-            subprocess.run(["rm", "-rf", home], check=False)  # shutil.rmtree gives up on folders in folders
-            Path(home).mkdir(exist_ok=True)
-            student = walls.fork_behind(raised, home, hidden, partial(_serve, channel))
-            os.close(channel)
-            why = _watch(control, student, home)
-            _kill_all(student)
-            control.sendall(f"{why}\n".encode())
+    try:
+        while (message := socket.recv_fds(control, 1, 1))[0]:
+            for channel in message[1]:
+                subprocess.run(
+                    ["rm", "-rf", home], check=False
+                )  # shutil.rmtree: no folders in folders in ...
+                home.mkdir(exist_ok=True)
+                student = walls.fork_behind(raised, home, hidden, partial(_serve, channel))
+                os.close(channel)
+                why = _watch(control, student, home)
+                _kill_all(student)
+                control.sendall(f"{why}\n".encode())
+    finally:
+        subprocess.run(["rm", "-rf", home.parent], check=False)
 
 
 def _serve(channel: int) -> None:
@@ -78,7 +77,7 @@ def _serve(channel: int) -> None:
         serve(requests, replies)
 
 
-def _watch(control: socket.socket, student: int, home: str) -> str:
+def _watch(control: socket.socket, student: int, home: Path) -> str:
     """Wait for the end of the student's process or of the marker; return why it has to be stopped, if so."""
     while not select.select([control], [], [], 0.1)[0]:
         if os.waitpid(student, os.WNOHANG)[0]:
@@ -110,7 +109,7 @@ def _descendants(pid: int) -> Iterator[int]:
         yield from _descendants(child)
 
 
-def _sizes(home: str) -> Iterator[int]:
+def _sizes(home: Path) -> Iterator[int]:
     """Yield the bytes on disk of each file in a folder and in those in it."""
     for place, _, names in os.walk(home):
         for name in names:
@@ -131,4 +130,4 @@ def _kill_all(student: int) -> None:
 
 
 if __name__ == "__main__":
-    keep(socket.socket(fileno=0), *json.loads(sys.argv[1]))
+    keep(socket.socket(fileno=0))

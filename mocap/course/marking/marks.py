@@ -29,7 +29,7 @@ from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
-LARGEST = 100 << 20  # bytes of a notebook
+LARGEST, MOST_PARTS, MOST_CODE = 100 << 20, 5_000_000, 1 << 20  # bytes, lists and texts, bytes of code
 LONGEST = 300  # characters of a cell
 FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
 MISSING = "its cell is missing."
@@ -137,10 +137,15 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
             wrong = f"{path}: is no plain file, or one of more than {LARGEST >> 20} MB."
             return _Handed(path, [], None, wrong)
         text = file.read_bytes().decode("utf-8-sig", "replace")
+        if sum(map(text.count, '[{"')) > MOST_PARTS:  # they would take a hundred times their place in memory
+            raise ValueError
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of cells without ids, as some editors write them
             notebook = library().reads(text, as_version=4)
-        return _Handed(path, code_cells(notebook), sheet_of(notebook, sheets), "")
+        cells = code_cells(notebook)
+        if sum(len(cell.source) for cell in cells) > MOST_CODE:
+            return _Handed(path, [], None, f"{path}: holds more than {MOST_CODE >> 20} MB of code.")
+        return _Handed(path, cells, sheet_of(notebook, sheets), "")
     except Exception:  # nbformat raises errors of many kinds, and lets some things pass that are no notebooks
         return _Handed(path, [], None, f"{path}: is not a notebook.")
 

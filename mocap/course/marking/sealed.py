@@ -69,7 +69,7 @@ class Sealed:
     def __init__(self, hidden: Iterable[Path] = ()) -> None:
         if os.name != "posix":
             raise MocapError("Marking needs Linux or macOS: on Windows, use WSL or a container.")
-        self.arguments = json.dumps([WANTED, [str(place.resolve()) for place in hidden]])
+        self.hidden = [str(place.resolve()) for place in hidden]
         self.folder, self.running = Path(tempfile.mkdtemp(prefix="marking-")).resolve(), False
         (self.folder / "home").mkdir()
         self._start()
@@ -84,7 +84,7 @@ class Sealed:
         self.control, theirs = socket.socketpair()
         self.control.settimeout(30)
         self.lines = self.control.makefile()
-        command = [sys.executable, "-m", "mocap.course.marking.keeper", self.arguments]
+        command = [sys.executable, "-m", "mocap.course.marking.keeper"]
         place, given, nothing = self.folder, kept | FIXED, subprocess.DEVNULL
         with theirs:
             self.process = subprocess.Popen(
@@ -98,6 +98,7 @@ class Sealed:
                 env=given,
                 start_new_session=True,
             )
+        self.control.sendall(f"{json.dumps([WANTED, self.hidden])}\n".encode())
         self.walls = self._answer().split()
 
     def renew(self) -> None:
@@ -111,12 +112,15 @@ class Sealed:
             socket.send_fds(self.control, [b"s"], [theirs.fileno()])
 
     def close(self) -> None:
-        """End the process and all that it started, and its keeper."""
+        """End the process and all that it started, and the keeper, which removes the folder."""
         self._end()
-        self.process.kill()
-        self.process.wait()
-        # not by shutil.rmtree, which gives up on folders in folders in folders
-        subprocess.run(["rm", "-rf", self.folder], check=False, stderr=subprocess.DEVNULL)
+        self.lines.close()
+        self.control.close()
+        try:
+            self.process.wait(30)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
 
     def _end(self) -> str:
         """Have all killed that the process started; return why it had been stopped before, if it had."""

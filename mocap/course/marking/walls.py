@@ -29,7 +29,7 @@ FILES, INODES = 500 << 20, 2000  # bytes and number of files in the home
 LIMITS = {"AS": 2 << 30, "FSIZE": 50 << 20, "NOFILE": 256, "CORE": 0}  # bytes of memory, of a file; files
 DIE_WITH_PARENT, SET_FILTER, ADOPT_ORPHANS, NO_NEW_RIGHTS = 1, 22, 36, 38  # of prctl(2)
 NEW = 0x20000 | 0x8000000 | 0x10000000 | 0x20000000 | 0x40000000  # of mounts, messages, users, processes, net
-PRIVATE, READ_ONLY, NO_RIGHTS = 0x44000, 0x1, 0xE  # of mount(2)
+PRIVATE, BIND, READ_ONLY, NO_RIGHTS = 0x44000, 0x1000, 0x1, 0xE  # of mount(2)
 MOUNT_SETATTR, RULESET, RULE, RESTRICT = 442, 444, 445, 446  # numbers of system calls
 READ, USE = 0b1101, 0b100000000000110  # of Landlock: execute, read and list; read, write and cut a file
 SYSTEM = [f"/{name}" for name in ("usr", "lib", "lib32", "lib64", "bin", "sbin", "nix/store", "etc/fonts")]
@@ -49,7 +49,7 @@ DENIED = {
 }
 
 
-def fork_behind(walls: Sequence[str], home: str, hidden: Sequence[str], work: Callable[[], object]) -> int:
+def fork_behind(walls: Sequence[str], home: Path, hidden: Sequence[str], work: Callable[[], object]) -> int:
     """Fork a process that raises walls and then works; it does not work where one cannot be raised.
 
     Parameters
@@ -68,6 +68,8 @@ def fork_behind(walls: Sequence[str], home: str, hidden: Sequence[str], work: Ca
     status = 1
     try:
         os.setsid()
+        with suppress(OSError):  # where memory is short, Linux ends this process first
+            Path("/proc/self/oom_score_adj").write_text("1000")
         prctl(DIE_WITH_PARENT, signal.SIGKILL)
         if "namespaces" in walls:
             _separate()
@@ -76,6 +78,7 @@ def fork_behind(walls: Sequence[str], home: str, hidden: Sequence[str], work: Ca
             prctl(DIE_WITH_PARENT, signal.SIGKILL)
             _furnish(home, hidden)
         prctl(NO_NEW_RIGHTS, 1)
+        _call("capset", struct.pack("II", 0x20080522, 0), bytes(24))  # not even root's
         for name, limit in LIMITS.items():
             with suppress(OSError, ValueError):  # not every system has all of them
                 resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), (limit, limit))
@@ -112,12 +115,16 @@ def _separate() -> None:
     (own / "gid_map").write_text(f"{group} {group} 1")
 
 
-def _furnish(home: str, hidden: Iterable[str]) -> None:
+def _furnish(home: Path, hidden: Iterable[str]) -> None:
     """Make all files read-only, the hidden ones empty, the home new, and list only one's own processes."""
     _call("mount", None, b"/", None, PRIVATE, None)
     for place in filter(os.path.isdir, hidden):
         _call("mount", b"tmpfs", os.fsencode(place), b"tmpfs", READ_ONLY | NO_RIGHTS, None)
-    _call("syscall", MOUNT_SETATTR, -100, b"/", 0x8000, struct.pack("QQQQ", 1, 0, 0, 0), 32)  # and all below
+    for place in DEVICES:
+        _call("mount", os.fsencode(place), os.fsencode(place), None, BIND, None)
+    _call("syscall", MOUNT_SETATTR, -100, b"/", 0x8000, struct.pack("QQQQ", 7, 0, 0, 0), 32)  # and all below
+    for place in DEVICES:
+        _call("syscall", MOUNT_SETATTR, -100, os.fsencode(place), 0, struct.pack("QQQQ", 0, 4, 0, 0), 32)
     size = f"size={FILES},nr_inodes={INODES},mode=700"
     _call("mount", b"tmpfs", os.fsencode(home), b"tmpfs", 0x6, size.encode())
     _call("mount", b"tmpfs", b"/proc", b"tmpfs", READ_ONLY | NO_RIGHTS, None)
@@ -125,7 +132,7 @@ def _furnish(home: str, hidden: Iterable[str]) -> None:
         _call("mount", b"proc", b"/proc", b"proc", READ_ONLY | NO_RIGHTS, None)
 
 
-def _lock(home: str, places: Iterable[Path]) -> None:
+def _lock(home: Path, places: Iterable[Path]) -> None:
     """Open only these places for reading, and the home for writing; call no server, signal nobody outside.
 
     Raises
@@ -138,7 +145,8 @@ def _lock(home: str, places: Iterable[Path]) -> None:
     rights = (1 << (16 if version >= 5 else 15)) - 1
     made = struct.pack("QQQ", rights, 0b11, 0b11)[: 8 * (1 + (version >= 4) + (version >= 6))]
     rules = _call("syscall", RULESET, made, len(made), 0)
-    allowed = dict.fromkeys(places, READ) | dict.fromkeys(map(Path, DEVICES), USE) | {Path(home): rights}
+    allowed = dict.fromkeys(places, READ) | dict.fromkeys(map(Path, DEVICES), USE)
+    allowed[home] = rights & ~0b100001000000  # but make no devices
     for place, right in allowed.items():
         with suppress(FileNotFoundError):
             at = os.open(place, os.O_PATH)
