@@ -22,10 +22,10 @@ from mocap._shared.progress import Progress
 from mocap.body import GroundPath, Motion, arcs, lay_on, resample, rotations
 from mocap.course import diagrams
 from mocap.course.teaching.films import SMOOTH, font_of
+from mocap.plotting.picture import few_colours
 
 WINDOW, FPS = 10, 30  # frames, frames per second
 PANEL, GAP, HEAD = (760, 520), 24, 76  # pixels: a step, what is between them, the heading
-COLOURS = 128  # of a file
 INK, DISC, PAPER = "#222222", "#0072B2", "#FFFFFF"
 SMALL = (620, 440)  # pixels of a drawing on the sheet of all
 Steps = Iterator[Any]  # of figures
@@ -81,10 +81,7 @@ def _each(draw: Callable[..., Any], steps: Iterable[int], *shown: Any) -> Steps:
 
 FOUR = (1, 2, 3, 4)
 BOARD: dict[str, tuple[str, Callable[[], Steps]]] = {
-    "01-window": (
-        "A window becomes a cloud of points",
-        lambda: _each(diagrams.window_cloud, FOUR, _pair()[0]),
-    ),
+    "01-window": ("A window as a cloud of points", lambda: _each(diagrams.window_cloud, FOUR, _pair()[0])),
     "02-theta": ("Four steps to the best turn and shift", lambda: _each(diagrams.laying_on, FOUR, *_pair())),
     "03-minima": ("A grid of distances, its minima, those below a threshold", _grid),
     "04-laid-on": ("One clip laid on the end of another: turn, then shift", _laid),
@@ -128,7 +125,7 @@ def _laid_out(pictures: list[Image.Image], room: tuple[int, int], columns: int, 
 
 def _saved(page: Image.Image, path: Path) -> Path:
     with replacing(path) as beside:
-        page.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(beside, "png", optimize=True)
+        beside.write_bytes(few_colours(page))
     return path
 
 

@@ -1,10 +1,8 @@
-"""Which cells of a notebook make which slide: by what a cell is, and by tags where that is not right.
+"""Which cells of a notebook make which slide: by what a cell is.
 
 A heading starts a slide. Of each paragraph the slide has the first sentence, and the notes for the speaker
 have all. Predictions, their answers, questions, pictures and players have slides of their own, exercises come
 last. Code is shown where it is short and shows the package's own or a function; else its output alone.
-
-Tags change this for a cell: `slide:skip` leaves it out, `slide:notes` keeps it for the speaker.
 """
 
 from __future__ import annotations
@@ -59,7 +57,7 @@ def deck_of(notebook: Any) -> list[Slide]:  # noqa: ANN401
     for cell in notebook.cells:
         tags = cell.metadata.get("tags", [])
         named = [tag.partition(":") for tag in tags if tag.startswith(("ask:", "exercise:", "solution:"))]
-        if any(tag.startswith(("check:", "slide:skip")) for tag in tags):
+        if any(tag.startswith("check:") for tag in tags):
             continue
         if named:
             kind, _, name = named[0]
@@ -68,8 +66,6 @@ def deck_of(notebook: Any) -> list[Slide]:  # noqa: ANN401
                 exercise.notes.append(cell.source)
             else:
                 exercise.cells.append(_changed(cell, outputs=[]) if kind == "exercise" else cell)
-        elif "slide:notes" in tags:
-            made[-1].notes.append(cell.source)
         elif cell.cell_type == "markdown":
             _add_text(made, cell, tags)
         else:

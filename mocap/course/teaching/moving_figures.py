@@ -92,11 +92,7 @@ class _Pen:
     """Draws what stands in the world on a picture; widths are whole pixels or, below 1, metres."""
 
     def __init__(self, canvas: Image.Image, target: Array, distance: float) -> None:
-        self.draw, self.size, self.focus = (
-            ImageDraw.Draw(canvas),
-            np.array(canvas.size),
-            1.5 * min(canvas.size),
-        )
+        self.draw, self.size = ImageDraw.Draw(canvas), np.array(canvas.size)
         (cy, sy), (cp, sp) = ((np.cos(a), np.sin(a)) for a in (YAW, PITCH))
         self.eye = target + distance * np.array([sy * cp, sp, cy * cp])
         self.axes = np.array([[cy, 0, -sy], [-sy * sp, cp, -cy * sp], [-sy * cp, -sp, -cy * cp]])
@@ -104,7 +100,7 @@ class _Pen:
     def _pixels(self, points: Array) -> tuple[Array, Array]:
         """Give where points (N, 3) are in the picture, (N, 2), and the pixels of a metre there, (N,)."""
         right, up, far = self.axes @ (points - self.eye).T
-        scale = self.focus / np.where(far > NEAR, far, np.nan)
+        scale = 1.5 * min(self.size) / np.where(far > NEAR, far, np.nan)
         return self.size / 2 + np.stack([right, -up], -1) * scale[:, None], scale
 
     def line(self, points: Array, colour: str, width: float) -> None:

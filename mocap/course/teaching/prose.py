@@ -3,32 +3,20 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
-FENCED = re.compile(r"```.*?```|<details>.*?</details>|\$\$.*?\$\$", re.DOTALL)
+FENCED = re.compile(r"(```.*?```|<details>.*?</details>|\$\$.*?\$\$)", re.DOTALL)
+GAP = re.compile(r"\n\s*\n|(?<=\n)(?=#)|^(?=#)")  # between blocks
 COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-KEPT = re.compile(r"`[^`]*`|\$[^$\n]+\$|\[[^\]]*\](?:\([^)]*\))?|\([^()]*\)")  # no sentence ends in these
-END = re.compile(r"(?:(?<=[^A-Z\s][.!?])|(?<=[.!?]\*)|(?<=[.!?]\*\*))\s+(?=[A-ZÀ-Þ*_`$\[\"“(\d\x00])")
+INNER = r"`[^`]*`|\$[^$\n]+\$|\[[^\]]*\](?:\([^)]*\))?|\([^()]*\)"
+WHOLE = rf"{INNER}|\((?:{INNER}|[^()])*\)"  # no sentence ends in these
+STOP = r"(?:(?<=[^A-Z\s][.!?])|(?<=[.!?]\*)|(?<=[.!?]\*\*))\s+(?=[A-ZÀ-Þ*_`$\[\"“(\d])"
+END = re.compile(rf"{WHOLE}|(?P<end>{STOP})")
 SHORT = re.compile(r"\b(?:e\.g|i\.e|Eqs?|Figs?|cf|vs|no|pp?)\.$")
 ITEM = re.compile(r"^[ \t]*(?:[-*]|\d+\.)[ \t]", re.MULTILINE)
 LEAD = 45  # characters of words that lead a paragraph in, such as "Predict."
 GREEK = dict(zip((r"\alpha", r"\beta", r"\theta", r"\phi", r"\sigma", r"\pi"), "αβθφσπ", strict=True))
 GREEK |= {r"\times": "×", r"\le": "≤", r"\ge": "≥", r"\cdot": "·", r"\,": " ", r"\to": "→"}
-
-
-class _Kept(list[str]):
-    """Parts of a text that are hidden behind numbers, while the rest is split."""
-
-    def hide(self, pattern: re.Pattern[str], text: str, gap: str = "") -> str:
-        def number(found: re.Match[str]) -> str:
-            self.append(found[0])
-            return f"{gap}\x00{len(self) - 1}\x00{gap}"
-
-        return pattern.sub(number, text)
-
-    def show(self, text: str) -> str:
-        for _ in range(2):  # brackets in brackets
-            text = re.sub("\x00(\\d+)\x00", lambda number: self[int(number[1])], text)
-        return text
 
 
 def blocks(text: str) -> list[str]:
@@ -47,9 +35,9 @@ def blocks(text: str) -> list[str]:
     >>> blocks("## Why\n\nOne. Two.\n\n$$a$$\n\n<details>x\n\ny</details>")
     ['## Why', 'One. Two.', '$$a$$', '<details>x\n\ny</details>']
     """
-    kept = _Kept()
-    parts = re.split(r"\n\s*\n|(?<=\n)(?=#)|(?<=^)(?=#)", kept.hide(FENCED, COMMENT.sub("", text), "\n\n"))
-    return [kept.show(part.strip()) for part in parts if part.strip()]
+    parts = FENCED.split(COMMENT.sub("", text))  # each second one is whole
+    split = [piece for at, part in enumerate(parts) for piece in ([part] if at % 2 else GAP.split(part))]
+    return [piece.strip() for piece in split if piece.strip()]
 
 
 def sentences(text: str) -> list[str]:
@@ -60,13 +48,12 @@ def sentences(text: str) -> list[str]:
     >>> sentences("It is 3.5 cm off (see Fig. 4. It is small). Why? Look at `a. B`.")
     ['It is 3.5 cm off (see Fig. 4. It is small).', 'Why?', 'Look at `a. B`.']
     """
-    kept, whole = _Kept(), list[str]()
-    for part in END.split(kept.hide(KEPT, kept.hide(KEPT, " ".join(text.split())))):
-        if whole and SHORT.search(whole[-1]):
-            whole[-1] += f" {part}"
-        else:
-            whole.append(part)
-    return [kept.show(part) for part in whole]
+    text = " ".join(text.split())
+    ends = [
+        found for found in END.finditer(text) if found["end"] and not SHORT.search(text, 0, found.start())
+    ]
+    starts = [0, *(found.end() for found in ends)]
+    return [text[a:b].rstrip() for a, b in pairwise([*starts, len(text)])]
 
 
 def shortened(block: str, room: int = 0) -> str:

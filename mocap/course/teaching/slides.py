@@ -131,11 +131,8 @@ def to_html(cells: Iterable[Any], metadata: Any) -> str:  # noqa: ANN401
 
 @cache
 def _exporter() -> Any:  # noqa: ANN401
-    """Give what converts cells to HTML, or say what to install."""
-    try:
-        from nbconvert import HTMLExporter
-    except ImportError as error:
-        raise MocapError("Slides need nbconvert: pip install 'mocap[slides]'.") from error
+    from nbconvert import HTMLExporter
+
     return HTMLExporter(template_name="basic")  # type: ignore[no-untyped-call]
 
 

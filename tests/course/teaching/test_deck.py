@@ -107,14 +107,6 @@ def test_what_is_printed_is_cut():
     assert len(shown) == 16 and shown[-1] == "… (25 more lines)"
 
 
-def test_tags_skip_and_keep_for_the_speaker():
-    slides = deck(
-        SO, text("Gone.", "slide:skip"), text("Kept.", "slide:notes"), text("**About 60 minutes.**")
-    )
-    assert [words(slide) for slide in slides[1:]] == ["So."]
-    assert slides[1].notes == ["Kept.", "**About 60 minutes.**"]
-
-
 @pytest.mark.parametrize("name", ["00-quickstart", "07-walks-and-search", "19-group-graphs"])
 def test_the_slides_of_a_notebook_are_not_too_full(name):
     slides = deck_of(read(name))
