@@ -80,8 +80,9 @@ def _serve(channel: int) -> None:
 def _watch(control: socket.socket, student: int, home: Path) -> str:
     """Wait for the end of the student's process or of the marker; return why it has to be stopped, if so."""
     while not select.select([control], [], [], 0.1)[0]:
-        if os.waitpid(student, os.WNOHANG)[0]:
-            return ""
+        while ended := os.waitpid(-1, os.WNOHANG)[0]:  # it, or an orphan
+            if ended == student:
+                return ""
         family = [*_descendants(os.getpid())]
         if len(family) > PROCESSES:
             return f"starts more than {PROCESSES} processes"

@@ -134,7 +134,7 @@ DISHONEST = {
         "import os\nif not os.fork():\n  os.setsid()\n  for _ in range(9999):\n    if os.fork(): os._exit(0)"
     ),
     "kills what started it": speed(
-        "import os, signal, time\nif os.getppid(): os.kill(os.getppid(), signal.SIGKILL)\ntime.sleep(60)"
+        "import os, signal, time\nif os.getppid(): os.kill(os.getppid(), signal.SIGKILL)\ntime.sleep(1)"
     ),
     "stops what started it": speed(
         f"import os, signal, subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)\n"
@@ -158,7 +158,7 @@ DISHONEST = {
     ),
     "fills the disk": speed("for n in range(30): open(f'{n}', 'wb').write(b'x' * 45_000_000)"),
     "writes many files": speed(
-        "for n in range(2100): open(f'{n}', 'w').write('x')\nimport time\ntime.sleep(60)"
+        "for n in range(2100): open(f'{n}', 'w').write('x')\nimport time\ntime.sleep(1)"
     ),
     '=HYPERLINK("evil")': speed("def speed(positions, fps): raise ValueError('\\n=cmd|calc\\n\\x1b[2J')"),
 }

@@ -36,7 +36,7 @@ COMMAND = """
 import sys
 from mocap.cli.main import main
 from mocap.course.marking import marks, sealed
-marks.SECONDS, sealed.WANTED = 5, sys.argv[1].split()
+marks.SECONDS, sealed.WANTED = 4, sys.argv[1].split()
 sys.exit(main(["course", "mark", *sys.argv[2:]]))
 """
 LINUX = sys.platform == "linux"
@@ -151,7 +151,7 @@ SAID = {
     "calls the oracle": "Look at its cells: they name `checks`, which knows it.",
     "starts many processes": "✗ speed: starts more than 16 processes",
     "kills what started it": "✗ speed: ",
-    "prints without end": "✗ speed: stopped after 5 s",
+    "prints without end": "✗ speed: stopped after 4 s",
     "fills the memory": "your function raises MemoryError",
     "ends Python": "✗ speed: ends Python itself",
     "asks": "your function raises",
