@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont, ImageOps
@@ -138,5 +138,7 @@ def _wrapped(words: str, font: ImageFont.FreeTypeFont, width: float) -> list[str
 @cache
 def font_of(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
     """Give the font of Matplotlib's pictures, which has Greek letters."""
-    fonts = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+    found = find_spec("matplotlib")
+    assert found and found.origin
+    fonts = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
     return ImageFont.truetype(str(fonts / f"DejaVuSans{'-Bold' if bold else ''}.ttf"), size)
