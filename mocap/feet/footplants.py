@@ -96,10 +96,8 @@ def mark_plants(motion: Motion, legs: Sequence[Leg] | None = None) -> Motion:
     legs = legs_of(motion.skeleton, legs)
     span = max(1, int(SPAN * motion.fps))
     if len(motion) <= 2 * span:
-        raise MocapError(
-            f"To tell standing from swinging takes more than {2 * span} frames; "
-            f"'{motion.name}' has {len(motion)}."
-        )
+        few = f"'{motion.name}' has {len(motion)}"
+        raise MocapError(f"To tell standing from swinging takes more than {2 * span} frames; {few}.")
     joints = [joint for leg in legs for joint in (leg.ankle, leg.ball)]
     positions = joint_positions(motion)[:, joints]  # (F, 2 · legs, 3)
     lengths = np.max([leg.lengths(motion.skeleton) for leg in legs], axis=0)
@@ -224,15 +222,12 @@ def find_footprints(motion: Motion) -> list[Footprint]:
 
     Notebook: 01b-motion-files
     """
-    if not motion.contacts:
-        return []
-    points = joint_positions(motion)
-    prints = []
+    points, prints = joint_positions(motion)[..., [0, 2]], []
     for name, down in motion.contacts.items():
         joint = motion.skeleton.index(name)
         for start, end in runs(down).tolist():
-            x, _, z = points[start:end, joint].mean(axis=0).tolist()
-            prints.append(Footprint(name, motion.skeleton.side(joint), start, end, x, z))
+            place = points[start:end, joint].mean(axis=0).tolist()
+            prints.append(Footprint(name, motion.skeleton.side(joint), start, end, *place))
     return prints
 
 
@@ -257,9 +252,8 @@ def standing_tracks(motion: Motion) -> Array:
 
     Notebook: 12-path-editing
     """
-    points = joint_positions(motion)[..., [0, 2]]
+    points, gap = joint_positions(motion)[..., [0, 2]], np.full((1, 2), np.nan)
     lines = [np.zeros((0, 2))]
     for name, down in motion.contacts.items():
-        line = np.where(down[:, None], points[:, motion.skeleton.index(name)], np.nan)
-        lines.append(np.append(line, [[np.nan, np.nan]], axis=0))
+        lines += [np.where(down[:, None], points[:, motion.skeleton.index(name)], np.nan), gap]
     return np.concatenate(lines)

@@ -99,10 +99,8 @@ def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
     """Read when each leg's ankle and ball stand, (L, 2, F), short plants and gaps settled."""
     names = [[motion.skeleton.names[joint] for joint in (leg.ankle, leg.ball)] for leg in legs]
     if missing := [name for pair in names for name in pair if name not in motion.contacts]:
-        raise MocapError(
-            f"'{motion.name}' does not say when these joints stand: {', '.join(missing)}; "
-            "mark_plants finds out."
-        )
+        unknown = f"when these joints stand: {', '.join(missing)}"
+        raise MocapError(f"'{motion.name}' does not say {unknown}; mark_plants finds out.")
     span = least_frames(motion.fps)
     return np.array([[settle(motion.contacts[name], span) for name in pair] for pair in names])
 

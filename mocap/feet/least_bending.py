@@ -38,13 +38,13 @@ NEAR = 0.05
 # How much a metre of the root counts, where a metre of a knee counts 1, and one beyond a bound 30, all
 # squared. With 4 for the root knees turn by 3.6° instead of 2.6° (95 % of the frames of slow and straight
 # legged walks); with 10 or 100 for bounds plants and jolts are the same.
-ROOT, STIFF = 2.0, 30.0
-SHY = 0.7  # of `MOST`: a root that is further off is beyond its bound
+# The root's bound is at 0.7 of `MOST`.
+ROOT, STIFF, SHY = 2.0, 30.0, 0.7
 
 # At most: solutions, each with what jolts counting double; steps in each; the gain of a step that is the last
-# one. With 5 solutions twice as many captured clips lose plants.
-TRIES, STEPS, GAIN = 10, 12, 1e-3
-AIM = 0.9  # of `UNSEEN`: what a solution aims at, for each doubling comes only nearer
+# one. With 5 solutions twice as many captured clips lose plants. Each doubling comes only nearer to its aim,
+# so that is a little less than `UNSEEN`.
+TRIES, STEPS, GAIN, AIM = 10, 12, 1e-3, 0.9
 
 STEP = 1e-5  # metres and radians, for slopes
 
@@ -83,11 +83,8 @@ def hold_plants(
         if not jolting.any():
             break
         stress *= np.where(maximum_filter1d(jolting, 2 * span + 1, axis=1), 2.0, 1.0)
-    excesses = [
-        (slice(None), np.abs(change[0]) - MOST * length),
-        (slice(None), beyond.max(axis=0) - UNSEEN * length),
-    ]
-    bends = []
+    bends, every = [], slice(None)
+    excesses = [(every, abs(change[0]) - MOST * length), (every, beyond.max(axis=0) - UNSEEN * length)]
     for n, (track, target) in enumerate(legs):
         bend, wanted = _pose(track, target, change[0], change[1 + n])
         lack = np.linalg.norm(wanted, axis=-1) - track.long(0.0) - ROUNDING
@@ -123,10 +120,9 @@ def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
     """
     near = (NEAR * legs[0][0].motion.fps) ** -4.0
     bending = [bending_bands(weight, near) for weight in (np.ones(change.shape[1]), *stress)]
-    bounds = [bending_bands(none, STIFF**2 * near) for none in np.zeros_like(change)]
-    bands = np.array(bending + bounds)
+    bands = np.array([*bending, *(bending_bands(0 * row, STIFF**2 * near) for row in change)])
     top = np.min([np.where(g.planted, t.highest(g.ankle), np.inf) for t, g in legs], axis=0)
-    change = np.array([np.minimum(change[0], top), *change[1:]])
+    change = np.vstack([np.minimum(change[0], top), change[1:]])
     here, damping = _displacements(legs, change), 1e-3
     for _ in range(STEPS):
         lower = [_displacements(legs, change - STEP * row[:, None]) for row in np.eye(len(change))]
@@ -135,10 +131,9 @@ def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
         tried[0] = np.minimum(tried[0], top)
         there = _displacements(legs, tried)
         cost, less = (here * pull).sum(), (there * band_product(bands, there)).sum()
+        damping *= 0.2 if less < cost else 10.0
         if less < cost:
-            change, here, damping = tried, there, 0.2 * damping
-        else:
-            damping *= 10
+            change, here = tried, there
         if (1 - GAIN) * cost <= less <= cost:
             break
     return change
@@ -179,5 +174,5 @@ def _jolts(tracks: Sequence[LegTrack], moved: Array, span: int) -> Array:
         np.linalg.norm(k[:, 2 * span :] - 2 * k[:, span:-span] + k[:, : -2 * span], axis=-1)
         for k in (own, own + moved)
     )
-    usual = np.maximum(np.percentile(before, USUAL, method="lower"), before)
-    return np.pad(after - usual, ((0, 0), (span, span)), constant_values=-np.inf)
+    more = after - np.maximum(np.percentile(before, USUAL, method="lower"), before)
+    return np.pad(more, ((0, 0), (span, span)), constant_values=-np.inf)

@@ -124,10 +124,8 @@ def track_leg(motion: Motion, leg: Leg, poses: GlobalPoses) -> LegTrack:
     cos = (thigh * shank).sum(-1) - along
     sin = (thigh * np.cross(axis, shank)).sum(-1)
     size = (thigh**2).sum(-1) + (shank**2).sum(-1) + 2 * along
-    joints = (hip, knee, ankle, ball)
-    return LegTrack(
-        motion, leg, poses.matrices, *joints, axis, size, np.hypot(cos, sin), -np.arctan2(sin, cos)
-    )
+    hinge = (axis, size, np.hypot(cos, sin), -np.arctan2(sin, cos))
+    return LegTrack(motion, leg, poses.matrices, hip, knee, ankle, ball, *hinge)
 
 
 def pose_leg(track: LegTrack, bend: Array, wanted: Array, turn: ArrayLike) -> Array:
