@@ -91,15 +91,15 @@ def places_on(path: GroundPath, ride: Ride, fps: float) -> Places:
     """
     line, own = bends_of(path), bends_of(ride.path)
     walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
-    along, ratio = np.zeros(len(walks)), np.ones(len(walks))
-    here, last = 0.0, 1.0
-    pace = own.pace[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own.pace) - 1)]
-    for frame, step in enumerate(np.diff(ride.along, prepend=ride.along[0])):
-        here += last**0.5 * step
-        now = line.pace[min(round(here / CELL), len(line.pace) - 1)] / pace[frame]
-        last = min(max(now, RATIOS[0]), RATIOS[1]) ** walks[frame]
-        along[frame], ratio[frame] = here, last
-    return Places(along, ratio)
+    paces = own.pace[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own.pace) - 1)]
+    here, ratio, last, (low, high) = 0.0, 1.0, len(line.pace) - 1, RATIOS
+    places, there = [], line.pace.tolist()
+    steps = np.diff(ride.along, prepend=ride.along[:1])
+    for step, pace, walk in np.stack([steps, paces, walks], axis=1).tolist():
+        here += ratio**0.5 * step
+        ratio = min(max(there[min(round(here / CELL), last)] / pace, low), high) ** walk
+        places.append((here, ratio))
+    return Places(*np.array(places).T)
 
 
 def slow_down(motion: Motion, ride: Ride, path: GroundPath) -> Slowed:
