@@ -12,9 +12,7 @@ from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion
 from mocap.editing.line_rounding import RoundedLine, round_line
 from mocap.editing.path_editing import Ride, moving_frames, plants_kept, ride_of
-from mocap.editing.pins import plant_pins, with_plants
-from mocap.editing.solver import solve_quietly
-from mocap.editing.steps import Basis
+from mocap.editing.pins import with_plants
 from mocap.editing.turning import lean, slow_down
 from mocap.errors import MocapError, MocapWarning, shortened, warn
 from mocap.feet.footskate import clean_up
@@ -22,8 +20,6 @@ from mocap.feet.footskate import clean_up
 LIMIT = float(np.radians(100))  # per second: the fastest that a walk is turned; people reach 90° to 110°
 WILD = 2 * np.pi  # per second: faster than anybody who walks turns; walks on lines that turn fast reach 100°
 FINE = 0.01  # metres between the points of a line from which distances are measured
-# Share of the plants. With fewer, a solver over all frames helps to hold them; it takes five times the time.
-ENOUGH = 0.95
 MOST = 3  # stretches that a report lists
 
 
@@ -94,8 +90,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     Its own path is taken off and the line put in its place [Gle01]. Ours is that it slows down and leans in
     where the line bends more than its own path, as people do, and that the line is rounded where it would
     still turn too fast. So a captured turn on its own way stays as it is. The walk starts where the line
-    starts. Where the clean-up would let go more than 5 % of the plants, the solver brings them within reach
-    first.
+    starts.
 
     Parameters
     ----------
@@ -156,19 +151,10 @@ def _reached(path: GroundPath, ride: Ride) -> GroundPath:
 
 
 def _cleaned(laid: Motion, held: dict[int, Array]) -> Motion:
-    """Clean up the feet; where plants are let go, all frames are first changed a little to reach them."""
-    found, warned = _clean(laid, held)
-    if plants_kept(found, laid) < ENOUGH:
-        nearer = _clean(solve_quietly(laid, plant_pins(laid), [Basis(knots=0.125)]).motion, held)
-        found, warned = max((found, warned), nearer, key=lambda pair: plants_kept(pair[0], laid))
-    for warning in warned:
-        warn(warning, 3)
-    return found
-
-
-def _clean(motion: Motion, held: dict[int, Array]) -> tuple[Motion, list[str]]:
-    """Clean up the feet; give the motion, and the warnings of plants let go."""
+    """Clean up the feet; warnings of plants let go show the line that calls `bend`."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", MocapWarning)
-        found = clean_up(motion, held=held)
-    return found, [str(warning.message) for warning in caught]
+        found = clean_up(laid, held=held)
+    for warning in caught:
+        warn(str(warning.message), 3)
+    return found

@@ -80,4 +80,4 @@ def test_one_captured_turn_on_the_way_of_another_does_not_shake(real_data, way):
         for name in ("16_13", way)
     )
     bent = bend(turn, ride_of(other).path)
-    assert acc99(bent.laid, turn) < 1.1  # what the clean-up adds is its own matter
+    assert acc99(bent.motion, turn) < 1.15
