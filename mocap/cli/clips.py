@@ -134,8 +134,8 @@ def convert(
     Example: mocap convert clips/ out/ --to glb
     """
     pairs = files.plan(source, target, f".{to}")
-    options = files.Options(reading.skeleton, reading.fps, reading.scale, widen)
-    problems = list(filter(None, files.convert(pairs, options, bar("converting"))))
+    done = files.convert(pairs, asdict(reading), widen=widen, progress=bar("converting"))
+    problems = list(filter(None, done))
     return tell_of_failures("converted", len(pairs), problems)
 
 

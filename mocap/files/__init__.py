@@ -38,6 +38,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "folders": ["find_files", "load_all"],
         "number_tables": ["load_rows"],
         "path_files": ["load_path"],
-        "conversion": ["Options", "convert", "plan"],
+        "conversion": ["convert", "plan"],
     },
 )

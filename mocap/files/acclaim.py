@@ -66,23 +66,20 @@ def read_angles(path: str | Path, asf: AcclaimSkeleton) -> dict[str, Array]:
     """Give each bone's angles, shape (F, rotational dofs), in degrees, as they are in the file."""
     keywords, numbers, _ = read_frames(path, asf.dofs(), asf.needed())
     unit = 1.0 if _in_degrees(keywords, asf) else np.degrees(1.0)
-    return {name: unit * numbers[name][:, _turning(asf.bones[name])] for name in asf.needed()}
+    return {name: unit * numbers[name][:, asf.bones[name].turns] for name in asf.needed()}
 
 
 def _in_degrees(keywords: set[str], asf: AcclaimSkeleton) -> bool:
     return ":RADIANS" not in keywords and (asf.degrees or ":DEGREES" in keywords)
 
 
-def _turning(bone: Bone) -> list[int]:
-    return [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
-
-
 def turned(name: str, bone: Bone, numbers: Array, degrees: bool) -> Array:
     """Turn a bone's numbers (F, dofs) into quaternions (F, 4), in its parent's frame."""
-    turns = _turning(bone)
-    angles = np.radians(numbers[:, turns]) if degrees else numbers[:, turns]
-    order = "".join(bone.dofs[place][1] for place in turns)
-    own = euler.from_euler(order, angles) if order else np.tile(rotations.IDENTITY, (len(angles), 1))
+    turns = numbers[:, bone.turns]
+    angles = np.radians(turns) if degrees else turns
+    own = (
+        euler.from_euler(bone.order, angles) if bone.order else np.tile(rotations.IDENTITY, (len(angles), 1))
+    )
     return rotations.multiply(own, bone.axis) if name == "root" else own @ conjugation(bone.axis)
 
 

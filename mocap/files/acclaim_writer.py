@@ -220,14 +220,13 @@ def to_amc(motion: Motion, asf: AcclaimSkeleton, *, precision: int = 6) -> str:
 
 def _numbers(name: str, bone: Bone, local: Array) -> Array:
     """Turn rotations (F, 4) into a bone's numbers (F, dofs), in degrees; its moves are 0."""
-    turns = [place for place, dof in enumerate(bone.dofs) if dof in TURNS]
     numbers = np.zeros((len(local), len(bone.dofs)))
     if name == "root":
         own = rotations.multiply(local, rotations.inverse(bone.axis))
     else:
         own = local @ conjugation(rotations.inverse(bone.axis))  # C⁻¹ L C
-    if turns:
-        numbers[:, turns] = np.degrees(_angles("".join(bone.dofs[place][1] for place in turns), own))
+    if bone.turns:
+        numbers[:, bone.turns] = np.degrees(_angles(bone.order, own))
     return numbers
 
 

@@ -36,6 +36,16 @@ class Bone(NamedTuple):
     axis: Array
     dofs: tuple[str, ...]
 
+    @property
+    def turns(self) -> list[int]:
+        """Which of its dofs are turns."""
+        return [place for place, dof in enumerate(self.dofs) if dof in TURNS]
+
+    @property
+    def order(self) -> str:
+        """The axes that it turns about, in their order."""
+        return "".join(self.dofs[place][1] for place in self.turns)
+
 
 class AcclaimSkeleton(NamedTuple):
     """A `skeleton`, its `bones` by name, the file's `unit` in metres, and `degrees`, else radians."""
@@ -216,5 +226,5 @@ def grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skele
     stub = Bone(np.zeros(3), rotations.IDENTITY, ())  # an end site
     known = [bones.get(name, stub) for name in names]
     axes = [rotations.IDENTITY, *(bone.axis for bone in known[1:])]
-    dofs = ["".join(dof[1] for dof in bone.dofs if dof in TURNS) for bone in known]
+    dofs = [bone.order for bone in known]
     return Skeleton(names, np.array(parents), np.array(offsets), np.array(axes), dofs)

@@ -1,11 +1,11 @@
 """Convert motion files, whole folders too, several at a time."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from itertools import repeat
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 from mocap._shared.atomic import make_folder
 from mocap._shared.progress import Progress
@@ -13,15 +13,6 @@ from mocap._shared.tasks import serve
 from mocap.errors import MocapError
 from mocap.files.folders import find_files
 from mocap.files.load_save import load, save
-
-
-class Options(NamedTuple):
-    """Options of `files.load` (`skeleton`, `fps`, `scale`) and of `files.save` (`widen`)."""
-
-    skeleton: Path | None = None
-    fps: float | None = None
-    scale: float | None = None
-    widen: bool = False
 
 
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
@@ -70,13 +61,20 @@ def require_apart(pairs: Sequence[tuple[Path, Path]], read: Iterable[Path] = ())
             raise MocapError(f"{first} and {path} would both become {new}: take them one by one.")
 
 
-def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Progress = iter) -> list[str]:
+def convert(
+    pairs: Sequence[tuple[Path, Path]],
+    reading: Mapping[str, Any] | None = None,
+    *,
+    widen: bool = False,
+    progress: Progress = iter,
+) -> list[str]:
     """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
 
     Parameters
     ----------
     pairs : files to read and files to write, from `plan`.
-    options : how to read and to write.
+    reading : options of `files.load`.
+    widen : as for `files.save`.
     progress : wraps the pairs while they are converted.
 
     Returns
@@ -85,14 +83,15 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
 
     Examples
     --------
-    >>> convert([(Path("gone.bvh"), Path("walk.amc"))], Options())
+    >>> convert([(Path("gone.bvh"), Path("walk.amc"))])
     ['Cannot read gone.bvh: No such file or directory.']
     """
     if len(pairs) == 1:
-        return [_convert(*pairs[0], options)]
+        return [_convert(*pairs[0], reading or {}, widen)]
+    how = repeat(reading or {}), repeat(widen)
     workers = min(len(pairs), os.cpu_count() or 1)
     with ProcessPoolExecutor(workers, initializer=serve) as pool:
-        outcomes = pool.map(_convert, *zip(*pairs, strict=True), repeat(options))
+        outcomes = pool.map(_convert, *zip(*pairs, strict=True), *how)
         try:
             return [next(outcomes) for _ in progress(pairs)]
         except BrokenExecutor as error:
@@ -101,11 +100,11 @@ def convert(pairs: Sequence[tuple[Path, Path]], options: Options, progress: Prog
             pool.shutdown(cancel_futures=True)
 
 
-def _convert(source: Path, target: Path, options: Options) -> str:
+def _convert(source: Path, target: Path, reading: Mapping[str, Any], widen: bool) -> str:
     try:
-        motion = load(source, skeleton=options.skeleton, fps=options.fps, scale=options.scale)
+        motion = load(source, **reading)
         make_folder(target.parent)
-        save(motion, target, widen=options.widen)
+        save(motion, target, widen=widen)
     except MocapError as error:
         return with_file(error, source, target)
     return ""

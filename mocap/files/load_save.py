@@ -3,7 +3,6 @@
 import math
 from contextlib import suppress
 from pathlib import Path
-from typing import TypedDict, Unpack
 
 from mocap._shared.arrays import Array
 from mocap._shared.atomic import replacing, write_text
@@ -12,7 +11,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
 from mocap.files import acclaim, amass, amc, bvh, gltf
 from mocap.files.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
-from mocap.files.asf import read_skeleton
+from mocap.files.asf import AcclaimSkeleton, read_skeleton
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.text import read_text
 
@@ -161,20 +160,14 @@ def bone_stretch(path: str | Path, *, scale: float | None = None) -> dict[str, f
     return bvh.bone_stretch(path, scale=scale or 0.01) if Path(path).suffix.lower() == ".bvh" else {}
 
 
-class Form(TypedDict, total=False):
-    """How numbers are written: `scale` is metres in a unit, `precision` digits after the point."""
-
-    scale: float | None
-    precision: int
-
-
-def save(
+def save(  # noqa: PLR0913 (what, where, and how numbers are written)
     motion: Motion,
     path: str | Path,
     *,
     skeleton: str | Path | None = None,
     widen: bool = False,
-    **form: Unpack[Form],
+    scale: float | None = None,
+    precision: int = 6,
 ) -> None:
     """Write a motion to a file; an old file is replaced when the new one is whole.
 
@@ -210,13 +203,14 @@ def save(
 
     Notebook: 01b-motion-files
     """
-    path, scale, precision = Path(path), form.get("scale"), form.get("precision", 6)
+    path = Path(path)
     _check("scale", scale)
     if not 0 <= precision <= 15:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
         case ".amc" if skeleton is None:
-            _save_with_skeleton(motion, path, widen, form)
+            asf = to_acclaim(widened(motion) if widen else motion.skeleton, scale=scale or UNIT)
+            _save_with_skeleton(path, asf, to_amc(motion, asf, precision=precision))
         case ".amc" if widen:
             raise MocapError("widen=True writes a new skeleton: leave skeleton= out, or widen.")
         case ".amc":
@@ -232,10 +226,8 @@ def save(
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 
 
-def _save_with_skeleton(motion: Motion, path: Path, widen: bool, form: Form) -> None:
-    asf = to_acclaim(widened(motion) if widen else motion.skeleton, scale=form.get("scale") or UNIT)
-    amc, beside = to_amc(motion, asf, precision=form.get("precision", 6)), path.with_suffix(".asf")
-    text = to_asf(asf, " ".join(path.stem.split()))
+def _save_with_skeleton(path: Path, asf: AcclaimSkeleton, amc: str) -> None:
+    beside, text = path.with_suffix(".asf"), to_asf(asf, " ".join(path.stem.split()))
     if beside.exists() and read_text(beside) != text:  # other clips may need the old one
         raise MocapError(
             f"{beside} holds another skeleton: choose another name for {path.name}, or delete that file, "

@@ -110,7 +110,7 @@ def test_a_single_failure_is_a_failure(folder, run, line, message):
 
 def test_what_fails_names_options_not_arguments(folder, run, monkeypatch):
     problem = "'arm' does not fit: use widen=True without skeleton=, or a .bvh file"
-    monkeypatch.setattr("mocap.files.convert", lambda *_: [problem])
+    monkeypatch.setattr("mocap.files.convert", lambda *_, **__: [problem])
     assert "use --widen without --skeleton, or a .bvh file" in run("convert clips/a.bvh arm.amc", 2).out
 
 
@@ -129,7 +129,7 @@ def test_an_interruption_ends_the_conversion(folder):
 
     pairs = conversion.plan("clips", "out")
     with pytest.raises(KeyboardInterrupt):
-        conversion.convert(pairs, conversion.Options(), interrupt)
+        conversion.convert(pairs, progress=interrupt)
 
 
 def die(*_):
@@ -139,12 +139,12 @@ def die(*_):
 def test_a_worker_that_dies_is_told(folder, monkeypatch):
     monkeypatch.setattr(conversion, "_convert", die)
     with pytest.raises(MocapError, match="ended from outside: is there enough memory"):
-        conversion.convert(conversion.plan("clips", "out"), conversion.Options())
+        conversion.convert(conversion.plan("clips", "out"))
 
 
 def test_real_folders(real_data, tmp_path):
     pairs = conversion.plan(real_data / "odd", tmp_path, ".bvh")
-    problems = conversion.convert(pairs, conversion.Options())
+    problems = conversion.convert(pairs)
     assert len(problems) == len(pairs) == 10
     for (_, target), problem in zip(pairs, problems, strict=True):
         assert (not problem) == target.exists()
