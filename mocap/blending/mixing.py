@@ -73,7 +73,7 @@ def mix(
     >>> walks = [sample(name) for name in ("walk_5m_0.8_0", "walk_5m_1.1_0")]
     >>> walking = register(walks)
     >>> walking.durations.round(2), round(mix(walking, [0.5, 0.5]).duration, 2)
-    (array([4.67, 4.22]), 4.44)
+    (array([4.67, 4.26]), 4.46)
 
     Notebook: 15-registration
     """

@@ -73,7 +73,7 @@ def limit_turns(motion: Motion, joints: Sequence[str], *, more: float = 10.0) ->
     >>> from mocap.datasets import sample
     >>> neck = limit_turns(sample("walk_straight")[:60], ["lowerneck", "upperneck"])
     >>> [turn.high[0].round(2).tolist() for turn in neck.turns]
-    [[0.18, 0.17, 0.17], [0.17, 0.17, 0.17]]
+    [[0.18, 0.18, 0.18], [0.18, 0.2, 0.19]]
 
     Notebook: 14-levels
     """

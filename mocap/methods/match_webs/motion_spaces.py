@@ -276,7 +276,7 @@ def blend_of(registration: Registration, weights: ArrayLike, *, fps: float | Non
     >>> from mocap.datasets.samples import sample
     >>> walks = [sample(f"walk_5m_{speed}_0") for speed in (0.8, 1.1, 1.4)]
     >>> blend_of(register(walks), [0, 0.5, 0.5])
-    Motion('walk + walk', 363 frames at 120 Hz, 38 joints)
+    Motion('walk + walk', 366 frames at 120 Hz, 38 joints)
 
     Notebook: 16-match-webs
     """
