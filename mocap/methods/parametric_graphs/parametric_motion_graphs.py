@@ -80,7 +80,7 @@ def build_parametric(
 
     >>> from mocap import body, datasets
     >>> from mocap.methods.parametric_graphs.stride_spaces import make_space
-    >>> from mocap.methods.parametric_graphs.examples import cut_strides
+    >>> from mocap.methods.parametric_graphs.strides import cut_strides
     >>> strides = cut_strides([body.resample(datasets.sample("walk_curve_2"), 30)])
     >>> space = make_space(strides, 0.4, -0.8, 0.8)
     >>> graph = build_parametric({"walk": space}, good=0.05)

@@ -1,8 +1,7 @@
-"""A clip that is left out, made of the others by what it does: strides by turn, punches and reaches by place.
+"""Bring the right hand to a place by a punch, or by a reach in mid-stride, made of all such clips but one.
 
-How far is what was asked for missed, in degrees, or for the right hand in centimetres? And how far is a joint
-on average from where it is in the clip that was left out, both laid on one first frame? The nearest of the
-other clips, and the mean of the d + 1 nearest, frame by frame, are the simplest.
+The place is that of the clip that is left out. How far is it missed? And how far is a joint on average from
+where it is in the clip that was left out, both laid on one first frame?
 """
 
 from collections.abc import Callable, Iterator
@@ -14,19 +13,16 @@ from mocap import editing
 from mocap._shared.arrays import Array
 from mocap.body import Motion, joint_positions, place
 from mocap.methods.match_webs import hand_target, sample_space, turn, weights_for
-from mocap.methods.parametric_graphs import cut_actions, cut_strides, make_space
+from mocap.methods.parametric_graphs import cut_actions, cut_strides
 from tasks import HOMEWORK, WALKS, Case
 
 CLIPS = {"bundled clips": WALKS, "homework's clips": HOMEWORK, "CMU 02, punches": ("02/02_05",)}
 PUNCHES = (85, 130, 173, 216, 259, 301, 346, 392)  # frames of 02_05 near which the arm is longest
 ROOM = 20  # frames before and after an action
-MOST = 20  # strides, evenly spread over their turns
 AWAY = np.random.default_rng(0).uniform((-0.2, -0.2, 0.3), (0.3, 0.3, 0.45), (24, 3))  # left, up, ahead, m
-WIDTH = np.radians(14)  # of the bell, for turns
-MEASURES = {"off, ° or cm": True, "joints off, cm": True}
+MEASURES = {"hand off, cm": True, "joints off, cm": True}
 BASELINES = ("nearest clip", "mean of the nearest")
 WHAT: dict[str, Callable[[Motion], Array]] = {
-    "turns": lambda motion: np.degrees([turn(motion)]),
     "reaches": lambda motion: 100 * hand_target(motion, at=0.5),
     "punches": lambda motion: 100 * hand_target(motion),
 }
@@ -37,9 +33,6 @@ def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
     if "punches" in collection:
         return (yield from left_out(collection, "punches", [punch(clips[0], near) for near in PUNCHES]))
     strides = [part for clip in clips for part in strides_of(clip)]
-    strides.sort(key=lambda part: turn(action(part)))
-    chosen = np.unique(np.linspace(0, len(strides) - 1, MOST).round().astype(int))
-    yield from left_out(f"{collection}, turns", "turns", [strides[number] for number in chosen])
     straightest = min(strides, key=lambda part: abs(turn(action(part))))
     yield from left_out(f"{collection}, reaches", "reaches", reaches_of(straightest))
 
@@ -85,9 +78,6 @@ def punch(clip: Motion, near: int) -> Motion:
 def of_space(case: Case) -> Motion:
     """Blend as samples of random blends say that what is asked is done [KG04]."""
     others, asked, what = case.given["clips"], case.given["asked"][0], case.name.split("-")[0]
-    if what == "turns":
-        space = make_space(cut_strides(others), WIDTH, -np.pi, np.pi)
-        return space.examples.blend(weights_for(space, np.radians(asked)))
     spans = [(ROOM, len(part) - ROOM - 1) for part in others]
     examples = cut_actions(others, spans) if what == "punches" else cut_strides(others)
     space = sample_space(examples, WHAT[what])
@@ -117,7 +107,7 @@ def mean(case: Case) -> Motion:
 METHODS = {
     "nearest clip": lambda case: nearest(case)[0],
     "mean of the nearest": mean,
-    "parametric space": of_space,
+    "space of blends": of_space,
 }
 
 
