@@ -134,14 +134,16 @@ class Examples:
             raise MocapError(f"Examples are joined with the same marks; some of them lack {min(odd)}.")
 
 
-def on_one_clock(found: Sequence[tuple[Motion, Array]], grid: Array) -> list[tuple[Motion, Array]]:
+def on_one_clock(
+    found: Sequence[tuple[Motion, Array]], within: tuple[int, int]
+) -> list[tuple[Motion, Array]]:
     """Put the frames of all examples on the clock of the one whose turn is the median [KG03].
 
-    Only the action is registered. In the margins each clip goes on at its own pace: there the examples are
-    not one action any more.
+    They are registered from the one to the other of two phases, by their numbers. Outside each clip goes on
+    at its own pace: around punches, say, the examples are not one action any more.
     """
-    zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
-    ends = [(int(frames[zero]), int(np.ceil(frames[one]))) for _, frames in found]
+    first, last = within
+    ends = [(int(frames[first]), int(np.ceil(frames[last]))) for _, frames in found]
     parts = [clip[a : b + 1] for (clip, _), (a, b) in zip(found, ends, strict=True)]
     turns = [float(np.ptp(np.unwrap(heading(part.rotations[:, 0])))) for part in parts]
     middle = int(np.argsort(turns)[len(turns) // 2])
@@ -149,9 +151,9 @@ def on_one_clock(found: Sequence[tuple[Motion, Array]], grid: Array) -> list[tup
     inner = np.clip(clock, 0, parts[middle].duration)
     times = register(parts, reference=middle, slack=0.0).times
     rows = []
-    for (clip, _), (first, _), own in zip(found, ends, times, strict=True):
+    for (clip, _), (start, _), own in zip(found, ends, times, strict=True):
         warped = own(inner) + clock - inner
-        rows.append((clip, np.clip(first + warped * clip.fps, 0, len(clip) - 1)))
+        rows.append((clip, np.clip(start + warped * clip.fps, 0, len(clip) - 1)))
     return rows
 
 
@@ -192,7 +194,8 @@ def cut_actions(
                 f"takes those from {frames[0]:.0f} to {frames[-1]:.0f}: leave it more room, or out."
             )
         found.append((clip if clip.contacts else mark_plants(clip), frames))
-    return tabled(on_one_clock(found, grid), grid)
+    zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
+    return tabled(on_one_clock(found, (int(zero), int(one))), grid)
 
 
 def tabled(found: Sequence[tuple[Motion, Array]], grid: Array, *, dropped: int = 0) -> Examples:

@@ -83,7 +83,7 @@ def cut_strides(
     if not found:
         what = f"'{feet}' labelled '{label}'" if label else f"'{feet}'"
         raise MocapError(f"No example of {what} in {len(clips)} clips; {dropped} were left out.")
-    found = on_one_clock(found, grid) if by == "curves" else found
+    found = on_one_clock(found, (0, -1)) if by == "curves" else found
     return _calibrated(tabled(found, grid, dropped=dropped), steps=feet != STRIDE)
 
 
