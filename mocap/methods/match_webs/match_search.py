@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -50,6 +50,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     lengths: tuple[float, float] = (3 / 4, 4 / 3),
     steps: int | None = None,
     still: float = 0.05,
+    keep: Callable[[Motion], bool] | None = None,
 ) -> list[Match]:
     """Find what is like a query, then what is like that, until nothing new turns up [KG04, search in steps].
 
@@ -57,15 +58,23 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     are not. But between two that differ there are others [KG04]. The bound on lengths is ours: a wrong match
     is a query too, and the first one is mostly a slow motion laid on a quick one, or the reverse.
 
+    Steps help where one kind has many looks, such as punches at many targets, or slow and brisk walks. Where
+    all of a kind look alike, such as strides at one pace, one step finds as much, and cannot leak. Steps harm
+    where one kind passes into another, as turns by 90° into turns by 45°: then say by `keep` what is asked.
+
     Parameters
     ----------
     web : as from `build_web`.
     clip, frames : the query: the number of a clip, and its own frames.
     below : the mean RMS distance that a match may have from what found it, metres; by default the web's own.
+        Try some, and take one where the number of matches stays level: a little above, one wrong match brings
+        in all of its kind, and hundreds are found.
     lengths : the shortest and the longest match, as shares of the query's length.
     steps : how often to search, the first time with the query; by default until nothing new turns up.
     still : what moves less than this is not searched from, metres RMS about the mean place of each point: to
         stand still is like itself at any time. (Ours; the paper has no such bound.)
+    keep : says of the motion of a match whether it is what is asked for, by its turn for example; those that
+        are not are neither given nor searched from (ours).
 
     Returns
     -------
@@ -114,7 +123,10 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
             common = np.minimum(stops, other.stop) - np.maximum(starts, other.start)
             union = np.maximum(stops, other.stop) - np.minimum(starts, other.start)
             if (common <= SAME * union).all():
-                found.append(_composed(web, found[number], other, number))
+                match = _composed(web, found[number], other, number)
+                if keep and not keep(cut_out(web, _in_own_frames(web, clip, match))):
+                    continue
+                found.append(match)
                 places = np.append(places, [other[:2]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)

@@ -6,7 +6,7 @@ from mocap import datasets
 from mocap.body import Skeleton
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.match_webs import build_web, cut_out, match_search, search
+from mocap.methods.match_webs import build_web, cut_out, match_search, search, turn
 from mocap.methods.match_webs.match_search import crossings
 from tests.methods.match_webs.conftest import common, cycles, judge
 from tests.methods.match_webs.spaces_of_walks import PUNCHES
@@ -89,6 +89,19 @@ def test_the_search_is_symmetric(bundled):
     for match in search(bundled.web, query[0], query[1], below=0.04, steps=1)[1:8]:
         back = search(bundled.web, match.clip, slice(match.start, match.stop), below=0.042, steps=1)
         assert max(common(other, *query) for other in back) > 0.6
+
+
+def test_what_is_not_asked_for_is_neither_given_nor_searched_from(bundled):
+    """Of all walking cycles at 5 cm those that turn to the left: all that are found so, and nothing else."""
+    query = cycles(bundled.clips[1], 2 / 3, 13 / 6)[2]
+    every, kept = (
+        search(bundled.web, 1, query, below=0.05, keep=keep)
+        for keep in (None, lambda motion: turn(motion) > 0.2)
+    )
+    turned = [match for match in every if turn(cut_out(bundled.web, match)) > 0.2]
+    assert len(turned) < 0.8 * len(every)
+    assert all(turn(cut_out(bundled.web, match)) > 0.2 for match in kept)
+    assert 0.8 * len(turned) <= len(kept) and all(kept[match.via].cost >= 0 for match in kept[1:])
 
 
 def test_a_match_is_cut_out_of_its_clip(bundled):
