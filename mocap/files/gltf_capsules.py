@@ -78,9 +78,8 @@ def body(skeleton: Skeleton) -> Mesh:
     array([-0.02, -0.42, -0.02])
     """
     longest = reaches(skeleton)[0] or 1.0
-    pieces = [*_bones(skeleton, longest), *_heads(skeleton, longest)]
-    if not pieces:
-        pieces.append((0, *_capsule(np.zeros(3), np.zeros(3), THICK * longest)))
+    pieces = list(_pieces(skeleton, longest))
+    pieces = pieces or [(0, *_capsule(np.zeros(3), np.zeros(3), THICK * longest))]
     counts = np.cumsum([0, *(len(points) for _, points, _, _ in pieces)])
     return Mesh(
         np.vstack([points for _, points, _, _ in pieces]),
@@ -90,28 +89,21 @@ def body(skeleton: Skeleton) -> Mesh:
     )
 
 
-def _bones(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
-    """Give a capsule for each bone; around one that starts at a head, it is a ball rather than a limb."""
-    behind, places = reaches(skeleton), rest(skeleton)
-    lengths = np.linalg.norm(skeleton.offsets, axis=-1)
-    for joint in range(1, len(skeleton)):
-        parent = int(skeleton.parents[joint])
-        if lengths[joint] > LEAST * longest:
-            radius = THICK * np.sqrt(longest * (lengths[joint] + behind[joint]))
-            start, bone = places[parent], skeleton.offsets[joint]
+def _pieces(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
+    """Give a capsule for each bone; around one that starts at a head, it is a ball rather than a limb.
+
+    A head from which no bone starts gets a ball further along the bone that leads to it.
+    """
+    behind, places, ball = reaches(skeleton), rest(skeleton), HEAD * longest
+    for joint, (parent, bone) in enumerate(zip(skeleton.parents.tolist(), skeleton.offsets, strict=True)):
+        length = np.linalg.norm(bone) if joint else 0.0
+        if length > 0 and _is_head(skeleton, joint) and not skeleton.children(joint):
+            yield joint, *_capsule(places[joint] + 0.7 * ball / length * bone, np.zeros(3), ball)
+        if length > LEAST * longest:
+            start, radius = places[parent], THICK * np.sqrt(longest * (length + behind[joint]))
             if _is_head(skeleton, parent):
-                start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, HEAD * longest)
+                start, bone, radius = start + 0.4 * bone, 0.2 * bone, max(radius, ball)
             yield parent, *_capsule(start, bone, radius)
-
-
-def _heads(skeleton: Skeleton, longest: float) -> Iterator[Piece]:
-    """Give a ball for each head from which no bone starts, further along the bone that leads to it."""
-    places, radius = rest(skeleton), HEAD * longest
-    for joint in range(1, len(skeleton)):
-        length = np.linalg.norm(skeleton.offsets[joint])
-        if _is_head(skeleton, joint) and not skeleton.children(joint) and length > 0:
-            centre = places[joint] + 0.7 * radius * skeleton.offsets[joint] / length
-            yield joint, *_capsule(centre, np.zeros(3), radius)
 
 
 def _is_head(skeleton: Skeleton, joint: int) -> bool:
