@@ -16,7 +16,6 @@ from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from mocap.matching.transitions import Transition, find_transitions
 from mocap.quality.seam_measures import (
-    BlendJolts,
     Spread,
     blend_jolts,
     jumps,
@@ -160,12 +159,6 @@ def test_inertialization_is_measured_against_the_second_clip():
     assert blend_jolts(second, second, second, 10, np.zeros(40)).added == pytest.approx(0)
 
 
-def test_a_result_stands_out_when_it_exceeds_both_clips():
-    at = np.array([0.1, 0.2])
-    assert BlendJolts(at + 0.2, at, at + 0.1, at).stands_out
-    assert not BlendJolts(at + 0.1, at, at + 0.2, at).stands_out
-
-
 @pytest.mark.parametrize(("start", "window"), [(-1, 10), (95, 10), (10, 0)])
 def test_a_window_that_runs_off_and_other_lengths_are_refused(start, window):
     result, first, second = passage(10)
@@ -258,16 +251,3 @@ def test_seams_over_a_bad_threshold_show(captured, seed):
     _, _, largest = measured(clips, usual, [bad[i] for i in some])
     for jump in largest:
         assert np.all(beyond(usual, jump)[:3] > 25)
-
-
-def test_all_seams_below_four_centimetres_keep_to_what_is_usual(captured):
-    clips, usual, good, _ = captured
-    limit = np.percentile(usual.within(WINDOW + 2), 99.9)
-    some = [good[i] for i in range(0, len(good), 10)]
-    largest = []
-    for t in some:
-        start = max(0, t.leave - 3)
-        leave, clip = t.leave - start, clips[t.source]
-        joined = join(clip[start:], leave, clips[t.target][: t.enter + WINDOW + 3], t.enter, WINDOW)
-        largest.append(jumps(joined)[0][max(leave - 1, 0) : leave + WINDOW + 1].max())
-    assert (np.array(largest) > limit).mean() <= 0.001
