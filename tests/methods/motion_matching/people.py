@@ -6,7 +6,7 @@ from pathlib import Path
 from mocap.body.motion import Motion, resample
 from mocap.files.load_save import load
 
-HOMEWORK, WALKER, ALL = "homework", "CMU 16, walks", "CMU 16, all"
+HOMEWORK, WALKER = "homework", "CMU 16, walks"
 TRIALS = (*range(11, 35), 47, 58)  # the walks among subject 16's trials
 
 
@@ -17,6 +17,5 @@ def captured(data: Path, name: str) -> tuple[Motion, ...]:
     files = {
         HOMEWORK: sorted((data / "hw3").glob("*.AMC")),
         WALKER: [folder / f"16_{number:02}.amc" for number in TRIALS],
-        ALL: sorted(folder.glob("*.amc")),
     }
     return tuple(resample(load(file), 30) for file in files[name])

@@ -85,7 +85,7 @@ def walking(request):
 
 
 def test_boxes_hold_next_to_no_bad_target_among_fresh_ones_and_among_those_drawn_inside(walking):
-    """A box of no width holds none of the fresh targets and seems perfect: so draw inside each one, too."""
+    """As in [HG07, 4]. A box of no width holds none of the fresh targets: so draw inside each one, too."""
     for source, target, edge in walking.edges:
         boxes, share = bad_ones(source, target, edge, BAD * walking.good, seed=0)
         assert boxes <= 0.1 and share <= 0.01

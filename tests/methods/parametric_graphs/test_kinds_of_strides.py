@@ -1,52 +1,23 @@
-"""A graph of kinds from clips in one call, changes and turns on the spot among them."""
+"""A graph of kinds from clips in one call, and the changes between them."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from walking import generate_walk
 
-from mocap.body import arcs
-from mocap.body.motion import resample
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
 from mocap.methods.parametric_graphs.kinds_of_strides import (
     _pairs,
     build_kinds,
     changing_strides,
 )
-from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.strides import cut_strides
 from tests.methods.parametric_graphs.built import SMALL, clips, jogs, strides, walk_and_jog
-
-SPIN = ((0.1, 0.1), (0.15, 0.15), (0.2, 0.2), (0.3, 0.2))  # metres, m/s
-
-
-def spins():
-    """Turns on the spot: walks around circles of a few centimetres, to both sides."""
-    circles = [(r, v, side) for r, v in SPIN for side in (1, -1)]
-    ways = [(arcs((0, 0), 0, [(6 * np.pi * r, 6 * np.pi * side)]).points, v) for r, v, side in circles]
-    cut = cut_strides([resample(generate_walk(way, speed=speed), 30) for way, speed in ways])
-    return cut.take((np.abs(cut.values[:, 0]) >= np.radians(30)) & (cut.values[:, 1] <= 0.35))
 
 
 def test_walk_and_jog_of_the_bundled_clips_with_both_changes():
     graph = walk_and_jog().graph
     assert set(graph) == {"walk", "jog", "walk to jog", "jog to walk"} and graph.number_of_edges() == 6
     assert graph.has_edge("walk to jog", "jog") and not graph.has_edge("walk", "jog")
-
-
-def test_turns_on_the_spot_are_a_kind_where_clips_have_them():
-    spot = spins()
-    assert len(spot) > 20 and np.ptp(np.sign(spot.values[:, 0])) == 2
-    graph = build_kinds({"walk": clips(), "spot": spot}, sampling=SMALL)
-    character = ParametricController(graph, start="walk")
-    for _ in range(240):
-        last = character.step(3.0, 0.2, "spot")
-    assert character.chosen[-1].node == "spot"
-    before = last.root_position
-    for frame in range(120):
-        last = character.step(0.05 * frame, 0.2, "spot")
-    assert np.linalg.norm(last.root_position - before) < 1  # 4 s of walking would be 3 m
 
 
 def test_strides_may_be_given_and_a_threshold():

@@ -112,6 +112,7 @@ def test_feet_that_are_not_marked_are_marked():
     ("what", "sentence"),
     [
         (lambda c: cut_strides([]), "one clip or more, got none"),
+        (lambda c: cut_strides([sample("walk_curve_1"), c]), "resample"),
         (lambda c: cut_strides([c], feet="ll"), "'lrl', 'lr' or 'rl', got 'll'"),
         (lambda c: cut_strides([c], by="ear"), "by 'strikes' or by 'curves', got 'ear'"),
         (lambda c: cut_strides([c], margin=0.7), "above 0 and at most 0.5 of a stride, got 0.7"),
@@ -127,11 +128,6 @@ def test_feet_that_are_not_marked_are_marked():
 def test_what_makes_no_sense_is_refused(what, sentence):
     with pytest.raises(MocapError, match=sentence):
         what(clips()[1])
-
-
-def test_clips_of_two_rates_are_refused():
-    with pytest.raises(MocapError, match="resample"):
-        cut_strides([sample("walk_curve_1"), resample(sample("walk_curve_2"), 30)])
 
 
 def test_a_joint_turned_by_half_a_circle_keeps_its_sign_from_phase_to_phase():
