@@ -134,20 +134,22 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
     try:
         about = file.lstat()
         if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
-            wrong = f"{path}: is no plain file, or one of more than {LARGEST >> 20} MB."
-            return _Handed(path, [], None, wrong)
+            raise MocapError(f"is no plain file, or one of more than {LARGEST >> 20} MB.")
         text = file.read_bytes().decode("utf-8-sig", "replace")
         if sum(map(text.count, '[{"')) > MOST_PARTS:  # they would take a hundred times their place in memory
-            raise ValueError
+            raise MocapError("holds too much.")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of cells without ids, as some editors write them
             notebook = library().reads(text, as_version=4)
         cells = code_cells(notebook)
         if sum(len(cell.source) for cell in cells) > MOST_CODE:
-            return _Handed(path, [], None, f"{path}: holds more than {MOST_CODE >> 20} MB of code.")
+            raise MocapError(f"holds more than {MOST_CODE >> 20} MB of code.")
         return _Handed(path, cells, sheet_of(notebook, sheets), "")
+    except MocapError as error:
+        wrong = f"{path}: {error}"
     except Exception:  # nbformat raises errors of many kinds, and lets some things pass that are no notebooks
-        return _Handed(path, [], None, f"{path}: is not a notebook.")
+        wrong = f"{path}: is not a notebook."
+    return _Handed(path, [], None, wrong)
 
 
 def _marks(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:

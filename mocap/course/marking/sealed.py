@@ -84,18 +84,15 @@ class Sealed:
         self.control, theirs = socket.socketpair()
         self.control.settimeout(30)
         self.lines = self.control.makefile()
-        command = [sys.executable, "-m", "mocap.course.marking.keeper"]
-        place, given, nothing = self.folder, kept | FIXED, subprocess.DEVNULL
+        keeper, null = [sys.executable, "-m", "mocap.course.marking.keeper"], subprocess.DEVNULL
         with theirs:
             self.process = subprocess.Popen(
-                command,
-                0,
-                None,
-                theirs.fileno(),
-                nothing,
-                nothing,
-                cwd=place,
-                env=given,
+                keeper,
+                stdin=theirs.fileno(),
+                stdout=null,
+                stderr=null,
+                cwd=self.folder,
+                env=kept | FIXED,
                 start_new_session=True,
             )
         self.control.sendall(f"{json.dumps([WANTED, self.hidden])}\n".encode())
@@ -116,11 +113,7 @@ class Sealed:
         self._end()
         self.lines.close()
         self.control.close()
-        try:
-            self.process.wait(30)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+        self.process.wait()
 
     def _end(self) -> str:
         """Have all killed that the process started; return why it had been stopped before, if it had."""

@@ -70,7 +70,7 @@ class Student:
         place = self.shell.user_ns.get(name)
         function = getattr(place, "written", place)
         if function is getattr(place, "stand_in", None):  # the package's, in a place of `lab.mine`
-            function = _missing
+            function = lambda *_: ...  # noqa: E731
         before = copy.deepcopy(arguments)
         try:
             given = pack(function(*arguments))
@@ -82,10 +82,6 @@ class Student:
             if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True)
         ]
         return given, changed, "", ""
-
-
-def _missing(*_: object) -> Any:  # noqa: ANN401
-    return ...
 
 
 def _place(error: BaseException, function: Callable[..., Any]) -> str:

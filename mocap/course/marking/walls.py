@@ -120,10 +120,9 @@ def _furnish(home: Path, hidden: Iterable[str]) -> None:
     _call("mount", None, b"/", None, PRIVATE, None)
     for place in filter(os.path.isdir, hidden):
         _call("mount", b"tmpfs", os.fsencode(place), b"tmpfs", READ_ONLY | NO_RIGHTS, None)
-    for place in DEVICES:
-        _call("mount", os.fsencode(place), os.fsencode(place), None, BIND, None)
     _call("syscall", MOUNT_SETATTR, -100, b"/", 0x8000, struct.pack("QQQQ", 7, 0, 0, 0), 32)  # and all below
-    for place in DEVICES:
+    for place in DEVICES:  # all others lead nowhere
+        _call("mount", os.fsencode(place), os.fsencode(place), None, BIND, None)
         _call("syscall", MOUNT_SETATTR, -100, os.fsencode(place), 0, struct.pack("QQQQ", 0, 4, 0, 0), 32)
     size = f"size={FILES},nr_inodes={INODES},mode=700"
     _call("mount", b"tmpfs", os.fsencode(home), b"tmpfs", 0x6, size.encode())
