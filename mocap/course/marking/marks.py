@@ -29,7 +29,7 @@ from mocap.errors import MocapError
 
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
-LARGEST, MOST_PARTS, MOST_CODE = 100 << 20, 5_000_000, 1 << 20  # bytes, lists and texts, bytes of code
+LARGEST, MOST_PARTS, MOST_CODE = 100 << 20, 2_000_000, 1 << 20  # bytes, lists and texts, bytes of code
 LONGEST = 300  # characters of a cell
 FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
 MISSING = "its cell is missing."

@@ -38,12 +38,19 @@ def library(name, *arguments):
         raise OSError(name)
 
 
+def changed(file, work):
+    before = file.stat()
+    work()
+    assert (before.st_mode, before.st_mtime) != (file.stat().st_mode, file.stat().st_mtime)
+
+
 @pytest.fixture
 def place(tmp_path):
     for name in ("home", "hidden"):
         (tmp_path / name).mkdir()
     (tmp_path / "hidden" / "file").write_text("1")
     (tmp_path / "file").write_text("1")
+    (tmp_path / "alone").write_text("1")
     return tmp_path
 
 
@@ -53,6 +60,7 @@ def attempts(place):
     return {
         "read": (file.read_text, "landlock"),
         "read what is hidden": (hidden.read_text, "landlock namespaces"),
+        "read a hidden file": (lambda: 1 / len((place / "alone").read_text()), "landlock namespaces"),
         "list": (lambda: [*place.iterdir()], "landlock"),
         "write": (lambda: file.write_text("2"), "landlock namespaces"),
         "make": (lambda: (place / "new").write_text("2"), "landlock namespaces"),
@@ -73,6 +81,8 @@ def attempts(place):
             lambda: library("mount", b"tmpfs", b"/mnt", b"tmpfs", 0, None),
             "landlock filter namespaces",
         ),
+        "lock": (lambda: changed(file, lambda: file.chmod(0o600)), "filter namespaces"),
+        "age": (lambda: changed(file, lambda: os.utime(file, (1, 1))), "filter namespaces"),
         "read in memory": (lambda: os.memfd_create("a"), "filter"),
     }
 
@@ -92,9 +102,10 @@ def test_a_wall_forbids_what_it_says_and_no_more(wall, name, place, monkeypatch)
     with socket.create_server(("127.0.0.1", 0)) as server:
         monkeypatch.setattr(sys.modules[__name__], "PORT", server.getsockname()[1])
         work, forbidding = attempts(place)[name]
+        hidden = place / ("alone" if name == "read a hidden file" else "hidden")
         if (wall, name) in DEPENDS:
             pytest.skip(f"depends on {DEPENDS[wall, name]}")
-        assert succeeds([wall], place / "home", place / "hidden", work) == (wall not in forbidding.split())
+        assert succeeds([wall], place / "home", hidden, work) == (wall not in forbidding.split())
     if wall != "filter":
         assert (place / "hidden" / "file").read_text() == "1"
     for planted in Path("/dev/shm").glob(f"planted-{OURS}"):
