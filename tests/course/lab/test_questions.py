@@ -178,8 +178,8 @@ def test_what_is_not_there_is_said(call, said):
 
 def test_names_are_those_of_the_caller():
     space = {}
-    exec("from mocap.course import lab\ndied, exact = {185: 0.59}, {185: 0.55}\nimport numpy as np", space)
-    assert "59 % die; the matrix gives 55 %" in eval("lab.quiz('09-exact-or-sample')", space).text
+    exec("from mocap.course import lab\nimport numpy as np\ngap, rms = 0.42, np.array([2.0])", space)
+    assert "The walker jumps by 42 cm in one frame" in eval("lab.quiz('00-bug-hunt')", space).text
     assert eval("lab.bet('09-die-at-185')", space).text == "Share of the walks that die at 185: ______ %"
 
 
