@@ -105,11 +105,6 @@ def test_the_walk_may_turn_faster_where_it_turns_by_itself():
     assert line.moved.max() < 0.7 * round_line(asked, straight(), FPS, LIMIT).moved.max()
 
 
-def test_the_rate_of_frames_does_not_matter():
-    few, many = (round_line(corner(90), straight(fps=fps), fps, LIMIT) for fps in (30.0, 120.0))
-    assert few.moved.max() == pytest.approx(many.moved.max(), rel=0.15)
-
-
 @settings(max_examples=8)
 @given(planar, st.floats(30, 115))
 def test_it_goes_where_the_line_goes(place, degrees):

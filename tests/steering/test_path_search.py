@@ -70,18 +70,6 @@ def test_a_wider_beam_costs_more_and_follows_better_and_the_work_is_linear_in_th
     assert 3 < long / short < 5
 
 
-def test_it_tells_how_far_it_has_come():
-    seen = []
-
-    def progress(layers):
-        for layer in layers:
-            seen.append((layer, len(layers)))
-            yield layer
-
-    follow_path(GRAPH, GroundPath([[0, 0], [0, 6]]), settings=Settings(progress=progress, tries=1))
-    assert seen == [(layer, 41) for layer in range(41)]
-
-
 def test_a_search_is_driven_from_outside_a_round_at_a_time():
     """The rounds that it gives are its history, and the walk traced through them is the one that is found."""
     wishes, settings = Wishes(), Settings()
