@@ -1,15 +1,18 @@
 """One benchmark for all methods: each beside the best simple one, case by case.
 
-`python figures/benchmark.py` writes `BENCHMARK.md` beside this script; it takes some minutes. `tasks` says
-what a task is. With names of tasks, it prints only these. `--data` names folders of captured clips, by
-default those of fetched clips and `MOCAP_REAL_DATA`. `--write FOLDER` writes what each case gives to
-TASK/CASE/NAME.bvh or .csv; `--enter FOLDER` scores TASK/CASE.bvh or .csv beside the methods.
+`python figures/benchmark.py` writes `BENCHMARK.md` beside this script; `tasks` says what a task is. With
+names of tasks, it writes only their sections anew. It takes some four minutes of CPU with the bundled clips,
+fifteen with all. `--data` names folders of captured clips, by default those of fetched clips and
+`MOCAP_REAL_DATA`.
+`--write FOLDER` writes what each case gives to TASK/CASE/NAME.bvh or .csv; `--enter FOLDER` scores
+TASK/CASE.bvh or .csv beside the methods.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import re
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -112,32 +115,43 @@ def write(folder: Path, case: Case) -> None:
             np.savetxt(own / f"{name}.csv", np.atleast_2d(given), fmt="%.9g", delimiter=",")
 
 
-def tables(task: ModuleType, rows: Sequence[Row]) -> tuple[list[str], list[str]]:
-    """Write a table of all collections, and a line for each method that loses to a baseline in one."""
+def table(task: ModuleType, rows: Sequence[Row]) -> list[str]:
+    """Write a table of all collections; where the best baseline wins, that is in bold."""
     names = [f"{name} {'↓' if less else '↑'}" for name, less in task.MEASURES.items()]
-    lines, lost = [f"| | | {' | '.join(names)} |", "|---" * (2 + len(names)) + "|"], []
+    lines = [f"| | | {' | '.join(names)} |", "|---" * (2 + len(names)) + "|"]
     for collection in dict.fromkeys(row.collection for row in rows):
         found: dict[tuple[str, str], list[float]] = {}
         for row in (row for row in rows if row.collection == collection):
             found.setdefault((row.method, row.measure), []).append(row.value)
         best = {name: _best(found, task.BASELINES, name, less) for name, less in task.MEASURES.items()}
         for number, method in enumerate(dict.fromkeys(method for method, _ in found)):
-            cells, worse = [], []
+            cells = []
             for measure, less in task.MEASURES.items():
                 values, base = (np.array(found[one, measure]) for one in (method, best[measure]))
                 wins, losses = _pairs(values, base, less)
-                cells.append(_cell(values) + ("" if method in task.BASELINES else f"; {wins} : {losses}"))
-                worse += [f"{measure} ({best[measure]} {losses} : {wins})"] if losses > wins else []
-            refused = int(
-                np.all([np.isnan(found[method, measure]) for measure in task.MEASURES], axis=0).sum()
-            )
+                pairs = f"**{wins} : {losses}**" if losses > wins else f"{wins} : {losses}"
+                cells.append(_cell(values) + ("" if method in task.BASELINES else f"; {pairs}"))
+            none = np.all([np.isnan(found[method, measure]) for measure in task.MEASURES], axis=0)
             name = f"*{method}*" if method in task.BASELINES else method
-            name += f", refuses {refused}" if refused else ""
+            name += f", refuses {none.sum()}" if none.any() else ""
             whose = "" if number else f"{collection} ({len(values)})"
             lines.append(f"| {whose} | {name} | {' | '.join(cells)} |")
-            if worse and method not in task.BASELINES:
-                lost.append(f"{collection}: {method} by {', '.join(worse)}")
-    return [*lines, ""], lost
+    return lines
+
+
+def summary(sections: Mapping[str, str]) -> list[str]:
+    """Count in how many cells of its section each method wins and loses."""
+    lines = ["| | | wins | as good | the baseline wins |", "|---|---|---|---|---|"]
+    for title, text in sections.items():
+        counts: dict[str, list[int]] = {}
+        for _, method, *cells in (
+            re.split(r" \| ", line.strip("| ")) for line in text.splitlines() if "; " in line
+        ):
+            for wins, losses in re.findall(r"; \**(\d+) : (\d+)", " ".join(cells)):
+                tally = counts.setdefault(method.partition(", refuses")[0], [0, 0, 0])
+                tally[1 + (int(losses) > int(wins)) - (int(wins) > int(losses))] += 1
+        lines += [f"| {title} | {name} | {' | '.join(map(str, tally))} |" for name, tally in counts.items()]
+    return lines
 
 
 def _best(found: Mapping[tuple[str, str], Array], baselines: Sequence[str], measure: str, less: bool) -> str:
@@ -174,11 +188,39 @@ HEAD = """# Every method beside the best simple one
 Written by `python figures/benchmark.py`, which needs no other clips than the bundled ones; sets that are not
 at hand are left out. Each cell has the median and [quartiles] over the cases, whose number is in brackets;
 then, as in 9 : 3, how many cases the method wins and loses against the best baseline (in *italics*) by that
-measure, case by case. Who refuses a case loses it. ↓ less is better, ↑ more is better."""
+measure, case by case; in **bold** where the baseline wins more. Who refuses a case loses it. ↓ less is
+better, ↑ more is better. Where a baseline is the best by one measure, another may be the best by the next."""
+
+
+def section(name: str, folders: tuple[Path, ...], entered: Path | None) -> str:
+    """Run a task, and write its section without the title."""
+    task = import_module(f"tasks.{name}")
+    lines = table(task, list(run(task, cases(task, folders), entered and entered / name)))
+    missing = [some for some, names in task.CLIPS.items() if clips(names, folders) is None]
+    note = ["", f"Not at hand: {', '.join(missing)}."] if missing else []
+    return "\n".join([(task.__doc__ or "").strip(), "", *lines, *note])
+
+
+def sections_of(text: str) -> dict[str, str]:
+    """Take the sections of a page by their titles."""
+    _, *parts = re.split(r"^## ", text, flags=re.MULTILINE)
+    return {title: rest.strip() for title, _, rest in (part.partition("\n") for part in parts)}
+
+
+def page(sections: Mapping[str, str]) -> str:
+    """Write the page: a summary, and the sections in the order of the tasks."""
+    known = {title_of(name): sections[title_of(name)] for name in TASKS if title_of(name) in sections}
+    text = [f"## {title}\n\n{text}" for title, text in known.items()]
+    return "\n\n".join([HEAD, "\n".join(summary(known)), *text]) + "\n"
+
+
+def title_of(name: str) -> str:
+    """Write a task's name as a title."""
+    return name.replace("_", " ").capitalize()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the tasks, print their tables, and write the page when all of them were run."""
+    """Run tasks, print their sections, and put them into the page, unless another program's answers enter."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -189,22 +231,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--write", type=Path, help="write what the cases give, and stop")
     asked = parser.parse_args(arguments)
     warnings.simplefilter("ignore", MocapWarning)
-    page, all_lost = [], []
     for name in asked.tasks or TASKS:
-        task, folders = import_module(f"tasks.{name}"), tuple(asked.data)
         if asked.write:
-            for case in cases(task, folders):
+            for case in cases(import_module(f"tasks.{name}"), tuple(asked.data)):
                 write(asked.write / name, case)
             continue
-        lines, lost = tables(task, list(run(task, cases(task, folders), asked.enter and asked.enter / name)))
-        missing = [some for some, names in task.CLIPS.items() if clips(names, folders) is None]
-        page += [f"## {name.replace('_', ' ').capitalize()}", "", task.__doc__.strip(), "", *lines]
-        page += [f"Not at hand: {', '.join(missing)}.", ""] if missing else []
-        all_lost += [f"- {name.replace('_', ' ')}: {one}" for one in lost]
-        print("\n".join(page[-len(lines) - 4 :]), flush=True)
-    text = "\n".join([HEAD, "", "## Where a baseline wins", "", *all_lost, "", *page])
-    if not (asked.tasks or asked.enter or asked.write):
-        write_text(PAGE, text)
+        text = section(name, tuple(asked.data), asked.enter)
+        print(f"## {title_of(name)}\n\n{text}\n", flush=True)
+        if not asked.enter:
+            before = sections_of(PAGE.read_text("utf-8")) if PAGE.exists() else {}
+            write_text(PAGE, page({**before, title_of(name): text}))
 
 
 if __name__ == "__main__":

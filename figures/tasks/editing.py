@@ -25,16 +25,16 @@ from mocap.editing import (
     plant_pins,
     solve,
 )
-from tasks import HOMEWORK, WALKS, Case
+from tasks import Case
 
 CLIPS = {
-    "bundled clips": WALKS,
-    "homework's clips": HOMEWORK,
-    "CMU": ("16/16_15", "16/16_31", "16/16_47", "16/16_58", "02/02_01", "49/49_01"),
+    "bundled clips": ("walk_curve_1", "walk_straight"),
+    "homework's clips": ("hw3/walk_fwd_curve1",),
+    "CMU": ("16/16_15", "16/16_58", "49/49_01"),
 }
 MEASURES = {"misses (mm)": True, "shakes (×)": True, "tips (°)": True}
 BASELINES = ("each frame by itself", "linear in-betweening")
-STONES, BARS = (0.1, 0.2, 0.3, 0.4, 0.5), (0.9, 0.82, 0.75)  # metres; shares of the height of the head's top
+STONES, BARS = (0.1, 0.3, 0.5), (0.9, 0.75)  # metres; shares of the height of the head's top
 HEAD, FEET = ("head_end", "head", "upperneck", "lowerneck"), ("lfoot", "ltoes")
 SECONDS, AROUND, HELD = 5.0, 0.5, 0.4
 AHEAD = (-0.15, 0.3, 0.15)  # metres, to the body's left, up and ahead: where the hand shall be

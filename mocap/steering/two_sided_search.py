@@ -168,12 +168,12 @@ class _Front(LayeredSearch):
         super().__init__(start_states(nodes, seeds.turn, seeds.move), WIDTH, every=True)
         self.of, (self.goal, self.most) = of, to
         self.steps = steps.take(np.argsort(steps.trail, kind="stable"))
-        self.first = np.searchsorted(self.steps.trail, np.arange(len(of.at) + 1))
+        self.offsets = np.searchsorted(self.steps.trail, np.arange(len(of.at) + 1))
 
     def expand(self, states: States) -> States:
         """Lengthen every walk by every step that leaves its point."""
-        count = np.diff(self.first)[states.node]
-        of, step = np.repeat(np.arange(len(count)), count), ranges(self.first[states.node], count)
+        count = np.diff(self.offsets)[states.node]
+        of, step = np.repeat(np.arange(len(count)), count), ranges(self.offsets[states.node], count)
         return states.then(of, self.steps.take(step))
 
     def score(self, states: States) -> Array:

@@ -34,18 +34,37 @@ TOY = SimpleNamespace(
 
 
 def test_methods_are_compared_with_the_best_baseline_case_by_case():
-    lines, lost = benchmark.tables(TOY, list(benchmark.run(TOY, CASES)))
+    worse = SimpleNamespace(
+        **{**vars(TOY), "METHODS": {**TOY.METHODS, "worse": lambda case: np.full((1, 1), 99)}}
+    )
+    lines = benchmark.table(worse, list(benchmark.run(worse, CASES)))
     assert lines[0] == "| | | off ↓ | guessed ↑ |"
     assert lines[2] == "| toys (5) | *start* | 3.00 [2.00, 4.00] | 3.00 [2.00, 4.00] |"
-    assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 4 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
-    assert not lost
-    TOY.METHODS["worse"] = lambda case: np.array([[case.truth + 9.0]])
-    try:
-        assert benchmark.tables(TOY, list(benchmark.run(TOY, CASES)))[1] == [
-            "toys: worse by off (start 5 : 0)"
-        ]
-    finally:
-        del TOY.METHODS["worse"]
+    assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 3 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
+    assert lines[5] == "|  | worse | 93 [91, 95]; **0 : 5** | 99 [99, 99]; 5 : 0 |"
+    assert benchmark.summary({"Toys": "\n".join(lines)})[2:] == [
+        "| Toys | guess | 2 | 0 | 0 |",
+        "| Toys | worse | 1 | 0 | 1 |",
+    ]
+
+
+def test_a_task_that_is_run_again_takes_the_place_of_its_section():
+    text = benchmark.page({"Webs": "old\n\n| a |", "Control": "kept", "Other": "no task"})
+    found = benchmark.sections_of(text)
+    assert list(found) == ["Control", "Webs"] and found["Control"] == "kept"
+    assert benchmark.sections_of(benchmark.page({**found, "Webs": "new"})) == {
+        "Control": "kept",
+        "Webs": "new",
+    }
+
+
+def test_the_page_has_a_section_for_every_task():
+    found = benchmark.sections_of(benchmark.PAGE.read_text("utf-8"))
+    assert list(found) == [benchmark.title_of(name) for name in tasks.TASKS]
+    for name in tasks.TASKS:
+        task = import_module(f"tasks.{name}")
+        text = found[benchmark.title_of(name)]
+        assert text.startswith(task.__doc__.strip()) and all(f"| *{one}*" in text for one in task.BASELINES)
 
 
 def test_an_answer_of_another_program_is_scored_as_those_of_methods(tmp_path):
