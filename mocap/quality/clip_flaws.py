@@ -154,21 +154,15 @@ def inspect(motion: Motion, angles: Mapping[str, Array] | None = None) -> Report
     turns = rotations.angle_between(motion.rotations[1:], motion.rotations[:-1])  # (F - 1, J)
     most, lowest = turns.max(axis=0, initial=0), positions[..., 1].min(axis=0)
     unturned = np.abs(np.abs(motion.rotations) - rotations.IDENTITY).max(axis=(1, 2)) < STILL
+    snapped = f"'{names[most.argmax()]}' by {np.degrees(most.max()):.0f}° at most"
+    sunk = f"'{names[lowest.argmin()]}' by {-100 * lowest.min():.0f} cm at most"
     found = [
         ("frozen", _frozen(motion), ""),
         ("nothing but zeros", unturned & (np.abs(motion.root_positions).max(axis=1) < STILL), ""),
         ("teleport", *_teleports(motion)),
-        (
-            "snap",
-            np.append(False, _too_fast(motion, turns).any(axis=1)),
-            f"'{names[most.argmax()]}' by {np.degrees(most.max()):.0f}° at most",
-        ),
+        ("snap", np.append(False, _too_fast(motion, turns).any(axis=1)), snapped),
         ("Euler flip", *_flips(motion, turns, angles or {})),
-        (
-            "under the floor",
-            positions[..., 1].min(axis=1) < -UNDER,
-            f"'{names[lowest.argmin()]}' by {-100 * lowest.min():.0f} cm at most",
-        ),
+        ("under the floor", positions[..., 1].min(axis=1) < -UNDER, sunk),
     ]
     flaws = [Flaw(kind, np.flatnonzero(marks).tolist(), said) for kind, marks, said in found if marks.any()]
     turn, path = float(headings[-1] - headings[0]), float(np.hypot(*steps.T).sum())

@@ -5,7 +5,6 @@ A clip whose height was changed, but not its time, falls with another g, and loo
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -14,29 +13,17 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.errors import MocapError
 
-
-class Segment(NamedTuple):
-    """A part of the body: its share `mass` of the whole sits at the share `at` of the way down from `above`.
-
-    Examples
-    --------
-    >>> Segment("lfemur", "ltibia", 0.1, 0.433).mass
-    0.1
-    """
-
-    above: str
-    below: str
-    mass: float
-    at: float
+Part = tuple[str, str, float, float]
+"""Two joints, one above the other, a share of the body's mass, and at which share of the way down it sits."""
 
 
-def _both(above: str, below: str, mass: float, at: float) -> list[Segment]:
-    return [Segment(side + above, side + below, mass, at) for side in "lr"]
+def _both(above: str, below: str, mass: float, at: float) -> list[Part]:
+    return [(side + above, side + below, mass, at) for side in "lr"]
 
 
-SEGMENTS: tuple[Segment, ...] = (
+SEGMENTS: tuple[Part, ...] = (
     *_both("femur", "humerus", 0.497 / 2, 0.5),  # the trunk, from the hips to the shoulders
-    Segment("head", "head_end", 0.081, 0.5),  # with the neck
+    ("head", "head_end", 0.081, 0.5),  # with the neck
     *_both("femur", "tibia", 0.100, 0.433),
     *_both("tibia", "foot", 0.0465, 0.433),
     *_both("foot", "toes", 0.0145, 0.5),
@@ -47,7 +34,7 @@ SEGMENTS: tuple[Segment, ...] = (
 """The body's masses by [Winter09], Table 4.1, after Dempster; the joints are those of CMU's skeletons."""
 
 
-def centre_of_mass(motion: Motion, segments: Sequence[Segment] = SEGMENTS) -> Array:
+def centre_of_mass(motion: Motion, segments: Sequence[Part] = SEGMENTS) -> Array:
     """Weigh the body's parts: where its centre of mass is, Σ m p / Σ m.
 
     Parameters
@@ -78,7 +65,7 @@ def centre_of_mass(motion: Motion, segments: Sequence[Segment] = SEGMENTS) -> Ar
     return np.asarray(np.einsum("j,fjk->fk", weights / weights.sum(), joint_positions(motion)))
 
 
-def gravity(motion: Motion, first: int, last: int, segments: Sequence[Segment] = SEGMENTS) -> float:
+def gravity(motion: Motion, first: int, last: int, segments: Sequence[Part] = SEGMENTS) -> float:
     """Fit a parabola to the height of the centre of mass in the air: how fast it falls.
 
     Parameters
@@ -106,10 +93,8 @@ def gravity(motion: Motion, first: int, last: int, segments: Sequence[Segment] =
     Notebook: 11-warping
     """
     if not 0 <= first <= last < len(motion) or last - first < 3:
-        raise MocapError(
-            f"A fall is fitted to four frames or more of '{motion.name}', which has {len(motion)}; "
-            f"got {first} to {last}."
-        )
+        got = f"'{motion.name}', which has {len(motion)}; got {first} to {last}"
+        raise MocapError(f"A fall is fitted to four frames or more of {got}.")
     heights = centre_of_mass(motion[first : last + 1], segments)[:, 1]
     seconds = np.arange(len(heights)) / motion.fps
     return float(-2 * np.polyfit(seconds, heights, 2)[0])

@@ -142,9 +142,8 @@ def judge(
     Notebook: 10-real-data
     """
     if len(motion) < 12:
-        raise MocapError(
-            f"To judge '{shortened(motion.name)}' takes 12 frames or more, it has {len(motion)}."
-        )
+        name = shortened(motion.name)
+        raise MocapError(f"To judge '{name}' takes 12 frames or more, it has {len(motion)}.")
     left_out: tuple[str, ...] = ()
     try:
         legs = legs_of(motion.skeleton, legs)
@@ -157,9 +156,8 @@ def judge(
         for name, measure, unit, limit in MEASURES
         if (found := measure(body))
     ]
-    lengths = np.linalg.norm(motion.skeleton.offsets, axis=-1)
-    bones = dict(zip(motion.skeleton.names[1:], lengths[1:].tolist(), strict=True))
-    height = height_of(body.places)
+    lengths = np.linalg.norm(motion.skeleton.offsets[1:], axis=-1).tolist()
+    bones, height = dict(zip(motion.skeleton.names[1:], lengths, strict=True)), height_of(body.places)
     return Judgement(motion.name, len(motion), motion.fps, tuple(measures), left_out, height, bones)
 
 
@@ -181,8 +179,7 @@ def judgement_table(judgements: Sequence[Judgement]) -> str:
     heads = " ".join(f"{name:>7}" for name in ["height", *names])
     rows = [f"{'name':<{width}} {'score':>5} {heads}  worst"]
     for judged in sorted(judgements, key=lambda judged: (judged.score, judged.worst.ratio)):
-        ratios = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}
-        worst = judged.worst
+        ratios, worst = {measure.name: f"{measure.ratio:.2f}" for measure in judged.measures}, judged.worst
         cells = [f"{ratios.get(name, '-'):>{max(7, len(name))}}" for name in names]
         numbers = " ".join([f"{f'{judged.height:.3g} m':>7}", *cells])
         said = f"{worst.name} {worst.value:.3g} {worst.unit} {worst.where and f'({worst.where})'}".rstrip()

@@ -120,16 +120,13 @@ def _bent(body: Judged) -> Found:
         return None
     worst = max(bends, key=lambda bend: float(bend.share.max()))
     frame = int(worst.share.argmax())
-    return float(
-        worst.share[frame]
-    ), f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+    how = f"'{worst.joint}' {worst.way} by {worst.angles[frame]:.0f}°, frame {frame}"
+    return float(worst.share[frame]), how
 
 
 def _bones(body: Judged) -> Found:
-    if not body.stretch:
-        return None if body.stretch is None else (0.0, "")
-    worst = max(body.stretch, key=body.stretch.__getitem__)
-    return 1000 * body.stretch[worst], f"'{worst}'"
+    stretched = sorted((far, f"'{joint}'") for joint, far in (body.stretch or {"": 0.0}).items())
+    return None if body.stretch is None else (1000 * stretched[-1][0], stretched[-1][1])
 
 
 def _path(body: Judged) -> Found:

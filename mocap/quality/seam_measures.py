@@ -162,9 +162,8 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     Notebook: 04-blending
     """
     if not 0 <= seam[0] < seam[1] <= len(motion):
-        raise MocapError(
-            f"'{motion.name}' has {len(motion)} frames, and no seam from {seam[0]} to {seam[1]}."
-        )
+        none = f"no seam from {seam[0]} to {seam[1]}"
+        raise MocapError(f"'{motion.name}' has {len(motion)} frames, and {none}.")
     found = jumps(motion)[0][max(seam[0] - 1, 0) : seam[1] + 1]
     largest = usual.within(len(found))
     if len(largest) == 0 or not largest[-1] > 0:
@@ -243,9 +242,8 @@ def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weigh
         lengths = f"{len(first)}, {len(second)} and {len(result)}"
         raise MocapError(f"Two clips and their blend must have as many frames; these have {lengths}.")
     if len(result) < 3 or len(inside) < 1 or start < 0 or start + len(inside) > len(result):
-        raise MocapError(
-            f"'{result.name}' has {len(result)} frames, and no window of {len(inside)} from frame {start}."
-        )
+        none = f"no window of {len(inside)} from frame {start}"
+        raise MocapError(f"'{result.name}' has {len(result)} frames, and {none}.")
     alpha = np.concatenate([np.ones(start), inside, np.zeros(len(result) - start - len(inside))])
     frames = slice(max(start - 2, 0), start + len(inside) + 2)
     changes = [np.diff(point_cloud(motion[frames]), 2, axis=0) for motion in (result, first, second)]
