@@ -26,7 +26,7 @@ def bending_bands(weight: Array, near: float) -> Array:
     """
     inner = np.concatenate([[0.0], weight[1:-1], [0.0]])[: len(weight)]
     before, after = np.roll(inner, 1), np.roll(inner, -1)
-    return np.array([near + before + 4 * inner + after, -2 * (inner + after), after])
+    return np.array([near + before + 4 * inner + after, 0 - 2 * (inner + after), after])
 
 
 def band_product(bands: Array, curves: Array) -> Array:
