@@ -59,16 +59,6 @@ def test_a_join_is_the_blend_of_the_two_windows_and_any_weights_may_be_given():
         assert np.array_equal(joined.rotations[LEAVE : LEAVE + 8], mixed.rotations)
 
 
-def test_marks_are_carried_through_by_the_larger_weight():
-    a = replace(A, labels={"walk": True}, contacts={"hand": True})
-    b = replace(B, labels={"run": True}, contacts={"hand": False, "elbow": True})
-    joined = join(a, 30, b, 10, 8)
-    assert joined.labels["walk"].tolist() == [True] * 34 + [False] * 76
-    assert joined.labels["run"].tolist() == [False] * 34 + [True] * 76
-    assert joined.contacts["hand"].tolist() == [True] * 34 + [False] * 76
-    assert inertialize(a, 30, b, 10, 8).contacts["elbow"].tolist() == [False] * 30 + [True] * 80
-
-
 def roughness(motion):
     """Return the largest jump of any joint's velocity around the seam, m/s."""
     points = joint_positions(motion)[LEAVE - 3 : LEAVE + 16]

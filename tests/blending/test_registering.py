@@ -125,12 +125,6 @@ def test_clips_of_any_rate_are_compared_at_about_30_hz(fps):
     assert np.abs(ours.times[1](u) - base.times[1](u)).max() <= 0.06
 
 
-def test_the_parts_are_what_the_span_covers():
-    registration = register([walks()[0.8, 0], walks()[1.4, 0]])
-    for part, seconds in zip(registration.parts, registration.durations, strict=True):
-        assert part.duration == pytest.approx(seconds, abs=1 / 120)
-
-
 def test_angles_run_on_over_whole_turns():
     """A walk of one and a half circles each way: the angle between them goes through three whole turns."""
     clip = sample("walk_circle")
@@ -190,13 +184,6 @@ def test_the_mean_distance_says_what_may_be_blended():
     assert costs[1] > 0.12
 
 
-def test_what_captured_motions_may_be_blended(real_data):
-    load = lambda name: captured(real_data, name)  # noqa: E731
-    cost = lambda a, b: 100 * quietly(load(a), load(b), slack=0.8).costs[1]  # noqa: E731
-    assert cost("16_15", "16_31") <= 5 and cost("16_15", "16_21") <= 7 and cost("16_17", "16_19") <= 7
-    assert cost("16_15", "16_35") >= 18 and cost("16_15", "16_01") >= 12
-
-
 def test_clips_with_little_in_common_are_laid_on_like_steps():
     """Three stretches of one walk, each of which starts nearly half its length after the one before."""
     clip = sample("walk_circle")
@@ -227,7 +214,7 @@ def dot(frames, fps=30.0, name="dot"):
             MocapError,
             "'dot', at 30 Hz, has 60 frames, too few",
         ),
-        ([dot(60), dot(60)], {"warp": Warp(slope=0)}, MocapError, "from 1 to 63, got 0"),
+        ([dot(60), dot(60)], {"warp": Warp(slope=0)}, MocapError, "slope from 1 to 63"),
         ([dot(60), dot(60)], {"warp": Warp(spacing=0)}, MocapError, "spacing above 0 s, got 0"),
         ([dot(475), dot(94)], {"slack": 0}, MocapError, "471 frames cannot be laid on 90 with slope 2"),
     ],

@@ -9,18 +9,14 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.editing.bodies import (
-    Body,
     body_of,
     hinge_of,
     require_reachable,
 )
-from mocap.editing.displacements import difference
 from mocap.editing.pins import join_pins, pin, plant_pins
-from mocap.editing.solver import solve
-from mocap.editing.steps import Basis
 from mocap.errors import MocapError
 from mocap.files.load_save import load
-from tests.editing.wishes import captured, stone, walk
+from tests.editing.wishes import captured, walk
 
 LEGS = find_legs(walk().skeleton)
 
@@ -65,22 +61,6 @@ def test_captured_knees_are_hinges(real_data):
         for leg in find_legs(clip.skeleton):
             assert (hinge_of(clip, leg.knee) is not None) == hinges, name
     assert hinge_of(captured(real_data), LEGS[0].knee) is not None
-
-
-def test_a_knee_that_may_turn_about_three_axes_meets_the_stone_and_twists():
-    clip, twists = walk(), {}
-    pins = stone(clip, 0.2)
-    hinged = body_of(clip, pins.joints)
-    joints, first = np.unique(hinged.joints, return_index=True)
-    price = np.append(hinged.price[:3], np.repeat(hinged.price[3:][first], 3))
-    balls = Body(np.repeat(joints, 3), np.tile(np.eye(3), (len(joints), 1)), price)
-    for kind, body in (("hinges", hinged), ("balls", balls)):
-        solved = solve(clip, pins, [Basis(knots=0.125)], body)
-        assert solved.worst[-1] < 0.005
-        turns = [difference(solved.motion, clip).turns[:, leg.knee] for leg in LEGS]
-        twists[kind] = np.degrees(np.linalg.norm(np.array(turns)[..., 1:], axis=-1).max())
-    assert twists["hinges"] < 0.1
-    assert twists["balls"] > 10
 
 
 def test_pins_farther_apart_than_the_bones_between_are_refused():

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import concatenate, resample
 from mocap.body.planar import heading, lay_on
@@ -102,13 +101,6 @@ def test_the_path_is_kept_where_it_is_not_made_straight():
     assert len(cycle) == found.last - found.first + 1
 
 
-def test_a_cycle_can_be_found_where_it_is_put():
-    swing = wave(400, period=37)
-    found = find_loop(swing, seconds=(0.5, 2.0))
-    assert found.last - found.first == 37
-    assert found.seam < 0.01
-
-
 def test_real_walks_and_runs(real_data):
     for name, least, most in (("02/02_01", 0.9, 1.4), ("16/16_35", 0.5, 1.0), ("16/16_15", 0.9, 2.6)):
         clip = load_save.load(real_data / f"cmu/{name}.amc")
@@ -132,10 +124,6 @@ def test_what_cannot_be_looped_is_refused():
             loop(wave(200), Loop(first, last, 0, 0))
 
 
-def test_the_shortest_cycle_that_may_be_asked_for_can_be_closed():
-    assert loop(WALK, find_loop(WALK, seconds=(0.2, 0.2)), way="inertialize").duration == pytest.approx(0.2)
-
-
 def test_plants_that_are_let_go_are_told_as_a_share_of_the_cycle():
     """The rounds around it are cleaned up as well, but their frames are nobody's."""
     sway = np.outer(0.05 * np.sin(0.9 * np.arange(len(WALK))), [0, 0, 1])
@@ -151,12 +139,3 @@ def test_a_clip_far_from_the_origin_has_the_same_cycle():
     far = replace(WALK, root_positions=WALK.root_positions + np.array([5e5, 0, 9e5]))
     assert find_loop(far)[:2] == find_loop(WALK)[:2]
     assert find_loop(far)[2:] == pytest.approx(find_loop(WALK)[2:], rel=1e-4)
-
-
-def test_a_clip_without_any_motion_has_a_cycle():
-    still = replace(
-        wave(100), root_positions=np.ones((100, 3)), rotations=np.tile(rotations.IDENTITY, (100, 4, 1))
-    )
-    found = find_loop(still)
-    assert found.seam < 1e-6
-    assert found.last - found.first == 12

@@ -98,14 +98,6 @@ def test_a_few_frames_are_enough(frames):
     assert pin_errors(edit(clip, pins), pins).max() < 1e-4  # no frame shows the elbow's hinge
 
 
-def test_a_body_without_legs_needs_none():
-    clip = walk()
-    wrist = joint_positions(clip)[240, clip.skeleton.index("lwrist")]
-    pins = pin(clip, "lwrist", [240], wrist + np.array([0, 0.1, 0]))
-    edited = edit(clip, pins, legs=())
-    assert pin_errors(edited, pins).max() < 1e-9
-
-
 def test_what_cannot_be_is_said():
     clip = walk()
     wrist, elbow = (clip.skeleton.index(name) for name in ("rwrist", "rradius"))

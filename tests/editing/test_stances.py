@@ -9,12 +9,10 @@ from hypothesis import strategies as st
 
 from mocap import load
 from mocap.body import rotations
-from mocap.body.kinematics import joint_positions
 from mocap.body.planar import PlanarTransform
 from mocap.editing.body_roles import FEET, roles
 from mocap.editing.stances import (
     Stance,
-    heading_by_hips,
     proportioned,
     stance_of,
     stance_of_zero,
@@ -52,14 +50,6 @@ def test_feet_that_hang_at_rest_are_laid_flat():
     down = stance_of_zero(rested(walk(), straight_down).skeleton, standing_heights(walk(), adult().roles))
     foot = down.points[down.roles["left ball"]] - down.points[down.roles["left ankle"]]
     assert foot[2] > 0.9 * np.linalg.norm(bone)  # a foot that points nowhere is laid ahead
-
-
-def test_a_number_stands_for_both_balls():
-    stance = stance_of_zero(walk().skeleton, 0.03)
-    rest = walk().skeleton.offsets[stance.roles["left ball"]]
-    assert stance.heights["right ball"] == pytest.approx(0.03)
-    assert stance.heights["left ankle"] == pytest.approx(0.03 - rest[1])
-    assert np.allclose(stance.turns, [1, 0, 0, 0])
 
 
 def test_a_walk_gives_the_stance_that_the_rest_pose_gives():
@@ -117,13 +107,6 @@ def test_feet_that_never_stand_flat_and_feet_that_never_stand():
     assert np.isfinite(stance_of(loose, mean=True).turns).all()
 
 
-def test_the_hips_say_where_the_body_heads():
-    positions = joint_positions(walk())
-    facing = heading_by_hips(positions, adult().roles)
-    turned = PlanarTransform(0.5, 0.0, 0.0).apply_motion(walk())
-    assert np.allclose(heading_by_hips(joint_positions(turned), adult().roles), facing + 0.5)
-
-
 @pytest.mark.parametrize(
     ("name", "stands"),
     [
@@ -161,13 +144,6 @@ def test_each_part_has_its_share():
         assert lengths(new, *parts) == pytest.approx(share * np.array(lengths(adult(), *parts)))
     assert new.heights == pytest.approx({role: 0.5 * height for role, height in adult().heights.items()})
     assert new.leg == pytest.approx(0.5 * adult().leg)
-
-
-def test_whole_numbers_are_numbers():
-    assert np.allclose(
-        proportioned(adult(), trunk=1, legs=0.5).skeleton.offsets[2:4],
-        adult().skeleton.offsets[2:4] * [[1], [0.5]],
-    )
 
 
 def test_a_body_without_a_neck_has_its_head_on_the_trunk():
