@@ -12,8 +12,9 @@ Reading order (notebooks 16)
 2. `grid_pieces`: the same in a grid that is too large to hold
 3. `webs`: `MatchWeb`, all paths of a set of clips, found, saved and loaded
 4. `match_search`: what is like the query, and what is like that
-5. `motion_spaces`: blends of examples, drawn at random and measured
-6. `wishes`: from a wish back to weights
+5. `measures`: what a motion does, in a number or a few
+6. `motion_spaces`: blends of examples, drawn at random and measured
+7. `wishes`: from a wish back to weights
 
 References
 ----------
@@ -36,15 +37,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "local_alignment": ["apart", "local_paths", "minima_1d"],
         "webs": ["build_web", "load_web", "save_web"],
         "match_search": ["Match", "cut_out", "search"],
-        "motion_spaces": [
-            "MotionSpace",
-            "blend_of",
-            "hand_target",
-            "mean_speed",
-            "random_weights",
-            "sample_space",
-            "turn",
-        ],
+        "measures": ["hand_target", "mean_speed", "turn"],
+        "motion_spaces": ["MotionSpace", "blend_of", "random_weights", "sample_space"],
         "wishes": ["neighbour_weights", "weights_for"],
     },
 )
