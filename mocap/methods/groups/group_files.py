@@ -51,8 +51,8 @@ def load_group(path: str | Path) -> GroupGraph:
         for name, (_, shape) in CLIP.items()
     ]
     clips = tuple(
-        GroupClip(int(start), int(end), *motion, order, complex(turn), complex(move))
-        for start, end, *motion, order, turn, move in zip(*parts, strict=True)
+        GroupClip(int(start), int(end), places, velocities, order, complex(turn), complex(move))
+        for start, end, places, velocities, order, turn, move in zip(*parts, strict=True)
     )
     nodes = map(Configuration, arrays["node_places"], arrays["node_velocities"])
     return GroupGraph(tuple(nodes), clips, len(clips))
