@@ -159,34 +159,36 @@ def changing_strides(first: Examples, second: Examples, *, stands: str = "") -> 
     first, second = first.take(one), second.take(other)
     first = _held(first, -1, FROM) if stands == "first" else first
     second = _held(second, TO, 2) if stands == "second" else second
-    grid, share = first.grid, quintic_step((first.grid - FROM) / (TO - FROM))
+    made = _faded(first, second, quintic_step((first.grid - FROM) / (TO - FROM)), bool(stands))
+    return replace(made, values=measure_mixes(made, np.eye(len(made))))
+
+
+def _faded(first: Examples, second: Examples, share: Array, stands: bool) -> Examples:
+    """Fade all rates and poses by a share (G,); marks change when half is faded, or come from both sides."""
+    grid = first.grid
+    apart = (first.poses * second.poses).sum(axis=-1, keepdims=True) < 0  # q and -q are one rotation
+    poses = (first.poses, np.where(apart, -second.poses, second.poses))
+    paces = [np.gradient(some.seconds, grid[1] - grid[0], axis=1) for some in (first, second)]
 
     def faded(before: NDArray[Any], after: NDArray[Any]) -> NDArray[Any]:
         amount = share.reshape(-1, *[1] * (before.ndim - 2))
         return np.asarray((1 - amount) * before + amount * after)
 
-    apart = (first.poses * second.poses).sum(axis=-1, keepdims=True) < 0  # q and -q are one rotation
-    poses = faded(first.poses, np.where(apart, -second.poses, second.poses))
+    turns = faded(*poses)
     until, since = (grid < 1, grid > 0) if stands else (share < 0.5, share >= 0.5)
-    marks = [
-        np.where(some[:, None], own, 1) for some, own in ((until, first.contacts), (since, second.contacts))
-    ]
-    made = replace(
+    before, after = np.where(until[:, None], first.contacts, 1), np.where(since[:, None], second.contacts, 1)
+    return replace(
         first,
         speeds=faded(first.speeds, second.speeds),
         turning=faded(first.turning, second.turning),
         heights=faded(first.heights, second.heights),
-        # How long a phase lasts is what fades.
-        seconds=first.integrated(
-            faded(*(np.gradient(k.seconds, grid[1] - grid[0], axis=1) for k in (first, second)))
-        ),
-        poses=poses / np.linalg.norm(poses, axis=-1, keepdims=True),
-        contacts=marks[0] * marks[1],
+        seconds=first.integrated(faded(*paces)),  # how long a phase lasts is what fades
+        poses=turns / np.linalg.norm(turns, axis=-1, keepdims=True),
+        contacts=before * after,
         sway=(first.sway + second.sway) / 2,
         offset=(first.offset + second.offset) / 2,
         dropped=0,
     )
-    return replace(made, values=measure_mixes(made, np.eye(len(made))))
 
 
 def _held(examples: Examples, low: float, high: float) -> Examples:

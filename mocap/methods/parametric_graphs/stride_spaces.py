@@ -126,10 +126,8 @@ def make_space(
     scale = np.maximum((highest - lowest) / 2, 1e-9)
     space = MotionSpace(strides, mixes, come, scale, names, lowest, highest)
     if len(space.reached) < len(names) + 2:
-        raise MocapError(
-            f"Only {len(space.reached)} of {len(asked)} samples lie in the range: they come to "
-            f"{_spans(names, come)}."
-        )
+        inside = f"{len(space.reached)} of {len(asked)}"
+        raise MocapError(f"Only {inside} samples lie in the range: they come to {_spans(names, come)}.")
     return space
 
 
