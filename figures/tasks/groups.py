@@ -1,4 +1,4 @@
-"""Lead twelve through walls with one gap, and through random discs, to a point behind.
+"""Lead twelve through walls with one gap, through corridors and random discs, to a point behind.
 
 There: 100 when the middle of the group comes within a metre of it. Takes: seconds until then. Nearest two:
 how near members come to each other, metres. Rim: how near to a disc's rim. `steered` has no plan; it has
@@ -26,19 +26,24 @@ from mocap.methods.groups import (
 from mocap.methods.groups.flocking import Configuration
 from tasks import Case
 
-CLIPS: dict[str, tuple[str, ...]] = {"gaps": (), "random discs": ()}
+CLIPS: dict[str, tuple[str, ...]] = {"gaps": (), "corridors of 10 m": (), "random discs": ()}
 MEMBERS, WIDTHS, SPOTS, SEEDS, LIMIT = 12, (4.0, 3.0, 2.5, 2.0), (12, 16), range(8), 90.0
 MEASURES = {"there, %": False, "takes, s": True, "nearest two, m": False, "rim, m": False}
 BASELINES = ("steered",)
 
 
 def scenes(collection: str) -> Iterator[tuple[str, Scene]]:
-    """Yield walls with a gap, or discs at random."""
-    if collection == "gaps":
-        for width in WIDTHS:
+    """Yield walls with a gap, and with a corridor behind it, or discs at random."""
+    if collection != "random discs":
+        length = 10 if collection.startswith("corridors") else 0
+        for width in WIDTHS[: 3 if length else 4]:
             for spot in SPOTS:
                 wall = [spot + 1j * side * (width / 2 + 0.6 + 1.1 * n) for side in (-1, 1) for n in range(12)]
-                yield f"gap-{width}-{spot}", Scene((spot + 14 + 0j,), tuple((disc, 0.6) for disc in wall))
+                wall += [
+                    spot + 1j * side * (width / 2 + 0.6) + z for side in (-1, 1) for z in range(1, length + 1)
+                ]
+                goal = spot + 14 + length + 0j
+                yield f"{collection[:3]}-{width}-{spot}", Scene((goal,), tuple((disc, 0.6) for disc in wall))
     else:
         for seed in SEEDS:
             draw = np.random.default_rng(seed)
