@@ -15,6 +15,7 @@ Reading order (notebooks 01, 03)
 8. `limbs`: which joints are the legs
 9. `two_bone_ik`: bend a limb of two bones to a target
 10. `speed_labels`: where a clip walks and where it runs
+11. `fingerprints`: what a clip is known by, whatever it is called
 
 References
 ----------

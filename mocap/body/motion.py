@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -298,22 +297,3 @@ def gather_marks(sources: Sequence[Marks], frames: Indices) -> dict[str, Mask]:
         for name, mark in marks.items():
             gathered.setdefault(name, np.zeros(len(frames), bool))[mine] = mark[frames[mine, 1]]
     return gathered
-
-
-def fingerprint(motion: Motion) -> str:
-    """Hash what a saved graph or web needs of a clip: skeleton, poses, rate and labels (SHA-256).
-
-    Examples
-    --------
-    >>> bone = Skeleton(["root"], [-1], [[0, 0, 0]])
-    >>> still = Motion(bone, np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1, 1)), 30.0, "still")
-    >>> fingerprint(still) == fingerprint(replace(still, name="other"))
-    True
-    """
-    skeleton = motion.skeleton
-    digest = hashlib.sha256(repr((skeleton.names, motion.fps, sorted(motion.labels))).encode())
-    marks = [motion.labels[label] for label in sorted(motion.labels)]
-    for array in (skeleton.parents, skeleton.offsets, motion.root_positions, motion.rotations, *marks):
-        digest.update(f"{array.dtype.str}{array.shape}".encode())
-        digest.update(np.ascontiguousarray(array).data)
-    return digest.hexdigest()

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from mocap._shared.archives import open_archive
-from mocap.body.motion import Motion, fingerprint, resample
+from mocap.body.fingerprints import fingerprint
+from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
 from mocap.errors import MocapError
 

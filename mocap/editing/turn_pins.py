@@ -25,8 +25,6 @@ class Turn(NamedTuple):
     reference : r, quaternions (F, 4).
     low, high : shape (F, 3), radians, as for `Pins`.
     world : whether q is the joint's turn in the world, or against its parent.
-
-    Notebook: 14-levels
     """
 
     joint: int

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
 from mocap._shared.progress import Progress
-from mocap.body.motion import Motion, fingerprint, require_alike
+from mocap.body.fingerprints import fingerprint
+from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, is_bundled, sample

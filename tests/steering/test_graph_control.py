@@ -49,7 +49,7 @@ def test_poses_are_those_of_a_recorded_run():
         assert sum(pose.blending for pose in poses) == blended
 
 
-def test_it_goes_where_it_is_told():
+def test_it_goes_where_it_is_sent():
     """As in [KGP02, 5.3]."""
     controller = Controller(GRAPH)
     for heading in (0.0, 1.0, 2.0):

@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
 from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
-from mocap.body.motion import Motion, fingerprint, require_alike, resample
+from mocap.body.fingerprints import fingerprint
+from mocap.body.motion import Motion, require_alike, resample
 from mocap.datasets.samples import is_bundled
 from mocap.errors import FormatError, MocapError, MocapWarning, shortened
 from mocap.matching.distance_grids import check_window

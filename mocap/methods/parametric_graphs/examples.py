@@ -243,6 +243,8 @@ def mixed_way(examples: Examples, weights: Array) -> tuple[Points, Array]:
     >>> ground, heading = mixed_way(strides, np.eye(len(strides))[:2])
     >>> ground.shape == heading.shape == (2, len(strides.grid))
     True
+
+    Notebook: 17-parametric-graphs
     """
     facing = examples.integrated(weights @ examples.turning)
     return examples.integrated((weights @ examples.speeds) * np.exp(1j * facing)), facing

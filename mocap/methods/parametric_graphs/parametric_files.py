@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
+from mocap._shared.arrays import Indices
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
 from mocap.methods.match_webs.motion_spaces import MotionSpace
@@ -62,7 +63,14 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     yield "an edge leaves each node", np.isin(np.arange(len(nodes)), sources)
     yield "no edge comes twice", len(np.unique(ends, axis=1).T) == len(sources)
     yield "contacts are those of joints", np.isin(arrays["contact_names"], arrays["joints"])
-    for own in ({key: arrays[f"{key}_of_{number}"] for key in NODE} for number in range(len(nodes))):
+    yield from _rules_of_nodes(arrays)
+    yield from _rules_of_edges(arrays, ends)
+
+
+def _rules_of_nodes(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
+    for own in (
+        {key: arrays[f"{key}_of_{number}"] for key in NODE} for number in range(len(arrays["nodes"]))
+    ):
         names, grid, times = own["parameters"].tolist(), own["grid"], own["seconds"]
         yield "parameters have names of their own", 0 < len(set(names)) == len(names)
         yield "phases grow from before 0 to after 1", len(grid) > 1 and grid[0] < 0 and grid[-1] > 1
@@ -77,6 +85,9 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
         yield "a range has ends", own["low"] <= own["high"]
         yield "samples are enough", len(own["values"]) >= len(names) + 2
         yield "samples are mixes", (own["mixes"] >= -1).all() and np.abs(own["mixes"].sum(axis=1) - 1) < 1e-6
+
+
+def _rules_of_edges(arrays: Arrays, ends: Indices) -> Iterator[tuple[str, ArrayLike]]:
     for edge, (a, b) in enumerate(ends.T.tolist()):
         at, low = arrays[f"at_of_edge_{edge}"], arrays[f"box_low_of_edge_{edge}"]
         sizes = [part.shape[1] for part in (at, low)]
