@@ -144,9 +144,8 @@ def summary(sections: Mapping[str, str]) -> list[str]:
     lines = ["| | | wins | as good | the baseline wins |", "|---|---|---|---|---|"]
     for title, text in sections.items():
         counts: dict[str, list[int]] = {}
-        for _, method, *cells in (
-            re.split(r" \| ", line.strip("| ")) for line in text.splitlines() if "; " in line
-        ):
+        for line in (line for line in text.splitlines() if line.startswith("|") and "; " in line):
+            _, method, *cells = re.split(r" ?\| ", line.strip("|"))
             for wins, losses in re.findall(r"; \**(\d+) : (\d+)", " ".join(cells)):
                 tally = counts.setdefault(method.partition(", refuses")[0], [0, 0, 0])
                 tally[1 + (int(losses) > int(wins)) - (int(wins) > int(losses))] += 1

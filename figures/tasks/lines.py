@@ -27,7 +27,7 @@ CLIPS = {
 }
 SEEDS, SPACING = range(500, 510), 0.02
 MEASURES = {"off, cm": True, "worst, cm": True, "left out, cm": True, "skate, cm/s": True, "jolting, %": True}
-BASELINES = ("layered search", "laid on the line")
+BASELINES = ("layered search",)
 
 
 def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:

@@ -40,7 +40,7 @@ def test_methods_are_compared_with_the_best_baseline_case_by_case():
     lines = benchmark.table(worse, list(benchmark.run(worse, CASES)))
     assert lines[0] == "| | | off ↓ | guessed ↑ |"
     assert lines[2] == "| toys (5) | *start* | 3.00 [2.00, 4.00] | 3.00 [2.00, 4.00] |"
-    assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 3 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
+    assert lines[4] == "|  | guess, refuses 1 | 1.00 [1.00, 1.00]; 4 : 1 | 6.00 [4.50, 7.50]; 4 : 1 |"
     assert lines[5] == "|  | worse | 93 [91, 95]; **0 : 5** | 99 [99, 99]; 5 : 0 |"
     assert benchmark.summary({"Toys": "\n".join(lines)})[2:] == [
         "| Toys | guess | 2 | 0 | 0 |",
