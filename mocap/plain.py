@@ -425,10 +425,10 @@ def main(given: Sequence[str] | None = None) -> int:
     try:
         line = points_along(files.load_path(asked.path).points)
         loaded = files.load_all(asked.clips, skeleton=None, scale=None, progress=iter)
-        clips = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
-        if not clips:
+        long = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
+        if not long:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")
-        clips = require_alike(clips)
+        clips = require_alike(long)
         graph = prune(cut_and_join(clips, find_transitions(clips)))
         print(f"{len(clips)} clips make a graph of {len(graph)} nodes and {graph.size()} edges.")
         roots, turns = follow(clips, graph, line)

@@ -30,12 +30,12 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 19_980,  # the goal: 17 000
-    "lines of code in the course's rooms": 11_260,  # 9 500
-    "functions": 1_775,  # 1 400
-    "classes": 226,  # 170
-    "public names": 434,  # 250
-    "lines of tests": 24_700,  # 20 000
+    "lines of code": 20_860,  # the goal: 17 000
+    "lines of code in the course's rooms": 11_600,  # 9 500
+    "functions": 1_845,  # 1 400
+    "classes": 225,  # 170
+    "public names": 435,  # 250
+    "lines of tests": 25_420,  # 20 000
 }
 
 

@@ -1,5 +1,6 @@
 """Round a line where a walk would have to turn too fast on it: at a corner, or at the cusp of a heart."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -124,21 +125,28 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
 
     if not len(too_fast(path, even.along)):
         return RoundedLine(path, even.along, even.along, np.zeros(len(asked)))
-    least, most = SMOOTH / spacing, WIDEST * radius
-    reach, slow = np.full(len(asked), least), False
-    while not slow:
-        line = _smoothed(asked, reach**4)
-        near = too_fast(GroundPath(from_ground(line)), _metres(line))
-        slow, grows = not len(near), near[reach[near] < most]
-        if not len(grows):
-            break
-        reach = _wider(reach, grows)
+    least = SMOOTH / spacing
+    line, slow = _widened(asked, least, WIDEST * radius, too_fast)
     rounded = _measured(path, even, line, even.along)
     cut = rounded.moved.max() > max(CUT * radius * spacing, CHORD)
     if slow and not cut and rounded.path.length > SHORTER * path.length:
         return rounded
     places, points = _steered(asked, spacing, LOOP * radius)
     return _measured(path, even, _smoothed(points, np.full(len(points), least**4)), spacing * places)
+
+
+def _widened(
+    asked: Points, least: float, most: float, too_fast: Callable[[GroundPath, Array], Indices]
+) -> tuple[Points, bool]:
+    """Lay the line anew with a wider reach where it is too fast; say whether it is slow enough at the end."""
+    reach = np.full(len(asked), least)
+    while True:
+        line = _smoothed(asked, reach**4)
+        near = too_fast(GroundPath(from_ground(line)), _metres(line))
+        grows = near[reach[near] < most]
+        if not len(grows):
+            return line, not len(near)
+        reach = _wider(reach, grows)
 
 
 def _measured(path: GroundPath, even: GroundPath, line: Points, places: Array) -> RoundedLine:

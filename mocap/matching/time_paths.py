@@ -66,7 +66,7 @@ def path_sums(costs: Floats, starts: Mask, *, slope: int) -> PathSums:
            [7., 4.]])
     """
     totals, steps = np.empty_like(costs), np.empty(costs.shape, np.int8)
-    begins, some = np.zeros(costs.shape, bool), starts.any(axis=1)
+    begins, some = np.zeros(costs.shape, bool), np.asarray(starts.any(axis=1))
     # The states of a row and of the one above, shape (2 W + 1, m): A, V₁ … V_W, H₁ … H_W.
     row, above = np.full((2, 2 * slope + 1, costs.shape[1]), np.inf, costs.dtype)
     least = np.full(costs.shape[1] + 1, np.inf, costs.dtype)  # M of the row above, one to the right

@@ -1,7 +1,6 @@
 """Random input and answers, right and wrong, of exercises about walks."""
 
 from collections.abc import Callable
-from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -80,7 +79,7 @@ def shortest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[flo
 # ---- Notebooks 08 and 08c
 
 
-Line = Callable[[Array], Array]
+Line = Callable[[Array], Any]
 Walk = tuple[complex, complex, float, float]
 Edge = tuple[int, Points, complex, complex, float]
 Longer = list[tuple[int, complex, complex, float, float]]
@@ -123,13 +122,13 @@ def draw_look_ahead(rng: np.random.Generator) -> tuple[Walk, Points, Line, float
     along = float(rng.uniform(0, reached[-1]))
     ahead = (rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)) @ [1, 1j]).cumsum()
     turn, here = draw_turn(rng), complex(np.interp(along, reached, corners))
-    walk = turn, here + 0.1 - turn * ahead[0], along, 0.7
-    return walk, ahead, partial(np.interp, xp=reached, fp=corners), 0.4
+    walk = turn, complex(here + 0.1 - turn * ahead[0]), along, 0.7
+    return walk, ahead, lambda s: np.interp(s, reached, corners), 0.4
 
 
 def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:
     turn, move, along, _ = walk
-    s = along + np.cumsum(abs(np.diff(ahead)))
+    s = np.asarray(along + np.cumsum(abs(np.diff(ahead))))
     off = abs(turn * ahead[1:] + move - line(s))
     cost = float((off**2).sum())
     return min(cost, most)

@@ -1,7 +1,7 @@
 """The layered search line by line: lengthen, cross out, keep the best, and look ahead [KGP02, 5.1]."""
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -152,7 +152,7 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
     return figure
 
 
-def _draw(ax: Axes, walk: Steps, colour: str, name: str, *, marker: str, **look: float) -> None:
+def _draw(ax: Axes, walk: Steps, colour: str, name: str, *, marker: str, **look: Any) -> None:  # noqa: ANN401
     places = np.array(walk.places)
-    ax.plot(places.imag, places.real, color=colour, **{"linewidth": 1.4, **look})
+    ax.plot(places.imag, places.real, color=colour, **({"linewidth": 1.4} | look))
     ax.plot(places[-1].imag, places[-1].real, marker, color=colour, markersize=6, label=name)

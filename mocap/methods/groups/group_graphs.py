@@ -157,6 +157,8 @@ def build_group(  # noqa: PLR0913 (how many, how long, how fine, and by which ru
     >>> graph = build_group(3, nodes=2, corridors=(), simulated=40.0, reach=0.4)
     >>> sorted({(clip.start, clip.end) for clip in graph.clips})
     [(0, 0), (0, 1), (1, 0), (1, 1)]
+
+    Notebook: 19-group-graphs
     """
     found = cluster(simulate(members, simulated, rules=rules, seed=seed), nodes=nodes, reach=reach).nodes
     for width in corridors:

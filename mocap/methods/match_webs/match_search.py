@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning
 from mocap.matching.point_clouds import point_cloud
@@ -119,10 +119,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         ]
         before = len(found)
         for other, number in sorted(new, key=lambda pair: pair[0].cost):
-            starts, stops = places.T
-            common = np.minimum(stops, other.stop) - np.maximum(starts, other.start)
-            union = np.maximum(stops, other.stop) - np.minimum(starts, other.start)
-            if (common <= SAME * union).all():
+            if _is_new(other, places):
                 match = _composed(web, found[number], other, number)
                 if keep and not keep(cut_out(web, _in_own_frames(web, clip, match))):
                     continue
@@ -135,6 +132,14 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         start=frames.start or 0, stop=len(web.clips[clip]) if frames.stop is None else frames.stop
     )
     return own
+
+
+def _is_new(match: Match, places: Indices) -> bool:
+    """Check that a match overlaps none of the places found, shape (N, 2), by more than half of the union."""
+    starts, stops = places.T
+    common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
+    union = np.maximum(stops, match.stop) - np.minimum(starts, match.start)
+    return bool((common <= SAME * union).all())
 
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:

@@ -178,8 +178,6 @@ def cut_actions(
     >>> walk = body.resample(datasets.sample("walk_straight"), 30)
     >>> len(cut_actions([walk, walk, walk], [(30, 65), (66, 101), (100, 136)]))
     3
-
-    Notebook: 17-parametric-graphs
     """
     if not clips or len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
