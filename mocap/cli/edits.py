@@ -11,7 +11,6 @@ from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli import options
 from mocap.cli.options import TURN, Clean, Reading, Unit, Widen, bar, check_out, number, tell, write_out
 from mocap.errors import MocapError, MocapWarning
-from mocap.files.conversion import require_apart, with_file
 
 FORMATS = (".bvh", ".glb", ".amc")
 LASTS = number(0.2, 600)  # seconds; no shorter than the seam
@@ -245,6 +244,8 @@ def retarget(
     """
     require_folder(out)
     pairs = [(source, out / f"{source.stem}.{format}") for source in files.find_files(clips)]
+    from mocap.files.conversion import require_apart, with_file  # the help needs no NumPy
+
     require_apart(pairs, [to])
     (stance, skeleton), failed = _body(to, to_scale), []
     for source, target in bar("retargeting")(pairs):

@@ -118,7 +118,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     >>> from mocap.datasets import sample
     >>> bent = bend(sample("walk_straight")[:600], GroundPath([[0, 0], [0, 2], [2, 4]]))
     >>> print(bent.report())  # doctest: +ELLIPSIS
-    4.3 s along 100% of 4.8 m, 1.4 cm off on average, 2.7 cm at worst elsewhere, rounded at 1.2 to ...
+    4.5 s along 100% of 4.8 m, 1.4 cm off on average, 2.7 cm at worst; turned by up to 80° per second, ...
 
     Notebook: 12-path-editing
     """

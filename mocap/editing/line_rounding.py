@@ -103,7 +103,7 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     >>> corner = GroundPath([[0, 0], [0, 5], [5, 5]])
     >>> line = round_line(corner, ride_of(walk), walk.fps, np.radians(60))
     >>> [(round(r.start), round(r.end), round(r.worst, 1)) for r in line.roundings]
-    [(3, 7, 0.4)]
+    [(3, 6, 0.3)]
     """
     even = path.resampled(SPACING)
     asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)

@@ -122,7 +122,7 @@ def slow_down(motion: Motion, ride: Ride, path: GroundPath) -> Slowed:
     >>> walk = sample("walk_straight")[:480]
     >>> slow = slow_down(walk, ride_of(walk), circle(1.0))
     >>> round(slow.motion.duration / walk.duration, 2), np.degrees(slow.lean[200]).round()
-    (1.12, np.float64(4.0))
+    (1.11, np.float64(4.0))
     """
     places, numbers = places_on(path, ride, motion.fps), np.arange(len(motion))
     clock = places.ratio**-0.5  # new frames per old frame
