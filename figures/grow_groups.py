@@ -171,7 +171,7 @@ def crowded(graph: groups.GroupGraph, sharper: groups.GroupGraph) -> tuple[objec
         counts += [bool(found) for found in (straight, turned, way(sharper, scene))]
         if straight:
             searching += took
-            simulating += cpu(groups.simulate, graph.members, straight.seconds, settle=0)[1]
+            simulating += cpu(groups.simulate, graph.members, straight.seconds)[1]
     return len(scenes), *counts, searching / simulating
 
 
