@@ -35,7 +35,7 @@ MOST = {
     "functions": 1_845,  # 1 400
     "classes": 225,  # 170
     "public names": 435,  # 250
-    "lines of tests": 25_420,  # 20 000
+    "lines of tests": 25_425,  # 20 000
 }
 
 

@@ -121,7 +121,7 @@ def test_captured_feet_drift_and_afterwards_stand(real_data, trials, least, fps)
     """As in [KSG02, all steps]."""
     folder = real_data / "cmu" / "16"
     clips = [mark_plants(resample(load(folder / f"16_{trial}.amc"), fps)) for trial in trials]
-    assert min(slides(clip).max() for clip in clips) > 0.01
+    assert min(slides(clip).max() for clip in clips) > 0.008
     held, asked = np.sum([check_clean_up(clip, 0.9) for clip in clips], axis=0)
     assert held >= least * asked
 

@@ -1,6 +1,7 @@
 """Random input and answers, right and wrong, of exercises about walks."""
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -123,7 +124,8 @@ def draw_look_ahead(rng: np.random.Generator) -> tuple[Walk, Points, Line, float
     ahead = (rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)) @ [1, 1j]).cumsum()
     turn, here = draw_turn(rng), complex(np.interp(along, reached, corners))
     walk = turn, complex(here + 0.1 - turn * ahead[0]), along, 0.7
-    return walk, ahead, lambda s: np.interp(s, reached, corners), 0.4
+    line: Line = partial(np.interp, xp=reached, fp=corners)  # a function that can be sent to another process
+    return walk, ahead, line, 0.4
 
 
 def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:

@@ -134,7 +134,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     return own
 
 
-def _is_new(match: Match, places: Indices) -> bool:
+def _is_new(match: Crossing, places: Indices) -> bool:
     """Check that a match overlaps none of the places found, shape (N, 2), by more than half of the union."""
     starts, stops = places.T
     common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
