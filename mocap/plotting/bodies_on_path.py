@@ -29,6 +29,7 @@ def bodies_along(
     seams: Iterable[int] = (),
     path: ArrayLike = (),
     discs: ArrayLike = (),
+    places: Sequence[Array] = (),
 ) -> Figure:
     """Draw motions as bodies along their paths, evenly spread over the ground, from the side and above.
 
@@ -42,6 +43,7 @@ def bodies_along(
     seams : frames at which a transition starts, marked on the path.
     path : the path that was asked for, shape (N, 2), points (x, z) in metres.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
+    places : of the joints of each motion, shape (F, J, 3); by default those of `joint_positions`.
 
     Returns
     -------
@@ -57,7 +59,7 @@ def bodies_along(
     Notebook: 00-quickstart
     """
     asked = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
-    clouds = [joint_positions(motion) for motion in motions]
+    clouds = places or [joint_positions(motion) for motion in motions]
     ways = [cloud[:, 0] * [1, 0, 1] for cloud in clouds]
     figure = Figure(figsize=(WIDTH, LOW), layout="constrained")
     ax = figure.add_subplot(aspect="equal")

@@ -70,7 +70,9 @@ def packed(values: Array, low: Array | float, step: Array | float, kind: str) ->
     return np.moveaxis(changes, 0, -1).tobytes()
 
 
-def packed_character(motion: Motion, colour: str, step: float | None = None) -> tuple[dict[str, Any], bytes]:
+def packed_character(
+    motion: Motion, colour: str, step: float | None = None, places: Array | None = None
+) -> tuple[dict[str, Any], bytes]:
     """Pack where the drawn joints of a motion are, for `Character` in `player_scene.js`.
 
     Parameters
@@ -78,6 +80,7 @@ def packed_character(motion: Motion, colour: str, step: float | None = None) -> 
     motion : the motion; of more than 60 frames per second, some are left out.
     colour : of the body and its path.
     step : metres; by default as fine as 16 bits can tell.
+    places : of all joints, shape (F, J, 3), metres; by default those of `joint_positions`.
 
     Returns
     -------
@@ -92,7 +95,7 @@ def packed_character(motion: Motion, colour: str, step: float | None = None) -> 
     """
     joints, lines, head = drawn(motion.skeleton)
     stride = max(1, int(motion.fps / SCREEN))
-    points = joint_positions(motion)[::stride, joints]  # (F, J, 3)
+    points = (joint_positions(motion) if places is None else places)[::stride, joints]  # (F, J, 3)
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     steps = np.full(3, step) if step else np.maximum(high - low, 1e-6) / 65535
     about = {

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array, Indices, runs
-from mocap.body.motion import Motion
+from mocap.body import Motion, joint_positions
 from mocap.errors import MocapError
 from mocap.feet.footplants import find_footprints
 from mocap.plotting.bodies_on_path import bodies_along
@@ -42,6 +42,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     path: ArrayLike = (),
     off: ArrayLike = (),
     discs: ArrayLike = (),
+    places: Sequence[Array] = (),
     follow: bool = True,
     alt: str = "",
 ) -> Player:
@@ -57,6 +58,8 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
     off : metres from there in each frame of the first motion, shape (F,), as in `Followed.off`; where it is
         more than 15 cm off, its path is red.
     discs : obstacles on the ground, shape (N, 3), x, z and radius in metres.
+    places : of the joints of each motion, shape (F, J, 3), by a function of one's own; by default the
+        package's.
     follow : whether the camera follows the first character.
     alt : a sentence for readers who do not see it; by default it gives names and seconds.
 
@@ -85,6 +88,7 @@ def play(  # noqa: PLR0913 (what moves, what to mark on its path, and how to loo
         np.reshape(np.asarray(path, float), (-1, 2)),
         runs(np.asarray(off, float) > ASTRAY),
         np.reshape(np.asarray(discs, float), (-1, 3)),
+        tuple(places) or tuple(joint_positions(motion) for motion in motions),
         follow,
         alt,
     )
@@ -110,6 +114,7 @@ class Player(Embedded):
     path: Array
     astray: Indices  # stretches of frames [start, end)
     discs: Array
+    places: Sequence[Array]
     follow: bool
     said: str
     scripts = (*SHARED, Path(__file__).with_name("player.js"))
@@ -132,8 +137,9 @@ class Player(Embedded):
         """What the scripts draw; `data` holds all characters' numbers, compressed, each from its `offset`."""
         characters: list[dict[str, Any]] = []
         data, count = b"", len(self.motions)
-        for number, motion in enumerate(self.motions):
-            about, block = packed_character(motion, own_colour(number, count) or COLOURS["middle"])
+        for number, (motion, places) in enumerate(zip(self.motions, self.places, strict=True)):
+            colour = own_colour(number, count) or COLOURS["middle"]
+            about, block = packed_character(motion, colour, places=places)
             prints = [  # from, until (seconds), x, z (metres), number of the side
                 [p.start / motion.fps, p.end / motion.fps, round(p.x, 3), round(p.z, 3), SIDES.index(p.side)]
                 for p in find_footprints(with_contacts(motion))
@@ -163,4 +169,4 @@ class Player(Embedded):
         if max(np.ptp(ground, axis=0)) < WALKS and not len(self.path):
             return small_png(film_strip(self.motions))
         marks: dict[str, Any] = {"sources": self.sources, "seams": self.seams, "path": self.path}
-        return small_png(bodies_along(*self.motions, discs=self.discs, **marks))
+        return small_png(bodies_along(*self.motions, discs=self.discs, places=self.places, **marks))

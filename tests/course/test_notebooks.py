@@ -259,6 +259,10 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path,
             "explore(lambda x=1: plt.figure(), alt='Nothing.', x=(0, 2))"
         ),
         new.new_code_cell(
+            "from mocap import datasets, widgets\nwidgets.play(datasets.sample('walk_straight')[:9])",
+            metadata={"tags": ["real"]},
+        ),
+        new.new_code_cell(
             "import warnings\n\ndef seven():\n    warnings.warn('beside the number')\n    return 7"
         ),
         new.new_markdown_cell("It is 1<!--= seven() -->."),
@@ -275,6 +279,10 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path,
     assert stream.text == "0\n1\n2\n"
     (shown,) = notebook.cells[2].outputs
     assert set(shown.data) == {"image/png", "text/html", "text/plain"}
+    (still,) = notebook.cells[3].outputs
+    assert re.fullmatch(
+        "<img [^>]*>", still.data["text/html"]
+    )  # as of captured clips, which no notebook holds
     assert notebook.cells[-1].source == "It is 7<!--= seven() -->."
 
 
