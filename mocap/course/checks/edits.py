@@ -31,12 +31,6 @@ def long_way(quaternion: Array) -> Array:
     return np.asarray(2 * np.arctan2(np.linalg.norm(v), w) * v / np.linalg.norm(v))
 
 
-def draw_cardinal_slopes(rng: np.random.Generator) -> tuple[Array, Array, float]:
-    """Draw keys at uneven times, and a tension."""
-    count = int(rng.integers(3, 7))
-    return rng.uniform(3, 30, count).cumsum(), rng.normal(size=count), float(rng.uniform(0.1, 0.9))
-
-
 def cardinal(at: Array, values: Array, tension: float) -> Array:
     slopes = np.zeros(len(at))
     slopes[1:-1] = (1 - tension) * (values[2:] - values[:-2]) / (at[2:] - at[:-2])

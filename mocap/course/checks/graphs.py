@@ -2,6 +2,7 @@
 
 import itertools
 import sys
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from itertools import combinations, permutations
 from typing import Any
@@ -64,16 +65,6 @@ def draw_choice_points(rng: np.random.Generator) -> tuple[int, list[int], list[i
     return frames, [*leaves.tolist(), int(leaves[0])], enters.tolist(), window
 
 
-def same_order(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    return bool(given == wanted) if isinstance(given, set) else close(given, wanted)
-
-
-def draw_turning_point(rng: np.random.Generator) -> tuple[float, float, float]:
-    """Draw a planar transform: often no turn at all, a very small one, or a half turn."""
-    angle = rng.choice([0.0, 1e-3, -1e-3, np.pi, *rng.uniform(-3, 3, 4)])
-    return float(angle), *rng.uniform(-2, 2, 2).tolist()
-
-
 def fixed_point(angle: float, x: float, z: float) -> Point | None:
     """Solve T c = c, with the point (x, z) as the complex number z + ix."""
     if angle == 0:
@@ -122,11 +113,6 @@ def follow(points: list[list[int]], links: Links, window: int) -> Following:
     return following
 
 
-def same_following(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Compare what follows each node, in any order."""
-    return bool(given.keys() == wanted.keys() and all(sorted(given[n]) == sorted(wanted[n]) for n in wanted))
-
-
 # ---- Notebook 06
 
 
@@ -157,15 +143,6 @@ def stripped(successors: Successors, both_ways: bool) -> set[int]:
     while poor := [n for n in left if not left.out_degree(n) or (both_ways and not left.in_degree(n))]:
         left.remove_nodes_from(poor)
     return set(successors) - set(left)
-
-
-def same_members(given: Iterable[object], wanted: set[object]) -> bool:
-    return set(given) == wanted
-
-
-def same_sets(given: Iterable[Iterable[object]], wanted: Iterable[set[int]]) -> bool:
-    parts = list(map(frozenset, given))
-    return set(parts) == set(map(frozenset, wanted)) and len(set(parts)) == len(parts)
 
 
 # ---- Notebook 06b

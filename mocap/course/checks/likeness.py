@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import pdist
 
 from mocap._shared.arrays import Array, Mask, Points
 from mocap.body.planar import PlanarTransform
@@ -62,20 +63,8 @@ def diagonal_sums(products: Array, window: int) -> Array:
     return np.asarray(np.sum([products[f : f + rows, f : f + columns] for f in range(window)], axis=0))
 
 
-def draw_later_by(rng: np.random.Generator) -> tuple[Array]:
-    """Make what a clip against itself looks like: a symmetric grid with zeros on the diagonal."""
-    places = rng.normal(size=(int(rng.integers(5, 10)), 3))
-    return (((places[:, None] - places) ** 2).sum(-1),)
-
-
 def along(grid: Array, average: Callable[[Array], Any] = np.mean) -> Array:
     return np.array([average(grid.diagonal(n)) for n in range(len(grid))])
-
-
-def draw_inner_minima(rng: np.random.Generator) -> tuple[Array, float]:
-    """Make a grid with minima inside and on the border, and a threshold that leaves some of them out."""
-    grid = rng.uniform(0, 1, rng.integers(7, 12, 2))
-    return grid, float(rng.uniform(0.2, 0.6))
 
 
 def inside(grid: Array, found: NDArray[np.intp]) -> set[tuple[int, int]]:
@@ -106,26 +95,12 @@ def joined_numbers(points: Array) -> Array:
     return np.asarray(np.concatenate([heights.ravel(), radii.ravel()]) / np.sqrt(heights.size))
 
 
-def draw_worth_a_look(rng: np.random.Generator) -> tuple[Array, float]:
-    """Make rows of numbers and a reach that leaves some pairs."""
-    rows = rng.normal(size=(int(rng.integers(7, 12)), 4))
-    apart = np.linalg.norm(rows[:, None] - rows, axis=-1)
-    return rows, float(np.quantile(apart[np.triu_indices(len(rows), 1)], rng.uniform(0.3, 0.6)))
-
-
 def pairs(near: NDArray[np.bool_]) -> set[tuple[int, int]]:
     return {(int(i), int(j)) for i, j in np.argwhere(near)}
 
 
 def within_reach(rows: Array, reach: float) -> NDArray[np.bool_]:
     return np.asarray(np.linalg.norm(rows[:, None] - rows, axis=-1) <= reach)
-
-
-def draw_bounds_by_direction(rng: np.random.Generator) -> tuple[Array, Array]:
-    """Make a difference of two rows and some orthonormal directions."""
-    size = int(rng.integers(5, 9))
-    axes, _ = np.linalg.qr(rng.normal(size=(size, size)))
-    return rng.normal(size=size), axes[:, : size - 1]
 
 
 # ---- Notebook 15

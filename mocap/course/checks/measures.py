@@ -16,12 +16,6 @@ def stray(points: Array, planted: Mask, *, about: Array | None = None) -> float:
     return float(100 * np.linalg.norm(points[planted] - centre, axis=1).max())
 
 
-def draw_plant_marks(rng: np.random.Generator) -> tuple[Array, float, float]:
-    """Draw the speed of a joint: slow and fast stretches with noise, and two thresholds."""
-    level = np.repeat(rng.uniform(0.0, 1.0, 8), rng.integers(2, 6, 8))
-    return np.abs(level + rng.normal(0, 0.08, len(level))), 0.25, 0.5
-
-
 def grown(speed: Array, start: float, stay: float, ways: tuple[int, ...] = (1, -1)) -> Mask:
     """Mark frames below `start`, and grow the marks one frame at a time while the speed is below `stay`."""
     marks = speed < start
@@ -37,12 +31,6 @@ def inner(thigh: float, shank: float, distance: float) -> float:
 
 
 # ---- Notebook 09
-
-
-def draw_paired_gain(rng: np.random.Generator) -> tuple[Array, Array]:
-    """Draw two measurements on the same paths, which differ less than the paths do."""
-    before = rng.gamma(3.0, 2.0, int(rng.integers(5, 20)))
-    return before, before * rng.uniform(0.7, 1.1) + rng.normal(0, 0.3, len(before))
 
 
 # ---- Notebook 09b

@@ -65,12 +65,6 @@ def draw_acclaim_turn(rng: np.random.Generator) -> tuple[Array, Array]:
     return axis, np.array([*special, *[angles] * 12][rng.integers(15)])
 
 
-def draw_strikes(rng: np.random.Generator) -> tuple[Mask]:
-    """Draw runs of standing and swinging; half of them begin with standing."""
-    runs = rng.integers(1, 12, rng.integers(3, 9))
-    return (np.repeat((np.arange(len(runs)) + rng.integers(2)) % 2, runs).astype(bool),)
-
-
 def strikes(contact: Mask) -> Indices:
     return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
 
@@ -79,17 +73,6 @@ def strikes(contact: Mask) -> Indices:
 
 
 Placed = tuple[float, float, float]
-
-
-def draw_move_points(rng: np.random.Generator) -> tuple[Array, float, float, float]:
-    angle, x, z = rng.uniform(-3, 3, 3)
-    return rng.normal(size=(int(rng.integers(1, 9)), 3)), angle, x, z
-
-
-def draw_undo(rng: np.random.Generator) -> tuple[float, float, float]:
-    """Draw a transform; now and then half a turn, or none."""
-    angle, x, z = rng.uniform(-3, 3, 3).tolist()
-    return (0.0, np.pi, *[angle] * 8)[int(rng.integers(10))], x, z
 
 
 def turned_shift(angle: float, x: float, z: float) -> tuple[float, float]:
@@ -110,12 +93,6 @@ def lay_on(moving: Placed, target: Placed) -> Placed:
     return angle, target[1] - x, target[2] - z
 
 
-def draw_put_over(rng: np.random.Generator) -> tuple[Array, float, Array]:
-    """Draw a path of roots, a turn, and a spot with a height of its own."""
-    steps = rng.normal(0, 0.1, (int(rng.integers(2, 8)), 3))
-    return steps.cumsum(axis=0) + rng.uniform(-2, 2, 3), float(rng.uniform(-3, 3)), rng.uniform(-2, 2, 3)
-
-
 def put(roots: Array, angle: float, spot: Array) -> Array:
     """Turn roots, and move the first one over the spot, each as high as it was."""
     turned = PlanarTransform(angle, 0.0, 0.0).apply_points(roots)
@@ -131,11 +108,6 @@ Part = tuple[Array, int, int]
 
 def wrapped(angle: float) -> float:
     return (angle + np.pi) % TURN - np.pi
-
-
-def same_turn(given: Any, wanted: Any) -> bool:  # noqa: ANN401
-    """Compare turns; exactly half a turn may go to either side."""
-    return close(given, wanted) or (close(abs(wanted), np.pi) and close(abs(given), np.pi))
 
 
 def draw_turn_between(rng: np.random.Generator) -> tuple[float, float]:
@@ -236,14 +208,6 @@ def on_a_line(start: Array, end: Array, amount: float) -> Array:
     return (1 - amount) * start + amount * end
 
 
-def same_where_known(given: Array, wanted: Array) -> bool:
-    """Check whether two rotations are the same; a known mistake leaves open what it gives where it is NaN."""
-    return bool(np.isnan(wanted).any()) or close_rotations(given, wanted)
-
-
-Poses = tuple[Array, Array]
-
-
 def draw_mix(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:
     """Draw two motions of three joints, in some frames with equal poses, and falling weights."""
     body = Skeleton(
@@ -271,11 +235,6 @@ def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, nearer: bool = False) 
     return np.asarray(share * a.rotations + (1 - share) * signs * b.rotations)
 
 
-def blended(a: Motion, b: Motion, alpha: Array) -> Poses:
+def blended(a: Motion, b: Motion, alpha: Array) -> tuple[Array, Array]:
     result = blend(a, b, alpha)
     return result.root_positions, result.rotations
-
-
-def same_poses(given: Poses, wanted: Poses) -> bool:
-    roots, turns = given
-    return close(roots, wanted[0]) and close_rotations(turns, wanted[1])

@@ -111,11 +111,6 @@ def survivors(stand: Indices, costs: Array, width: int) -> Indices:
     return np.asarray(order[np.sort(first)[:width]])
 
 
-def draw_survivors(rng: np.random.Generator) -> tuple[Indices, Array, int]:
-    count = int(rng.integers(30, 60))
-    return rng.integers(0, 2, size=(count, 4)), rng.permutation(count) / 100, int(rng.integers(3, 7))
-
-
 def draw_look_ahead(rng: np.random.Generator) -> tuple[Walk, Points, Line, float]:
     """Draw a walk, its root in the coming frames, and a line."""
     corners = draw_polyline(rng) @ [1, 1j]
@@ -231,10 +226,6 @@ def squared_distances(a: Points, b: Points) -> Array:
     return np.abs(a[:, None] - b) ** 2
 
 
-def assign(a: Points, b: Points) -> Indices:
-    return np.asarray(linear_sum_assignment(squared_distances(a, b))[1])
-
-
 def greedy(a: Points, b: Points) -> Indices:
     squares, order = squared_distances(a, b), np.zeros(len(a), int)
     for _ in a:
@@ -242,12 +233,6 @@ def greedy(a: Points, b: Points) -> Indices:
         order[i] = j
         squares[i], squares[:, j] = np.inf, np.inf
     return order
-
-
-def draw_assign(rng: np.random.Generator) -> tuple[Points, Points]:
-    """Draw two groups that overlap, so that who is nearest to whom is often disputed."""
-    a, b = rng.normal(0, 1.5, (2, int(rng.integers(8, 13)), 2)) @ [1, 1j]
-    return a, b
 
 
 def laid(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[complex, complex]:
@@ -271,8 +256,3 @@ def slots_after(orders: Indices) -> Indices:
     for order in orders:
         slots = order[slots]
     return slots
-
-
-def draw_slots(rng: np.random.Generator) -> tuple[Indices]:
-    members, clips = int(rng.integers(5, 9)), int(rng.integers(2, 5))
-    return (np.array([rng.permutation(members) for _ in range(clips)]),)
