@@ -134,7 +134,8 @@ def test_bones_that_would_stretch_are_refused(write):
 
 def turns(order, angles):
     """Turns about fixed axes, the first one first."""
-    return Rotation.from_euler(order.lower(), angles, degrees=True) if order else Rotation.identity()
+    angles = angles if len(order) > 1 else angles[0] if order else 0  # a list of one would make a list of turns
+    return Rotation.from_euler(order.lower() or "x", angles, degrees=True)
 
 
 def by_hand(asf, amc_text, frame):

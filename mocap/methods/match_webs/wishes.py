@@ -11,7 +11,7 @@ from mocap.errors import MocapError, shortened
 from mocap.methods.match_webs.motion_spaces import MotionSpace
 
 CONVEX = 12  # nearest samples that are mixed
-SUM, RIDGE = 100.0, 5e-4  # weight of the row that asks for a sum of one; preference for near samples
+RIDGE = 5e-4  # preference for near samples
 
 
 def weights_for(
@@ -75,7 +75,7 @@ def shares_for(
     """
     samples, numbers = space.values.shape
     if asked.ndim != 2 or asked.shape[1] != numbers or not np.isfinite(asked).all():
-        got = shortened(str(asked.tolist()))
+        got = shortened(str((asked[0] if len(asked) == 1 else asked).tolist()))
         raise MocapError(f"This space is asked for {numbers} finite numbers, got {got}.")
     if k is not None and k < 1:
         raise MocapError(f"Take 1 nearest sample or more, got {k}.")
@@ -90,11 +90,14 @@ def shares_for(
 
 
 def _convex(offsets: Array, gaps: Array) -> Array:
-    """Find v ≥ 0 with the sum one that makes Σ v · offset least; of equals, those of the nearest samples."""
+    """Find v ≥ 0 with the sum one that makes |Σ v · offset| least; of equals, those of the nearest samples.
+
+    A row of ones asks for the sum: s² |Σ v · offset|² + (s - 1)² of s v is least for the same v at its best s.
+    """
     count, numbers = offsets.shape
     ridge = RIDGE * np.diag(gaps / max(gaps[-1], 1e-300))
-    rows = np.concatenate([offsets.T, np.full((1, count), SUM), ridge])
-    shares, _ = nnls(rows, np.concatenate([np.zeros(numbers), [SUM], np.zeros(count)]))
+    rows = np.concatenate([offsets.T, np.ones((1, count)), ridge])
+    shares, _ = nnls(rows, np.concatenate([np.zeros(numbers), [1], np.zeros(count)]))
     return np.asarray(shares / shares.sum())
 
 
