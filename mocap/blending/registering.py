@@ -28,7 +28,8 @@ SKATES, FASTER = 1.4, 0.02
 
 # Spacings to try before the warp's own, as multiples of it; the first is a straight line. The first is taken
 # whose mean distance is at most so many times that of the warp's own knots, with which the pace of two even
-# walks wobbles by a fifth.
+# walks wobbles by a fifth. Clips that are cut alike take the warp's own: a straight line through nine punches
+# makes blends miss their targets by 8 mm, where these miss by 5.
 SPACINGS, AS_GOOD = (np.inf, 8.0, 4.0, 2.0), 1.06
 
 
@@ -155,7 +156,8 @@ def _register_pair(ours: Array, theirs: Array, rate: float, warp: Warp, slack: i
     bounds = {"least": 1 / (warp.slope + 1), "most": warp.slope + 1.0}
     times = fit_curve(u, own, spacing=warp.spacing, **bounds)
     enough = AS_GOOD * _mean_along(grid, times, rate, half)
-    fewer = (fit_curve(u, own, spacing=wider * warp.spacing, **bounds) for wider in SPACINGS)
+    wide = SPACINGS if slack else ()
+    fewer = (fit_curve(u, own, spacing=wider * warp.spacing, **bounds) for wider in wide)
     times = next((curve for curve in fewer if _mean_along(grid, curve, rate, half) <= enough), times)
     frames = np.arange(warp.window)
     a, b = (

@@ -18,7 +18,7 @@ from mocap.graphs.edge_tables import Edge, edge_table, require_node
 from mocap.graphs.motion_graph import MotionGraph, Node
 from mocap.synthesis.walk_to_motion import places, to_motion, with_plants
 
-MARGIN = 3.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
+MARGIN = 5.0  # seconds: longer than any footplant of a walk, and than the reach of any correction
 LONGEST = 3600.0  # seconds of a walk that is made in memory
 
 

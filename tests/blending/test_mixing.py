@@ -162,13 +162,13 @@ def test_three_captured_clips(real_data):
 
 
 @pytest.mark.sweep
-def test_punches_last_as_long_as_they_do_on_average_by_durations_and_no_longer_by_rates(real_data):
-    """Nine punches of 1.2 s around their fastest moments."""
+def test_punches_last_as_long_as_they_do_on_average_by_durations_and_less_by_rates(real_data):
+    """Nine punches of 1.2 s around their fastest moments: wiggling curves make the mean of rates too fast."""
     clip = captured(real_data, "02_05")
     fastest = [167, 342, 522, 691, 863, 1035, 1204, 1386, 1569]
     nine = [clip[at - 72 : at + 73] for at in fastest]
     weights = np.full(9, 1 / 9)
-    for spacing in (0.12, 0.3):
+    for spacing, most in ((0.12, 0.93), (0.3, 0.98)):
         warp = Warp(window=9, spacing=spacing)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MocapWarning)
@@ -176,7 +176,7 @@ def test_punches_last_as_long_as_they_do_on_average_by_durations_and_no_longer_b
         lasts = [
             len(frame_times(registration, weights, fps=120.0, pace=p)[0]) for p in ("rates", "durations")
         ]
-        assert lasts[0] <= lasts[1]
+        assert lasts[0] <= most * lasts[1]
         assert (lasts[1] - 1) / 120 == pytest.approx(registration.durations.mean(), abs=1 / 120)
 
 

@@ -23,7 +23,6 @@ from mocap.feet.footskate import clean_up, let_go
 from mocap.files.load_save import load
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
-from mocap.quality.standing_feet import plant_slides
 from mocap.steering.path_following import follow_path
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
@@ -40,7 +39,14 @@ JOINED = {way: way(WALK, *(SEAM[0], WALK, SEAM[1]), 40) for way in (join, inerti
 
 def slides(motion: Motion) -> np.ndarray:
     """Return how far a joint is from its mean place at most, for each plant, metres."""
-    return np.array([slide.far / 100 for slide in plant_slides(motion)])
+    positions = joint_positions(motion)
+    return np.array(
+        [
+            np.linalg.norm(at - at.mean(axis=0), axis=-1).max()
+            for name, marks in motion.contacts.items()
+            for at in (positions[a:b, motion.skeleton.index(name)] for a, b in runs(marks))
+        ]
+    )
 
 
 def furthest(motion: Motion, other: Motion) -> float:
@@ -121,7 +127,7 @@ def test_captured_feet_drift_and_afterwards_stand(real_data, trials, least, fps)
     """As in [KSG02, all steps]."""
     folder = real_data / "cmu" / "16"
     clips = [mark_plants(resample(load(folder / f"16_{trial}.amc"), fps)) for trial in trials]
-    assert min(slides(clip).max() for clip in clips) > 0.008
+    assert min(slides(clip).max() for clip in clips) > 0.01
     held, asked = np.sum([check_clean_up(clip, 0.9) for clip in clips], axis=0)
     assert held >= least * asked
 

@@ -239,11 +239,14 @@ def test_tampered_archives_are_read_or_refused_in_a_sentence(honest, tmp_path, c
     assert 0.02 * count < read < 0.6 * count
 
 
-def peak(read, path):
-    """Give the bytes that it takes to refuse a file."""
+UNREAD = {"betas.npy", "gender.npy"}  # of AMASS: whatever they claim, nothing is read of them
+
+
+def peak(read, path, name=""):
+    """Give the bytes that it takes to refuse a file, whose member of that name is wrong."""
     tracemalloc.start()
     try:
-        with contextlib.suppress(MocapError):  # a file may hold more than is read of it
+        with contextlib.suppress(MocapError) if name in UNREAD else pytest.raises(MocapError):
             read(path)
         return tracemalloc.get_traced_memory()[1]
     finally:
@@ -263,7 +266,7 @@ def test_what_claims_more_than_there_is_takes_no_memory(tmp_path, kind):
             zeros = npy(np.zeros((10 * honest // array[:1].nbytes, *array.shape[1:]), array.dtype))
             for part in (zeros, zeros[:128] + members[name][128:]):  # it does, and it does not hold them
                 path.write_bytes(packed([*(members | {name: part}).items()]))
-                assert peak(use, path) < 4 * honest, name
+                assert peak(use, path, name) < 4 * honest, name
     many = {"sources.npy": npy(np.zeros(3_000_000, int)), "targets.npy": npy(np.zeros(3_000_000, int))}
     path.write_bytes(packed([*(members | many).items()]))
     assert kind != "parametric" or peak(use, path) < 4 * honest

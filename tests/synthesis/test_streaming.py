@@ -53,7 +53,7 @@ def test_pieces_are_cleaned_as_the_whole_would_be(piece):
     assert len(joined) == len(whole)
     off = np.abs(joint_positions(joined) - joint_positions(whole)).max(axis=(1, 2))
     assert off.max() < 0.006
-    assert np.median(off) < 1e-8
+    assert np.median(off) < 1e-9
     assert all(np.array_equal(joined.contacts[foot], marks) for foot, marks in whole.contacts.items())
 
 

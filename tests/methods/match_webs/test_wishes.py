@@ -114,7 +114,7 @@ def test_asked_without_an_example_the_others_turn_as_it_does():
 @pytest.mark.parametrize(
     ("wish", "how", "message"),
     [
-        ([1.0], {}, r"This space is asked for 2 finite numbers, got \[\[1.0\]\]"),
+        ([1.0], {}, r"This space is asked for 2 finite numbers, got \[1.0\]"),
         ([1.0, np.nan], {}, "asked for 2 finite numbers"),
         ([1.0, 2.0], {"k": 0}, "Take 1 nearest sample or more, got 0"),
         ([1.0, 2.0], {"method": "rbf"}, 'A method is "convex" or "neighbours", got \'rbf\''),
@@ -161,7 +161,7 @@ def test_punches_reach_their_targets(punches):
         return np.linalg.norm(reached(rows) - wishes, axis=1).mean()
 
     convex, plain = (off([weights_for(few, wish, method=method) for wish in wishes]) for method in METHODS)
-    assert convex <= 0.81
+    assert convex <= 0.8
     assert plain >= 3 * convex
     assert off([weights_for(made, wish, method="neighbours") for wish in wishes]) <= 1.8
 
