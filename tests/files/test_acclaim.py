@@ -134,7 +134,7 @@ def test_bones_that_would_stretch_are_refused(write):
 
 def turns(order, angles):
     """Turns about fixed axes, the first one first."""
-    angles = angles if len(order) > 1 else angles[0] if order else 0  # a list of one would make a list of turns
+    angles = angles if len(order) > 1 else angles[0] if order else 0  # of a list, a list of turns
     return Rotation.from_euler(order.lower() or "x", angles, degrees=True)
 
 

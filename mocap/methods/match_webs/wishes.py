@@ -92,7 +92,7 @@ def shares_for(
 def _convex(offsets: Array, gaps: Array) -> Array:
     """Find v ≥ 0 with the sum one that makes |Σ v · offset| least; of equals, those of the nearest samples.
 
-    A row of ones asks for the sum: s² |Σ v · offset|² + (s - 1)² of s v is least for the same v at its best s.
+    A row of ones asks for the sum: s² |Σ v · offset|² + (s - 1)² is least for the same v at its best s.
     """
     count, numbers = offsets.shape
     ridge = RIDGE * np.diag(gaps / max(gaps[-1], 1e-300))
