@@ -176,36 +176,8 @@ def chained(parts: list[Part]) -> Array:
 # ---- Notebook 04
 
 
-NEAR = 1e-4  # radians between quaternions; below, a wrong answer may give anything
-
-
 def normalised(q: Array) -> Array:
     return np.asarray(q / np.linalg.norm(q, axis=-1, keepdims=True))
-
-
-def draw_short_way(rng: np.random.Generator) -> tuple[Array, Array, float]:
-    """Draw two rotations: far apart, almost the same or the same, and the second with either sign."""
-    start, other = normalised(rng.normal(size=(2, 4)))
-    away = normalised(other - (other @ start) * start) * 10.0 ** rng.uniform(-9, -5)
-    end = (other, other, start + away, start)[rng.integers(4)]
-    return start, normalised(end) * rng.choice([-1, 1]), float(rng.uniform(0.1, 0.9))
-
-
-def nearer(start: Array, end: Array) -> Array:
-    return end if start @ end > 0 else -end
-
-
-def sines(start: Array, end: Array, amount: float) -> Array:
-    """Weight by sines without a change of sign; NaN, which stands for any answer, near equal or opposite."""
-    cosine = float(np.clip(start @ end, -1, 1))
-    if abs(cosine) > np.cos(NEAR):
-        return np.full(4, np.nan)
-    angle = np.arccos(cosine)
-    return np.asarray((np.sin((1 - amount) * angle) * start + np.sin(amount * angle) * end) / np.sin(angle))
-
-
-def on_a_line(start: Array, end: Array, amount: float) -> Array:
-    return (1 - amount) * start + amount * end
 
 
 def draw_mix(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:

@@ -32,16 +32,16 @@ def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file
 
 def test_it_survives_a_restart_and_goes_when_it_is_deleted(capsys, fresh):
     lab.mine(written("hamilton"))
-    lab.mine(written("short_way"))
+    lab.mine(written("quintic"))
     new_kernel()
     assert lab.mine("hamilton").yours
-    assert lab.mine("short_way").yours
+    assert lab.mine("quintic").yours
     head, _, rest = fresh.read_text().partition("# ---- hamilton")
     fresh.write_text(head + "# ----" + rest.split("# ----", 1)[1])
     assert not lab.mine("hamilton").yours
-    assert lab.mine("short_way").yours
+    assert lab.mine("quintic").yours
     fresh.unlink()
-    assert not lab.mine("short_way").yours
+    assert not lab.mine("quintic").yours
 
 
 def test_a_wrong_version_leaves_the_place_as_it_was_and_is_not_called_the_readers(capsys, fresh):
@@ -64,24 +64,22 @@ def test_the_check_judges_what_was_written_when_its_cell_runs_again(capsys):
 
 
 def test_a_function_uses_the_other_exercises_by_their_names(fresh):
-    short_way = lab.mine(written("short_way"))
+    move_points = lab.mine(written("move_points"))
     source = """
-def mix(a, b, alpha):
-    pairs = zip(b.rotations, a.rotations, alpha)
-    turns = [[short_way(q, r, t) for q, r in zip(qs, rs)] for qs, rs, t in pairs]
-    roots = [t * p + (1 - t) * q for p, q, t in zip(a.root_positions, b.root_positions, alpha)]
-    return np.array(roots), np.array(turns)
+def best_shift(points, others, angle):
+    apart = (points - move_points(others, angle, 0.0, 0.0)).mean(axis=0)
+    return apart[0], apart[2]
 """
-    lab.mine(written("mix", source, {"short_way": short_way}))
+    lab.mine(written("best_shift", source, {"move_points": move_points}))
     new_kernel()
-    assert lab.mine("mix").yours
-    arguments = checks.mix.draw(np.random.default_rng(1))
-    short_way = lab.mine("short_way")
-    called, right = [], short_way.own
-    short_way.own = lambda *given: called.append(given) or right(*given)
-    lab.mine("mix")(*arguments)
+    assert lab.mine("best_shift").yours
+    arguments = checks.best_shift.draw(np.random.default_rng(1))
+    move_points = lab.mine("move_points")
+    called, right = [], move_points.own
+    move_points.own = lambda *given: called.append(given) or right(*given)
+    lab.mine("best_shift")(*arguments)
     assert called
-    assert "short_way" not in fresh.read_text().partition("# ----")[0]
+    assert "move_points" not in fresh.read_text().partition("# ----")[0]
 
 
 def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
@@ -90,8 +88,8 @@ def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
     monkeypatch.setenv("MOCAP_MINE", "")
     new_kernel()
     assert not lab.mine("hamilton").yours
-    lab.mine(written("short_way"))
-    assert capsys.readouterr().out.endswith("short_way: yours.\n")
+    lab.mine(written("quintic"))
+    assert capsys.readouterr().out.endswith("quintic: yours.\n")
     assert fresh.read_text() == kept
 
 
