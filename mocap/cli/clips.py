@@ -35,10 +35,8 @@ def info(file: Path, *, joints: bool = False, reading: Reading) -> None:
     motion = reading.read(file)
     print(quality.inspect(motion, files.read_angles(file, skeleton=reading.skeleton)).table())
     if joints:
-        depths: list[int] = []
-        for parent, name in zip(motion.skeleton.parents, motion.skeleton.names, strict=True):
-            depths.append(depths[parent] + 1 if parent >= 0 else 0)
-            print(f"{'  ' * depths[-1]}{printable(name)}")
+        for joint, name in enumerate(motion.skeleton.names):
+            print(f"{'  ' * len(motion.skeleton.path_to_root(joint)[1:])}{printable(name)}")
 
 
 def view(clip: Path, *, out: Path | None = None, reading: Reading) -> None:
@@ -135,8 +133,7 @@ def convert(
     """
     pairs = files.plan(source, target, f".{to}")
     done = files.convert(pairs, asdict(reading), widen=widen, progress=bar("converting"))
-    problems = list(filter(None, done))
-    return tell_of_failures("converted", len(pairs), problems)
+    return tell_of_failures("converted", len(pairs), list(filter(None, done)))
 
 
 def find(

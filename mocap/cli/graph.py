@@ -41,11 +41,9 @@ def demo(
     try:
         pruned = graphs.prune(whole)
     except NoWalk as error:
-        least = graphs.smallest_threshold(whole.clips, window=whole.window)
-        raise NoWalk(
-            f"No walk is left at a threshold of {building.threshold:g} cm; "
-            f"these clips need at least {math.ceil(1e4 * least) / 100:g} cm."
-        ) from error
+        least = math.ceil(1e4 * graphs.smallest_threshold(whole.clips, window=whole.window)) / 100
+        asked = f"a threshold of {building.threshold:g} cm"
+        raise NoWalk(f"No walk is left at {asked}; these clips need at least {least:g} cm.") from error
     edges = synthesis.random_walk(pruned, seconds=seconds, seed=seed)
     walk = synthesis.to_motion(pruned, edges)
     _tell_of_clips(whole.clips)

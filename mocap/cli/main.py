@@ -37,7 +37,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="mocap", description="New human motion out of captured motion.")
     parser.add_argument("--version", action="version", version=f"mocap {mocap.__version__}")
     parser.set_defaults(parser=parser)
-    add_commands(parser.add_subparsers(title="commands", required=True, metavar="COMMAND"), COMMANDS)
+    add_commands(parser, COMMANDS)
     return parser
 
 
@@ -58,9 +58,8 @@ def _written_out(words: list[str]) -> list[str]:
 
 def _say(message: Warning | str, *_place: object, **_more: object) -> None:
     """Write an error or a warning as one line, with the names that options have on a command line."""
-    text = re.sub(
-        r"\S{200,}", lambda word: shortened(word[0]), as_options(printable(message))
-    )  # endless names
+    text = as_options(printable(message))
+    text = re.sub(r"\S{200,}", lambda word: shortened(word[0]), text)  # endless names
     print(f"mocap: {text}", file=sys.stderr)
 
 

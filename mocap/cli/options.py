@@ -46,9 +46,7 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
 
 
 LENGTH, CM, RATE, TURN = number(1e-6, 1e6), number(0.001, 1000), number(1, 1000), number(1, 3600)
-Skeleton = Annotated[
-    Path | None, "the .asf file of .amc clips (default: the one in the same folder that fits)"
-]
+Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one beside them that fits)"]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
 Widen = Annotated[bool, "for .amc, write an .asf whose bones turn about three axes"]
 Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
@@ -61,9 +59,7 @@ class Reading:
 
     skeleton: Skeleton = None
     fps: Annotated[float | None, RATE, "frames per second (default: as in the file; 120 for .amc)"] = None
-    scale: Annotated[
-        float | None, LENGTH, "metres per unit of length (default: 0.01; for .amc as in the .asf)"
-    ] = None
+    scale: Annotated[float | None, LENGTH, "metres per unit (default: 0.01; for .amc as in the .asf)"] = None
 
     def read(self, path: Path) -> "Motion":
         """Read a clip; raise MocapError as `files.load`, and for a skeleton that the clip does not need."""

@@ -34,15 +34,18 @@ class _Text(argparse.HelpFormatter):
         return "\n\n".join(part if "\n " in part else fill(part, width, indent) for part in paragraphs)
 
 
-def add_commands(parsers: Any, commands: Mapping[str, Run | Group]) -> None:  # noqa: ANN401 (of argparse)
+def add_commands(above: argparse.ArgumentParser, commands: Mapping[str, Run | Group]) -> None:
     """Make a parser for each command, and name it in its options: an error shows its usage."""
+    parsers = above.add_subparsers(title="commands", required=True, metavar="COMMAND", prog=above.prog)
     for name, run in commands.items():
-        text, _, notes = (f"{inspect.getdoc(run)}" if callable(run) else run.text).partition(
-            "\n\nNotes\n-----\n"
-        )
+        whole = f"{inspect.getdoc(run)}" if callable(run) else run.text
+        text, _, notes = whole.partition("\n\nNotes\n-----\n")
         about, _, parameters = text.partition("\n\nParameters\n----------\n")
         first, _, more = about.partition("\n\n")
-        texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": more or first}
+        texts: dict[str, Any] = {
+            "help": first[0].lower() + first[1:].rstrip("."),
+            "description": more or first,
+        }
         parser = parsers.add_parser(name, epilog=notes, formatter_class=_Text, **texts)
         parser.set_defaults(parser=parser, run=run)
         if callable(run):
@@ -51,10 +54,7 @@ def add_commands(parsers: Any, commands: Mapping[str, Run | Group]) -> None:  # 
                 _add_argument(parser, parameter, *helps.get(parameter.name, ()))
         else:
             parser.usage = run.usage
-            below = parser.add_subparsers(
-                title="commands", required=True, metavar="COMMAND", prog=f"mocap {name}"
-            )
-            add_commands(below, run.commands)
+            add_commands(parser, run.commands)
 
 
 def _parameters(made: Any) -> Iterator[inspect.Parameter]:  # noqa: ANN401 (or a dataclass)
@@ -84,9 +84,8 @@ def _add_argument(
     if get_origin(kind) is Sequence:
         settings["nargs"] = "+"
     for extra in extras:
-        settings |= (
-            extra if isinstance(extra, dict) else {"help" if isinstance(extra, str) else "type": extra}
-        )
+        key = "help" if isinstance(extra, str) else "type"
+        settings |= extra if isinstance(extra, dict) else {key: extra}
     settings |= {"metavar": metavar} if metavar else {}
     settings |= {"help": " ".join(text.split()).rstrip(".")} if text else {}
     if isinstance(default, str | Path | int | float) and kind is not bool:

@@ -1,6 +1,7 @@
 """How Sphinx makes the pages of the course: `site` copies the notebooks, and calls it with this file."""
 
 import re
+from functools import partial
 from typing import Any
 
 from docutils import nodes
@@ -30,16 +31,11 @@ pygments_dark_style = "native"
 def setup(app: Any) -> None:  # noqa: ANN401 (as Sphinx calls it)
     """Draw formulas as MathML, and keep the first names of authors from being letters of a list."""
     app.connect("autodoc-process-docstring", _keep_authors)
-    app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    app.add_html_math_renderer("mathml", (partial(_formula, False), None), (partial(_formula, True), None))
 
 
-def _inline(writer: Any, node: Any) -> None:  # noqa: ANN401
-    writer.body.append(to_mathml(node.astext()))
-    raise nodes.SkipNode
-
-
-def _block(writer: Any, node: Any) -> None:  # noqa: ANN401
-    writer.body.append(to_mathml(node.astext(), block=True))
+def _formula(block: bool, writer: Any, node: Any) -> None:  # noqa: ANN401
+    writer.body.append(to_mathml(node.astext(), block=block))
     raise nodes.SkipNode
 
 

@@ -6,12 +6,8 @@ import re
 
 from docutils.utils.math.latex2mathml import tex2mathml
 
-OTHERWISE = {
-    "°": r"^\circ ",
-    r"\dots": r"\ldots",
-    r"\big": "",
-    r"\Big": "",
-}  # what the converter does not know
+# What the converter does not know.
+OTHERWISE = {"°": r"^\circ ", r"\dots": r"\ldots", r"\big": "", r"\Big": ""}
 NAME = r"(?:<msup>\s*)?<mi>[a-z]{2,}</mi>"  # of a function, such as sin
 BEFORE = re.compile(rf"(</m(?:i|n|row|su[bp]|subsup|frac|sqrt)>\s*)(?={NAME})")
 AFTER = re.compile(r"<mo>&ApplyFunction;</mo>(?=\s*<m[^o])")

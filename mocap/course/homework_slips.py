@@ -160,8 +160,6 @@ def turn_in_place(root_positions: Array, angle: float) -> Array:
 
     Notebook: 03-transforms
     """
-    first = root_positions[0].copy()
-    root_positions[:] = PlanarTransform(angle, first[0], first[2]).apply_points(
-        root_positions - first * [1, 0, 1]
-    )
+    x, _, z = root_positions[0]
+    root_positions[:] = PlanarTransform(angle, x, z).apply_points(root_positions - [x, 0, z])
     return root_positions

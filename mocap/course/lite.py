@@ -42,9 +42,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
         raise MocapError("The site needs JupyterLite, which is not installed: pip install 'mocap[lite]'.")
     checkout = notebooks.parent
     if not (checkout / "pyproject.toml").exists():
-        raise MocapError(
-            "A JupyterLite site is built from a checkout of the package; this is an installed package."
-        )
+        raise MocapError("A JupyterLite site is built from a checkout; this is an installed package.")
     with tempfile.TemporaryDirectory() as folder:
         wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])

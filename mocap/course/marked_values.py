@@ -42,9 +42,8 @@ class Marked(NamedTuple):
             word = WORDS[whole] if 0 <= whole < len(WORDS) else str(whole)
             return word.capitalize() if self.shown[0].isupper() else word
         _, _, decimals = self.shown.partition(".")
-        text = f"{value:,.{len(decimals)}f}".replace(
-            ",", " " if abs(value) >= 10_000 or " " in self.shown else ""
-        )
+        gap = " " if abs(value) >= 10_000 or " " in self.shown else ""
+        text = f"{value:,.{len(decimals)}f}".replace(",", gap)
         return text.replace("-", "−") if "−" in self.shown else text
 
     def agrees(self, value: float) -> bool:

@@ -66,9 +66,7 @@ def open_course(copy: Path, options: Sequence[str] = ()) -> int:
     MocapError : if JupyterLab is not installed.
     """
     if importlib.util.find_spec("jupyterlab") is None:
-        raise MocapError(
-            "The course runs in JupyterLab, which is not installed: pip install 'mocap[notebooks]'."
-        )
+        raise MocapError("The course runs in JupyterLab, which is missing: pip install 'mocap[notebooks]'.")
     root = ["--allow-root"] if getattr(os, "geteuid", lambda: 1)() == 0 else []
     first = str(course_folder(copy) / FIRST)
     started = subprocess.Popen([sys.executable, "-m", "jupyterlab", first, *root, *options])

@@ -9,7 +9,6 @@ import io
 import json
 import pkgutil
 import tempfile
-from collections.abc import Callable, Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from typing import Any
 import mocap
 from mocap import graphs
 from mocap._shared.atomic import make_folder, write_text
+from mocap._shared.progress import Progress
 from mocap.body.motion import resample
 from mocap.course.notebooks import execute, library, notebooks_in, read
 from mocap.datasets.samples import SAMPLES, sample
@@ -67,13 +67,7 @@ INDEX = """# Motion graphs
 REFERENCE = "{0}\n{1}\n\n.. automodule:: {0}\n   :members:\n   :imported-members:\n"
 
 
-def build_site(
-    notebooks: Path,
-    out: Path,
-    progress: Callable[[Iterable[Path]], Iterable[Path]] = iter,
-    *,
-    moving: bool = False,
-) -> Path:
+def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving: bool = False) -> Path:
     """Write the notebooks and pages of a folder as HTML, beside the reference pages of the package.
 
     Parameters
@@ -177,11 +171,7 @@ def _unpack_pictures(notebook: Any, folder: Path, stem: str) -> None:  # noqa: A
 
 def _note(notebook: Any) -> str:  # noqa: ANN401
     """Say what moves on a page, what does not, and how to run it."""
-    shown = "".join(
-        output.get("data", {}).get("text/html", "")
-        for cell in notebook.cells
-        for output in cell.get("outputs", ())
-    )
+    shown = str(notebook.cells)
     live = [said for part, said in LIVE.items() if f'class="{part}' in shown]
     said = "This page is still: code and controls do not run here."
     if live:
@@ -193,11 +183,8 @@ def _note(notebook: Any) -> str:  # noqa: ANN401
 def _write_reference(folder: Path) -> list[str]:
     """Write a page for the face of each room, and list them."""
     make_folder(folder / "reference")
-    rooms = [
-        room.name
-        for room in pkgutil.walk_packages(mocap.__path__, "mocap.")
-        if room.ispkg and "._" not in room.name
-    ]
+    found = pkgutil.walk_packages(mocap.__path__, "mocap.")
+    rooms = [room.name for room in found if room.ispkg and "._" not in room.name]
     for room in rooms:
         write_text(folder / "reference" / f"{room}.rst", REFERENCE.format(room, "=" * len(room)))
     return [f"reference/{room}" for room in rooms]

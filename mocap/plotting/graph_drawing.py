@@ -146,10 +146,8 @@ def node_link(
     Notebook: 06-pruning
     """
     if not 0 < len(graph) <= MOST_NODES:
-        raise MocapError(
-            f"Nodes and arrows show graphs of 1 to {MOST_NODES} nodes, this one has {len(graph)}: "
-            "`plotting.timeline` shows large ones."
-        )
+        nodes = f"1 to {MOST_NODES} nodes, this one has {len(graph)}"
+        raise MocapError(f"Nodes and arrows show graphs of {nodes}: `plotting.timeline` shows large ones.")
     ax = ax or plt.figure(figsize=(4, 4), layout="constrained").add_subplot()
     places, ink = places or nx.circular_layout(graph), COLOURS["middle"]
     kept = graph if kept is None else kept

@@ -19,7 +19,7 @@ import numpy as np
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import joint_positions
 from mocap.errors import MocapError, MocapWarning, shortened
-from mocap.steering.characters import Character, Pose, as_motion
+from mocap.steering.characters import Character, Pose, as_motion, require_command
 from mocap.widgets.packing import drawn
 
 MOST = 4  # characters side by side
@@ -110,10 +110,7 @@ class Order(NamedTuple):
 
     def checked(self) -> Order:
         """Return it as it is; a heading or speed that no character could take is an error."""
-        if not (np.isfinite(self.heading) and np.isfinite(self.speed) and self.speed >= 0):
-            raise MocapError(
-                f"A command is a finite heading and a speed from 0 on, got {self.heading}, {self.speed}."
-            )
+        require_command(self.heading, self.speed)
         return self
 
 

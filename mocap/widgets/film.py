@@ -160,6 +160,4 @@ def require_ffmpeg() -> None:
     try:
         import imageio_ffmpeg  # noqa: F401
     except ImportError as error:
-        raise MocapError(
-            "An .mp4 needs imageio-ffmpeg: pip install 'mocap[video]'; a .gif does not."
-        ) from error
+        raise MocapError("An .mp4, but no .gif, needs imageio-ffmpeg: pip install 'mocap[video]'.") from error

@@ -137,9 +137,8 @@ def steered(
         }
         for number, member in enumerate(company.members)
     ]
-    page = widget(Steered)(
-        scene={"alt": alt, "members": members, **LOOK, "speeds": [low, high], "labels": list(labels)}
-    )
+    scene = {"alt": alt, "members": members, **LOOK, "speeds": [low, high], "labels": list(labels)}
+    page = widget(Steered)(scene=scene)
     page.command = [RECORDED[-1][0], speed, ""]
     page.company, page.alt, page.still = company, alt, (data, metadata)
     page.on_msg(page.answer)

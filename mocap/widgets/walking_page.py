@@ -23,17 +23,9 @@ from mocap.widgets.walk_figure import feet, figure
 HERE = Path(__file__).parent
 Node = tuple[int, int]
 STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
-PARTS = (
-    "search",
-    "body",
-    "line",
-    "camera",
-    "scene",
-    "saving",
-    "small",
-    "hands",
-    "page",
-)  # what each uses first
+# What each uses comes before it.
+SETTINGS = ("WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
+PARTS = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
 
 
 def numbers(values: ArrayLike, order: int = 0) -> bytes:
@@ -83,9 +75,7 @@ def _about(graph: MotionGraph) -> dict[str, Any]:
         "steps": STEPS,
         "figure": figure(skeleton),
         "feet": feet(skeleton),
-        "search": {
-            name.lower(): getattr(plain, name) for name in ("WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")
-        },
+        "search": {name.lower(): getattr(plain, name) for name in SETTINGS},
     }
 
 
@@ -101,12 +91,8 @@ def _row(graph: MotionGraph, labels: list[str], ends: tuple[Node, Node], edge: d
         for clip, frame in ((a, leave), (b, enter - graph.window))
     )
     off = place.turn * there + place.move - here
-    turned, aside, ahead = (
-        np.angle(place.turn) / STEPS["turn"],
-        off.imag / STEPS["move"],
-        off.real / STEPS["move"],
-    )
-    return [kind + 1, round(turned), round(ahead), round(aside)]
+    turned = round(np.angle(place.turn) / STEPS["turn"])
+    return [kind + 1, turned, round(off.real / STEPS["move"]), round(off.imag / STEPS["move"])]
 
 
 def walk_page(graph: MotionGraph) -> str:

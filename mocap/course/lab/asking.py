@@ -26,14 +26,8 @@ from mocap.errors import MocapError
 
 HEADS = {"choice": "Quiz: choose one", "number": "Quiz: a number", "order": "Quiz: put in order"}
 COLUMNS = ("", "you thought", "came out", "off by")
-BET: dict[str, Any] = {
-    "choices": [],
-    "unit": "",
-    "low": None,
-    "high": None,
-    "step": 1.0,
-    "real": False,
-}  # where it says nothing
+# What a bet is where it says nothing.
+BET: dict[str, Any] = {"choices": [], "unit": "", "low": None, "high": None, "step": 1.0, "real": False}
 
 Bets = Mapping[str, dict[str, Any]]
 

@@ -171,21 +171,18 @@ def choose(clips: Sequence[Motion], found: Transitions, plan: Plan) -> Transitio
     MocapError : where there are not enough.
     """
     lengths, fps = np.array([len(clip) for clip in clips]), clips[0].fps
-    around = np.minimum(found.leave, found.enter)  # frames of clip before a match, or after it
-    around = np.minimum(
-        around, np.minimum(lengths[found.source] - found.leave, lengths[found.target] - found.enter)
-    )
-    elsewhere = (found.source != found.target) | (
-        abs(found.leave - found.enter) > fps
-    )  # and no mere moment on
+    after = lengths[found.source] - found.leave, lengths[found.target] - found.enter
+    around = np.minimum.reduce([found.leave, found.enter, *after])  # frames of clip beside a match
+    later = abs(found.leave - found.enter) > fps  # and no mere moment on
+    elsewhere = (found.source != found.target) | later
     near = (found.cost <= plan.below) & (found.cost > NEAR * plan.below)
     usable: Transitions = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
     if len(usable) < plan.pairs:
         costs = f"{100 * NEAR * plan.below:.1f} to {100 * plan.below:.1f} cm"
-        room = f"{SECONDS / 2 + AROUND:.1f} s of both clips around them"
-        raise MocapError(
-            f"A blind test needs {plan.pairs} matches of {costs}, with {room}; got {len(usable)}."
+        needed = (
+            f"{plan.pairs} matches of {costs}, with {SECONDS / 2 + AROUND:.1f} s of both clips around them"
         )
+        raise MocapError(f"A blind test needs {needed}; got {len(usable)}.")
     chosen: Transitions = usable[np.random.default_rng(plan.seed).permutation(len(usable))[: plan.pairs]]
     return chosen
 
@@ -206,10 +203,9 @@ def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[
     if len({clip.fps for clip in clips}) != 1:
         raise MocapError("A blind test needs clips of one rate; resample them.")
     fps = clips[0].fps
-    if not 1 <= plan.window <= (SECONDS - 2 * AROUND) * fps:
-        raise MocapError(
-            f"A window has 1 to {int((SECONDS - 2 * AROUND) * fps)} frames here, got {plan.window}."
-        )
+    most = int((SECONDS - 2 * AROUND) * fps)
+    if not 1 <= plan.window <= most:
+        raise MocapError(f"A window has 1 to {most} frames here, got {plan.window}.")
     rng = np.random.default_rng([plan.seed, 1])
     pairs = []
     for match in choose(clips, found, plan):
@@ -223,6 +219,6 @@ def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[
         joined = join(first, start, second, start, plan.window)
         control = first if rng.random() < 0.5 else second
         ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
-        seam, control = ahead.apply_motion(joined), ahead.apply_motion(control)
-        pairs.append(Pair(seam, control, bool(rng.random() < 0.5), match))
+        films = ahead.apply_motion(joined), ahead.apply_motion(control)
+        pairs.append(Pair(*films, bool(rng.random() < 0.5), match))
     return pairs

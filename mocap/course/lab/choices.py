@@ -111,14 +111,10 @@ def of_clips(clips: Sequence[Motion], window: int, at: Any) -> Choices:  # noqa:
     try:
         i, j = minima[0] if at is None else map(index, at)
     except (TypeError, ValueError):
-        raise MocapError(
-            f"Two windows are chosen by their first frames, at=(i, j), not by {at!r:.80}."
-        ) from None
+        raise MocapError(f"Windows are chosen by their first frames, at=(i, j), not by {at!r:.80}.") from None
     rows, columns = grid.shape
     if not (0 <= i < rows and 0 <= j < columns):
-        raise MocapError(
-            f"Windows start at frames 0 to {rows - 1} and 0 to {columns - 1}, not at {i} and {j}."
-        )
+        raise MocapError(f"Windows start at frames 0 to {rows - 1} and 0 to {columns - 1}, not {i} and {j}.")
     frames = around(first.fps)
     return Choices((first, second), window, Pick(0, i, 1, j, frames, frames), grid, minima, by=by)
 
@@ -222,13 +218,9 @@ def of_walk(graph: MotionGraph, walk: Sequence[Edge], at: Any) -> Choices:  # no
     starts = [seam.frame for seam in found]
     stops = [0, *(start + graph.window for start in starts)]
     following = [*starts[1:], int(edge_table(graph, walk).frames.sum())]
-    picks = tuple(
-        whole.transitions[edges.index(edge)]._replace(
-            seam=n,
-            frame=start,
-            before=min(most, start - stops[n]),
-            after=min(most, following[n] - stops[n + 1]),
-        )
-        for n, (edge, start) in enumerate(zip(taken, starts, strict=True))
-    )
-    return whole._replace(pick=picks[at], seams=picks)
+    picks = []
+    for n, (edge, start) in enumerate(zip(taken, starts, strict=True)):
+        before, after = min(most, start - stops[n]), min(most, following[n] - stops[n + 1])
+        own = whole.transitions[edges.index(edge)]
+        picks.append(own._replace(seam=n, frame=start, before=before, after=after))
+    return whole._replace(pick=picks[at], seams=tuple(picks))

@@ -201,9 +201,8 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     except SyntaxError as error:
         raise MocapError(f"{file}, line {error.lineno}: {error.msg}; correct it, or delete it.") from error
     new = name, f"# ---- {name} (notebook {notebook}) ----\n", f"\n{plain.source}"
-    kept = sorted(
-        [*(part for part in sections if part[0] != name), new], key=lambda part: part[1].partition("(")[2]
-    )
+    kept = [*(part for part in sections if part[0] != name), new]
+    kept.sort(key=lambda part: part[1].partition("(")[2])  # by notebook
     imports = "\n".join(sorted(lines | plain.imports))
     start = f"{HEAD}\n{imports}\n" if imports else HEAD
     text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)]) + FOOT

@@ -158,9 +158,8 @@ def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     for path in paths:
         for answer in _read(path):
             if answers.setdefault(answer[:-1], answer) != answer:
-                raise MocapError(
-                    f"{path}: '{answer.observer}' answered pair {answer.pair} twice, differently."
-                )
+                twice = f"'{answer.observer}' answered pair {answer.pair} twice, differently"
+                raise MocapError(f"{path}: {twice}.")
     return list(answers.values())
 
 
@@ -176,15 +175,11 @@ def _read(path: Path) -> list[Answer]:
     for number, row in enumerate(rows, 2):
         try:
             observer, below, window, seed, pair, right, _, _ = row
-            answers.append(
-                Answer(
-                    observer, float(below), int(window), int(seed), int(pair), {"0": False, "1": True}[right]
-                )
-            )
+            chose = {"0": False, "1": True}[right]
+            answers.append(Answer(observer, float(below), int(window), int(seed), int(pair), chose))
         except (ValueError, KeyError) as error:
-            raise FormatError(
-                path, number, "an answer in 8 columns, right 0 or 1", repr(",".join(row))
-            ) from error
+            expected = "an answer in 8 columns, right 0 or 1"
+            raise FormatError(path, number, expected, repr(",".join(row))) from error
     return answers
 
 

@@ -18,8 +18,5 @@ Reading order
 import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__,
-    submod_attrs={
-        "marks": ["Mark", "mark", "to_csv", "to_table"],
-    },
+    __name__, submod_attrs={"marks": ["Mark", "mark", "to_csv", "to_table"]}
 )

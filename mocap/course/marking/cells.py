@@ -44,11 +44,8 @@ def code_cells(notebook: Any) -> list[Cell]:  # noqa: ANN401
     [Cell(exercises=('speed',), source='def speed(): ...')]
     """
     named = list(tagged(notebook, "exercise"))
-    return [
-        Cell(tuple(name for name, own in named if own is cell), cell.source)
-        for cell in notebook.cells
-        if cell.cell_type == "code"
-    ]
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    return [Cell(tuple(name for name, own in named if own is cell), cell.source) for cell in cells]
 
 
 def course_sheets(folder: Path) -> list[Sheet]:

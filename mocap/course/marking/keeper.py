@@ -49,9 +49,8 @@ def keep(control: socket.socket) -> None:
     try:
         while (message := socket.recv_fds(control, 1, 1))[0]:
             for channel in message[1]:
-                subprocess.run(
-                    ["rm", "-rf", home], check=False
-                )  # shutil.rmtree: no folders in folders in ...
+                # shutil.rmtree cannot delete folders in folders in ...
+                subprocess.run(["rm", "-rf", home], check=False)
                 home.mkdir(exist_ok=True)
                 student = walls.fork_behind(raised, home, hidden, partial(_serve, channel))
                 os.close(channel)

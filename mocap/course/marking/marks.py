@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import mocap
+from mocap._shared.progress import Progress
 from mocap.course import stored
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
@@ -60,9 +61,7 @@ class _Handed(NamedTuple):
 
 
 def mark(
-    folder: Path,
-    progress: Callable[[Iterable[Any]], Iterable[Any]] = iter,
-    tell: Callable[[str], object] = lambda _: None,
+    folder: Path, progress: Progress = iter, tell: Callable[[str], object] = lambda _: None
 ) -> Iterator[list[Mark]]:
     """Mark the exercises of all notebooks in a folder and in the folders inside it.
 

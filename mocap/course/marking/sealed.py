@@ -85,16 +85,9 @@ class Sealed:
         self.control.settimeout(30)
         self.lines = self.control.makefile()
         keeper, null = [sys.executable, "-m", "mocap.course.marking.keeper"], subprocess.DEVNULL
+        place: dict[str, Any] = {"cwd": self.folder, "env": kept | FIXED, "start_new_session": True}
         with theirs:
-            self.process = subprocess.Popen(
-                keeper,
-                stdin=theirs.fileno(),
-                stdout=null,
-                stderr=null,
-                cwd=self.folder,
-                env=kept | FIXED,
-                start_new_session=True,
-            )
+            self.process = subprocess.Popen(keeper, stdin=theirs.fileno(), stdout=null, stderr=null, **place)
         self.control.sendall(f"{json.dumps([WANTED, self.hidden])}\n".encode())
         self.walls = self._answer().split()
 

@@ -49,10 +49,8 @@ def sentences(text: str) -> list[str]:
     ['It is 3.5 cm off (see Fig. 4. It is small).', 'Why?', 'Look at `a. B`.']
     """
     text = " ".join(text.split())
-    ends = [
-        found for found in END.finditer(text) if found["end"] and not SHORT.search(text, 0, found.start())
-    ]
-    starts = [0, *(found.end() for found in ends)]
+    found = [end for end in END.finditer(text) if end["end"] and not SHORT.search(text, 0, end.start())]
+    starts = [0, *(end.end() for end in found)]
     return [text[a:b].rstrip() for a, b in pairwise([*starts, len(text)])]
 
 

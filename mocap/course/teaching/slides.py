@@ -9,7 +9,7 @@ from __future__ import annotations
 import html
 import re
 import shutil
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Collection, Iterable
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,6 +17,7 @@ from string import Template
 from typing import Any
 
 from mocap._shared.atomic import make_folder, write_text
+from mocap._shared.progress import Progress
 from mocap.course.formulas import to_mathml
 from mocap.course.notebooks import notebooks_in
 from mocap.course.site import MOVING, prepared
@@ -41,13 +42,7 @@ def _copy_reveal(out: Path) -> None:
         shutil.copyfile(folder / name, out / "reveal" / name)
 
 
-def build_slides(
-    notebooks: Path,
-    out: Path,
-    progress: Callable[[Iterable[Path]], Iterable[Path]] = iter,
-    *,
-    moving: bool = False,
-) -> Path:
+def build_slides(notebooks: Path, out: Path, progress: Progress = iter, *, moving: bool = False) -> Path:
     """Write a deck of slides for each notebook of a folder, and a page that lists them.
 
     Parameters

@@ -120,11 +120,11 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         before = len(found)
         for other, number in sorted(new, key=lambda pair: pair[0].cost):
             if _is_new(other, places):
-                match = _composed(web, found[number], other, number)
+                match = _composed(found[number], other, number)
                 if keep and not keep(cut_out(web, _in_own_frames(web, clip, match))):
                     continue
                 found.append(match)
-                places = np.append(places, [other[:2]], axis=0)
+                places = np.append(places, [other[1:3]], axis=0)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
     own = [_in_own_frames(web, clip, one) for one in found]
@@ -134,7 +134,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     return own
 
 
-def _is_new(match: Crossing, places: Indices) -> bool:
+def _is_new(match: Match, places: Indices) -> bool:
     """Check that a match overlaps none of the places found, shape (N, 2), by more than half of the union."""
     starts, stops = places.T
     common = np.minimum(stops, match.stop) - np.maximum(starts, match.start)
@@ -153,10 +153,8 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
     start, stop = np.round(web.number(clip, [first, last])).astype(int).tolist()
     stop = min(stop, int(web.starts[clip + 1]))
     if stop - start < LEAST:
-        raise MocapError(
-            f"A query must last {LEAST / web.rate:g} s or more, as the paths of this web do; "
-            f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s."
-        )
+        given = f"{first}:{last} of '{motion.name}' is {(last - first) / motion.fps:.2g} s"
+        raise MocapError(f"A query must last {LEAST / web.rate:g} s or more, as paths do; {given}.")
     rows = np.arange(start, stop, dtype=float)
     return Match(clip, start, stop, 0.0, -1, 0, rows, rows)
 
@@ -165,9 +163,8 @@ def _check(web: MatchWeb, below: float, lengths: tuple[float, float], steps: int
     if not below > 0:
         raise MocapError(f"A match needs a distance above 0 m, got below={below}.")
     if below > web.below:
-        raise MocapError(
-            f"This web holds paths up to {100 * web.below:g} cm: build another for {100 * below:g} cm."
-        )
+        held, asked = f"{100 * web.below:g} cm", f"{100 * below:g} cm"
+        raise MocapError(f"This web holds paths up to {held}: build another for {asked}.")
     if not 0 < lengths[0] <= 1 <= lengths[1]:
         raise MocapError(f"Lengths are shares from up to 1 to 1 or more of the query's, got {lengths}.")
     if steps is not None and steps < 1:
@@ -181,11 +178,11 @@ def _spread(web: MatchWeb, found: Match) -> float:
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(-1).mean()))
 
 
-def _composed(web: MatchWeb, match: Match, other: Crossing, via: int) -> Match:
+def _composed(match: Match, other: Match, via: int) -> Match:
     """Lay a new match on the query: through the match that found it."""
-    inside = (match.frames >= other.own[0]) & (match.frames <= other.own[-1])
-    rows, laid = match.rows[inside], np.interp(match.frames[inside], other.own, other.other)
-    return Match(web.clip_at(other.start), *other[:3], via, match.generation + 1, rows, laid)
+    inside = (match.frames >= other.rows[0]) & (match.frames <= other.rows[-1])
+    laid = np.interp(match.frames[inside], other.rows, other.frames)
+    return other._replace(via=via, generation=match.generation + 1, rows=match.rows[inside], frames=laid)
 
 
 def _in_own_frames(web: MatchWeb, query: int, match: Match) -> Match:
@@ -218,24 +215,11 @@ def _warn(found: Sequence[Match], left_out: int) -> None:
         warnings.warn(message, MocapWarning, stacklevel=3)
 
 
-class Crossing(NamedTuple):
-    """The frames [start, stop) that a path lays on a stretch, in the numbering of all clips' frames.
-
-    `cost` is the path's mean RMS distance inside the stretch, metres; `own` and `other`, shape (K,), are
-    frames of the stretch, each once, and the frames that lie on them.
-    """
-
-    start: int
-    stop: int
-    cost: float
-    own: Array
-    other: Array
-
-
-def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Crossing]:
+def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Match]:
     """List what the paths of a web lay on the frames [start, stop), in the numbering of all.
 
-    A web is symmetric: a path serves a stretch in either of its clips.
+    A web is symmetric: a path serves a stretch in either of its clips. The `rows` of what it lays there are
+    frames of the stretch, each once.
 
     Parameters
     ----------
@@ -266,7 +250,8 @@ def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Cr
                 begin = max(int(other[0] - (own[0] - start)), int(web.starts[clip]))
                 end = min(int(other[-1] + (stop - own[-1])), int(web.starts[clip + 1]))
                 frames, at, count = np.unique(own, return_index=True, return_counts=True)
-                yield Crossing(begin, end, cost, frames, np.add.reduceat(other, at) / count)
+                laid = np.add.reduceat(other, at) / count
+                yield Match(web.clip_at(begin), begin, end, cost, -1, 0, frames, laid)
 
 
 def cut_out(web: MatchWeb, match: Match) -> Motion:

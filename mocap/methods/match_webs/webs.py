@@ -90,11 +90,7 @@ class MatchWeb:
 
 
 def build_web(
-    clips: Sequence[Motion],
-    *,
-    below: float = 0.12,
-    window: int = 5,
-    progress: Progress = iter,
+    clips: Sequence[Motion], *, below: float = 0.12, window: int = 5, progress: Progress = iter
 ) -> MatchWeb:
     """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
@@ -160,10 +156,8 @@ def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
         raise MocapError(f"No clip is long enough for a path: that takes {frames / MatchWeb.rate:.2g} s.")
     if short:
         names = ", ".join(short[:4]) + (f" and {len(short) - 4} more" if len(short) > 4 else "")
-        needed = f"{frames / MatchWeb.rate:.2g} s"
-        warnings.warn(
-            f"Too short to hold a path of {needed}, and left out: {names}.", MocapWarning, stacklevel=3
-        )
+        said = f"Too short to hold a path of {frames / MatchWeb.rate:.2g} s, and left out: {names}."
+        warnings.warn(said, MocapWarning, stacklevel=3)
     return long
 
 
@@ -231,9 +225,9 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
         clips = require_alike(clips)
     for name, known, clip in zip(names, arrays["fingerprints"].tolist(), clips, strict=True):
         if fingerprint(clip) != known and not (clip.name == name and is_bundled(clip)):
+            built, given = shortened(name, 50), shortened(clip.name, 50)
             raise MocapError(
-                f"{path} was built of '{shortened(name, 50)}', not of this '{shortened(clip.name, 50)}': "
-                "take that clip, or build anew."
+                f"{path} was built of '{built}', not of this '{given}': take that, or build anew."
             )
     at_rate = [int(clip.duration * MatchWeb.rate + 1e-9) + 1 for clip in clips]  # as `resample` counts
     if not np.all((arrays["lengths"] == at_rate) | (arrays["lengths"] == 0)):

@@ -92,9 +92,8 @@ class Examples:
     def blend(self, weights: Array) -> Motion:
         """Blend the action by weights (N,): one frame per phase from 0 to 1, as long as the mix takes."""
         zero, one = self.ends
-        inner = slice(zero, one + 1)
         (roots,), (turns,), _ = self.mixed(weights[None], np.arange(zero, one + 1.0)[None])
-        marks = (weights @ self.contacts.reshape(len(self), -1)).reshape(self.contacts.shape[1:])[inner] > 0.5
+        marks = np.tensordot(weights, self.contacts[:, zero : one + 1], 1) > 0.5
         contacts = dict(zip(self.contact_names, marks.T, strict=True))
         rate = (one - zero) / float(weights @ self.seconds[:, one])
         return Motion(self.skeleton, roots, turns, rate, "blend", contacts=contacts)
@@ -187,10 +186,9 @@ def cut_actions(
     for clip, (first, last) in zip(clips, spans, strict=True):
         frames = first + grid * (last - first)
         if not (first < last and frames[0] >= 0 and frames[-1] <= len(clip) - 1):
-            raise MocapError(
-                f"'{clip.name}' has {len(clip)} frames; an action from {first} to {last} with its margins "
-                f"takes those from {frames[0]:.0f} to {frames[-1]:.0f}: leave it more room, or out."
-            )
+            action = f"an action from {first} to {last} with its margins takes those"
+            beyond = f"{action} from {frames[0]:.0f} to {frames[-1]:.0f}"
+            raise MocapError(f"'{clip.name}' has {len(clip)} frames; {beyond}: leave it more room, or out.")
         found.append((clip if clip.contacts else mark_plants(clip), frames))
     zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])
     return tabled(on_one_clock(found, (int(zero), int(one))), grid)

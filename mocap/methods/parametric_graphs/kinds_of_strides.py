@@ -113,10 +113,8 @@ def _least(spaces: Mapping[str, Space], edges: Sequence[tuple[str, str]], sampli
             needed[a, b] = smallest_good(spaces[a], spaces[b], sampling)
     (one, other), worst = max(needed.items(), key=lambda item: item[1])
     if worst > MOST:
-        raise NoWalk(
-            f"{one} → {other} needs T_GOOD = {100 * worst:.1f} cm, more than {100 * MOST:.0f}: give `good` "
-            f"to accept it, narrow the range, or leave the change out."
-        )
+        needs = f"T_GOOD = {100 * worst:.1f} cm, more than {100 * MOST:.0f}"
+        raise NoWalk(f"{one} → {other} needs {needs}: give `good`, narrow the range, or leave it out.")
     return max(LEAST, 1.05 * worst)
 
 

@@ -107,10 +107,8 @@ def near_end(space: Space, asked: Array, phase: float) -> tuple[Array, Array]:
     times = (centre[:, None] + np.arange(-reach, reach + 1)) / rate
     off = np.maximum(seconds[:, 0] - times[:, 0], times[:, -1] - seconds[:, -1])
     if off.max() > 1 / rate:
-        raise MocapError(
-            f"A window runs {off.max():.2f} s off a motion of {np.ptp(seconds[off.argmax()]):.2f} s, margins "
-            "and all: cut with a larger margin, or leave quick ones out."
-        )
+        lasts = f"a motion of {np.ptp(seconds[off.argmax()]):.2f} s, margins and all"
+        raise MocapError(f"A window runs {off.max():.2f} s off {lasts}: cut with a larger margin.")
     every = np.arange(len(examples.grid))
     places = np.array([np.interp(t, clock, every) for t, clock in zip(times, seconds, strict=True)])
     roots, turns, _ = examples.mixed(weights, places)

@@ -176,10 +176,8 @@ class ParametricController:
             taken = (taken + goal) / 2 if number else goal  # half of the way: else they swing about the goal
             made = make_motion(space, taken)
             centre, into = max(self.made.frame(way.leave), self._at + HALF), made.frame(way.enter)
-            parts = [
-                one.motion[middle - HALF : middle + HALF + 1]
-                for one, middle in ((self.made, centre), (made, into))
-            ]
+            pair = (self.made, centre), (made, into)
+            parts = [one.motion[middle - HALF : middle + HALF + 1] for one, middle in pair]
             window, facing = (joint_positions(p)[:, space.examples.joints].reshape(-1, 3) for p in parts)
             lay = align(window, facing)
             place = self.place @ lay

@@ -152,12 +152,7 @@ def smallest_good(source: Space, target: Space, sampling: Sampling | None = None
 
 
 def build_edge(
-    source: Space,
-    target: Space,
-    *,
-    good: float,
-    bad: float | None = None,
-    sampling: Sampling | None = None,
+    source: Space, target: Space, *, good: float, bad: float | None = None, sampling: Sampling | None = None
 ) -> ParametricEdge:
     """Say for each source which box of targets may follow, and when to leave and to enter [HG07, 3.2].
 
@@ -196,13 +191,10 @@ def build_edge(
     cost, least = found.cost, found.cost.min(axis=1)
     if (least > good).any():
         asked, worst = at[int(least.argmax())], float(least.max())
-        what = ", ".join(
-            f"{name} {said(name, value)}" for name, value in zip(source.parameters, asked, strict=True)
-        )
-        raise NoWalk(
-            f"Nothing follows {what} below {100 * good:.1f} cm (the best costs {100 * worst:.1f} "
-            f"cm): raise T_GOOD to {100 * np.ceil(1000 * worst) / 1000:.1f} cm, or narrow the range."
-        )
+        named = zip(source.parameters, asked, strict=True)
+        what = ", ".join(f"{name} {said(name, value)}" for name, value in named)
+        below, most = f"{100 * good:.1f} cm (the best costs {100 * worst:.1f} cm)", np.ceil(1000 * worst) / 10
+        raise NoWalk(f"Nothing follows {what} below {below}: raise T_GOOD to {most:.1f} cm, or ask for less.")
     rows = []
     for row in range(len(at)):
         fine = cost[row] <= good

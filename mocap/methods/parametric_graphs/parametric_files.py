@@ -68,19 +68,16 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
 
 
 def _rules_of_nodes(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
-    for own in (
-        {key: arrays[f"{key}_of_{number}"] for key in NODE} for number in range(len(arrays["nodes"]))
-    ):
+    for number in range(len(arrays["nodes"])):
+        own = {key: arrays[f"{key}_of_{number}"] for key in NODE}
         names, grid, times = own["parameters"].tolist(), own["grid"], own["seconds"]
         yield "parameters have names of their own", 0 < len(set(names)) == len(names)
         yield "phases grow from before 0 to after 1", len(grid) > 1 and grid[0] < 0 and grid[-1] > 1
         yield "phases are even", np.abs(np.diff(grid) - (grid[1] - grid[0])) < 1e-6
         zero = int(np.abs(grid).argmin())
         yield "time goes on, by seconds", (np.diff(times, axis=1) >= 0).all() and np.abs(times) < 10
-        yield (
-            "it counts from the strike",
-            (np.abs(times[:, zero]) < 1e-6) & (times[:, -1] > 1 / arrays["fps"]),
-        )
+        counts = (np.abs(times[:, zero]) < 1e-6) & (times[:, -1] > 1 / arrays["fps"])
+        yield "it counts from the strike", counts
         yield "turns have length 1", np.abs((own["poses"] ** 2).sum(axis=-1) - 1) < 1e-5
         yield "a range has ends", own["low"] <= own["high"]
         yield "samples are enough", len(own["values"]) >= len(names) + 2
@@ -91,10 +88,8 @@ def _rules_of_edges(arrays: Arrays, ends: Indices) -> Iterator[tuple[str, ArrayL
     for edge, (a, b) in enumerate(ends.T.tolist()):
         at, low = arrays[f"at_of_edge_{edge}"], arrays[f"box_low_of_edge_{edge}"]
         sizes = [part.shape[1] for part in (at, low)]
-        yield (
-            "edges have their nodes' parameters",
-            sizes == [len(arrays[f"low_of_{node}"]) for node in (a, b)],
-        )
+        wanted = [len(arrays[f"low_of_{node}"]) for node in (a, b)]
+        yield "edges have their nodes' parameters", sizes == wanted
         yield "sources are enough", len(at) >= sizes[0] + 2
         leave, enter = arrays[f"leave_of_edge_{edge}"], arrays[f"enter_of_edge_{edge}"]
         yield "motions are left late, and entered early", (np.abs(leave - 1) < 0.5) & (np.abs(enter) < 0.5)

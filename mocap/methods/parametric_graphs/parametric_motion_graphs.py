@@ -40,10 +40,9 @@ class ParametricGraph:
         for node, other, data in self.graph.edges(data=True):
             edge: ParametricEdge = data["edge"]
             wide = (edge.high - edge.low).mean(axis=0)
-            boxes = map("{} of {}".format, map(said, names := self.space(other).parameters, wide), names)
-            lines.append(
-                f"{node} → {other}: boxes of {' and '.join(boxes)}, from {100 * edge.least:.1f} cm on"
-            )
+            names = self.space(other).parameters
+            boxes = " and ".join(map("{} of {}".format, map(said, names, wide), names))
+            lines.append(f"{node} → {other}: boxes of {boxes}, from {100 * edge.least:.1f} cm on")
         return "\n".join(lines)
 
 

@@ -110,10 +110,9 @@ def make_space(
         raise MocapError(f"A range has ends low < high and a width above 0, got {ends}.")
     values = strides.values[:, columns]
     if len(values) < len(names) + 2 or (np.ptp(values, axis=0) < width / 2).any():
-        raise MocapError(
-            f"A space asked by {' and '.join(names)} takes {len(names) + 2} strides or more that vary, got "
-            f"{len(values)} with {_spans(names, values)}: add clips, longer ones, or ask by something else."
-        )
+        takes = f"{' and '.join(names)} takes {len(names) + 2} strides or more that vary"
+        got = f"{len(values)} with {_spans(names, values)}"
+        raise MocapError(f"A space asked by {takes}, got {got}: add clips, or ask by something else.")
     if len(names) == 1:
         asked = np.linspace(lowest - width, highest + width, SAMPLES[0])
     else:

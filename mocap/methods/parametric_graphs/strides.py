@@ -16,14 +16,7 @@ from mocap.body.limbs import find_legs
 from mocap.body.motion import Motion, require_alike
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
-from mocap.methods.parametric_graphs.examples import (
-    FINE,
-    MARGIN,
-    Examples,
-    mixed_way,
-    on_one_clock,
-    tabled,
-)
+from mocap.methods.parametric_graphs.examples import FINE, MARGIN, Examples, mixed_way, on_one_clock, tabled
 
 STRIDE, LEFT_STEP, RIGHT_STEP = "lrl", "lr", "rl"
 WIDEST = 0.5  # of a stride: the most that a margin may be
@@ -90,13 +83,10 @@ def cut_strides(
 def _strikes(clip: Motion) -> list[tuple[int, str]]:
     """List the frames at which feet come down, with the foot; a plant at the start began earlier."""
     left, right = (clip.skeleton.names[leg.ankle] for leg in find_legs(clip.skeleton))
-    missing = [name for name in (left, right) if name not in clip.contacts]
-    if missing:
+    if missing := [name for name in (left, right) if name not in clip.contacts]:
         raise MocapError(f"'{clip.name}' does not say when {missing[0]} stands; mark_plants finds out.")
-    events = [
-        (int(f), foot) for name, foot in ((left, "l"), (right, "r")) for f in runs(clip.contacts[name])[:, 0]
-    ]
-    return sorted(event for event in events if event[0] > 0)
+    starts = {foot: runs(clip.contacts[name])[:, 0].tolist() for name, foot in ((left, "l"), (right, "r"))}
+    return sorted((frame, foot) for foot, frames in starts.items() for frame in frames if frame > 0)
 
 
 def _examples(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Array | None]:

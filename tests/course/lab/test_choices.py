@@ -54,8 +54,8 @@ def test_where_the_readers_function_fails_the_packages_makes_the_grid(capsys):
 @pytest.mark.parametrize(
     ("at", "said"),
     [
-        ((0, 111), "Windows start at frames 0 to 110 and 0 to 110, not at 0 and 111."),
-        ((-1, 0), "not at -1 and 0"),
+        ((0, 111), "Windows start at frames 0 to 110 and 0 to 110, not 0 and 111."),
+        ((-1, 0), "not -1 and 0"),
         ("here", "at=(i, j), not by 'here'"),
         (7, "at=(i, j), not by 7"),
         ((1, 2, 3), "at=(i, j)"),

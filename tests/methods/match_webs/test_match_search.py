@@ -34,12 +34,12 @@ def test_what_a_path_does_not_cover_is_carried_on_straight_but_not_beyond_the_cl
         for crossing in crossings(web, start, start + 30, web.below):
             clip = web.clip_at(crossing.start)
             assert web.starts[clip] <= crossing.start < crossing.stop <= web.starts[clip + 1]
-            assert crossing.own[-1] - crossing.own[0] + 1 >= 0.9 * 30
+            assert crossing.rows[-1] - crossing.rows[0] + 1 >= 0.9 * 30
             assert crossing.cost <= web.below
-            assert len(crossing.own) == len(crossing.other) == len(set(crossing.own))
-            assert (np.diff(crossing.other) >= 0).all()
+            assert len(crossing.rows) == len(crossing.frames) == len(set(crossing.rows))
+            assert (np.diff(crossing.frames) >= 0).all()
             if crossing.start > web.starts[clip]:
-                assert abs(crossing.start - (crossing.other[0] - (crossing.own[0] - start))) <= 1
+                assert abs(crossing.start - (crossing.frames[0] - (crossing.rows[0] - start))) <= 1
 
 
 def test_a_walking_cycle_finds_the_others_in_steps_and_no_sneaking_or_jogging(bundled):
