@@ -8,7 +8,9 @@ complex number z + ix, so that turning about the vertical is a product, and p â†
 on another. A node of the graph is (clip, frame): "this frame comes next". An edge of kind "clip" plays the
 frames between two nodes; one of kind "transition" blends K frames, from one clip into another.
 
-Notebooks: 01 to 08. The paper: [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002.
+Notebooks: 01-skeletons-and-clips to 08-path-synthesis.
+
+The paper: [KGP02] L. Kovar, M. Gleicher, F. Pighin, *Motion Graphs*, SIGGRAPH 2002.
 """
 
 from __future__ import annotations
@@ -238,7 +240,7 @@ def random_walk(graph: nx.MultiDiGraph, seconds: float, seed: int) -> list[Edge]
     random = np.random.default_rng(seed)
     node = sorted(graph)[random.integers(len(graph))]
     walk, frames, since = [], 0, 0
-    while frames < seconds * FPS:
+    while frames < seconds * FPS and graph.out_degree(node):  # at a dead end the walk is over
         edges = list(graph.out_edges(node, keys=True, data=True))
         onward = [edge for edge in edges if edge[3]["kind"] == "clip"]
         leaving = [edge for edge in edges if edge[3]["kind"] == "transition"]

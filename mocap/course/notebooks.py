@@ -127,7 +127,10 @@ def shown_source(name: str) -> str:
         elif isinstance(part, ast.AnnAssign) and part.value:
             line = lines[part.lineno - 1]
             lines[part.lineno - 1] = f"{line[: part.target.end_col_offset]} = {line[part.value.col_offset :]}"
-    return "\n".join([f"def {node.name}({ast.unparse(node.args)}):", *lines[body[0].lineno - 1 :]])
+    for part in ast.walk(node):
+        if isinstance(part, ast.FunctionDef):  # whose arguments have lost their annotations
+            lines[part.lineno - 1] = f"{' ' * part.col_offset}def {part.name}({ast.unparse(part.args)}):"
+    return "\n".join([lines[node.lineno - 1], *lines[body[0].lineno - 1 :]])
 
 
 def solution(cell: Any) -> str:  # noqa: ANN401

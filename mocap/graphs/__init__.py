@@ -28,10 +28,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "motion_graph": ["MotionGraph", "build", "from_transitions", "labels_between"],
         "components": [
-            "component_numbers",
             "largest_component",
             "numbered_edges",
-            "reached",
             "NO_LABELS",
         ],
         "pruning": ["prune", "prune_graph", "notes_example"],

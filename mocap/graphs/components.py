@@ -24,7 +24,7 @@ def numbered_edges(graph: nx.MultiDiGraph) -> Indices:
     >>> numbered_edges(nx.MultiDiGraph([("a", "b"), ("b", "c"), ("c", "a")])).tolist()
     [[0, 1], [1, 2], [2, 0]]
 
-    Notebook: 06-pruning
+    Notebook: 06b-pruning-clips
     """
     number = {node: n for n, node in enumerate(graph)}
     return np.array([(number[a], number[b]) for a, b in graph.edges()], int).reshape(-1, 2)
@@ -115,8 +115,6 @@ def component_numbers(ways: Indices, count: int) -> Indices:
     >>> part = component_numbers(np.array([[0, 1], [1, 0], [1, 2]]), 3)
     >>> bool(part[0] == part[1]), bool(part[1] == part[2])
     (True, False)
-
-    Notebook: 06-pruning
     """
     matrix = coo_array((np.ones(len(ways), bool), tuple(ways.T)), shape=(count, count))
     return np.asarray(connected_components(matrix, directed=True, connection="strong")[1])
@@ -129,7 +127,5 @@ def reached(graph: nx.MultiDiGraph, start: Iterable[Hashable]) -> set[Hashable]:
     --------
     >>> sorted(reached(nx.MultiDiGraph([(1, 2), (2, 3), (4, 1)]), [1]))
     [1, 2, 3]
-
-    Notebook: 06-pruning
     """
     return set(chain.from_iterable(nx.bfs_layers(graph, start)))

@@ -89,7 +89,7 @@ class Reason(StrEnum):
     DEAD_END = "dead end: on no cycle"
     SINK = "sink: on a cycle, but reaches nothing that stays"
     UNREACHED = "unreached: on a cycle, but nothing that stays leads there"
-    ASIDE = "aside: on no cycle of one label set, or only on a smaller component's"
+    ASIDE = "aside: its labels form no loop here, or only a loop in a smaller component"
 
 
 @dataclass(frozen=True)
@@ -187,7 +187,7 @@ def prune_graph(graph: nx.MultiDiGraph, *, by_labels: bool = False, least_frames
     (6, 5, 0) DEAD_END
     (7, 5, 0) DEAD_END
 
-    Notebook: 06-pruning
+    Notebook: 06b-pruning-clips
     """
     ways = numbered_edges(graph)
     found = largest_components(graph, ways, by_labels)

@@ -36,6 +36,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "eight_nodes": [
             "EIGHT_PLACES",
             "edge_lengths",
+            "eight_node_graph",
             "search_events",
             "search_steps",
             "tarjan_states",

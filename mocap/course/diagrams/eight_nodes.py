@@ -1,6 +1,6 @@
 """Searches on eight nodes, step by step: Tarjan's with its low links, and branch and bound [KGP02, 4.2]."""
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from itertools import count, pairwise
 from math import dist, inf
 from typing import Any, NamedTuple
@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mocap.course.diagrams.pens import disc, say
+from mocap.course.diagrams.pens import disc, say, show_program
 from mocap.plotting import CURVES, PATH, QUIET, SOURCES, node_link
 
 Node = Hashable
@@ -22,18 +22,35 @@ EIGHT_PLACES: dict[Node, tuple[float, float]] = {
 """Where the nodes of `graphs.notes_example` stand in the pictures of the course."""
 
 ON_STACK, UNSEEN = "#F3E9B8", "#FFFFFF"
+BOX = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+
+
+PROGRAM = """visit(node):
+    give it the next number, put it on the stack
+    for each successor:
+        if it is new:
+            visit it, then take over its low link
+        if it is on the stack:
+            take over its number
+        if it has left the stack:
+            nothing
+    if low link = number:
+        a component is complete: take it off""".splitlines()
+"""Tarjan's visit to a node; the pictures mark the line that has just run."""
 
 
 class SearchState(NamedTuple):
     """What Tarjan's algorithm knows after a step.
 
+    line : the number of the line of `PROGRAM` that has just run.
     message : what it has just done.
     node : where it stands.
-    number, low : the index and the low link of each node that it has seen.
+    number, low : the number and the low link of each node that it has seen.
     stack : the nodes seen whose component is not complete, the oldest first.
     components : those that are complete, in this order.
     """
 
+    line: int
     message: str
     node: Node
     number: dict[Node, int]
@@ -59,85 +76,127 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
 
     Notebook: 06-pruning
     """
-    index, low = dict[Node, int](), dict[Node, int]()
+    number, low = dict[Node, int](), dict[Node, int]()
     stack: list[Node] = []
     components: list[set[Node]] = []
     states: list[SearchState] = []
 
-    def note(message: str, node: Node) -> None:
-        states.append(SearchState(message, node, dict(index), dict(low), list(stack), list(components)))
+    def note(line: int, message: str, node: Node) -> None:
+        known = dict(number), dict(low), list(stack), list(components)
+        states.append(SearchState(line, message, node, *known))
 
     def visit(node: Node) -> None:
-        index[node] = low[node] = len(index)
+        number[node] = low[node] = len(number)
         stack.append(node)
-        note(f"enter {node}", node)
+        note(1, f"enter {node}", node)
         for child in successors[node]:
-            if child not in index:
+            if child not in number:
                 visit(child)
                 low[node] = min(low[node], low[child])
-                note(f"back in {node} from {child}", node)
+                note(4, f"back in {node} from {child}", node)
             elif child in stack:
-                low[node] = min(low[node], index[child])
-                note(f"{node} → {child} closes a cycle", node)
-        if low[node] == index[node]:
+                low[node] = min(low[node], number[child])
+                note(6, f"{node} → {child} closes a cycle", node)
+            else:
+                note(8, f"{node} → {child} leads to a complete component", node)
+        if low[node] == number[node]:
             at = stack.index(node)
             components.append(set(stack[at:]))
             del stack[at:]
-            note(f"{node} is the first of its component", node)
+            note(10, f"{node} is the first of its component", node)
 
     for node in successors:
-        if node not in index:
+        if node not in number:
             visit(node)
     return states
 
 
-def tarjan_step(
-    graph: nx.MultiDiGraph, *, places: Mapping[Node, tuple[float, float]] = EIGHT_PLACES, step: int = 0
-) -> Figure:
-    """Draw Tarjan's algorithm on a small graph after some of its steps.
-
-    Beside each node stand its index and low link, on the right the stack. Nodes are taken by their names.
+def eight_node_graph(
+    graph: nx.MultiDiGraph,
+    *,
+    beside: Mapping[Node, object] | None = None,
+    thick: Collection[tuple[Node, Node]] = (),
+    parts: Sequence[Collection[Node]] = (),
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw the eight-node graph, or a part of it.
 
     Parameters
     ----------
     graph : the graph.
-    places : where to put the nodes; by default those of the eight-node example.
+    beside : what to write beside nodes.
+    thick : edges (start, end) to draw thick and orange.
+    parts : sets of nodes, each of which gets a colour; other nodes stay white.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> from mocap import graphs, plotting
+    >>> ax = eight_node_graph(graphs.notes_example(), beside={1: "first"}, parts=[{4}, {5}])
+    >>> plotting.show(ax, alt="Eight nodes, of which 4 and 5 are coloured.")
+    Picture('Eight nodes, of which 4 and 5 are coloured.')
+
+    Notebook: 06-pruning
+    """
+    ax = ax or plt.figure(figsize=(4.8, 3.5), layout="constrained").add_subplot()
+    discs, arrows = node_link(graph, places=EIGHT_PLACES, ax=ax)
+    colour = {node: SOURCES[n % len(SOURCES)] for n, part in enumerate(parts) for node in part}
+    discs.set_facecolor([colour.get(node, UNSEEN) for node in graph])
+    discs.set_edgecolor("black")
+    for name, node in zip(ax.texts, graph, strict=True):
+        name.set_color("white" if node in colour else "black")
+    for node, words in (beside or {}).items():
+        at = complex(*EIGHT_PLACES[node]) + 0.2 - 0.36j
+        say(ax, at, str(words), fontsize=9, ha="left", bbox=BOX)
+    for arrow, edge in zip(arrows, graph.edges(), strict=True):
+        if edge in thick:
+            arrow.set(color=PATH, linewidth=3)
+    ax.margins(0.12)
+    return ax
+
+
+def tarjan_step(graph: nx.MultiDiGraph, *, step: int = 0) -> Figure:
+    """Draw Tarjan's algorithm on the eight-node graph after some of its steps.
+
+    Beside each node stand its number and low link, on the right the stack, and the line that has just run.
+
+    Parameters
+    ----------
+    graph : the graph, or one with the same nodes.
     step : the number of steps, from 0 on; the last one where it is too large.
 
     Examples
     --------
     >>> from mocap import graphs
-    >>> figure = tarjan_step(graphs.notes_example(), step=15)
+    >>> figure = tarjan_step(graphs.notes_example(), step=16)
     >>> figure.axes[0].get_title()
-    'step 15: 8 → 3 closes a cycle'
+    'step 16: 8 → 3 closes a cycle'
 
     Notebook: 06-pruning
     """
     states = tarjan_states({node: sorted(graph.successors(node)) for node in sorted(graph)})
     step = min(step, len(states) - 1)
     state = states[step]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(7.5, 4.4), layout="constrained", width_ratios=(5, 1))
-    discs, _ = node_link(graph, places=places, ax=left)
-    done = {node: SOURCES[n] for n, part in enumerate(state.components) for node in part}
-    discs.set_facecolor([done.get(n, ON_STACK if n in state.stack else UNSEEN) for n in graph])
+    figure, (left, right, code) = plt.subplots(
+        1, 3, figsize=(11, 4.4), layout="constrained", width_ratios=(5, 1, 5)
+    )
+    beside = {node: f"{number} / {state.low[node]}" for node, number in state.number.items()}
+    eight_node_graph(graph, beside=beside, parts=state.components, ax=left)
+    discs = left.collections[0]
+    faces = zip(graph, discs.get_facecolors(), strict=True)
+    discs.set_facecolor([ON_STACK if node in state.stack else face for node, face in faces])
     discs.set_linewidth([4 if node == state.node else 1 for node in graph])
-    for name, node in zip(left.texts, graph, strict=True):
-        name.set_color("white" if node in done else "black")
-    for node, index in state.number.items():
-        x, y = places[node]
-        numbers = left.text(x + 0.2, y - 0.36, f"{index} / {state.low[node]}", fontsize=9)
-        numbers.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
     left.set_title(f"step {step}: {state.message}", fontsize=11)
-    left.margins(0.12)
-    faces = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
-    faces |= {f"component {n + 1}, complete": SOURCES[n] for n in range(len(state.components))}
+    named = {"not seen yet": UNSEEN, "on the stack": ON_STACK}
+    named |= {f"component {n + 1}, complete": SOURCES[n] for n in range(len(state.components))}
     look: dict[str, Any] = {"markersize": 9, "markeredgecolor": "black"}
-    keys = [disc(face, label=name, **look) for name, face in faces.items()]
+    keys = [disc(face, label=name, **look) for name, face in named.items()]
     keys.append(disc("white", label="the search stands here", markeredgewidth=3, **look))
     where: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": 3}
-    words: dict[str, Any] = {"title": "beside a node: index / low link", "title_fontsize": 9, "fontsize": 8}
+    words: dict[str, Any] = {"title": "beside a node: number / low link", "title_fontsize": 9, "fontsize": 8}
     left.legend(handles=keys, frameon=False, **where, **words)
     _draw_stack(right, state.stack, len(graph))
+    show_program(code, PROGRAM, state.line)
     return figure
 
 
@@ -236,15 +295,11 @@ def search_steps(
     shown = events[: len(events) if step is None else step]
     best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
-    _, arrows = node_link(graph, places=EIGHT_PLACES, ax=left)
-    for pair in pairwise(best.walk if best else ()):
-        arrows[list(graph.edges()).index(pair)].set(color=PATH, linewidth=3)
-    box: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
+    eight_node_graph(graph, thick=[*pairwise(best.walk if best else ())], ax=left)
     for a, row in lengths.items():
         for b, length in row.items():
             middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2) + 0.75j * (a == b)
-            say(left, middle, f"{length:.1f}", fontsize=8, bbox=box)
-    left.margins(0.1)
+            say(left, middle, f"{length:.1f}", fontsize=8, bbox=BOX)
     left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet", fontsize=10)
     _draw_tree(right, events, shown)
     if shown:

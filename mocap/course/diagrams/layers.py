@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
+from mocap.course.diagrams.pens import show_program
 from mocap.plotting import ASKED, CURVES, PATH, QUIET
 
 STRIDE, TURNS = 0.7, np.radians([-30, 0, 30])  # of the three edges at each node, as in notebook 07
@@ -144,11 +145,7 @@ def layer_step(line: Array, count: int, *, step: int = 0, width: int = 4, look: 
     ground.set_title(state.message, fontsize=10)
     handles = {label: handle for handle, label in zip(*ground.get_legend_handles_labels(), strict=True)}
     figure.legend(handles.values(), handles, loc="outside lower left", ncols=4, frameon=False, fontsize=9)
-    code.set(xlim=(0, 1), ylim=(len(PROGRAM), -1))
-    code.set_axis_off()
-    code.axhspan(state.line - 0.5, state.line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
-    for number, text in enumerate(PROGRAM):
-        code.text(0.02, number, text, va="center", family="monospace", fontsize=9.5)
+    show_program(code, PROGRAM, state.line)
     return figure
 
 

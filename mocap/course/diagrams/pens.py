@@ -1,5 +1,6 @@
 """Pens that several diagrams share: arrows and words at points of a plane, legends' discs, and steps."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -7,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Annotation
 
 from mocap.errors import MocapError
+from mocap.plotting import CURVES
 
 
 def arrow(ax: Axes, start: complex, end: complex, colour: str, wide: float = 1.8, **style: Any) -> Annotation:  # noqa: ANN401
@@ -28,6 +30,15 @@ def trace(ax: Axes, way: Any, **look: Any) -> None:  # noqa: ANN401
 def disc(face: str, **look: Any) -> Line2D:  # noqa: ANN401
     """Make a disc for a legend."""
     return Line2D([], [], linestyle="", marker="o", color=face, **look)
+
+
+def show_program(ax: Axes, program: Sequence[str], line: int) -> None:
+    """Write a program, and mark the line that has just run."""
+    ax.set(xlim=(0, 1), ylim=(len(program), -1))
+    ax.set_axis_off()
+    ax.axhspan(line - 0.5, line + 0.5, color=CURVES[0], alpha=0.25, linewidth=0)
+    for number, text in enumerate(program):
+        ax.text(0.02, number, text, va="center", family="monospace", fontsize=9.5)
 
 
 def require_step(step: int, last: int) -> None:

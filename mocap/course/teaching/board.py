@@ -9,7 +9,6 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Iterable, Iterator
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -67,8 +66,7 @@ def _path() -> Steps:
 
 
 def _tarjan() -> Steps:
-    draw = partial(diagrams.tarjan_step, places=diagrams.EIGHT_PLACES)
-    return _each(draw, (0, 4, 9, 12, 15, 18), graphs.notes_example())
+    return _each(diagrams.tarjan_step, (0, 4, 9, 13, 16, 20), graphs.notes_example())
 
 
 def _search() -> Steps:

@@ -11,8 +11,10 @@ from mocap import graphs
 from mocap.course.diagrams.eight_nodes import (
     FATES,
     ON_STACK,
+    PROGRAM,
     UNSEEN,
     edge_lengths,
+    eight_node_graph,
     search_events,
     search_steps,
     tarjan_states,
@@ -21,6 +23,7 @@ from mocap.course.diagrams.eight_nodes import (
 from mocap.plotting.style import SOURCES
 
 EIGHT = graphs.notes_example()
+STATES = tarjan_states({node: sorted(EIGHT.successors(node)) for node in sorted(EIGHT)})
 LENGTHS = edge_lengths(EIGHT)
 
 
@@ -49,9 +52,9 @@ def test_a_low_link_is_never_above_the_index_nor_below_what_the_stack_holds():
 
 
 def test_the_picture_shows_numbers_stack_and_complete_components():
-    figure = tarjan_step(EIGHT, step=15)
-    left, right = figure.axes
-    assert left.get_title() == "step 15: 8 → 3 closes a cycle"
+    figure = tarjan_step(EIGHT, step=16)
+    left, right, _ = figure.axes
+    assert left.get_title() == "step 16: 8 → 3 closes a cycle"
     assert {"7 / 2", "6 / 6", "2 / 0"} <= {text.get_text() for text in left.texts}
     assert [text.get_text() for text in right.texts] == ["1", "2", "3", "6", "7", "8"]
     assert faces(figure) == rgb(ON_STACK, SOURCES[0], SOURCES[1])
@@ -59,12 +62,30 @@ def test_the_picture_shows_numbers_stack_and_complete_components():
     assert list(EIGHT)[thick] == 8
 
 
+@pytest.mark.parametrize("step", range(22))
+def test_the_line_that_has_just_run_is_marked(step):
+    """The line is that of the case: a new successor, one on the stack, one that has left it, or none."""
+    state, (_, _, code) = STATES[step], tarjan_step(EIGHT, step=step).axes
+    (mark,) = code.patches
+    assert mark.get_y() + mark.get_height() / 2 == state.line
+    words = {1: "enter", 4: "back in", 6: "closes", 8: "leads to a complete", 10: "is the first"}
+    assert words[state.line] in state.message
+    assert [text.get_text() for text in code.texts] == PROGRAM
+
+
+def test_edges_are_thick_words_stand_beside_nodes_and_parts_have_colours():
+    ax = eight_node_graph(EIGHT, beside={1: "one"}, thick=[(3, 1)], parts=[{4}, {5}])
+    assert [patch.get_linewidth() for patch in ax.patches].count(3) == 1
+    assert "one" in names_in(ax)
+    assert faces(ax.figure) == rgb(UNSEEN, SOURCES[0], SOURCES[1])
+
+
 def test_at_first_nothing_else_is_seen_and_at_last_the_stack_is_empty():
     assert faces(tarjan_step(EIGHT)) == rgb(ON_STACK, UNSEEN)
     last = tarjan_step(EIGHT, step=99)
     assert last.axes[1].get_title() == "stack: empty"
     assert faces(last) == rgb(*SOURCES[:3])
-    assert last.axes[0].get_title().startswith("step 20:")
+    assert last.axes[0].get_title().startswith("step 21:")
 
 
 def names_in(ax):
