@@ -38,7 +38,7 @@ MODULES = {
     "graphs": "components pruning compiled_graph edge_tables motion_graph",
     "synthesis": "bounded_search",
     "steering": "layered_search path_search path_objective",
-    "feet": "leg_track bending_sums ankle_targets least_bending footskate footplants",
+    "feet": "leg_track ankle_targets least_bending footskate footplants",
 }
 ABOVE = {"body": "matching blending feet", "matching": "graphs", "blending": "graphs quality"}
 ABOVE |= {"graphs": "synthesis steering", "synthesis": "steering", "feet": "quality synthesis"}

@@ -7,10 +7,9 @@ Reading order (notebook 04)
 ---------------------------
 1. `footplants`: when does a foot stand, and where?
 2. `leg_track`: one leg over a clip: how its knee bends to reach, and its pose (step 4)
-3. `bending_sums`: the sum that a curve which bends least makes least (step 5)
-4. `ankle_targets`: where ankles must be, and how they come there and leave (steps 1, 2 and 5)
-5. `least_bending`: the root's height and the knees, all at once (steps 3 and 4)
-6. `footskate`: the five steps in one function
+3. `ankle_targets`: where ankles must be, and how they come there and leave (steps 1, 2 and 5)
+4. `least_bending`: the root's height and the knees, all at once (steps 3 and 4)
+5. `footskate`: the five steps in one function
 
 How the constants were set
 --------------------------

@@ -1,6 +1,7 @@
 """Where ankles must be, and how they come there and leave: steps 1, 2 and 5 of [KSG02].
 
-Step 5 is taken with step 2, as one curve that bends least, instead of by fades. While only the ball stands,
+Step 5 is taken with step 2, as one curve that bends least, instead of by fades: the sum that it makes least
+is a matrix of five diagonals. While only the ball stands,
 the foot may turn about it, so that the ankle need not follow.
 """
 
@@ -12,7 +13,6 @@ from scipy.linalg import solveh_banded
 
 from mocap._shared.arrays import Array, Mask, runs
 from mocap.body import rotations
-from mocap.feet.bending_sums import band_product, bending_bands
 from mocap.feet.leg_track import BACK, ROUNDING, LegTrack
 
 # Seconds in which a correction dies away where no other plant is near. With 0.02 the ankles of captured
@@ -64,8 +64,7 @@ def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> Foot
     away = near - places[1]
     behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
-    turn = np.zeros_like(ankle)
-    turn[down] = rotations.to_rotvec(rotations.between((ball - ankle)[down], (places[1] - goal)[down]))
+    turn = rotations.to_rotvec(rotations.between(ball - ankle, places[1] - goal))
     moved = smooth_fill(goal - ankle, flat | down, fps)
     ankle = ankle + moved
     return FootTarget(ankle, smooth_fill(turn, down, fps), flat | down, _sides(track, ankle))
@@ -155,8 +154,6 @@ def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
     array([0. , 0.5, 1. ])
     """
     filled = np.where(known[:, None], values, 0.0)
-    if known.all() or not known.any():
-        return filled
     bands = bending_bands(np.ones(len(values)), (FADE * fps) ** -4.0)
     target = np.where(known[:, None], filled, -band_product(bands, filled))
     for later in range(3):  # a known frame's row becomes that of the identity: it stays
@@ -165,6 +162,40 @@ def smooth_fill(values: Array, known: Mask, fps: float) -> Array:
     bands[0] += known
     solved = solveh_banded(bands, target, lower=True, check_finite=False)
     return np.where(known[:, None], filled, solved)
+
+
+def bending_bands(weight: Array, near: float | Array) -> Array:
+    """Write Σ w_f |c_{f-1} - 2 c_f + c_{f+1}|² + near Σ |c_f|² as cᵀ B c.
+
+    Parameters
+    ----------
+    weight : w, shape (F,); where the curve starts and ends no w counts.
+    near : how much the curve's own size counts, a number or (F,).
+
+    Returns
+    -------
+    B's diagonal and the two below, which are those above, too: shape (3, F); what is beyond their ends is 0.
+
+    Examples
+    --------
+    >>> bending_bands(np.ones(4), 0.5)
+    array([[ 1.5,  5.5,  5.5,  1.5],
+           [-2. , -4. , -2. ,  0. ],
+           [ 1. ,  1. ,  0. ,  0. ]])
+    """
+    inner = np.concatenate([[0.0], weight[1:-1], [0.0]])[: len(weight)]
+    before, after = np.roll(inner, 1), np.roll(inner, -1)
+    return np.array([near + before + 4 * inner + after, 0 - 2 * (inner + after), after])
+
+
+def band_product(bands: Array, curves: Array) -> Array:
+    """Multiply matrices, by their bands (..., 3, F), and curves (..., F, C)."""
+    product = bands[..., 0, :, None] * curves
+    for later in (1, 2):
+        below = bands[..., later, :-later, None]
+        product[..., later:, :] += below * curves[..., :-later, :]
+        product[..., :-later, :] += below * curves[..., later:, :]
+    return product
 
 
 def _sides(track: LegTrack, ankle: Array) -> Array:

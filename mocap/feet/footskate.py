@@ -25,7 +25,7 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError, MocapWarning, shortened
 from mocap.feet.ankle_targets import foot_target
 from mocap.feet.footplants import least_frames, settle
-from mocap.feet.least_bending import MOST, Excess, hold_plants
+from mocap.feet.least_bending import MOST, hold_plants
 from mocap.feet.leg_track import UP, pose_leg, track_leg
 
 
@@ -105,13 +105,13 @@ def settled_marks(motion: Motion, legs: Sequence[Leg]) -> Mask:
     return np.array([[settle(motion.contacts[name], span) for name in pair] for pair in names])
 
 
-def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
+def let_go(marks: Mask, excesses: Sequence[tuple[slice, Array]], span: int) -> Mask:
     """Unmark the plants nearest to where they go furthest beyond their bounds.
 
     Parameters
     ----------
     marks : shape (L, 2, F): when each leg's ankle and ball stand; settled for `span`.
-    excesses : of legs with a plant each, above 0 somewhere.
+    excesses : of legs with a plant each, above 0 somewhere; of several within 0.2 s the later one counts.
     span : how many frames to unmark before and after, and how many a plant or a gap lasts at least.
 
     Returns
@@ -120,7 +120,11 @@ def let_go(marks: Mask, excesses: Sequence[Excess], span: int) -> Mask:
     clip, so `settle` does not close it, and the frame nearest to the worst one is in it.
     """
     kept, frames = marks.copy(), np.arange(marks.shape[-1])
-    for legs, amount in excesses:
+    later = np.zeros(len(frames), bool)
+    for legs, amount in reversed(excesses):
+        # Near what comes later only that counts: a root may have gone far just to spare a knee a jolt.
+        amount = np.where(later, 0.0, amount)
+        later |= maximum_filter1d(amount > 0, 8 * span + 1)
         # The worst frames: no other frame within `span` is worse.
         for worst in np.flatnonzero((amount > 0) & (amount == maximum_filter1d(amount, 2 * span + 1))):
             away = np.where(marks[legs], np.abs(frames - worst), len(frames))  # (legs, 2, F)

@@ -18,8 +18,7 @@ from scipy.ndimage import maximum_filter1d
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
-from mocap.feet.ankle_targets import FootTarget
-from mocap.feet.bending_sums import band_product, bending_bands
+from mocap.feet.ankle_targets import FootTarget, band_product, bending_bands
 from mocap.feet.leg_track import ROUNDING, UP, LegTrack
 
 # Of the leg's length: 2 cm for a leg of 0.85 m. A plant that would move the root further is let go.
@@ -49,18 +48,16 @@ TRIES, STEPS, GAIN, AIM = 10, 12, 1e-3, 0.9
 STEP = 1e-5  # metres and radians, for slopes
 
 Legs = Sequence[tuple[LegTrack, FootTarget]]
-Excess = tuple[slice, Array]
-"""By how much plants go beyond a bound: whose plants, and the amount (F,), above 0 where they do."""
 
 
 def hold_plants(
     tracks: Sequence[LegTrack], targets: Sequence[FootTarget]
-) -> tuple[Array, list[Array], list[Excess]]:
+) -> tuple[Array, list[Array], list[tuple[slice, Array]]]:
     """Find the smoothest correction that brings planted ankles to their targets.
 
     In the paper: [KSG02, step 3]. There the root moves in all directions, and step 4 may stretch the legs.
 
-    What still jolts counts double, and double again, so that the frames around it share it.
+    What still goes beyond its bound counts double, and double again, so that the frames around it share it.
 
     Parameters
     ----------
@@ -69,20 +66,24 @@ def hold_plants(
 
     Returns
     -------
-    The root's rise (F,), metres; each knee's angle (F,), radians; and what goes beyond its bound: the root's
-    rise, a knee that jumps too far from one picture of a film to the next, a leg that is too short.
+    The root's rise (F,), metres; each knee's angle (F,), radians; by how much plants go beyond bounds, and
+    whose plants they are: the amount (F,) is above 0 where the root's rise is too large, a knee jumps too far
+    from one picture of a film to the next, or a leg is too short.
     """
     legs = list(zip(tracks, targets, strict=True))
     frames, fps, length = len(targets[0].ankle), tracks[0].motion.fps, tracks[0].length
-    change, stress = np.zeros((1 + len(legs), frames)), np.ones((len(legs), frames))
+    change, stress = np.zeros((1 + len(legs), frames)), np.ones((1 + len(legs), frames))
     span = max(1, round(SHOWN * fps))
     for _ in range(TRIES):
         change = _least_bent(legs, stress, change)
         beyond = _jolts(tracks, _displacements(legs, change)[1 : 1 + len(legs)], span)
         jolting = beyond > AIM * UNSEEN * length
-        if not jolting.any():
+        # Near a jolt the root may only go far to spare it.
+        far = (abs(change[0]) > MOST * length) & ~maximum_filter1d(jolting.any(axis=0), 12 * span + 1)
+        over = np.vstack([far, jolting])
+        if not over.any():
             break
-        stress *= np.where(maximum_filter1d(jolting, 2 * span + 1, axis=1), 2.0, 1.0)
+        stress *= np.where(maximum_filter1d(over, 2 * span + 1, axis=1), 2.0, 1.0)
     bends, every = [], slice(None)
     excesses = [(every, abs(change[0]) - MOST * length), (every, beyond.max(axis=0) - UNSEEN * length)]
     for n, (track, target) in enumerate(legs):
@@ -116,11 +117,13 @@ def _displacements(legs: Legs, change: Array) -> Array:
 def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
     """Improve a change (1 + L, F) of the root's rise and of the knees' angles in the air.
 
-    `stress` (L, F) says how much the acceleration of each knee counts in each frame.
+    `stress` (1 + L, F) says how much the root's bound and each knee's acceleration count in each frame.
     """
     near = (NEAR * legs[0][0].motion.fps) ** -4.0
-    bending = [bending_bands(weight, near) for weight in (np.ones(change.shape[1]), *stress)]
-    bands = np.array([*bending, *(bending_bands(0 * row, STIFF**2 * near) for row in change)])
+    ones = np.ones_like(change[1:])
+    bending = [bending_bands(weight, near) for weight in (ones[0], *stress[1:])]
+    bounds = [bending_bands(0 * weight, STIFF**2 * near * weight) for weight in (stress[0], *ones)]
+    bands = np.array([*bending, *bounds])
     top = np.min([np.where(g.planted, t.highest(g.ankle), np.inf) for t, g in legs], axis=0)
     change = np.vstack([np.minimum(change[0], top), change[1:]])
     here, damping = _displacements(legs, change), 1e-3

@@ -8,8 +8,7 @@ from mocap.body.kinematics import forward_kinematics
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
 from mocap.feet import least_bending
-from mocap.feet.ankle_targets import _sides, foot_target
-from mocap.feet.bending_sums import band_product, bending_bands
+from mocap.feet.ankle_targets import _sides, band_product, bending_bands, foot_target
 from mocap.feet.least_bending import MOST, UNSEEN, hold_plants
 from mocap.feet.leg_track import UP, track_leg
 from tests.strategies import seeds
@@ -63,7 +62,7 @@ def test_feet_that_stand_change_nothing():
 
 def test_no_other_change_bends_less():
     targets, random = shifted([0, 0.006, 0.01], [0, 0.002, 0]), np.random.default_rng(0)
-    legs, ones = list(zip(TRACKS, targets, strict=True)), np.ones((2, len(WALK)))
+    legs, ones = list(zip(TRACKS, targets, strict=True)), np.ones((3, len(WALK)))
     least_bending.STEPS, before = 40, least_bending.STEPS
     try:
         found = least_bending._least_bent(legs, ones, np.zeros((3, len(WALK))))
