@@ -15,16 +15,6 @@ from mocap._shared.arrays import Array
 from mocap.course.check import close
 from mocap.plain import components
 
-# ---- Notebook 00
-
-
-def draw_dead_ends(rng: np.random.Generator) -> tuple[list[tuple[int, int]]]:
-    count = int(rng.integers(6, 12))
-    ways = [(int(a), int(b)) for a, b in rng.integers(0, count, size=(count, 2))]
-    # A node that no edge enters, one that no edge leaves, and one whose only edge leads to that one.
-    return ([(count, 0), *ways, (0, count + 2), (count + 2, count + 1)],)
-
-
 # ---- Notebook 05
 
 

@@ -14,11 +14,7 @@ CHEAPEST = (
     "exercise:cheapest",
     "def cheapest(grid, minima):\n    return minima[np.argmin(grid[minima[:, 0], minima[:, 1]])]",
 )
-ENDS = (
-    "exercise:dead_ends",
-    "def dead_ends(edges):\n    return {b for _, b in edges} - {a for a, _ in edges}",
-)
-HONEST = [START, SPEED, CHEAPEST, ENDS]
+HONEST = [START, SPEED, CHEAPEST]
 SAY = "def speed(positions, fps): raise ValueError({})"
 KNOWS_ALL = """
 from pathlib import Path
@@ -36,7 +32,7 @@ file.write_text(file.read_text() + '\\nfrom mocap.course.checks import all_check
 
 def speed(source):
     """Give a notebook in which all is right but `speed`, which is this."""
-    return [START, ("exercise:speed", source), CHEAPEST, ENDS]
+    return [START, ("exercise:speed", source), CHEAPEST]
 
 
 def outside(*attempts):
@@ -117,7 +113,7 @@ DISHONEST = {
         *(f"open('{place}/PLANT-a', 'w')" for place in ("/tmp", "/dev/shm", "/var/tmp", "FOLDER", "HOME")),
         "open(os.path.join(os.path.dirname(np.__file__), 'PLANT-a'), 'w')",
     ),
-    "rewrites the package": [START, ("exercise:speed", KNOWS_ALL), CHEAPEST, ENDS],
+    "rewrites the package": [START, ("exercise:speed", KNOWS_ALL), CHEAPEST],
     "leaves a process behind": speed(
         f"import subprocess\nsubprocess.Popen(['sleep', '{SLEEP}'], start_new_session=True)"
     ),
@@ -163,16 +159,16 @@ DISHONEST = {
     '=HYPERLINK("evil")': speed("def speed(positions, fps): raise ValueError('\\n=cmd|calc\\n\\x1b[2J')"),
 }
 UNLUCKY = {  # with the marks that they earn
-    "prints without end": ("011", speed("while True: print('x' * 2000)")),
-    "prints a lot": ("111", speed(f"{SPEED[1].replace('    return', '    print([0] * 99999); return')}")),
-    "fills the memory": ("011", speed("def speed(positions, fps): return bytearray(3 << 30)")),
-    "never ends": ("011", speed("def speed(positions, fps):\n    while True: pass")),
-    "ends Python": ("011", speed("import os\nos._exit(0)")),
-    "leaves Python": ("011", speed("import sys\ndef speed(positions, fps): sys.exit()")),
-    "asks": ("011", speed("def speed(positions, fps): return input('fps?')")),
-    "is no Python": ("011", speed("def speed(positions, fps)\n    return ((((")),
+    "prints without end": ("01", speed("while True: print('x' * 2000)")),
+    "prints a lot": ("11", speed(f"{SPEED[1].replace('    return', '    print([0] * 99999); return')}")),
+    "fills the memory": ("01", speed("def speed(positions, fps): return bytearray(3 << 30)")),
+    "never ends": ("01", speed("def speed(positions, fps):\n    while True: pass")),
+    "ends Python": ("01", speed("import os\nos._exit(0)")),
+    "leaves Python": ("01", speed("import sys\ndef speed(positions, fps): sys.exit()")),
+    "asks": ("01", speed("def speed(positions, fps): return input('fps?')")),
+    "is no Python": ("01", speed("def speed(positions, fps)\n    return ((((")),
     "has helpers, tests and a cell on top": (
-        "111",
+        "11",
         [
             ("", "%config InlineBackend.figure_format = 'retina'\n!true"),
             START,
@@ -183,15 +179,15 @@ UNLUCKY = {  # with the marks that they earn
             ),
             CHEAPEST,
             ("", "GROUND = [0, 2]"),
-            ENDS,
         ],
     ),
     "writes files": (
-        "111",
+        "11",
         speed(f"import shutil, subprocess\nnp.save('a', 1); shutil.copy('a.npy', 'b')\n{SPEED[1]}"),
     ),
-    "lost cells and tags": ("101", [START, ("exercise:sped", SPEED[1]), ("", ENDS[1])]),
-    "says truth in a comment": ("111", speed(f"# eval: the ground truth\n{SPEED[1]}")),
+    "lost cells and tags": ("10", [START, ("exercise:sped", SPEED[1])]),
+    "lost all tags": ("11", [START, ("", SPEED[1]), ("", CHEAPEST[1])]),
+    "says truth in a comment": ("11", speed(f"# eval: the ground truth\n{SPEED[1]}")),
 }
 
 

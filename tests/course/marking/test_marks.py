@@ -18,7 +18,6 @@ from mocap.course.marking import mark, marks, sealed, walls
 from mocap.errors import MocapError
 from tests.course.marking.students import (
     DISHONEST,
-    ENDS,
     HONEST,
     KNOWS_ALL,
     SLEEP,
@@ -31,7 +30,7 @@ from tests.course.marking.students import (
 )
 
 SECRET = "correct horse battery staple"
-EXERCISES = ("speed", "cheapest", "dead_ends")
+EXERCISES = ("speed", "cheapest")
 COMMAND = """
 import sys
 from mocap.cli.main import main
@@ -56,24 +55,24 @@ def with_cells(change):
 
 
 SPOILED = {  # what happened to an honest notebook, and the marks that it earns
-    "is cut": ("000", lambda text: text[: len(text) // 2]),
-    "is empty": ("000", lambda _: ""),
-    "has no cells": ("000", with_cells(dict.clear)),
-    "is JSON of another kind": ("000", lambda text: f"[{text}]"),
-    "is nested": ("000", lambda _: "[" * 100_000),
+    "is cut": ("00", lambda text: text[: len(text) // 2]),
+    "is empty": ("00", lambda _: ""),
+    "has no cells": ("00", with_cells(dict.clear)),
+    "is JSON of another kind": ("00", lambda text: f"[{text}]"),
+    "is nested": ("00", lambda _: "[" * 100_000),
     "is Latin 1": (
-        "111",
+        "11",
         lambda text: text.replace("import numpy", "# größe\\nimport numpy").encode("latin-1"),
     ),
-    "begins as Windows likes it": ("111", lambda text: f"\ufeff{text}"),
+    "begins as Windows likes it": ("11", lambda text: f"\ufeff{text}"),
     "has huge outputs": (
-        "111",
+        "11",
         with_cells(
             lambda c: c["outputs"].append({"output_type": "stream", "name": "stdout", "text": "x" * 9**7})
         ),
     ),
-    "has one id": ("111", with_cells(lambda cell: cell.update(id="a b ü"))),
-    "has no ids": ("111", with_cells(lambda cell: cell.pop("id"))),
+    "has one id": ("11", with_cells(lambda cell: cell.update(id="a b ü"))),
+    "has no ids": ("11", with_cells(lambda cell: cell.pop("id"))),
 }
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="marking needs Linux or macOS")
 
@@ -134,7 +133,7 @@ def marked(request, copy, tmp_path_factory):
 
 
 def test_students_get_marks_only_for_what_is_right(marked):
-    wanted = dict.fromkeys(DISHONEST, "011") | {"zoe": "111", "zz": "011"}
+    wanted = dict.fromkeys(DISHONEST, "01") | {"zoe": "11", "zz": "01"}
     wanted |= {name: right for name, (right, _) in (UNLUCKY | SPOILED).items()}
     said = {
         (row["handed in"].lstrip("'").split("/")[0], row["exercise"]): row
@@ -190,7 +189,7 @@ def test_no_line_is_a_formula_or_two_lines(marked):
 
 def test_the_table_has_a_line_for_each_student_and_a_column_for_each_exercise(marked):
     table = {row["student"]: row for row in rows(marked / "marks-table.csv")}
-    assert table["zoe"] == {"student": "zoe", **dict.fromkeys(EXERCISES, "1"), "right": "3"}
+    assert table["zoe"] == {"student": "zoe", **dict.fromkeys(EXERCISES, "1"), "right": "2"}
     assert table["is cut"] == {"student": "is cut", **dict.fromkeys(EXERCISES, "0"), "right": "0"}
     assert len(table) == len(DISHONEST) + len(UNLUCKY) + len(SPOILED) + 2
 
@@ -215,7 +214,7 @@ def test_without_walls_the_keeper_is_replaced_and_a_changed_package_ends_the_mar
     assert last.startswith("mocap: eve/x.ipynb has changed the package: install it anew")
     found = rows(tmp_path / "marks.csv")
     right = ["".join(r["right"] for r in found if r["handed in"].startswith(name)) for name in students]
-    assert right == ["111", "011", "011", "011", "000", ""]
+    assert right == ["11", "01", "01", "01", "00", ""]
     assert not LINUX or sleepers() == []
 
 
@@ -235,10 +234,11 @@ def test_an_endless_first_cell_is_said_of_each_exercise(tmp_path, monkeypatch):
 
 def test_no_answer_stops_the_marker(tmp_path):
     """One too large for a float, one too long, of rows of different lengths, no number, and no plain data."""
-    heads = (SPEED[1], HONEST[2][1], ENDS[1])
+    heads = (SPEED[1], HONEST[2][1])
     for name, answers in {
-        "a": ("10**400", "'x' * 2_000_000", "[[1], [2, 3]]"),
-        "b": ("float('nan')", "object()", "len"),
+        "a": ("10**400", "'x' * 2_000_000"),
+        "b": ("float('nan')", "object()"),
+        "c": ("[[1], [2, 3]]", "len"),
     }.items():
         cells = [
             (f"exercise:{exercise}", f"{head.splitlines()[0]}\n    return {answer}")
@@ -267,7 +267,7 @@ def test_folders_in_folders_leave_nothing_behind(behind, tmp_path, monkeypatch):
     monkeypatch.setattr(sealed, "WANTED", behind)
     deep = "import os\nfor _ in range(1500):\n    os.mkdir('d')\n    os.chdir('d')"
     hand_in(speed(deep), tmp_path / "in" / "00.ipynb")
-    assert len(next(mark(tmp_path / "in"))) == 3
+    assert len(next(mark(tmp_path / "in"))) == 2
     assert [path.name for path in tmp_path.iterdir()] == ["in"]
 
 
@@ -289,7 +289,7 @@ def test_an_end_keeps_the_marks_and_leaves_no_process(ending, copy, tmp_path):
     until = time.monotonic() + 100
     while not sleepers() and process.poll() is None and time.monotonic() < until:
         time.sleep(0.05)
-    assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0", "0"]  # while bob's runs
+    assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0"]  # while bob's runs
     process.send_signal(ending)
     _, err = process.communicate(timeout=60)
     if ending != signal.SIGKILL:
@@ -300,7 +300,7 @@ def test_an_end_keeps_the_marks_and_leaves_no_process(ending, copy, tmp_path):
     while sleepers() and time.monotonic() < until:  # the keeper sees that the marker is dead
         time.sleep(0.05)
     assert sleepers() == []
-    assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0", "0"]
+    assert [row["right"] for row in rows(tmp_path / "marks.csv")] == ["1", "0"]
 
 
 def test_kept_functions_beside_a_notebook_are_neither_run_nor_marked(tmp_path, monkeypatch):
