@@ -56,7 +56,7 @@ def bodies_along(
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['walked path', 'seam']
 
-    Notebook: 00-quickstart
+    Notebook: 12-path-editing
     """
     asked = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
     clouds = places or [joint_positions(motion) for motion in motions]

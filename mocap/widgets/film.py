@@ -62,8 +62,6 @@ def save_animation(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     save_animation(datasets.sample("walk_straight")[:60], Path(folder, "walk.gif")).stat().st_size > 0
     True
-
-    Notebook: 00-quickstart
     """
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:
