@@ -29,7 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "small_graphs": ["nodes_and_edges", "segments_in_rows"],
         "quaternions": ["double_cover", "half_turns", "turns_in_order"],
-        "laying_clouds": ["laying_on", "turning"],
+        "laying_clouds": ["laid", "laying_on", "products", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],

@@ -1,4 +1,6 @@
-"""How one cloud of points is laid on another: means, centring, angle, shift; all seen from above."""
+"""How one cloud of points is laid on another, seen from above: by hand, over a turn, in the steps of `align`."""
+
+from collections.abc import Callable
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -6,11 +8,69 @@ from matplotlib.figure import Figure
 
 from mocap._shared.arrays import Array
 from mocap.body import Motion, PlanarTransform, joint_positions
-from mocap.course.diagrams.pens import require_step
-from mocap.matching.point_clouds import align, point_cloud, rms_distance
-from mocap.plotting import CURVES, QUIET, SOURCES, bones
+from mocap.course.diagrams.pens import arrow, require_step, trace
+from mocap.matching.point_clouds import align, distinct_joints, point_cloud
+from mocap.plotting import CURVES, PATH, QUIET, SOURCES, bones
 
 STEPS = ("where they are, with their means", "each from its own mean", "the second turned", "shifted back")
+
+
+def laid(first: Motion, second: Motion, move: Callable[[Array], Array], *, ax: Axes | None = None) -> Figure:
+    """Draw two windows from above, the second moved, and tell how far apart their points are.
+
+    Parameters
+    ----------
+    first, second : windows of as many frames.
+    move : takes points, shape (N, 3), and moves them.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")[:10]
+    >>> laid(walk, walk, lambda points: points + [0.5, 0, 0]).axes[0].get_title()
+    '50.0 cm RMS'
+
+    Notebook: 02-matching
+    """
+    ax = ax or Figure(figsize=(5.4, 5), layout="constrained").add_subplot()
+    _from_above(ax, (first, second), _places(first, second, move))
+    ax.set_title(f"{_apart(first, second, move):.1f} cm RMS", fontsize=11)
+    return ax.figure  # type: ignore[return-value]
+
+
+def turning(
+    first: Motion, second: Motion, move: Callable[[Array, float], Array], *, degrees: float = 0.0
+) -> Figure:
+    """Draw two windows from above, the second laid on the first after a turn, and the distance at each angle.
+
+    Parameters
+    ----------
+    first, second : windows of as many frames.
+    move : takes points, shape (N, 3), and an angle in radians; turns and shifts the points.
+    degrees : how far to turn, -180 to 180.
+
+    Examples
+    --------
+    >>> from mocap import datasets
+    >>> walk = datasets.sample("walk_straight")[:10]
+    >>> turning(walk, walk, lambda points, angle: points).axes[0].get_title()
+    '0°: 0.0 cm RMS'
+
+    Notebook: 02-matching
+    """
+    figure = Figure(figsize=(8.6, 4.2), layout="constrained")
+    ground, curve = figure.subplots(1, 2)
+    laid(first, second, lambda points: move(points, np.radians(degrees)), ax=ground)
+    ground.set_title(f"{degrees:g}°: {ground.get_title()}".replace("-", "−"), fontsize=11)
+    angles = np.arange(-180, 181, 6)
+    lefts = [_apart(first, second, lambda points, t=t: move(points, np.radians(t))) for t in angles]
+    curve.plot(angles, lefts, color=CURVES[0])
+    curve.plot([degrees], [np.interp(degrees, angles, lefts)], "o", color=PATH, markersize=9)
+    curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
+    curve.set(ylabel="RMS distance (cm)", ylim=(0, 1.1 * max(1, *lefts)))
+    curve.spines[["top", "right"]].set_visible(False)
+    return figure
 
 
 def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
@@ -29,85 +89,79 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
     >>> laying_on(walk, PlanarTransform(1.0, 2.0, 0.0).apply_motion(walk), step=4).axes[0].get_title()
     '4. shifted back: 0.0 cm RMS'
 
-    Notebook: 02-matching
+    Notebook: 03-transforms
     """
     require_step(step, len(STEPS))
-    angle = align(*(point_cloud(motion).reshape(-1, 3) for motion in (first, second))).angle
-    back = PlanarTransform(0.0, *_mean(first) * (step > 3))
+    a, b = (point_cloud(motion).reshape(-1, 3) for motion in (first, second))
+    centred = [PlanarTransform(0.0, *-cloud.mean(0)[[0, 2]]) for cloud in (a, b)]
+    turn = PlanarTransform(align(a, b).angle * (step > 2), 0.0, 0.0)
     if step > 1:
-        turn = PlanarTransform(angle * (step > 2), 0.0, 0.0)
-        first, second = back.apply_motion(_centred(first)), (back @ turn).apply_motion(_centred(second))
-    figure = Figure(figsize=(5.6, 5.2), layout="constrained")
-    ax = figure.add_subplot()
-    _from_above(ax, first, second)
-    ax.set_title(f"{step}. {STEPS[step - 1]}: {100 * rms_distance(first, second):.1f} cm RMS", fontsize=11)
+        back = centred[0].inverse() if step > 3 else PlanarTransform(0.0, 0.0, 0.0)
+        first = (back @ centred[0]).apply_motion(first)
+        second = (back @ turn @ centred[1]).apply_motion(second)
+    figure = laid(first, second, lambda points: points)
+    (ax,) = figure.axes
+    ax.set_title(f"{step}. {STEPS[step - 1]}: {ax.get_title()}", fontsize=11)
     return figure
 
 
-def turning(first: Motion, second: Motion, *, degrees: float = 0.0) -> Figure:
-    """Draw two centred windows from above, the second turned by hand, and the distance left so far.
+def products(first: Motion, second: Motion) -> Figure:
+    """Draw the pairs' products as arrows, one after the other: their sum leads at the best angle [KGP02, Eq. 2].
 
-    The curve ends at the angle to which the second is turned, so that nobody sees the rest before they turn.
+    The product of a pair, conj(h) g, has the angle by which its own point must be turned, and is as long as
+    the product of both distances from the mean. A line of dashes is where a turn by no angle would lead.
 
     Parameters
     ----------
-    first, second : windows of as many frames.
-    degrees : how far to turn the second about its mean, -180 to 180.
+    first, second : windows of as many frames; each is measured from its mean.
 
     Examples
     --------
     >>> from mocap import datasets
     >>> walk = datasets.sample("walk_straight")[:10]
-    >>> turning(walk, walk).axes[1].get_title()
-    '0°: 0.0 cm'
+    >>> products(walk, walk).axes[0].get_title()
+    'the sum leads at 0°'
 
-    Notebook: 02-matching
+    Notebook: 03-transforms
     """
-    first, second = _centred(first), _centred(second)
-    clouds = [point_cloud(motion).reshape(-1, 3) for motion in (first, second)]
-
-    def left(angle: float) -> float:
-        turned = PlanarTransform(np.radians(angle), 0.0, 0.0).apply_points(clouds[1])
-        return 100 * float(np.sqrt(((clouds[0] - turned) ** 2).sum(-1).mean()))
-
-    figure = Figure(figsize=(8.6, 4.2), layout="constrained")
-    ground, curve = figure.subplots(1, 2)
-    _from_above(ground, first, PlanarTransform(np.radians(degrees), 0.0, 0.0).apply_motion(second))
-    angles = np.append(np.arange(-180, degrees, 3), degrees)
-    curve.plot(angles, [left(angle) for angle in angles], color=CURVES[0])
-    curve.plot([degrees], [left(degrees)], "o", color="#000000", markersize=8)
-    highest = max(left(angle) for angle in range(-180, 181, 10))
-    curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
-    curve.set(ylabel="RMS distance (cm)", ylim=(0, 1.1 * max(highest, 1)))
-    curve.set_title(f"{degrees:g}°: {left(degrees):.1f} cm".replace("-", "−"))
-    curve.spines[["top", "right"]].set_visible(False)
-    return figure
+    g, h = (point_cloud(motion).reshape(-1, 3) @ [1j, 0, 1] for motion in (first, second))
+    sums = np.cumsum(np.conj(h - h.mean()) * (g - g.mean()))
+    ends = 1j * np.append(0, sums) / abs(sums[-1])  # z up the page, x to the left
+    ax = Figure(figsize=(4.6, 4.6), layout="constrained").add_subplot()
+    trace(ax, 1.1j * np.arange(2), color=QUIET, linestyle="--")
+    trace(ax, ends, color=CURVES[0], marker=".", markersize=3)
+    arrow(ax, 0j, ends[-1], PATH)
+    ax.set(aspect="equal", xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
+    ax.set_title(f"the sum leads at {np.degrees(np.angle(sums[-1])):.0f}°".replace("-", "−"), fontsize=11)
+    ax.set_axis_off()
+    return ax.figure
 
 
-def _mean(motion: Motion) -> Array:
-    """Take the mean of a window's points over the ground: (x, z)."""
-    return np.asarray(point_cloud(motion).mean(axis=(0, 1))[[0, 2]])
+def _places(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Array:
+    """Give the joints of both windows, the second one's moved: shape (2, K, J, 3)."""
+    p, q = joint_positions(first), joint_positions(second)
+    return np.stack([p, np.reshape(move(q.reshape(-1, 3)), q.shape)])
 
 
-def _centred(motion: Motion) -> Motion:
-    """Move the mean of a window's points over the ground to the origin."""
-    return PlanarTransform(0.0, *-_mean(motion)).apply_motion(motion)
+def _apart(first: Motion, second: Motion, move: Callable[[Array], Array]) -> float:
+    p, q = _places(first, second, move)[:, :, distinct_joints(first.skeleton)]
+    return 100 * float(np.sqrt(((p - q) ** 2).sum(-1).mean()))
 
 
-def _from_above(ax: Axes, first: Motion, second: Motion) -> None:
+def _from_above(ax: Axes, motions: tuple[Motion, Motion], places: Array) -> None:
     """Draw the middle poses, the joints' tracks, the means, and a thread from each joint to its partner."""
-    middle = len(first) // 2
-    threads = np.stack([point_cloud(motion)[middle][:, [0, 2]] for motion in (first, second)])
-    ax.plot(*threads.transpose(2, 0, 1), color=QUIET, linewidth=0.7, zorder=1)
-    clouds = [joint_positions(motion)[..., [0, 2]] for motion in (first, second)]
-    for motion, places, colour in zip((first, second), clouds, SOURCES, strict=False):
-        ax.plot(places[..., 0], places[..., 1], color=colour, linewidth=0.8, alpha=0.35)
-        limbs = places[middle][np.stack(bones(motion.skeleton)[:2])]
+    middle, apart = len(motions[0]) // 2, distinct_joints(motions[0].skeleton)
+    ground = places[..., [0, 2]]
+    ax.plot(*ground[:, middle, apart].transpose(2, 0, 1), color=QUIET, linewidth=0.7, zorder=1)
+    for motion, tracks, colour in zip(motions, ground, SOURCES, strict=False):
+        ax.plot(tracks[..., 0], tracks[..., 1], color=colour, linewidth=0.8, alpha=0.35)
+        limbs = tracks[middle][np.stack(bones(motion.skeleton)[:2])]
         ax.plot(limbs[..., 0], limbs[..., 1], color=colour, linewidth=2.4)
-        ax.plot(*_mean(motion)[:, None], "P", color=colour, markersize=12, markeredgecolor="white", zorder=4)
+        mean = tracks[:, apart].mean((0, 1))
+        ax.plot(*mean[:, None], "P", color=colour, markersize=12, markeredgecolor="white", zorder=4)
         ax.plot([], [], color=colour, linewidth=2.4, label=motion.name)
     ax.plot([], [], "P", color=QUIET, markersize=9, label="mean")
-    low, high = (f(np.concatenate(clouds), axis=(0, 1)) for f in (np.min, np.max))
+    low, high = (f(ground, axis=(0, 1, 2)) for f in (np.min, np.max))
     (x, z), reach = (low + high) / 2, max(0.5, *(high - low) / 2 + 0.1)
     ax.set(xlabel="x (m)", ylabel="z (m)", aspect="equal")
     ax.set(xlim=(x + reach, x - reach), ylim=(z - reach, z + reach))  # seen from above, x leads to the left
