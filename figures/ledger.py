@@ -177,13 +177,13 @@ def _cells(folder: Path) -> list[_Cell]:
 
 
 def _cell_of(function: Function, notebook: str, cells: Sequence[_Cell]) -> str:
-    """Link the cell that shows a function's source, else the first of its notebook that calls it.
+    """Link the cell that shows a function or its plain twin, else the first of its notebook that calls it.
 
     Its notebook is the one that its docstring names, or that of the paper.
     """
     whole = f"{function.module}.{function.name}."
     for cell in cells:
-        if f"{cell.shows}.".startswith(whole):
+        if f"{cell.shows}.".startswith(whole) or cell.shows == f"plain.{function.name}":
             return cell.link
     return _calling(function.name.rpartition(".")[2], [function.notebook, notebook], cells)
 

@@ -9,7 +9,7 @@ Reading order
 -------------
 1. `check`: how an exercise is checked
 2. `checks`: the exercises, a table for each notebook
-3. `homework_slips`: five slips of the homework, and what fixes them
+3. `homework_slips`: three slips of the homework, and what fixes them
 4. `real_clips`: captured clips for notebooks that can do without
 5. `marked_values`: numbers in prose, and the expressions that compute them
 6. `notebooks`: read a notebook, find its cells by their tags, run it

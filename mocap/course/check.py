@@ -201,6 +201,8 @@ class Check:
     def _first_wrong(self, trial: Trial) -> str:
         if trial.given is None:
             return "your function returns None; does it end in `return`?"
+        if isinstance(trial.wanted, set | frozenset):  # students list its items in any type
+            return f"some are missing or wrong. It must return {self.asks}. Hint: {self.start}"
         given, wanted = _shape(trial.given), _shape(trial.wanted)
         if given != wanted:
             return f"your answer has the shape {given}; it should be {wanted}."

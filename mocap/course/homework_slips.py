@@ -1,11 +1,10 @@
-"""Five slips of the homework that this package started from: what they do, and what fixes them.
+"""Three slips of the homework that this package started from: what they do, and what fixes them.
 
 Nothing else in the package uses them. Each function looks right but is wrong. Its docstring names the slip
 and the fix.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,39 +12,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion, concatenate
-from mocap.body.planar import PlanarTransform, lay_on
-
-
-def lay_in_full(motion: Motion, target: Motion, frame: int) -> Motion:
-    """Lay a motion's first frame on a frame of another: turn it, and move it in x, y *and* z.
-
-    The slip: the move changes the height as well. When the clip is laid on a frame that is a little higher or
-    lower in the stride, the difference stays, and the body drifts up or down over several clips. The fix:
-    move over the ground only, `body.lay_on`.
-
-    Parameters
-    ----------
-    motion : the motion to move.
-    target, frame : the motion and its frame to lay it on.
-
-    Returns
-    -------
-    The moved motion.
-
-    Examples
-    --------
-    >>> from mocap.body.skeleton import Skeleton
-    >>> ball = Skeleton(["ball"], [-1], [[0, 0, 0]])
-    >>> motion = Motion(ball, [[0, 1.0, 0], [0, 1.1, 0]], [[[1, 0, 0, 0]]] * 2, 30)
-    >>> lay_in_full(motion, motion, 1).root_positions[:, 1]
-    array([1.1, 1.2])
-
-    Notebook: 03-transforms
-    """
-    planar = lay_on(motion, target, frame).apply_motion(motion)
-    roots = planar.root_positions
-    lifted = roots + (target.root_positions[frame] - roots[0])
-    return replace(planar, root_positions=lifted)
+from mocap.body.planar import lay_on
 
 
 def homework_heading(quaternions: ArrayLike) -> Array:
@@ -132,34 +99,3 @@ def chain_on_last(slices: Sequence[Motion]) -> Motion:
     for following in slices[1:]:
         chain.append(lay_on(following, chain[-1], -1).apply_motion(following))
     return concatenate(chain)
-
-
-def turn_in_place(root_positions: Array, angle: float) -> Array:
-    """Turn root positions about the vertical through the first one, and overwrite the array.
-
-    The slip: this changes the stored clip. The second visit to a clip finds it turned by the first one, so
-    the result depends on the order of the visits. The fix: `PlanarTransform` returns a new motion, and the
-    arrays of a `Motion` are read-only.
-
-    Parameters
-    ----------
-    root_positions : shape (F, 3), metres; overwritten.
-    angle : radians about +y.
-
-    Returns
-    -------
-    The same array.
-
-    Examples
-    --------
-    >>> stored = np.array([[0, 0, 0], [0, 0, 1.0]])
-    >>> _ = turn_in_place(stored, np.pi / 2)
-    >>> stored.round(6) + 0.0
-    array([[0., 0., 0.],
-           [1., 0., 0.]])
-
-    Notebook: 03-transforms
-    """
-    x, _, z = root_positions[0]
-    root_positions[:] = PlanarTransform(angle, x, z).apply_points(root_positions - [x, 0, z])
-    return root_positions

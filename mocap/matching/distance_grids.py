@@ -170,7 +170,7 @@ def distance_grid(
     joint_weights: ArrayLike | None = None,
     taper: ArrayLike | None = None,
 ) -> Floats:
-    """Measure the point cloud distance between all windows of two clips [KGP02, Eq. 1].
+    """Measure the point cloud distance between all windows of two clips [KGP02, Eq. 1], [KGP02, 3.1].
 
     D = min over T of Σ w ‖p - T p'‖², by the closed form at the head of this module. Entry [i, j] lays
     the frames j ... j + k - 1 of b on the frames i ... i + k - 1 of a: it is the paper's

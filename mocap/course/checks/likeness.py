@@ -16,14 +16,6 @@ from mocap.matching.point_clouds import align
 # ---- Notebook 02
 
 
-def draw_angle_gap(rng: np.random.Generator) -> tuple[Array, Array]:
-    """Draw angles in degrees, among them two that are equal and two that are half a turn apart."""
-    a, b = rng.uniform(-180, 180, (2, int(rng.integers(4, 9))))
-    a[:2] = rng.integers(-180, 180, 2)
-    b[0], b[1] = a[0], a[1] - 180 * np.copysign(1, a[1])
-    return a, b
-
-
 def clouds(rng: np.random.Generator) -> tuple[Array, Array]:
     """Make a cloud, and the same cloud turned and moved; two times in three also changed a little.
 

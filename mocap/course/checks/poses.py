@@ -93,12 +93,6 @@ def lay_on(moving: Placed, target: Placed) -> Placed:
     return angle, target[1] - x, target[2] - z
 
 
-def put(roots: Array, angle: float, spot: Array) -> Array:
-    """Turn roots, and move the first one over the spot, each as high as it was."""
-    turned = PlanarTransform(angle, 0.0, 0.0).apply_points(roots)
-    return np.asarray(turned + (spot - turned[0]) * [1, 0, 1])
-
-
 # ---- Notebook 03b
 
 

@@ -1,4 +1,4 @@
-"""How one cloud of points is laid on another, seen from above: by hand, over a turn, in the steps of `align`."""
+"""How one cloud of points is laid on another, from above: by hand, over a turn, in the steps of `align`."""
 
 from collections.abc import Callable
 
@@ -106,10 +106,10 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
 
 
 def products(first: Motion, second: Motion) -> Figure:
-    """Draw the pairs' products as arrows, one after the other: their sum leads at the best angle [KGP02, Eq. 2].
+    """Draw what turn each pair of points asks for, and the direction of their sum [KGP02, Eq. 2].
 
-    The product of a pair, conj(h) g, has the angle by which its own point must be turned, and is as long as
-    the product of both distances from the mean. A line of dashes is where a turn by no angle would lead.
+    The product of a pair, conj(h) g, has the angle by which this point must be turned, and as its length the
+    product of both distances from the mean. The dashes lead at 0°.
 
     Parameters
     ----------
@@ -125,16 +125,16 @@ def products(first: Motion, second: Motion) -> Figure:
     Notebook: 03-transforms
     """
     g, h = (point_cloud(motion).reshape(-1, 3) @ [1j, 0, 1] for motion in (first, second))
-    sums = np.cumsum(np.conj(h - h.mean()) * (g - g.mean()))
-    ends = 1j * np.append(0, sums) / abs(sums[-1])  # z up the page, x to the left
+    each = np.conj(h - h.mean()) * (g - g.mean())
+    ways = 1j * each / abs(each).max()  # z up the page, x to the left
     ax = Figure(figsize=(4.6, 4.6), layout="constrained").add_subplot()
     trace(ax, 1.1j * np.arange(2), color=QUIET, linestyle="--")
-    trace(ax, ends, color=CURVES[0], marker=".", markersize=3)
-    arrow(ax, 0j, ends[-1], PATH)
+    trace(ax, ways, color=CURVES[0], linestyle="", marker=".", markersize=4)
+    arrow(ax, 0j, 1.1 * ways.sum() / abs(ways.sum()), PATH)
     ax.set(aspect="equal", xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
-    ax.set_title(f"the sum leads at {np.degrees(np.angle(sums[-1])):.0f}°".replace("-", "−"), fontsize=11)
+    ax.set_title(f"the sum leads at {np.degrees(np.angle(each.sum())):.0f}°".replace("-", "−"), fontsize=11)
     ax.set_axis_off()
-    return ax.figure
+    return ax.figure  # type: ignore[return-value]
 
 
 def _places(first: Motion, second: Motion, move: Callable[[Array], Array]) -> Array:
