@@ -201,10 +201,9 @@ def crowd(
     scene.check(0j)
     walks = _walks(graph, skeleton)
     group = groups.build_group(members, seed=seed)
-    start, found = _plan(group, scene)
-    frames = round(found.seconds * groups.RATE) + 1
-    plan = groups.Trajectories(*(part[:frames] for part in groups.play_group(group, found.clips, start)))
-    tell(planned=f"{found.seconds:.1f} s for {members} members, {found.expanded} states")
+    plan, found = _plan(group, scene)
+    how = f"{found.expanded} states" if found else "steered, which is quicker"
+    tell(planned=f"{(len(plan.places) - 1) / groups.RATE:.1f} s for {members} members, {how}")
     walkers = groups.walk_group(walks, plan, progress=bar("walking"))
     tell(walked=walkers.report())
     make_folder(out)
@@ -230,13 +229,15 @@ def _walks(path: Path | None, skeleton: Path | None) -> "graphs.MotionGraph":
     return graph
 
 
-def _plan(group: "groups.GroupGraph", scene: "groups.Scene") -> "tuple[groups.Placed, groups.GroupWalk]":
-    """Plan a way that sets out towards the first point or, where that is closed, to one side of it."""
+def _plan(
+    group: "groups.GroupGraph", scene: "groups.Scene"
+) -> "tuple[groups.Trajectories, groups.GroupWalk | None]":
+    """Take a way that sets out towards the first point or, where that is closed, to one side of it."""
     refused: list[NoWalk] = []
     for turn in TURNS:
         start = groups.Placed(0, cmath.rect(1.0, cmath.phase(scene.points[0]) + turn))
         try:
-            return start, groups.plan_group(group, scene, start=start, **({"most": SOON} if turn else {}))
+            return groups.lead_group(group, scene, start=start, **({"most": SOON} if turn else {}))
         except NoWalk as error:
             refused.append(error)
     raise refused[0]

@@ -39,8 +39,12 @@ def follow_path(
     all paths. So where seams are too frequent, or the walk is too far off (`Followed.excess` above 1), the
     search is repeated with a wider beam, and with the price of a seam times or divided by 1.25. The best walk
     is taken. Where it still leaves the path, a last search keeps 400 walks, at a third of the price of seams.
-    Where no clip turns as the path does, the walk cuts the corner; a warning says where. Walks of the paper's
-    own search, `follow_as_2002`, can be millimetres nearer to an easy path, with two to four times the seams.
+    Where no clip turns as the path does, the walk cuts the corner; a warning says where.
+
+    Seams cost, so a walk can be nearer: the paper's own search, `follow_as_2002`, which takes two to four
+    times as many, is nearer to 21 of 30 lines, by 1 cm in the median. With
+    `Settings(seam=0, match=0, width=200, tries=1)`, where seams are free here, too, its walks are nearer to 5
+    of them only, by 3 mm at most.
 
     With `bend`, any walk follows any path: the search prices by how much a walk must be turned beyond what
     its clips turn, instead of its distance from the path. Then it is laid on the path [Gle01], and its feet

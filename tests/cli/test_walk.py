@@ -10,8 +10,7 @@ from mocap.datasets import samples
 from mocap.errors import NoWalk
 from mocap.files import load_save
 from mocap.graphs import storage
-from mocap.methods.groups.group_graphs import Placed
-from mocap.methods.groups.planning import Scene, plan_group
+from mocap.methods.groups.planning import Scene
 from tests.bundled import bundled
 from tests.files.glb_reader import Glb
 from tests.methods.groups.built import graph
@@ -84,22 +83,14 @@ def test_a_graph_of_one_s_own_walks_as_glb_and_other_files_stay(folder, run):
     assert names(folder / "crowd") == [*members, "notes.txt", "plan.png"]
 
 
-def test_where_the_way_to_the_first_point_is_closed_it_sets_out_to_a_side():
-    group, scene = graph(3), Scene((20j,), ((3.4j, 1.3),))
-    with pytest.raises(NoWalk, match="closed every way"):
-        plan_group(group, scene, start=Placed(0, 1j))
-    start, found = _plan(group, scene)
-    assert abs(np.angle(start.turn / 1j)) == pytest.approx(0.5) and found.clips
-
-
-def test_sides_are_not_searched_for_long_where_the_way_ahead_is_only_long(monkeypatch):
+def test_where_the_way_is_closed_it_sets_out_to_a_side_but_does_not_search_there_for_long(monkeypatch):
     asked = []
 
     def refuse(group, scene, *, start, most=4000):
-        asked.append(most)
+        asked.append((most, round(float(np.angle(start.turn / 1j)), 6)))
         raise NoWalk(f"refused {len(asked)}")
 
-    monkeypatch.setattr("mocap.methods.groups.plan_group", refuse)
+    monkeypatch.setattr("mocap.methods.groups.lead_group", refuse)
     with pytest.raises(NoWalk, match="refused 1"):
         _plan(graph(3), Scene((20j,)))
-    assert asked == [4000, 400, 400, 400, 400]
+    assert asked == [(4000, 0.0), (400, 0.5), (400, -0.5), (400, 1.0), (400, -1.0)]

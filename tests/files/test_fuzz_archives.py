@@ -19,10 +19,6 @@ from mocap.files import amass
 from mocap.graphs import storage
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build
-from mocap.methods.groups import group_files
-from mocap.methods.groups.flocking import Configuration
-from mocap.methods.groups.group_clips import GroupClip
-from mocap.methods.groups.group_graphs import GroupGraph, play_group, random_group_walk
 from mocap.methods.match_webs import MotionSpace, webs
 from mocap.methods.parametric_graphs import Examples, parametric_files
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
@@ -48,14 +44,6 @@ def save_web(path, size=1):
     offsets = np.arange(0, len(cells) + 1, 20)
     web = webs.MatchWeb(tuple(CLIPS), [0, 90, 160], 5, 0.1, cells, np.full(len(cells), 0.1), offsets)
     webs.save_web(web, path)
-
-
-def save_group(path, size=1):
-    frames = 5 + 9000 * (size - 1)
-    places, ones = np.linspace(0, 1, frames)[:, None] + [0j, 2j, 4j], np.ones((frames, 3), complex)
-    order = np.array([1, 0, 2])
-    clips = [GroupClip(a, 1 - a, places, ones, order, 1j, 1 + 0j) for a in (0, 1)]
-    group_files.save_group(GroupGraph((Configuration(places[0], ones[0]),) * 2, tuple(clips), 2), path)
 
 
 def save_parametric(path, size=1):
@@ -88,11 +76,6 @@ def use_web(path):
     assert all(web.own_frame(web.clip_at(n), n) >= 0 for n in cells[0])
 
 
-def use_group(path):
-    graph = group_files.load_group(path)
-    assert np.isfinite(play_group(graph, random_group_walk(graph, 3)).places).all()
-
-
 def use_parametric(path):
     character = ParametricController(parametric_files.load_parametric(path))
     assert np.isfinite([character.step(0.1, 1.0).root_position for _ in range(30)]).all()
@@ -105,7 +88,6 @@ def use_amass(path):
 KINDS = {
     "graph": (save_graph, use_graph),
     "web": (save_web, use_web),
-    "group": (save_group, use_group),
     "parametric": (save_parametric, use_parametric),
     "amass": (save_amass, use_amass),
 }

@@ -1,13 +1,15 @@
 """The paper's search follows short paths, and ours follows long ones better."""
 
+import numpy as np
 import pytest
+from asked_lines import random_line
 
 from mocap.body.ground_path import GroundPath, s_curve
 from mocap.errors import MocapWarning, NoWalk
 from mocap.steering.path_following import follow_as_2002, follow_path
-from mocap.steering.path_objective import Wishes
+from mocap.steering.path_objective import Settings, Wishes
 from mocap.synthesis.bounded_search import Budget
-from tests.bundled import walking
+from tests.bundled import captured, walking
 
 GRAPH = walking()
 
@@ -34,6 +36,23 @@ def test_at_its_best_the_papers_search_is_as_near_with_more_seams_and_walks():
     assert ours.off.mean() < theirs.off.mean()
     assert theirs.seams_per_second > 2 * ours.seams_per_second
     assert theirs.found.expanded > 5 * ours.found.expanded
+
+
+@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
+def test_what_the_papers_search_gains_at_its_best_it_pays_in_seams(real_data):
+    """As in [KGP02, 5.1]. Where they are free in layers, too, walks in layers are nearer on these lines."""
+    graph, found = captured(real_data), []
+    free, best = Settings(seam=0, match=0, width=200, tries=1), Budget(nodes=30_000)
+    for seed in (500, 502, 507):
+        path = GroundPath(random_line(seed).at(np.linspace(0, 7, 141)))
+        usual = follow_path(graph, path)
+        wishes = Wishes(start=usual.walk[0][0], slide=0)
+        theirs = follow_as_2002(graph, path, wishes, look=(45, 15), budget=best)
+        found.append((follow_path(graph, path, settings=free), theirs, usual))
+    off = np.array([[walk.off.mean() for walk in walks] for walks in found])
+    seams = np.array([[walk.seams_per_second for walk in walks] for walks in found])
+    assert (np.diff(off) > 0).all() and (np.diff(off)[:, 1] < 0.02).all()
+    assert np.median(seams[:, 0]) < 1.3 * np.median(seams[:, 1]) and (2 * seams[:, 2] < seams[:, 1]).all()
 
 
 def test_before_its_first_step_there_is_no_walk():

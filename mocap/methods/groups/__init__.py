@@ -17,10 +17,9 @@ Reading order (notebook 19)
 2. `configurations`: when do two groups stand and move alike, and which moments come again?
 3. `group_clips`: clips that lead from node to node, by constrained simulation
 4. `group_graphs`: the graph, and what a walk through it plays
-5. `group_files`: save and load it
-6. `planning`: where to go, what stands in the way, and a search for the way
-7. `group_steering`: the same without a plan, to compare with
-8. `group_walkers`: a character of a motion graph for each member
+5. `planning`: where to go, what stands in the way, and a search for the way
+6. `group_steering`: the same without a plan, and the quicker of the two
+7. `group_walkers`: a character of a motion graph for each member
 
 References
 ----------
@@ -45,9 +44,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "play_group",
             "random_group_walk",
         ],
-        "group_files": ["load_group", "save_group"],
         "planning": ["GroupWalk", "Scene", "plan_group"],
-        "group_steering": ["clearances", "steer_group"],
+        "group_steering": ["clearances", "lead_group", "steer_group"],
         "group_walkers": ["walk_group"],
     },
 )

@@ -49,6 +49,16 @@ def course(seed: int, points: int = 5, discs: int = 8) -> Scene:
     return Scene(tuple(way), tuple(rocks))
 
 
+def around(seed: int, discs: int = 5) -> Scene:
+    """Draw a goal ahead, aside or behind, and discs clear of it and of the start."""
+    random, rocks = np.random.default_rng(seed), []
+    goal = complex(random.uniform(8, 24) * np.exp(1j * random.uniform(-np.pi, np.pi)))
+    while len(rocks) < discs:
+        rock = complex(random.uniform(-18, 18) + 1j * random.uniform(-18, 18))
+        rocks += [rock] * (abs(rock) > 5 and abs(rock - goal) > 4)
+    return Scene((goal,), tuple((rock, 1.0) for rock in rocks))
+
+
 def pocket(depth: float) -> Scene:
     """A U of discs, open towards the start, with the goal behind it."""
     back = [14 + 1.5j * k for k in range(-3, 4)]
