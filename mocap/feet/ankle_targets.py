@@ -60,13 +60,11 @@ def foot_target(track: LegTrack, marks: Mask, held: Mapping[int, Array]) -> Foot
     places = _pull_in(places, marks, track)
     # Where only the ball stands, the foot's length holds the ankle. It stays as near as that allows to its
     # own way from plant to plant: a foot that turns a little is seen less than a leg that stretches.
-    near = ankle + smooth_fill(places[0] - ankle, flat, fps)
-    away = near - places[1]
+    away = ankle + smooth_fill(places[0] - ankle, flat, fps) - places[1]
     behind = places[1] + length * away / np.linalg.norm(away, axis=-1, keepdims=True)
     goal = np.where(flat[:, None], places[0], behind)
     turn = rotations.to_rotvec(rotations.between(ball - ankle, places[1] - goal))
-    moved = smooth_fill(goal - ankle, flat | down, fps)
-    ankle = ankle + moved
+    ankle = ankle + smooth_fill(goal - ankle, flat | down, fps)
     return FootTarget(ankle, smooth_fill(turn, down, fps), flat | down, _sides(track, ankle))
 
 

@@ -22,7 +22,7 @@ from mocap.feet.ankle_targets import FootTarget, band_product, bending_bands
 from mocap.feet.leg_track import ROUNDING, UP, LegTrack
 
 # Of the leg's length: 2 cm for a leg of 0.85 m. A plant that would move the root further is let go.
-MOST = 0.024
+MOST = 0.0239
 
 # Of the leg's length: 5 mm. A knee may jump by so much from one picture of a film (30 Hz) to the next beyond
 # what is usual. Of a figure 400 pixels high that is less than one; four times as much is plain to see.
@@ -78,9 +78,9 @@ def hold_plants(
         change = _least_bent(legs, stress, change)
         beyond = _jolts(tracks, _displacements(legs, change)[1 : 1 + len(legs)], span)
         jolting = beyond > AIM * UNSEEN * length
-        # Near a jolt the root may only go far to spare it.
-        far = (abs(change[0]) > MOST * length) & ~maximum_filter1d(jolting.any(axis=0), 12 * span + 1)
-        over = np.vstack([far, jolting])
+        # Near a jolt the root may only go far to spare it, and near a plant out of reach it must.
+        must = maximum_filter1d(jolting.any(axis=0) | (_highest(legs) < -MOST * length), 12 * span + 1)
+        over = np.vstack([(abs(change[0]) > MOST * length) & ~must, jolting])
         if not over.any():
             break
         stress *= np.where(maximum_filter1d(over, 2 * span + 1, axis=1), 2.0, 1.0)
@@ -99,6 +99,11 @@ def _pose(track: LegTrack, target: FootTarget, rise: Array, extra: Array) -> tup
     wanted = target.ankle - track.hip - rise[:, None] * UP
     held = target.side * track.bend(np.linalg.norm(wanted, axis=-1))
     return np.where(target.planted, held, track.own + extra), wanted
+
+
+def _highest(legs: Legs) -> Array:
+    """Give the highest rise of the root at which all planted legs still reach, (F,), metres."""
+    return np.asarray(np.min([np.where(g.planted, t.highest(g.ankle), np.inf) for t, g in legs], axis=0))
 
 
 def _displacements(legs: Legs, change: Array) -> Array:
@@ -124,7 +129,7 @@ def _least_bent(legs: Legs, stress: Array, change: Array) -> Array:
     bending = [bending_bands(weight, near) for weight in (ones[0], *stress[1:])]
     bounds = [bending_bands(0 * weight, STIFF**2 * near * weight) for weight in (stress[0], *ones)]
     bands = np.array([*bending, *bounds])
-    top = np.min([np.where(g.planted, t.highest(g.ankle), np.inf) for t, g in legs], axis=0)
+    top = _highest(legs)
     change = np.vstack([np.minimum(change[0], top), change[1:]])
     here, damping = _displacements(legs, change), 1e-3
     for _ in range(STEPS):
