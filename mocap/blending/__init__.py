@@ -29,7 +29,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "weights": ["cubic_weights", "linear_weights", "quintic_weights", "sine_weights", "window_steps"],
+        "weights": ["cubic_weights", "linear_weights", "sine_weights"],
         "joining": ["blend", "inertialize", "join", "lay_window_on"],
         "matched_stretches": ["draw_stretches"],
         "timewarps": ["Curve", "fit_curve"],

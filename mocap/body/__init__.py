@@ -42,7 +42,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "s_curve",
             "spline",
         ],
-        "limbs": ["find_legs", "name_leg"],
+        "limbs": ["find_legs"],
         "two_bone_ik": ["two_bone"],
         "speed_labels": ["label_by_speed", "smooth_speed"],
     },

@@ -53,7 +53,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "edits": ["edit", "posed"],
         "levels": ["hierarchy", "scattered_fit"],
         "bending": ["LIMIT", "bend"],
-        "path_editing": ["Ride", "moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
+        "path_editing": ["moving_frames", "on_path", "plants_kept", "ride_of", "start_at"],
         "body_roles": ["roles"],
         "copied_motion": ["copied"],
         "stances": ["Stance", "proportioned", "stance_of", "stance_of_zero"],

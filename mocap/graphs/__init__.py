@@ -27,17 +27,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "motion_graph": ["MotionGraph", "build", "from_transitions", "labels_between"],
-        "components": [
-            "largest_component",
-            "numbered_edges",
-            "NO_LABELS",
-        ],
+        "components": ["largest_component", "numbered_edges", "NO_LABELS"],
         "pruning": ["prune", "prune_graph", "notes_example"],
         "thresholds": ["smallest_threshold", "threshold_curve", "velocity_gaps"],
         "choice_points": ["merge_choice_points"],
         "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
-        "edge_tables": ["EdgeTable", "edge_table", "frame_table", "require_node"],
+        "edge_tables": ["edge_table", "frame_table", "require_node"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
         "homework_graph": [
             "Segment",

@@ -27,17 +27,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "style": [
-            "ASKED",
-            "COLOURS",
-            "CURVES",
-            "FLOOR",
-            "MARK",
-            "PATH",
-            "QUIET",
-            "SOURCES",
-            "source_colours",
-        ],
+        "style": ["ASKED", "COLOURS", "CURVES", "FLOOR", "MARK", "PATH", "QUIET", "SOURCES"],
         "bodies": ["bones", "flat_bodies", "target_poses"],
         "stick_figures": ["StickFigure", "ground_axes", "laid_over", "stick_figure", "to_picture"],
         "bodies_on_path": ["bodies_along"],
@@ -60,7 +50,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
         "search_tree": ["TreePicture", "grow_tree"],
-        "storyboards": ["storyboard"],
-        "picture": ["Picture", "show", "stack"],
+        "picture": ["show"],
     },
 )

@@ -21,7 +21,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "walk_to_motion": ["places", "seams", "sources", "to_motion", "with_plants"],
-        "random_walks": ["dump", "random_walk", "stream", "wander"],
+        "random_walks": ["dump", "random_walk", "stream"],
         "bounded_search": [
             "Branch",
             "Budget",
@@ -31,6 +31,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "children",
             "search_ahead",
         ],
-        "ground_walks": ["GroundWalks", "Stand"],
+        "ground_walks": ["GroundWalks"],
     },
 )

@@ -195,7 +195,7 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     --------
     Two transitions, each of which turns left by 90° and moves 1 m forward:
 
-    >>> from mocap.graphs import EdgeTable
+    >>> from mocap.graphs.edge_tables import EdgeTable
     >>> one, turn = np.ones(2), PlanarTransform(np.full(2, np.pi / 2), np.zeros(2), np.ones(2))
     >>> x, z = places(EdgeTable(one, one, one, one > 0, one, turn))[1:]
     >>> x.round(6).tolist(), z.round(6).tolist()

@@ -32,7 +32,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "player": ["play"],
         "live_player": ["Mixer", "draw_path"],
-        "experiments": ["Experiment", "explore", "step_aside"],
+        "experiments": ["explore", "step_aside"],
         "pointing": ["handles"],
         "film": ["save_animation"],
         "steered_widget": ["steered"],

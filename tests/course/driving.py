@@ -11,8 +11,8 @@ import warnings
 
 from IPython import get_ipython
 
-from mocap import widgets
 from mocap.widgets.company import Order
+from mocap.widgets.experiments import Experiment
 from mocap.widgets.player import Player
 
 displayed = {}
@@ -40,7 +40,7 @@ def drive_all():
 
 
 def drive(shown):
-    if isinstance(shown, widgets.Experiment):
+    if isinstance(shown, Experiment):
         for values in settings(shown):
             shown.set(**values)
     elif isinstance(shown, Player):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mocap.datasets.samples import SKELETON
-from mocap.steering import Pose
+from mocap.steering.characters import Pose
 
 TURNS = np.tile([1.0, 0, 0, 0], (len(SKELETON), 1))
 

@@ -25,7 +25,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "springs": ["spring", "spring_way"],
         "pose_database": ["GROUPS", "PoseDatabase", "WEIGHTS", "features", "standardise", "tabulate"],
-        "nearest_frames": ["FrameSearch", "Wants", "foresee"],
+        "nearest_frames": ["Wants", "foresee"],
         "matching_control": ["MotionMatcher"],
     },
 )
