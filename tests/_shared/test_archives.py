@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from mocap._shared.archives import ROOM, Kind, open_archive, pack, read_arrays, write_arrays
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError
+from tests.refusals import refused
 
 LAYOUT = {"rows": ("i", ("N", 2)), "names": ("U", ("N",)), "rate": ("f", ()), "of_*N": ("f", ("d*",))}
 PAIRS = Kind("some pairs", 2, LAYOUT)
@@ -38,14 +39,12 @@ def test_arrays_come_back(tmp_path, kind, order):
 )
 def test_what_does_not_fit_is_named(tmp_path, changes, kind, message):
     write_arrays(tmp_path / "pairs.npz", PAIRS, GOOD | changes)
-    with pytest.raises(FormatError, match=message):
-        read_arrays(tmp_path / "pairs.npz", kind)
+    refused(message, read_arrays, tmp_path / "pairs.npz", kind, kind=FormatError)
 
 
 def test_a_missing_file_and_a_folder_are_one_sentence(tmp_path):
     for path in (tmp_path, tmp_path / "nothing.npz"):
-        with pytest.raises(MocapError, match=r"Cannot read .*: "):
-            read_arrays(path, PAIRS)
+        refused(r"Cannot read .*: ", read_arrays, path, PAIRS)
 
 
 def test_what_unpacks_to_too_much_is_written_as_it_is_and_refused_where_it_is_packed(tmp_path):

@@ -7,9 +7,9 @@ from mocap._shared.arrays import runs
 from mocap.blending.joining import join
 from mocap.blending.mixing import crossfade
 from mocap.blending.registering import register
-from mocap.errors import MocapError
 from tests.blending.registered import at_times, captured, skate, slides, walks, way
 from tests.blending.test_mixing import jolts, largest_gap, of_parts
+from tests.refusals import refused
 
 PAIRS = [((0.8, 0), (1.4, 0)), ((1.1, -120), (1.1, 120))]
 
@@ -99,5 +99,4 @@ def test_plants_are_those_of_the_clips_and_of_both(registration):
     ],
 )
 def test_what_is_no_fade_is_refused(registration, settings, message):
-    with pytest.raises(MocapError, match=message):
-        crossfade(registration, **settings)
+    refused(message, crossfade, registration, **settings)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
 from mocap.blending.timewarps import Curve, fit_curve
-from mocap.errors import MocapError
+from tests.refusals import refused
 from tests.strategies import seeds
 
 
@@ -87,5 +87,4 @@ def test_one_moment_and_many_points_at_it_make_a_curve():
     ],
 )
 def test_what_has_no_curve_is_refused(times, values, settings, message):
-    with pytest.raises(MocapError, match=message):
-        fit_curve(times, values, **settings)
+    refused(message, fit_curve, times, values, **settings)

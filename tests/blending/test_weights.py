@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.blending.weights import cubic_weights, linear_weights, quintic_weights, sine_weights
-from mocap.errors import MocapError
+from tests.refusals import refused
 
 
 @given(st.sampled_from([cubic_weights, linear_weights, quintic_weights]), st.integers(1, 60))
@@ -37,10 +37,8 @@ def test_sine_weights_are_the_homework_s():
     assert 1 - sine_weights(50) == pytest.approx(u)
     for window in (2, 50):
         assert sine_weights(window)[[0, -1]] == pytest.approx([1, 0], abs=1e-12)
-    with pytest.raises(MocapError, match="at least two frames, got 1"):
-        sine_weights(1)
+    refused("at least two frames, got 1", sine_weights, 1)
 
 
 def test_an_empty_window_has_no_weights():
-    with pytest.raises(MocapError, match="got 0"):
-        cubic_weights(0)
+    refused("got 0", cubic_weights, 0)

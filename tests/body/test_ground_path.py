@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mocap.body import ground_path
 from mocap.body.ground_path import GroundPath, arcs, spline
-from mocap.errors import MocapError
+from tests.refusals import refused
 from tests.strategies import seeds
 
 
@@ -66,8 +66,7 @@ def test_points_that_repeat_count_once():
     ],
 )
 def test_what_is_no_path_is_refused(points, message):
-    with pytest.raises(MocapError, match=message):
-        GroundPath(points)
+    refused(message, GroundPath, points)
 
 
 @pytest.mark.parametrize("angle", [2.085495351331207, *np.linspace(0, 6, 20)])

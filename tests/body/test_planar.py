@@ -9,7 +9,7 @@ from mocap.body import euler, rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.planar import IDENTITY, PlanarTransform, from_ground, heading, lay_on, on_ground, place
 from mocap.course.homework_slips import homework_heading
-from mocap.errors import MocapError
+from tests.refusals import refused
 from tests.strategies import planar, random_motion, seeds
 
 POINTS = np.random.default_rng(0).normal(size=(4, 5, 3))
@@ -98,8 +98,7 @@ def test_a_placed_motion_stands_and_faces_where_it_should(seed, angle, x, z):
 
 @pytest.mark.parametrize(("angle", "position"), [(np.nan, (0, 0)), (0.0, (np.inf, 0)), (0.0, (1, 2, 3))])
 def test_a_place_must_be_one(angle, position):
-    with pytest.raises(MocapError, match="finite direction and position"):
-        place(random_motion(0), angle, position)
+    refused("finite direction and position", place, random_motion(0), angle, position)
 
 
 @given(seeds, seeds)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, SkeletonMismatch
+from mocap.errors import SkeletonMismatch
+from tests.refusals import refused
 
 ZEROS = np.zeros((2, 3))
 
@@ -26,8 +27,7 @@ ZEROS = np.zeros((2, 3))
     ],
 )
 def test_a_bad_skeleton_is_refused(arguments, message):
-    with pytest.raises(MocapError, match=message):
-        Skeleton(*arguments)
+    refused(message, Skeleton, *arguments)
 
 
 def test_arrays_are_copies_that_nobody_writes_to():
@@ -46,8 +46,7 @@ def test_joints_turn_about_unturned_axes_unless_told_otherwise():
 
 
 def test_an_unknown_joint_is_named_with_those_there_are():
-    with pytest.raises(MocapError, match="No joint 'c'; there are: a, b"):
-        Skeleton(["a", "b"], [-1, 0], ZEROS).index("c")
+    refused("No joint 'c'; there are: a, b", Skeleton(["a", "b"], [-1, 0], ZEROS).index, "c")
 
 
 @pytest.mark.parametrize(
@@ -74,5 +73,4 @@ def test_mismatches_are_named():
         "'c' sits 5 cm apart": Skeleton(["a", "b", "c"], [-1, 0, 1], [[0, 0, 0], [0, 0, 0], [0, 0.05, 0]]),
     }
     for message, other in others.items():
-        with pytest.raises(SkeletonMismatch, match=message):
-            body.require_same(other)
+        refused(message, body.require_same, other, kind=SkeletonMismatch)

@@ -14,8 +14,8 @@ from mocap import datasets
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import concatenate, resample
 from mocap.datasets import samples
-from mocap.errors import MocapError
 from mocap.files import conversion, load_save
+from tests.refusals import refused
 from tests.strategies import wave
 
 
@@ -118,8 +118,7 @@ def test_plans_that_make_no_sense_are_refused(folder, run):
     (folder / "empty").mkdir()
     assert "holds no .amc, .bvh or AMASS .npz file" in run("convert empty out", 2).err
     load_save.save(wave(20), "clips/a.amc")
-    with pytest.raises(MocapError, match=r"a.amc and .*a.bvh would both become .*a.bvh"):
-        conversion.plan("clips", "out")
+    refused(r"a.amc and .*a.bvh would both become .*a.bvh", conversion.plan, "clips", "out")
 
 
 def test_an_interruption_ends_the_conversion(folder):
@@ -138,8 +137,7 @@ def die(*_):
 
 def test_a_worker_that_dies_is_told(folder, monkeypatch):
     monkeypatch.setattr(conversion, "_convert", die)
-    with pytest.raises(MocapError, match="ended from outside: is there enough memory"):
-        conversion.convert(conversion.plan("clips", "out"))
+    refused("ended from outside: is there enough memory", conversion.convert, conversion.plan("clips", "out"))
 
 
 def test_real_folders(real_data, tmp_path):
@@ -216,8 +214,7 @@ def test_judge_shows_bones_that_stretch_and_looks_into_folders(tmp_path, run):
     path.parent.mkdir()
     rows = [f"0 90 {frame} 0 0 0 0 0 0 0 {50 + frame / 5} 0 0 0 0\n" for frame in range(30)]
     path.write_text(STRETCHING + "".join(rows))
-    with pytest.raises(MocapError, match=r"'Spine' in one place below its parent, but for 0.02 m"):
-        load_save.load(path)
+    refused(r"'Spine' in one place below its parent, but for 0.02 m", load_save.load, path)
     said = run(f"judge {tmp_path} --json")
     (judged,) = json.loads(said.out)
     (bones,) = (row for row in judged["measures"] if row["name"] == "bones")
@@ -226,8 +223,7 @@ def test_judge_shows_bones_that_stretch_and_looks_into_folders(tmp_path, run):
     assert judged["bones"]["Leg"] == pytest.approx(0.9)
     assert "bones change length by up to 58 mm" in said.err
     assert load_save.bone_stretch(path)["Leg"] == 0
-    with pytest.raises(MocapError, match="stretch must be 0 or more metres, got nan"):
-        load_save.load(path, stretch=float("nan"))
+    refused("stretch must be 0 or more metres, got nan", load_save.load, path, stretch=float("nan"))
 
 
 @pytest.fixture

@@ -16,9 +16,9 @@ import mocap
 from mocap.cli.main import main
 from mocap.course import checks, notebooks
 from mocap.course.lab.adopting import slots
-from mocap.errors import MocapError
 from tests.course.stored_notebooks import FOLDER, NAMES, PAGES, ROOT, every_notebook, markdown, read
 from tests.loops import for_each
+from tests.refusals import refused
 
 
 def code(name):
@@ -289,8 +289,7 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path,
 @pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
 def test_what_is_no_notebook_is_told(text, tmp_path):
     (tmp_path / "n.ipynb").write_text(text)
-    with pytest.raises(MocapError, match=r"n\.ipynb: is not a notebook"):
-        notebooks.read(tmp_path / "n.ipynb")
+    refused(r"n\.ipynb: is not a notebook", notebooks.read, tmp_path / "n.ipynb")
 
 
 def test_a_notebook_whose_cells_have_no_ids_is_read_in_silence(tmp_path, recwarn):

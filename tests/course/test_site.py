@@ -15,8 +15,8 @@ from mocap.cli.main import main
 from mocap.course.formulas import to_mathml
 from mocap.course.opening import stored
 from mocap.course.site import PAGES, STILL, build_site
-from mocap.errors import MocapError
 from mocap.widgets import live
+from tests.refusals import refused
 
 NAMES = ("00-quickstart", "09-discussion")
 ROOMS = ("mocap.body", "mocap.blending")  # of the reference; the sweep makes all
@@ -175,12 +175,10 @@ def test_experiments_move_through_recorded_positions(tmp_path, monkeypatch):
 @pytest.mark.sweep
 def test_a_notebook_that_does_not_run_is_not_recorded(tmp_path):
     folder = write_course(tmp_path / "in", new_markdown_cell("# One"), new_code_cell("1 / 0"))
-    with pytest.raises(MocapError, match=r"00-one.ipynb, cell 1: ZeroDivisionError"):
-        build_site(folder, tmp_path / "out", moving=True)
+    refused(r"00-one.ipynb, cell 1: ZeroDivisionError", build_site, folder, tmp_path / "out", moving=True)
 
 
 def test_without_sphinx_a_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr("mocap.course.site.find_spec", lambda name: None)
-    with pytest.raises(MocapError, match=r"pip install 'mocap\[site\]'"):
-        build_site(stored(), tmp_path / "out")
+    refused(r"pip install 'mocap\[site\]'", build_site, stored(), tmp_path / "out")
     assert not (tmp_path / "out").exists()

@@ -11,9 +11,10 @@ from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.editing.bending import bend
 from mocap.editing.path_editing import plants_kept
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapWarning
 from mocap.files.load_save import load
 from tests.editing.test_path_editing import acc99, off, slide
+from tests.refusals import refused
 
 CLIPS = ("walk_straight", "walk_circle", "sneak", "jog")
 CORNER = GroundPath([[0, 0], [0, 4], [4, 4]])
@@ -98,12 +99,9 @@ def test_who_goes_to_and_fro_is_turned_at_once_and_that_is_said():
 
 
 def test_bad_input():
-    with pytest.raises(MocapError, match="limit=0"):
-        bend(clip("jog"), circle(2.0), limit=0)
-    with pytest.raises(MocapError, match="limit=nan"):
-        bend(clip("jog"), circle(2.0), limit=np.nan)
-    with pytest.raises(MocapError, match="it stands; there is no path to edit"):
-        bend(clip("walk_straight")[:9], circle(2.0))
+    refused("limit=0", bend, clip("jog"), circle(2.0), limit=0)
+    refused("limit=nan", bend, clip("jog"), circle(2.0), limit=np.nan)
+    refused("it stands; there is no path to edit", bend, clip("walk_straight")[:9], circle(2.0))
 
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")

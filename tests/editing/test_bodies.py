@@ -14,9 +14,9 @@ from mocap.editing.bodies import (
     require_reachable,
 )
 from mocap.editing.pins import join_pins, pin, plant_pins
-from mocap.errors import MocapError
 from mocap.files.load_save import load
 from tests.editing.wishes import captured, walk
+from tests.refusals import refused
 
 LEGS = find_legs(walk().skeleton)
 
@@ -72,22 +72,18 @@ def test_pins_farther_apart_than_the_bones_between_are_refused():
         if ok:
             require_reachable(clip, pins)
         else:
-            with pytest.raises(
-                MocapError, match=r"^Frame 24\d: 'rwrist' would be 5.* m from '\w+', the bones"
-            ):
-                require_reachable(clip, pins)
+            refused(
+                r"^Frame 24\d: 'rwrist' would be 5.* m from '\w+', the bones", require_reachable, clip, pins
+            )
     # A hand under a bar, feet on a floor: boxes count by their nearest corners.
     high = join_pins(
         pin(clip, wrist, [0], [-np.inf, 9, -np.inf], [np.inf] * 3),
         pin(clip, "lfoot", [0], [-np.inf] * 3, [np.inf, 0.1, np.inf]),
     )
-    with pytest.raises(MocapError, match=r"'lfoot' would be 8\.90 m from 'rwrist'"):
-        require_reachable(clip, high)
+    refused(r"'lfoot' would be 8\.90 m from 'rwrist'", require_reachable, clip, high)
 
 
 def test_bad_bodies():
     clip = walk()
-    with pytest.raises(MocapError, match="No joint 'knee'"):
-        body_of(clip, [4], still=["knee"])
-    with pytest.raises(MocapError, match="above 0"):
-        body_of(clip, [4], prices={"lfemur": 0.0})
+    refused("No joint 'knee'", body_of, clip, [4], still=["knee"])
+    refused("above 0", body_of, clip, [4], prices={"lfemur": 0.0})

@@ -10,7 +10,7 @@ import gallery
 import matplotlib.pyplot as plt
 import pytest
 
-from mocap.errors import MocapError
+from tests.refusals import refused
 
 FIGURES = Path(__file__).parents[2] / "figures"
 
@@ -46,5 +46,4 @@ def test_all_are_written_with_their_fingerprints(tmp_path, monkeypatch):
     gallery.draw_all(tmp_path)
     assert path.read_bytes() == again
     plt.close("all")
-    with pytest.raises(MocapError, match="is no picture of"):
-        gallery.drawn_in(tmp_path / "nowhere.png")
+    refused("is no picture of", gallery.drawn_in, tmp_path / "nowhere.png")

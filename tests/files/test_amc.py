@@ -7,6 +7,7 @@ from mocap.errors import FormatError
 from mocap.files import amc
 from mocap.files.asf import read_skeleton
 from tests.files.acclaim_clips import AMC, read_clip
+from tests.refusals import refused
 
 
 @pytest.mark.parametrize(
@@ -33,14 +34,12 @@ from tests.files.acclaim_clips import AMC, read_clip
 )
 def test_a_broken_amc_is_refused_at_its_line(write, old, new, message):
     assert old in AMC
-    with pytest.raises(FormatError, match=message):
-        read_clip(write, amc_text=AMC.replace(old, new))
+    refused(message, read_clip, write, amc_text=AMC.replace(old, new), kind=FormatError)
 
 
 @pytest.mark.parametrize("text", [":DEGREES\n", "# only this\n"])
 def test_an_empty_clip_is_refused(write, text):
-    with pytest.raises(FormatError, match="expected frames, got none"):
-        read_clip(write, amc_text=text)
+    refused("expected frames, got none", read_clip, write, amc_text=text, kind=FormatError)
 
 
 def test_columns_and_lines_read_the_same(real_data):

@@ -13,6 +13,7 @@ from mocap.body.motion import Motion
 from mocap.errors import FormatError, MocapError
 from mocap.files import amass, load_save
 from tests.conftest import SWEEP
+from tests.refusals import refused
 from tests.strategies import wave
 
 ASF = """:units
@@ -71,8 +72,7 @@ def test_the_skeleton_that_fits_is_found(folder, skeletons, length):
     ],
 )
 def test_the_candidates_are_named(folder, skeletons, message):
-    with pytest.raises(MocapError, match=message):
-        load_save.load(folder(**skeletons))
+    refused(message, load_save.load, folder(**skeletons))
 
 
 def test_options(folder):
@@ -100,27 +100,21 @@ def test_save_and_load(folder, tmp_path, suffix):
 def test_a_missing_file_or_a_folder_is_refused(tmp_path, name):
     (tmp_path / "folder.bvh").mkdir()
     (tmp_path / "folder.amc").mkdir()
-    with pytest.raises(MocapError, match=f"Cannot read .*{name}: (No such file|Is a dir)"):
-        load_save.load(tmp_path / name)
+    refused(f"Cannot read .*{name}: (No such file|Is a dir)", load_save.load, tmp_path / name)
 
 
 def test_other_formats_are_refused(folder, tmp_path):
     motion = load_save.load(folder(a=("spine", 1)))
-    with pytest.raises(MocapError, match=r"mocap reads .amc .with .asf., .bvh and AMASS .npz"):
-        load_save.load("walk.c3d")
-    with pytest.raises(MocapError, match="load_skeleton reads it"):
-        load_save.load("walk.asf")
+    refused(r"mocap reads .amc .with .asf., .bvh and AMASS .npz", load_save.load, "walk.c3d")
+    refused("load_skeleton reads it", load_save.load, "walk.asf")
     with pytest.raises(MocapError, match=r"mocap writes .amc .with .asf., .bvh, .glb and AMASS .npz"):
         load_save.save(motion, tmp_path / "b.fbx")
-    with pytest.raises(MocapError, match=r"give an .asf file"):
-        load_save.load_skeleton("walk.bvh")
-    with pytest.raises(MocapError, match=r"Cannot read walk.GLB: mocap writes .glb, and reads .amc"):
-        load_save.load("walk.GLB")
+    refused(r"give an .asf file", load_save.load_skeleton, "walk.bvh")
+    refused(r"Cannot read walk.GLB: mocap writes .glb, and reads .amc", load_save.load, "walk.GLB")
     for suffix in (".glb", ".npz"):
         with pytest.raises(MocapError, match=f"All {suffix} files are in metres: leave out scale=0.01"):
             load_save.save(motion, tmp_path / f"b{suffix}", scale=0.01)
-    with pytest.raises(MocapError, match="in metres"):
-        load_save.load("walk.npz", scale=2.0)
+    refused("in metres", load_save.load, "walk.npz", scale=2.0)
 
 
 def test_the_suffix_decides(tmp_path):
@@ -135,8 +129,7 @@ def test_the_suffix_decides(tmp_path):
 @pytest.mark.parametrize("option", ["fps", "scale"])
 @pytest.mark.parametrize("value", [0, -1.0, float("nan"), float("inf")])
 def test_options_that_make_no_sense_are_refused(option, value):
-    with pytest.raises(MocapError, match=f"{option} must be a number above 0"):
-        load_save.load("walk.bvh", **{option: value})
+    refused(f"{option} must be a number above 0", load_save.load, "walk.bvh", **{option: value})
 
 
 ODD = [
@@ -164,8 +157,7 @@ def test_odd_files_load_or_say_why_not(real_data, name, skeleton, result):
     if isinstance(result, int):
         assert len(load_save.load(real_data / "odd" / name, skeleton=skeleton)) == result
     else:
-        with pytest.raises(FormatError, match=result):
-            load_save.load(real_data / "odd" / name, skeleton=skeleton)
+        refused(result, load_save.load, real_data / "odd" / name, skeleton=skeleton, kind=FormatError)
 
 
 def test_the_table_of_odd_files_is_whole(real_data):

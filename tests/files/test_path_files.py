@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError
 from mocap.files.path_files import load_path
+from tests.refusals import refused
 
 
 def svg(tmp_path, body):
@@ -144,8 +145,7 @@ def test_groups_carry_what_is_in_them(tmp_path):
     ],
 )
 def test_pictures_without_a_path_are_told(tmp_path, body, message):
-    with pytest.raises(MocapError, match=message):
-        load_path(svg(tmp_path, body))
+    refused(message, load_path, svg(tmp_path, body))
 
 
 @pytest.mark.parametrize(
@@ -167,8 +167,7 @@ def test_pictures_without_a_path_are_told(tmp_path, body, message):
 def test_tables_without_a_path_are_told(tmp_path, name, text, message):
     file = tmp_path / name
     file.write_text(text)
-    with pytest.raises(MocapError, match=message):
-        load_path(file)
+    refused(message, load_path, file)
 
 
 NESTED = 5000
@@ -195,8 +194,7 @@ BOMB = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
 def test_hostile_pictures_are_refused(tmp_path, text, message):
     file = tmp_path / "path.svg"
     file.write_text(text)
-    with pytest.raises(MocapError, match=message):
-        load_path(file)
+    refused(message, load_path, file)
 
 
 @pytest.mark.parametrize("hidden", ['display="none"', 'style="fill:red; display : none"'])
@@ -227,13 +225,11 @@ def test_a_long_path_is_read(tmp_path, step):
 @pytest.mark.parametrize("step", ["a 9 9 0 0 1 5 5 ", "c 1 2 3 4 5 6 "])
 def test_a_line_of_too_many_points_is_refused(tmp_path, step):
     file = svg(tmp_path, f'<path d="M 0 0 {step * 16_000}"/>')
-    with pytest.raises(FormatError, match="a line of 500,000 points at most"):
-        load_path(file)
+    refused("a line of 500,000 points at most", load_path, file, kind=FormatError)
 
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("line", ['<line x1="1" x2="1e8"/>', '<path d="M 1 1 A 1e8 1e-8 9 1 1 1e8 -1e8"/>'])
 def test_numpy_does_not_warn_beside_an_error(tmp_path, line):
     groups = '<g transform="scale(1e8 -1e8)">'
-    with pytest.raises(MocapError, match="not finite"):
-        load_path(svg(tmp_path, f"{groups * 60}{line}{'</g>' * 60}"))
+    refused("not finite", load_path, svg(tmp_path, f"{groups * 60}{line}{'</g>' * 60}"))

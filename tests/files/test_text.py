@@ -2,8 +2,9 @@
 
 import pytest
 
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError
 from mocap.files.text import lines, read_text, to_numbers
+from tests.refusals import refused
 
 
 @pytest.mark.parametrize(
@@ -31,15 +32,12 @@ def test_read_text(tmp_path, data, text):
 )
 def test_what_is_no_text_is_refused(tmp_path, data, message):
     (tmp_path / "file").write_bytes(data)
-    with pytest.raises(FormatError, match=message):
-        read_text(tmp_path / "file")
+    refused(message, read_text, tmp_path / "file", kind=FormatError)
 
 
 def test_a_missing_file_and_a_folder_are_refused(tmp_path):
-    with pytest.raises(MocapError, match=r"Cannot read .*gone: No such file"):
-        read_text(tmp_path / "gone")
-    with pytest.raises(MocapError, match=r"Cannot read .*: Is a directory"):
-        read_text(tmp_path)
+    refused(r"Cannot read .*gone: No such file", read_text, tmp_path / "gone")
+    refused(r"Cannot read .*: Is a directory", read_text, tmp_path)
 
 
 def test_lines_keep_their_numbers():
@@ -50,5 +48,4 @@ def test_lines_keep_their_numbers():
     "words", [["1"], ["1", "x"], ["1", "nan"], ["1", "inf"], ["1", "-1e9"], ["1", "2", "3"]]
 )
 def test_numbers_that_are_none_are_refused(words):
-    with pytest.raises(FormatError, match=r"a.bvh, line 3: expected a pair"):
-        to_numbers("a.bvh", 3, words, "a pair", 2)
+    refused(r"a.bvh, line 3: expected a pair", to_numbers, "a.bvh", 3, words, "a pair", 2, kind=FormatError)

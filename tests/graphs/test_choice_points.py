@@ -7,13 +7,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocap.body.planar import IDENTITY, PlanarTransform
-from mocap.errors import MocapError
 from mocap.graphs.choice_points import merge_choice_points
 from mocap.graphs.components import reached
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.matching.point_clouds import align, point_cloud
 from mocap.matching.transitions import Transition
+from tests.refusals import refused
 from tests.strategies import wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
@@ -88,5 +88,4 @@ def test_what_was_reached_still_is(rows, within, threshold):
 
 def test_a_threshold_is_a_distance(graphs):
     for threshold in (0, -1, np.nan):
-        with pytest.raises(MocapError, match="above 0 m"):
-            merge_choice_points(graphs[0], within=4, threshold=threshold)
+        refused("above 0 m", merge_choice_points, graphs[0], within=4, threshold=threshold)

@@ -23,6 +23,7 @@ from mocap.graphs.homework_graph import (
 )
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.other_metrics import euler_grid, pose_grid, root_grid
+from tests.refusals import refused
 from tests.strategies import wave
 
 CLIPS = [wave(90, name="a"), wave(75, phase=1.0, name="b", seed=1), wave(60, phase=2.0, name="c", seed=2)]
@@ -75,8 +76,7 @@ def test_segments_hold_a_window():
         segment_distances([wave(20)], segment=5, window=6)
     with pytest.raises(MocapError, match="A segment of 'wave' has 4 frames, too few for a window of 5"):
         segment_distances([wave(4)], segment=10, window=5)
-    with pytest.raises(MocapError, match="nothing to concatenate"):
-        segment_distances([])
+    refused("nothing to concatenate", segment_distances, [])
 
 
 def test_the_homeworks_numbers(homework_grid):
@@ -175,15 +175,10 @@ def test_bad_input_is_named():
         ({"weighting": "equal"}, "not 'equal'"),
         ({"window": 10}, "too short for windows of 10"),
     ):
-        with pytest.raises(MocapError, match=words):
-            segment_graph(CLIPS, **{"segment": 20, "window": 6, "metric": root_grid} | settings)
+        refused(words, segment_graph, CLIPS, **{"segment": 20, "window": 6, "metric": root_grid} | settings)
     lonely = segment_graph(CLIPS[:1], 20, 6, metric=root_grid)
-    with pytest.raises(NoWalk, match="Nothing follows segment 3"):
-        segment_walk(lonely, 9)
-    with pytest.raises(NoWalk, match="no segment 99"):
-        segment_walk(lonely, 9, start=99)
-    with pytest.raises(MocapError, match="at least one segment"):
-        segment_walk(lonely, 0)
+    refused("Nothing follows segment 3", segment_walk, lonely, 9, kind=NoWalk)
+    refused("no segment 99", segment_walk, lonely, 9, start=99, kind=NoWalk)
+    refused("at least one segment", segment_walk, lonely, 0)
     for walk, words in (([], "no segment"), ([0, 2], "jumps from segment 0 to segment 2")):
-        with pytest.raises(NoWalk, match=words):
-            segment_motion(CLIPS, lonely, walk)
+        refused(words, segment_motion, CLIPS, lonely, walk, kind=NoWalk)

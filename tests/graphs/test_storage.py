@@ -18,6 +18,7 @@ from mocap.graphs import storage
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
+from tests.refusals import refused
 from tests.strategies import wave
 
 MARK = {"walk": np.arange(90) < 60, "stroll": np.arange(90) > 40}
@@ -88,8 +89,7 @@ def test_clips_that_changed_are_named(saved):
             MocapError, match=r"built of another 'a': (90 frames then, 89 now|other poses, bones or units)"
         ):
             storage.load(saved, [other, b])
-    with pytest.raises(MocapError, match="needs the clip 'b ü'; given are: a"):
-        storage.load(saved, [a])
+    refused("needs the clip 'b ü'; given are: a", storage.load, saved, [a])
     same = replace(a, contacts={}, name="a")
     assert storage.load(saved, [same, b]).clips[0] is same
 
@@ -130,8 +130,7 @@ def test_numbers_that_cannot_be_are_refused(saved, key, wrong):
         array = np.concatenate([array, array])
     if key == "costs" and wrong == 10**6:
         array[-1] = np.inf
-    with pytest.raises(FormatError, match=r"damaged file|to fit"):
-        storage.read(changed(saved, **{key: array}))
+    refused(r"damaged file|to fit", storage.read, changed(saved, **{key: array}), kind=FormatError)
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -168,5 +167,4 @@ def test_clips_are_found_where_they_were_and_where_they_moved_together(tmp_path)
     moved.rename(tmp_path / "project")
     assert len(found(alone)) == 60  # seen from the root
     (clips / "p.bvh").unlink()
-    with pytest.raises(MocapError, match="The clip 'p' is no longer where"):
-        storage.find_clips(alone)
+    refused("The clip 'p' is no longer where", storage.find_clips, alone)

@@ -13,6 +13,7 @@ from mocap.graphs.motion_graph import from_transitions
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import ThresholdCurve, threshold_curve, velocity_gaps
 from mocap.matching.transitions import Transitions, find_transitions
+from tests.refusals import refused
 from tests.strategies import planar, seeds, wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
@@ -64,22 +65,17 @@ def test_the_suggestion_is_the_lowest_that_keeps_enough():
     curve = ThresholdCurve(levels, rest, rest, rest, np.array([0, 50, 95, 100]), levels, levels)
     assert [curve.suggest(keep) for keep in (0.3, 0.9, 0.95, 1.0)] == [2, 3, 3, 4]
     for keep in (0, 1.1, np.nan):
-        with pytest.raises(MocapError, match="keep must be a share"):
-            curve.suggest(keep)
-    with pytest.raises(NoWalk, match="At none of these"):
-        curve._replace(frames=np.zeros(4, int)).suggest()
+        refused("keep must be a share", curve.suggest, keep)
+    refused("At none of these", curve._replace(frames=np.zeros(4, int)).suggest, kind=NoWalk)
 
 
 def test_what_makes_no_curve():
     found = made_up(0, 5)
-    with pytest.raises(NoWalk, match="no transitions"):
-        threshold_curve(CLIPS, found[:0], window=WINDOW)
+    refused("no transitions", threshold_curve, CLIPS, found[:0], window=WINDOW, kind=NoWalk)
     with pytest.raises(MocapError, match="Thresholds must be numbers"):
         threshold_curve(CLIPS, found, window=WINDOW, thresholds=[0.1, np.nan])
-    with pytest.raises(MocapError, match="windows that lie outside"):
-        threshold_curve(CLIPS[:1], found, window=WINDOW)
-    with pytest.raises(MocapError, match="windows that lie outside"):
-        threshold_curve(CLIPS, found, window=80)
+    refused("windows that lie outside", threshold_curve, CLIPS[:1], found, window=WINDOW)
+    refused("windows that lie outside", threshold_curve, CLIPS, found, window=80)
 
 
 def gaps_of(clips, ways):

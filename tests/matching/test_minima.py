@@ -1,12 +1,11 @@
 """Minima against a loop over neighbours."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.errors import MocapError
 from mocap.matching.minima import local_minima
+from tests.refusals import refused
 from tests.strategies import seeds
 
 
@@ -37,7 +36,5 @@ def test_grids_without_minima():
 
 
 def test_what_is_no_grid_is_refused():
-    with pytest.raises(MocapError, match=r"two dimensions, got shape \(3,\)"):
-        local_minima(np.ones(3))
-    with pytest.raises(MocapError, match=r"NaN at \[2, 1\]"):
-        local_minima(np.array([[1.0, 2.0], [3.0, 4.0], [5.0, np.nan]]))
+    refused(r"two dimensions, got shape \(3,\)", local_minima, np.ones(3))
+    refused(r"NaN at \[2, 1\]", local_minima, np.array([[1.0, 2.0], [3.0, 4.0], [5.0, np.nan]]))

@@ -10,7 +10,6 @@ from scipy.optimize import minimize
 from mocap.body.kinematics import joint_positions
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError
 from mocap.matching.point_clouds import (
     align,
     distinct_joints,
@@ -19,6 +18,7 @@ from mocap.matching.point_clouds import (
     unit_weights,
 )
 from tests.oracles import squared_distance
+from tests.refusals import refused
 from tests.strategies import seeds, wave
 
 
@@ -43,10 +43,8 @@ def test_alignment_works_on_many_clouds_at_once():
 
 
 def test_of_many_senseless_weights_the_message_shows_the_range():
-    with pytest.raises(MocapError, match=re.escape(f"got {[1.0] * 7 + [-1.0]}.")):
-        unit_weights([1.0] * 7 + [-1.0], 8)
-    with pytest.raises(MocapError, match=re.escape("got an array of shape (9,) from -1 to 1.")):
-        unit_weights([1.0] * 8 + [-1.0], 9)
+    refused(re.escape(f"got {[1.0] * 7 + [-1.0]}."), unit_weights, [1.0] * 7 + [-1.0], 8)
+    refused(re.escape("got an array of shape (9,) from -1 to 1."), unit_weights, [1.0] * 8 + [-1.0], 9)
 
 
 @pytest.mark.parametrize(
@@ -61,8 +59,7 @@ def test_of_many_senseless_weights_the_message_shows_the_range():
     ],
 )
 def test_clouds_that_cannot_be_aligned_are_refused(points, others, message):
-    with pytest.raises(MocapError, match=message):
-        align(points, others)
+    refused(message, align, points, others)
 
 
 def test_a_joint_that_is_its_parent_is_no_point_of_its_own():

@@ -12,9 +12,9 @@ from nbconvert import HTMLExporter
 from nbformat.v4 import new_code_cell, new_notebook, new_output
 from PIL import Image
 
-from mocap.errors import MocapError
 from mocap.plotting import grids, ground_charts, stick_figures
 from mocap.plotting.picture import DPI, show
+from tests.refusals import refused
 from tests.strategies import wave
 
 
@@ -55,13 +55,11 @@ def test_the_figure_is_closed_and_its_picture_stays():
 
 @pytest.mark.parametrize("nothing", [None, [], (), "a line", np.array(3.0), 3])
 def test_a_thing_on_no_figure_is_refused(nothing):
-    with pytest.raises(MocapError, match="must be given as a figure"):
-        show(nothing, alt="Nothing.")
+    refused("must be given as a figure", show, nothing, alt="Nothing.")
 
 
 def test_a_picture_without_a_sentence_is_refused():
-    with pytest.raises(MocapError, match="needs a sentence"):
-        show(axes(), alt=" ")
+    refused("needs a sentence", show, axes(), alt=" ")
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,10 @@ from mocap._shared.arrays import runs
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.body.planar import PlanarTransform, on_ground
-from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.steering import Controller, FootTurner, foot_turning, measure_delay, steer
 from tests.bundled import bundled, captured
+from tests.refusals import refused
 
 BUNDLED = graphs.compile_graph(bundled("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight"))
 RATE = np.radians(40)
@@ -139,8 +139,7 @@ def test_one_who_stands_is_not_turned():
 
 def test_nonsense_is_refused():
     for rate in (-0.1, np.nan, np.inf):
-        with pytest.raises(MocapError, match="finite rate from 0 on, got"):
-            FootTurner(Controller(BUNDLED), rate)
+        refused("finite rate from 0 on, got", FootTurner, Controller(BUNDLED), rate)
 
 
 def test_a_controller_knows_where_its_feet_are():

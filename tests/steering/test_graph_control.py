@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from mocap.body.motion import Motion
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.graphs.motion_graph import from_transitions
 from mocap.steering.graph_control import Controller
 from mocap.synthesis.random_walks import random_walk
 from mocap.synthesis.walk_to_motion import to_motion
 from tests.bundled import sneaking, walking
+from tests.refusals import refused
 from tests.strategies import wave
 
 GRAPH = walking()
@@ -71,12 +72,9 @@ def test_it_moves_as_it_is_told():
 def test_nonsense_is_refused():
     controller = Controller(GRAPH)
     for command in ((np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)):
-        with pytest.raises(MocapError, match="finite heading and a speed from 0 on"):
-            controller.step(*command)
-    with pytest.raises(NoWalk, match="the label 'fly'; there are: walk"):
-        controller.step(0.0, 1.0, "fly")
-    with pytest.raises(NoWalk, match="no node"):
-        Controller(GRAPH, start=(0, 77777))
+        refused("finite heading and a speed from 0 on", controller.step, *command)
+    refused("the label 'fly'; there are: walk", controller.step, 0.0, 1.0, "fly", kind=NoWalk)
+    refused("no node", Controller, GRAPH, start=(0, 77777), kind=NoWalk)
     line = Controller(from_transitions([wave(40)], [], window=5), start=(0, 0))
     with pytest.raises(NoWalk, match=r"ends at node \(0, 40\)"):
         for _ in range(41):

@@ -8,7 +8,6 @@ import pytest
 from mocap.body.motion import Motion
 from mocap.body.rotations import about_y
 from mocap.datasets.samples import SKELETON
-from mocap.errors import MocapError
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.methods.motion_matching import MotionMatcher, Wants
 from mocap.methods.parametric_graphs import ParametricController
@@ -19,6 +18,7 @@ from mocap.steering.judged_control import _pivots
 from tests.bundled import bundled
 from tests.methods.motion_matching.matched import walks
 from tests.methods.parametric_graphs.built import WALKS, clips, stepping, walking
+from tests.refusals import refused
 
 SPEED = 0.8
 
@@ -87,8 +87,7 @@ def test_commands_turn_by_30_to_120_degrees_every_two_seconds():
 
 @pytest.mark.parametrize("seconds", [0, 1.9, np.nan, np.inf])
 def test_less_than_one_command_is_refused(seconds):
-    with pytest.raises(MocapError, match="judged by commands for 2 s or more"):
-        judge_control(Flier, spread(clips()), seconds=seconds)
+    refused("judged by commands for 2 s or more", judge_control, Flier, spread(clips()), seconds=seconds)
 
 
 class Flier:
@@ -102,5 +101,4 @@ class Flier:
 
 
 def test_a_character_that_never_stands_is_refused():
-    with pytest.raises(MocapError, match="do not say when feet stand"):
-        judge_control(Flier, spread(clips()), seconds=5)
+    refused("do not say when feet stand", judge_control, Flier, spread(clips()), seconds=5)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from mocap.datasets.samples import SKELETON
-from mocap.errors import MocapError
 from mocap.steering.characters import Pose, measure_delay, steer
 from mocap.steering.graph_control import Controller
 from tests.bundled import walking
+from tests.refusals import refused
 
 GRAPH = walking()
 
@@ -76,7 +76,5 @@ def test_a_turn_that_never_comes_counts_as_eight_seconds():
 
 
 def test_no_headings_and_no_turns_are_refused():
-    with pytest.raises(MocapError, match="one heading per frame, got none"):
-        steer(Controller(GRAPH), [])
-    with pytest.raises(MocapError, match="one turn or more, got turns=0"):
-        measure_delay(Turner(), turns=0)
+    refused("one heading per frame, got none", steer, Controller(GRAPH), [])
+    refused("one turn or more, got turns=0", measure_delay, Turner(), turns=0)

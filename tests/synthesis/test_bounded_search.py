@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from mocap.errors import MocapError, NoWalk
 from mocap.synthesis.bounded_search import Budget, Problem, branch_and_bound, search_ahead
+from tests.refusals import refused
 from tests.strategies import seeds
 
 
@@ -112,16 +113,13 @@ def test_stretch_by_stretch_it_comes_to_the_end(seed):
 
 def test_what_cannot_be_searched_is_told():
     problem = problem_on(random_graph(0))
-    with pytest.raises(NoWalk, match="no node 77"):
-        branch_and_bound(problem, 77, ())
-    with pytest.raises(MocapError, match="some must be kept"):
-        search_ahead(problem, 0, (), look=(5, 9))
+    refused("no node 77", branch_and_bound, problem, 77, (), kind=NoWalk)
+    refused("some must be kept", search_ahead, problem, 0, (), look=(5, 9))
     with pytest.raises(MocapError, match="0 or more, got -1"):
         branch_and_bound(Problem(problem.graph, lambda w, e: (-1.0, w), lambda w: False), 0, ())
     line = nx.MultiDiGraph()
     line.add_edge(0, 1, frames=1, cost=1.0)
-    with pytest.raises(NoWalk, match="ends too early"):
-        branch_and_bound(problem_on(line, 3), 0, ())
+    refused("ends too early", branch_and_bound, problem_on(line, 3), 0, (), kind=NoWalk)
 
 
 def line_of(edges):

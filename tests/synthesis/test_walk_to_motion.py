@@ -17,7 +17,7 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import concatenate
 from mocap.body.planar import IDENTITY, PlanarTransform
 from mocap.datasets.samples import sample
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.feet.footplants import mark_plants
 from mocap.graphs.edge_tables import edge_table
 from mocap.graphs.motion_graph import build, from_transitions
@@ -26,6 +26,7 @@ from mocap.matching.transitions import Transition
 from mocap.synthesis.random_walks import random_walk, wander
 from mocap.synthesis.walk_to_motion import places, seams, sources, to_motion, with_plants
 from tests.bundled import bundled
+from tests.refusals import refused
 from tests.strategies import planar, seeds, wave
 
 CLIPS = [wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)]
@@ -84,16 +85,13 @@ def test_bad_walks_are_refused():
         ([((7, 7), (8, 8), 0)], "no edge"),
         ([second, first], "jumps from node"),
     ):
-        with pytest.raises(NoWalk, match=message):
-            to_motion(GRAPH, walk)
+        refused(message, to_motion, GRAPH, walk, kind=NoWalk)
     for node, words in (
         ((7, 7), "none in that clip"),
         ((0, 999), r"node \(0, 999\); the nearest is \(0, "),
     ):
-        with pytest.raises(NoWalk, match=words):
-            random_walk(GRAPH, seconds=1, start=node)
-    with pytest.raises(MocapError, match="longer than 0 s, got 0 s"):
-        random_walk(GRAPH, seconds=0)
+        refused(words, random_walk, GRAPH, seconds=1, start=node, kind=NoWalk)
+    refused("longer than 0 s, got 0 s", random_walk, GRAPH, seconds=0)
 
 
 def test_a_graph_that_was_not_pruned_ends_the_walk():

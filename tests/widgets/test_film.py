@@ -13,6 +13,7 @@ from mocap.errors import MocapError
 from mocap.plotting.style import SOURCES
 from mocap.widgets import film
 from mocap.widgets.player import play
+from tests.refusals import refused
 from tests.strategies import wave
 
 
@@ -54,8 +55,7 @@ def test_a_film_is_read_back_as_mp4(tmp_path):
 
 def test_without_imageio_ffmpeg_one_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    with pytest.raises(MocapError, match=r"pip install 'mocap\[video\]'"):
-        film.save_animation(wave(9), tmp_path / "wave.mp4")
+    refused(r"pip install 'mocap\[video\]'", film.save_animation, wave(9), tmp_path / "wave.mp4")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -72,8 +72,7 @@ def test_a_strip_and_a_page_are_the_players(tmp_path):
 def test_another_ending_and_nobody_are_refused(tmp_path):
     with pytest.raises(MocapError, match=r"written as \.gif, \.mp4, \.png or \.html, got"):
         film.save_animation(wave(9), tmp_path / "wave.mov")
-    with pytest.raises(MocapError, match="There is no motion to show"):
-        film.save_animation([], tmp_path / "none.gif")
+    refused("There is no motion to show", film.save_animation, [], tmp_path / "none.gif")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -11,6 +11,7 @@ from mocap.errors import MocapError, MocapWarning
 from mocap.widgets.live_player import Mixer, draw_path
 from mocap.widgets.player import play
 from tests.blending.registered import turned, walks
+from tests.refusals import refused
 from tests.strategies import wave
 
 pytest.importorskip("anywidget")
@@ -90,8 +91,7 @@ def test_an_error_is_shown_until_the_next_path():
     assert isinstance(canvas.error, MocapError)
     canvas.path = [[0, 0], [0, 2]]
     assert (canvas.error, canvas.message) == (None, "A stick figure plays wave, 1.0 s.")
-    with pytest.raises(MocapError, match="No walk"):
-        draw_path(follow, [[0, 0], [0, 1], [0, 2]])
+    refused("No walk", draw_path, follow, [[0, 0], [0, 1], [0, 2]])
 
 
 @pytest.fixture
@@ -141,5 +141,4 @@ def test_all_sliders_at_0_change_nothing_and_clips_of_one_name_are_numbered(mixe
 
 
 def test_weights_that_do_not_add_up_are_refused():
-    with pytest.raises(MocapError, match="add up to 1"):
-        Mixer(register([walks()[1.1, 120], walks()[1.1, -120]]), [1, 1])
+    refused("add up to 1", Mixer, register([walks()[1.1, 120], walks()[1.1, -120]]), [1, 1])

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from mocap.course import checks, lab
-from mocap.errors import MocapError
 from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written
+from tests.refusals import refused
 
 X, Y, Z = np.eye(4)[1:]
 
@@ -94,10 +94,8 @@ def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
 
 
 def test_a_name_that_no_exercise_has_is_refused():
-    with pytest.raises(MocapError, match=r"no exercise 'hamiltion'\.$"):
-        lab.mine("hamiltion")
-    with pytest.raises(MocapError, match="no exercise '<lambda>'"):
-        lab.mine(lambda a, b: a)
+    refused(r"no exercise 'hamiltion'\.$", lab.mine, "hamiltion")
+    refused("no exercise '<lambda>'", lab.mine, lambda a, b: a)
 
 
 def test_what_cannot_be_kept_is_used_until_the_kernel_ends(capsys, fresh):

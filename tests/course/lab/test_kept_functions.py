@@ -7,7 +7,7 @@ import pytest
 from mocap.body import rotations
 from mocap.body.rotations import slerp as between
 from mocap.course.lab.kept_functions import Plain, keep, plain_source, run_sections, split
-from mocap.errors import MocapError
+from tests.refusals import refused
 
 ONE = Plain(frozenset(["import math"]), "def one(x):\n    return math.floor(x)\n")
 TWO = Plain(frozenset(["import numpy as np"]), "def two(x):\n    return np.sum(x)\n")
@@ -49,8 +49,7 @@ def test_helpers_of_one_function_do_not_replace_those_of_another(tmp_path):
 def test_a_head_that_is_no_python_is_not_written_over(tmp_path):
     file = tmp_path / "mine.py"
     file.write_text("import (\n")
-    with pytest.raises(MocapError, match=r"line 1: .*; correct it, or delete it"):
-        keep(file, "one", "02", ONE)
+    refused(r"line 1: .*; correct it, or delete it", keep, file, "one", "02", ONE)
     assert file.read_text() == "import (\n"
 
 
@@ -154,5 +153,4 @@ made = functools.partial(helper)
     ],
 )
 def test_what_cannot_be_written_down_is_said(function, why):
-    with pytest.raises(MocapError, match=why):
-        plain_source(function)
+    refused(why, plain_source, function)

@@ -14,9 +14,10 @@ from mocap.blending.weights import cubic_weights
 from mocap.course import checks, lab
 from mocap.course.lab import own
 from mocap.course.lab.places import NAMES, packages, pages_of, squared_distances
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from tests.course.lab.conftest import new_kernel
 from tests.course.lab.students import solutions, written, wrong
+from tests.refusals import refused
 
 WINDOW, BELOW = own.WINDOW, own.BELOW
 CURVE = body.s_curve(2).points
@@ -143,13 +144,10 @@ def test_commands_are_obeyed_better_than_by_chance(by):
 
 
 def test_what_holds_no_graph_and_no_walk_is_refused(clips, graph, by):
-    with pytest.raises(MocapError, match=r"below 0.001 m: allow more\.$"):
-        own.build_own([clips[0][:40]], WINDOW, 0.001, by)
+    refused(r"below 0.001 m: allow more\.$", own.build_own, [clips[0][:40]], WINDOW, 0.001, by)
     for some, window in (([], WINDOW), ([clips[0], clips[0][: WINDOW - 1]], WINDOW), (clips, 0), (clips, 1)):
-        with pytest.raises(MocapError, match=f"a window up to the shortest, got {window}"):
-            own.build_own(some, window, 0.05, by)
-    with pytest.raises(MocapError, match="resample one first"):
-        own.build_own([clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
+        refused(f"a window up to the shortest, got {window}", own.build_own, some, window, 0.05, by)
+    refused("resample one first", own.build_own, [clips[0], mocap.resample(clips[0], 10)], WINDOW, 0.05, by)
     nowhere = graph._replace(graph=graph.graph.copy())
     nowhere.graph.remove_edges_from(list(graph.graph.edges))
     with pytest.raises(NoWalk, match=r"No walk of this graph reaches the end of a path of 3\.0 m"):

@@ -15,8 +15,8 @@ from mocap.course.lab.sensitivity import (
     read_answers,
     sentence,
 )
-from mocap.errors import MocapError
 from mocap.plotting import seen_beside_measured
+from tests.refusals import refused
 
 PAIRS = 20
 HEAD = ",".join(COLUMNS)
@@ -72,8 +72,7 @@ def test_the_mean_of_a_class_holds_the_truth():
     ("right", "of", "sure"), [(-1, 20, 0.95), (21, 20, 0.95), (0, 0, 0.95), (5, 20, 1.0)]
 )
 def test_what_cannot_be_is_said(right, of, sure):
-    with pytest.raises(MocapError, match=f"No d′ for {right} right answers of {of}"):
-        d_prime(right, of, sure)
+    refused(f"No d′ for {right} right answers of {of}", d_prime, right, of, sure)
 
 
 @pytest.mark.parametrize(
@@ -124,16 +123,13 @@ def test_one_file_needs_no_list_and_a_curve_runs_over_what_was_varied(tmp_path):
     one = file(tmp_path, "a", rows("ada", 12))
     answers = read_answers([one])
     assert read_answers(one) == read_answers(str(one)) == answers
-    with pytest.raises(MocapError, match="runs over 'below_cm' or 'window', got 'below'"):
-        class_curve(answers, "below")
+    refused("runs over 'below_cm' or 'window', got 'below'", class_curve, answers, "below")
 
 
 def test_the_other_setting_must_be_one(tmp_path):
     answers = read_answers([file(tmp_path, "a", rows("a", 9)), file(tmp_path, "b", rows("b", 9, window=2))])
-    with pytest.raises(MocapError, match=r"one 'window', got \[2, 10\]"):
-        class_curve(answers, "below_cm")
-    with pytest.raises(MocapError, match="one 'below_cm', got"):
-        class_curve([], "window")
+    refused(r"one 'window', got \[2, 10\]", class_curve, answers, "below_cm")
+    refused("one 'below_cm', got", class_curve, [], "window")
 
 
 @pytest.mark.parametrize(
@@ -150,8 +146,7 @@ def test_the_other_setting_must_be_one(tmp_path):
     ],
 )
 def test_what_is_no_answer_is_said(lines, said, tmp_path):
-    with pytest.raises(MocapError, match=said):
-        read_answers([file(tmp_path, "a", lines)])
+    refused(said, read_answers, [file(tmp_path, "a", lines)])
 
 
 def test_what_is_no_file_of_answers_is_said(tmp_path):
@@ -163,8 +158,7 @@ def test_what_is_no_file_of_answers_is_said(tmp_path):
         ("b", r"b\.csv: is not a text"),
         ("no", r"no\.csv: No such file"),
     ):
-        with pytest.raises(MocapError, match=said):
-            read_answers([tmp_path / f"{name}.csv"])
+        refused(said, read_answers, [tmp_path / f"{name}.csv"])
 
 
 def test_the_picture_shows_the_curve_above_the_measure():

@@ -15,7 +15,6 @@ import pytest
 
 import mocap
 from mocap.course.marking import mark, marks, sealed, walls
-from mocap.errors import MocapError
 from tests.course.marking.students import (
     DISHONEST,
     HONEST,
@@ -28,6 +27,7 @@ from tests.course.marking.students import (
     replaced,
     speed,
 )
+from tests.refusals import refused
 
 SECRET = "correct horse battery staple"
 EXERCISES = ("speed", "cheapest")
@@ -219,8 +219,7 @@ def test_without_walls_the_keeper_is_replaced_and_a_changed_package_ends_the_mar
 
 
 def test_an_empty_folder_and_one_without_exercises(tmp_path):
-    with pytest.raises(MocapError, match="holds no notebooks"):
-        list(mark(tmp_path))
+    refused("holds no notebooks", list, mark(tmp_path))
     hand_in([], tmp_path / "ada.ipynb")
     assert list(mark(tmp_path)) == [[("ada.ipynb", "", False, "holds no exercise of the course.")]]
 

@@ -11,7 +11,7 @@ from PIL import Image
 from mocap.cli.main import main
 from mocap.course.teaching import films
 from mocap.course.teaching.film_script import Scene, script_of
-from mocap.errors import MocapError
+from tests.refusals import refused
 
 
 def png(colour="#00FF00"):
@@ -93,8 +93,7 @@ def test_the_command_writes_an_mp4(notebook, tmp_path, monkeypatch, capsys):
 def test_what_cannot_be_is_one_sentence(notebook, tmp_path, monkeypatch):
     empty = tmp_path / "empty.ipynb"
     empty.write_text(writes(new_notebook()), "utf-8")
-    with pytest.raises(MocapError, match="has no heading"):
-        films.render_film(empty, tmp_path / "film.mp4", moving=False)
+    refused("has no heading", films.render_film, empty, tmp_path / "film.mp4", moving=False)
     monkeypatch.setattr(films, "write_mp4", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         films.render_film(notebook, tmp_path / "film.mp4", moving=False)

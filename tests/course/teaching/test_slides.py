@@ -12,7 +12,7 @@ from mocap.cli.main import main
 from mocap.course.opening import stored
 from mocap.course.site import MOVING
 from mocap.course.teaching import slides
-from mocap.errors import MocapError
+from tests.refusals import refused
 
 NAMES = ("00-quickstart", "06-pruning")
 
@@ -80,5 +80,4 @@ def test_a_package_without_the_files_is_not_taken(monkeypatch, tmp_path):
         origin = str(tmp_path / "__init__.py")
 
     monkeypatch.setattr(slides, "find_spec", lambda name: Found)
-    with pytest.raises(MocapError, match="sphinx-revealjs"):
-        slides.build_slides(stored(), tmp_path / "out")
+    refused("sphinx-revealjs", slides.build_slides, stored(), tmp_path / "out")

@@ -17,6 +17,7 @@ from mocap.methods.groups.configurations import (
 )
 from mocap.methods.groups.flocking import Trajectories
 from tests.methods.groups.built import flock
+from tests.refusals import refused
 
 ALL_AROUND = tuple(2 * np.pi * k / 72 for k in range(72))
 
@@ -104,8 +105,7 @@ def lined_up(places, velocities=None):
     ],
 )
 def test_what_cannot_be_compared_is_refused(other, sentence):
-    with pytest.raises(MocapError, match=sentence):
-        compare(other, lined_up([0j, 1j]))
+    refused(sentence, compare, other, lined_up([0j, 1j]))
 
 
 @pytest.mark.parametrize(("velocities", "speed"), [([1j, -1j], "0.00"), ([np.nan, np.nan], "nan")])
@@ -151,11 +151,9 @@ def test_it_ends_where_all_are_covered():
 
 
 def test_no_frames_have_no_nodes():
-    with pytest.raises(MocapError, match="There is no frame to take nodes from"):
-        cluster(Trajectories(*np.zeros((2, 0, 3), complex)))
+    refused("There is no frame to take nodes from", cluster, Trajectories(*np.zeros((2, 0, 3), complex)))
 
 
 @pytest.mark.parametrize("wrong", [{"nodes": 0}, {"reach": 0.0}, {"reach": np.nan}])
 def test_what_makes_no_sense_is_refused(wrong):
-    with pytest.raises(MocapError, match="a node or more and a reach above 0"):
-        cluster(flock(6, 30.0), **wrong)
+    refused("a node or more and a reach above 0", cluster, flock(6, 30.0), **wrong)

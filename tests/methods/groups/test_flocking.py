@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.errors import MocapError
 from mocap.methods.groups.flocking import (
     APART,
     BODY,
@@ -20,6 +19,7 @@ from mocap.methods.groups.flocking import (
 )
 from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
+from tests.refusals import refused
 
 
 def test_a_flock_keeps_its_pace_and_its_distance():
@@ -114,8 +114,7 @@ def test_two_are_pushed_just_apart(gap):
     ],
 )
 def test_what_makes_no_sense_is_refused(wrong, sentence):
-    with pytest.raises(MocapError, match=sentence):
-        simulate(**{"count": 4, "seconds": 5.0, **wrong})
+    refused(sentence, simulate, **{"count": 4, "seconds": 5.0, **wrong})
 
 
 def test_who_is_alone_has_nobody_near():

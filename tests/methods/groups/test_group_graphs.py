@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapWarning
 from mocap.methods.groups.configurations import Configuration
 from mocap.methods.groups.flocking import APART, nearest_two
 from mocap.methods.groups.group_clips import accelerations
@@ -16,6 +16,7 @@ from mocap.methods.groups.group_graphs import (
     random_group_walk,
 )
 from tests.methods.groups.built import flock, graph
+from tests.refusals import refused
 
 every_graph = pytest.mark.parametrize(("count", "nodes"), [(12, 8), (6, 6)])
 
@@ -45,8 +46,7 @@ def test_a_walk_starts_where_it_is_placed():
 def test_a_node_that_no_clip_leaves_ends_a_random_walk():
     group = graph(6, 6)
     only = GroupGraph(group.nodes, tuple(c for c in group.clips if c.end == 1 and c.start == 0), group.tried)
-    with pytest.raises(MocapError, match="No clip leaves node 1"):
-        random_group_walk(only, 5)
+    refused("No clip leaves node 1", random_group_walk, only, 5)
 
 
 @pytest.mark.parametrize(
@@ -60,23 +60,20 @@ def test_a_node_that_no_clip_leaves_ends_a_random_walk():
     ],
 )
 def test_walks_that_are_none_are_refused(walk, start, sentence):
-    with pytest.raises(MocapError, match=sentence):
-        play_group(graph(6, 6), walk, start)
+    refused(sentence, play_group, graph(6, 6), walk, start)
 
 
 def test_clips_that_do_not_follow_one_another_are_refused():
     group = graph(6, 6)
     to_one = next(n for n, clip in enumerate(group.clips) if clip.end == 1)
     from_two = next(n for n, clip in enumerate(group.clips) if clip.start == 2)
-    with pytest.raises(MocapError, match="A group at node 1 cannot go on by a clip that leaves 2"):
-        play_group(group, [to_one, from_two])
+    refused("A group at node 1 cannot go on by a clip that leaves 2", play_group, group, [to_one, from_two])
 
 
 def test_bends_that_are_too_sharp_leave_no_clip_and_it_says_why():
     nodes = graph(6, 6).nodes
     close = Configuration(nodes[0].places * 0.1, nodes[0].velocities)
-    with pytest.raises(MocapError, match=r"None of 3 clips can be kept: members come nearer than 0.6 m"):
-        make_clips([close], bends=[0.0])
+    refused(r"None of 3 clips can be kept: members come nearer than 0.6 m", make_clips, [close], bends=[0.0])
 
 
 def test_pairs_without_a_clip_are_warned_of():

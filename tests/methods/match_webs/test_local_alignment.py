@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from mocap.errors import MocapError
 from mocap.matching import local_minima
 from mocap.methods.match_webs import apart, local_paths, minima_1d
+from tests.refusals import refused
 
 
 def path_sum(costs, path):
@@ -118,5 +118,4 @@ def test_infinite_cells_are_no_minima():
 @pytest.mark.parametrize("grid", [np.zeros(4), np.array([[0, np.nan]])])
 def test_hostile_grids_are_refused(grid):
     for use in (minima_1d, lambda costs: next(local_paths(costs))):
-        with pytest.raises(MocapError, match="A grid has two dimensions and no NaN, got shape"):
-            use(grid)
+        refused("A grid has two dimensions and no NaN, got shape", use, grid)

@@ -14,6 +14,7 @@ from mocap.body.motion import Motion
 from mocap.errors import MocapError
 from mocap.methods.match_webs import blend_of, hand_target, mean_speed, random_weights, sample_space, turn
 from tests.methods.match_webs.spaces_of_walks import gait, space
+from tests.refusals import refused
 
 
 @pytest.fixture(scope="module")
@@ -68,8 +69,7 @@ def test_hostile_input_is_one_sentence(three, measure, settings, message):
 
 
 def test_a_blend_needs_as_many_weights_as_clips(three):
-    with pytest.raises(MocapError, match="A blend of 3 clips needs 3 weights"):
-        blend_of(three, [0.5, 0.5])
+    refused("A blend of 3 clips needs 3 weights", blend_of, three, [0.5, 0.5])
 
 
 VALUES = np.random.default_rng(3).normal(size=(9, 2)) * [20, 0.3]
@@ -115,8 +115,7 @@ def test_a_seed_gives_the_same_again_and_another_one_others():
     ],
 )
 def test_examples_that_cannot_be_blended_are_refused(values, settings, message):
-    with pytest.raises(MocapError, match=message):
-        random_weights(values, **{"count": 5, **settings})
+    refused(message, random_weights, values, **{"count": 5, **settings})
 
 
 def walk(degrees, speed=1.2):
@@ -152,5 +151,4 @@ def test_the_hand_is_measured_where_the_arm_is_longest():
     bend[:, 0] = rotations.about_y(0.7)
     punch = Motion(arm, [[5, 0.2, 5]] * 3, bend, 30.0)
     assert hand_target(punch, "h", "s") == pytest.approx([0, 1.2, 0.6])
-    with pytest.raises(MocapError, match="rhand"):
-        hand_target(punch)
+    refused("rhand", hand_target, punch)

@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 
 from mocap import datasets
 from mocap.blending.registering import register
-from mocap.errors import MocapError
 from mocap.methods.match_webs import (
     MotionSpace,
     blend_of,
@@ -17,6 +16,7 @@ from mocap.methods.match_webs import (
 )
 from mocap.methods.match_webs.wishes import nearest_samples
 from tests.methods.match_webs.spaces_of_walks import PUNCHES, gait, space
+from tests.refusals import refused
 
 METHODS = ("convex", "neighbours")
 
@@ -121,8 +121,7 @@ def test_asked_without_an_example_the_others_turn_as_it_does():
     ],
 )
 def test_hostile_wishes_are_one_sentence(wish, how, message):
-    with pytest.raises(MocapError, match=message):
-        weights_for(linear_space(), wish, **how)
+    refused(message, weights_for, linear_space(), wish, **how)
 
 
 # Real people.

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from mocap.body.kinematics import joint_positions
-from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.errors import MocapWarning, NoWalk
 from mocap.methods.motion_matching.matching_control import MotionMatcher
 from mocap.methods.motion_matching.nearest_frames import Wants
 from mocap.methods.motion_matching.pose_database import tabulate
 from mocap.steering import command_headings, steer
 from tests.methods.motion_matching.matched import clips, walks
+from tests.refusals import refused
 
 SPEED = 0.8
 HEADINGS = command_headings(20, 30, seed=1)
@@ -59,8 +60,7 @@ def test_a_label_keeps_it_among_its_frames():
     for _ in range(90):
         matcher.step(0.0, 0.7, "sneak")
     assert table.labels["sneak"][matcher.frame]
-    with pytest.raises(NoWalk, match="No clip has the label 'fly'; there are: walk"):
-        matcher.step(0.0, 0.7, "fly")
+    refused("No clip has the label 'fly'; there are: walk", matcher.step, 0.0, 0.7, "fly", kind=NoWalk)
 
 
 def test_at_the_end_of_a_clip_it_must_cut():
@@ -74,11 +74,9 @@ def test_at_the_end_of_a_clip_it_must_cut():
 
 def test_what_makes_no_sense_is_refused():
     for heading, speed in ((np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)):
-        with pytest.raises(MocapError, match="A command is a finite heading"):
-            MotionMatcher(walks()).step(heading, speed)
+        refused("A command is a finite heading", MotionMatcher(walks()).step, heading, speed)
     for start in (-1, 10**6):
-        with pytest.raises(MocapError, match="The start is a frame from 0 to"):
-            MotionMatcher(walks(), start=start)
+        refused("The start is a frame from 0 to", MotionMatcher, walks(), start=start)
 
 
 def test_a_speed_that_no_clip_has_is_warned_of_once():

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.errors import MocapError
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, features
 from tests.methods.motion_matching.matched import walks
+from tests.refusals import refused
 
 
 def queries(count, seed=0):
@@ -60,15 +60,12 @@ def test_told_to_stop_it_keeps_facing_as_it_does():
 def test_wants_that_make_no_sense_are_refused():
     for name in ("every", "halflife", "fade"):
         for value in (0.0, -1.0, np.nan):
-            with pytest.raises(MocapError, match=f"'{name}' is a number above 0"):
-                Wants(**{name: value}).check()
+            refused(f"'{name}' is a number above 0", Wants(**{name: value}).check)
     for name in ("future", "bonus", "near"):
         Wants(**{name: 0.0}).check()
-        with pytest.raises(MocapError, match=f"'{name}' is a number from 0 on, got -1"):
-            Wants(**{name: -1}).check()
+        refused(f"'{name}' is a number from 0 on, got -1", Wants(**{name: -1}).check)
 
 
 def test_a_search_among_no_frames_is_refused():
     table = replace(walks(), usable=np.zeros(len(walks()), bool))
-    with pytest.raises(MocapError, match="No frame '' can be found"):
-        FrameSearch(table)
+    refused("No frame '' can be found", FrameSearch, table)

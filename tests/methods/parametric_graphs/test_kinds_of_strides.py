@@ -12,6 +12,7 @@ from mocap.methods.parametric_graphs.kinds_of_strides import (
     changing_strides,
 )
 from tests.methods.parametric_graphs.built import SMALL, clips, jogs, strides, walk_and_jog
+from tests.refusals import refused
 
 
 def test_walk_and_jog_of_the_bundled_clips_with_both_changes():
@@ -82,12 +83,9 @@ def test_a_kind_changed_into_itself_is_itself():
 
 def test_kinds_that_do_not_fit_are_refused():
     walk, jog = strides(), jogs()
-    with pytest.raises(MocapError, match="over the same phases"):
-        changing_strides(walk, strides("lr"))
-    with pytest.raises(MocapError, match="one rate, got 30 and 60 Hz"):
-        changing_strides(walk, replace(jog, fps=60.0))
-    with pytest.raises(MocapError, match="no turn in common"):
-        changing_strides(walk, replace(jog, values=jog.values + 9))
+    refused("over the same phases", changing_strides, walk, strides("lr"))
+    refused("one rate, got 30 and 60 Hz", changing_strides, walk, replace(jog, fps=60.0))
+    refused("no turn in common", changing_strides, walk, replace(jog, values=jog.values + 9))
     bones = replace(jog.skeleton, offsets=1.1 * jog.skeleton.offsets)
     with pytest.raises(SkeletonMismatch):
         changing_strides(walk, replace(jog, skeleton=bones))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mocap.body.planar import heading
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph, build_parametric
 from mocap.quality.seam_measures import jumps, spread
@@ -22,6 +22,7 @@ from tests.methods.parametric_graphs.built import (
     walk_and_jog,
     walking,
 )
+from tests.refusals import refused
 
 SPEED = 0.8
 
@@ -97,13 +98,11 @@ def test_it_goes_from_kind_to_kind_by_the_changes_between_and_without_a_label_as
 
 @pytest.mark.parametrize(("heading", "speed"), [(np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)])
 def test_a_command_that_is_no_number_is_refused(heading, speed):
-    with pytest.raises(MocapError, match="A command is a finite heading"):
-        ParametricController(walking()).step(heading, speed)
+    refused("A command is a finite heading", ParametricController(walking()).step, heading, speed)
 
 
 def test_unknown_nodes_and_those_that_nothing_leads_to_are_refused():
-    with pytest.raises(MocapError, match="There is no node 'fly'; there are: walk"):
-        ParametricController(walking(), start="fly")
+    refused("There is no node 'fly'; there are: walk", ParametricController, walking(), start="fly")
     apart = nx.DiGraph(walking().graph)
     apart.add_node("far", space=walking().space("walk"))
     for label, sentence in (

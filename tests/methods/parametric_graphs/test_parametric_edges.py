@@ -19,6 +19,7 @@ from mocap.methods.parametric_graphs.parametric_edges import (
 )
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters
 from tests.methods.parametric_graphs.built import SMALL, bad_ones, space, walking
+from tests.refusals import refused
 
 PLACES = st.floats(-10, 10).map(lambda v: round(v, 2))
 
@@ -101,8 +102,7 @@ def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
     ],
 )
 def test_what_makes_no_sense_is_refused(settings, sentence):
-    with pytest.raises(MocapError, match=sentence):
-        build_edge(space(), space(), **settings)
+    refused(sentence, build_edge, space(), space(), **settings)
 
 
 def test_spaces_of_other_rates_marks_and_bodies_are_refused():
@@ -115,5 +115,4 @@ def test_spaces_of_other_rates_marks_and_bodies_are_refused():
     ):
         with pytest.raises(error, match=sentence or None):
             build_edge(source, replace(source, examples=replace(own, **changed)), good=0.04)
-    with pytest.raises(MocapError, match="one good target or more"):
-        shrink_box(np.empty((0, 1)), np.empty((0, 1)), np.ones(1))
+    refused("one good target or more", shrink_box, np.empty((0, 1)), np.empty((0, 1)), np.ones(1))

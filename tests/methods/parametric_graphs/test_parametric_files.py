@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from mocap.errors import FormatError, MocapError
+from mocap.errors import FormatError
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.methods.parametric_graphs.parametric_files import load_parametric, save_parametric
 from tests.methods.parametric_graphs.built import stepping, walking
+from tests.refusals import refused
 
 
 @pytest.mark.parametrize("built", [walking, stepping])
@@ -38,10 +39,8 @@ def damaged(path, **changes):
 def test_files_that_contradict_themselves_are_refused(tmp_path, changes, sentence):
     save_parametric(walking(), tmp_path / "graph.npz")
     damaged(tmp_path / "graph.npz", **changes)
-    with pytest.raises(FormatError, match=sentence):
-        load_parametric(tmp_path / "graph.npz")
+    refused(sentence, load_parametric, tmp_path / "graph.npz", kind=FormatError)
 
 
 def test_missing_files_are_refused(tmp_path):
-    with pytest.raises(MocapError, match="Cannot read"):
-        load_parametric(tmp_path / "no.npz")
+    refused("Cannot read", load_parametric, tmp_path / "no.npz")

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.errors import MocapError
 from mocap.methods.match_webs import weights_for
 from mocap.methods.parametric_graphs import cut_strides, make_space, measure_mixes
 from mocap.methods.parametric_graphs.made_motions import near_end
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, place_evenly
 from tests.methods.parametric_graphs.built import BOTH, by_turn_and_speed, clips, missed, space, strides
+from tests.refusals import refused
 
 WIDE = ((0.2, 0.1), (-1.2, 0.6), (1.2, 1.1))
 
@@ -101,5 +101,4 @@ def test_what_makes_no_sense_is_refused(settings, sentence):
     asked["strides"] = {2: lambda: some(2), "straight": lambda: cut_strides([clips()[3]])}.get(
         settings.get("strides"), strides
     )()
-    with pytest.raises(MocapError, match=sentence):
-        make_space(**asked)
+    refused(sentence, make_space, **asked)
