@@ -30,7 +30,7 @@ def from_euler(order: str, angles: ArrayLike) -> Array:
     >>> from_euler("y", [np.pi]).round(6) + 0.0
     array([0., 0., 1., 0.])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 03b-angles
     """
     halves = np.moveaxis(np.asarray(angles, float), -1, 0) / 2
     turns = list(zip(order.lower(), np.cos(halves), np.sin(halves), strict=True))

@@ -45,7 +45,7 @@ def to_matrix(quaternions: ArrayLike) -> Array:
            [ 0.,  1.,  0.],
            [-1.,  0.,  0.]])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 03b-angles
     """
     quaternions = np.asarray(quaternions, float)
     if not quaternions.size:  # SciPy before 1.15 refuses these

@@ -192,7 +192,7 @@ def stick_figure(
     >>> plotting.show(stick_figure(walk, [0, 40, 80]), alt="Three poses of a walk.")
     Picture('Three poses of a walk.')
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 02-matching
     """
     shown = [frames] if isinstance(frames, int) else list(frames)
     points = joint_positions(motion)[shown]

@@ -19,12 +19,6 @@ from mocap.course.check import close, close_rotations
 # ---- Notebook 01
 
 
-def hand(upper: float, fore: float, shoulder: float, elbow: float) -> Array:
-    return upper * np.array([np.cos(shoulder), np.sin(shoulder)]) + fore * np.array(
-        [np.cos(elbow), np.sin(elbow)]
-    )
-
-
 def draw_hamilton(rng: np.random.Generator) -> tuple[Array, Array]:
     """Draw two rotations: mostly different ones, sometimes equal, nearly equal, opposite, or no turn."""
     a, b = normalised(rng.normal(size=(2, 4)))

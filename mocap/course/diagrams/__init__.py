@@ -7,7 +7,7 @@ in the file of its subject.
 Reading order (notebooks 00 to 09)
 ----------------------------------
  1. `small_graphs`: a motion graph's nodes and edges on two clips, and the homework's segments in rows
- 2. `quaternions`: two half turns, two quaternions for one rotation, and turns whose order matters
+ 2. `quaternions`: two half turns, and turns whose order matters; `trees`: forward kinematics by joint
  3. `windows`: what a window is, what two windows have in common, their lower bound, and sums along diagonals
  4. `laying_clouds`: one cloud of points laid on another, from above
  5. `ground`: turns, headings, and one clip aligned with another, seen from above
@@ -28,7 +28,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "small_graphs": ["nodes_and_edges", "segments_in_rows"],
-        "quaternions": ["double_cover", "half_turns", "turns_in_order"],
+        "quaternions": ["half_turns", "turns_in_order"],
+        "trees": ["down_the_tree"],
         "laying_clouds": ["laid", "laying_on", "products", "turning"],
         "windows": ["diagonal_sums", "matched_windows", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],

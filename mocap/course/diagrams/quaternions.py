@@ -1,4 +1,6 @@
-"""How quaternions turn: two half turns, two quaternions for one rotation, and turns whose order matters."""
+"""How quaternions turn: two half turns, and turns whose order matters."""
+
+from collections.abc import Callable
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -71,71 +73,16 @@ def _draw_turning(ax: Axes, points: Array) -> None:
         say(ax, way[15] * (radius + 0.15) / radius, f"{np.degrees(turn):+.0f}°", fontsize=9)
     ax.axhline(0, color=QUIET, linewidth=0.6)
     ax.axvline(0, color=QUIET, linewidth=0.6)
-    _square(ax, 1.2, 1.2)
+    ax.set(xlim=(-1.2, 1.2), ylim=(-1.2, 1.2), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
 
 
-def _square(ax: Axes, wide: float, high: float) -> None:
-    ax.set(xlim=(-wide, wide), ylim=(-high, high), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
-
-
-def double_cover(angle: float = 300, step: int = 2) -> Figure:
-    """Draw a turn on a dial, and its two quaternions q and -q on their circle.
-
-    Parameters
-    ----------
-    angle : of the turn, degrees.
-    step : 0 shows q, 1 also -q, 2 also the two ways from no turn: along the arc to q, or along that to -q.
-
-    Returns
-    -------
-    The figure; the shorter way is solid, the longer one dashed.
-
-    Examples
-    --------
-    >>> from mocap import plotting
-    >>> plotting.show(double_cover(300), alt="A turn by 300 degrees, and the shorter one by -60.")
-    Picture('A turn by 300 degrees, and the shorter one by -60.')
-
-    Notebook: 01-skeletons-and-clips
-    """
-    figure, (dial, circle) = plt.subplots(1, 2, figsize=(7, 3.9), layout="constrained")
-    half, turn = np.radians(angle / 2), angle % 360
-    _draw_circle(dial, {"no turn": 90, "turned": 90 + angle})
-    _draw_circle(circle, {"1": 0.0, "q": angle / 2} | ({"−q": angle / 2 + 180} if step else {}))
-    for degrees in (turn, turn - 360) if step == 2 else ():
-        long = abs(degrees) > 180
-        colour, radius = CURVES[long], 0.75 if degrees >= 0 else 0.6
-        for ax, start, share in ((dial, 90, degrees), (circle, 0, degrees / 2)):
-            way = radius * np.exp(1j * np.radians(start + np.linspace(0, share, 60)))
-            trace(ax, way, linewidth=2.4, color=colour, linestyle="--" if long else "-")
-            say(ax, way[30] * (radius - 0.22) / radius, f"{share:+.0f}°", color=colour)
-    dial.set_title(f"the body: {angle:.0f}°")
-    circle.set_title(f"q = ({np.cos(half):.2f}, {np.sin(half):.2f} along the axis)")
-    circle.set(xlabel="w", ylabel="along the axis")
-    dial.set_axis_off()
-    return figure
-
-
-def _draw_circle(ax: Axes, points: dict[str, float]) -> None:
-    """Draw a circle with named points at angles in degrees."""
-    trace(ax, np.exp(1j * np.linspace(0, 2 * np.pi, 90)), color=QUIET, linewidth=0.8)
-    for name, degrees in points.items():
-        at = np.exp(1j * np.radians(degrees))
-        trace(ax, np.array([0, at]), color=COLOURS["middle"], linewidth=1.2)
-        trace(ax, at, marker="o", color=COLOURS["middle"], markersize=7)
-        beside = "left" if at.real > 0.5 else "right" if at.real < -0.5 else "center"
-        above = 1.33 if name == "no turn" else 1.16  # a small turn must not hide it
-        say(ax, 1.1 * at.real + 1j * above * at.imag, name, ha=beside)
-    _square(ax, 1.5, 1.4)
-
-
-def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
+def turns_in_order(body: Skeleton, multiply: Callable[[Array, Array], Array]) -> Figure:
     """Draw a body that is turned forwards and to the left, above, or to the left and forwards, below.
 
     Parameters
     ----------
     body : of the stick figure, which stands with its arms spread.
-    step : how many of the two turns of 90° are shown, 0 to 2; both are about axes of the world.
+    multiply : the product of two quaternions; it puts together two turns of 90° about axes of the world.
 
     Returns
     -------
@@ -144,7 +91,7 @@ def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
     Examples
     --------
     >>> from mocap import datasets, plotting
-    >>> figure = turns_in_order(datasets.sample("walk_straight").skeleton)
+    >>> figure = turns_in_order(datasets.sample("walk_straight").skeleton, rotations.multiply)
     >>> plotting.show(figure, alt="A body turned twice, in two orders: it ends in two different poses.")
     Picture('A body turned twice, in two orders: it ends in two different poses.')
 
@@ -154,9 +101,9 @@ def turns_in_order(body: Skeleton, step: int = 2) -> Figure:
     figure = plt.figure(figsize=(7, 4.9))
     for row, names in enumerate((["forwards", "to the left"], ["to the left", "forwards"])):
         turn = rotations.IDENTITY
-        for shown, name in enumerate(["at rest", *names][: step + 1]):
+        for shown, name in enumerate(["at rest", *names]):
             if shown:
-                turn = rotations.multiply(rotations.from_rotvec(np.radians(turns[name])), turn)
+                turn = multiply(rotations.from_rotvec(np.radians(turns[name])), turn)
             ax = figure.add_axes((shown / 3, 0.53 - 0.49 * row, 1 / 3, 0.42), projection="3d")
             _draw_body(ax, body, turn)
             ax.set_title(f"{shown}. {name}" if shown else name, y=1, fontsize=10)

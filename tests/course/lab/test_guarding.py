@@ -44,6 +44,14 @@ def own_again(a, b):
     return own_again(a, b)
 
 
+def test_an_answer_that_is_a_list_becomes_an_array():
+    for name, arguments in {"hamilton": np.eye(4)[1:3], "strikes": [np.array([False, True])]}.items():
+        check = checks.all_checks()[name]
+        own = slot(name, lambda *given, check=check: check.truth(*given).tolist())
+        given, wanted = own(*arguments), check.truth(*arguments)
+        assert own.yours and given.dtype == wanted.dtype and given.tolist() == wanted.tolist()
+
+
 def test_what_a_function_prints_is_dropped_with_one_sentence(capsys):
     chatty = slot("hamilton", lambda a, b: print("a line\n" * 100) or checks.hamilton.truth(a, b))
     for _ in range(3):
