@@ -12,10 +12,7 @@ SWEEP = bool(os.environ.get("MOCAP_SWEEP"))  # .ci/run tries more of everything
 
 # A busy machine is no failure.
 settings.register_profile(
-    "house",
-    max_examples=100 if SWEEP else 20,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow],
+    "house", max_examples=100 if SWEEP else 20, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("house")
 

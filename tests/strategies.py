@@ -10,12 +10,7 @@ from mocap.body.skeleton import Skeleton
 
 seeds = st.integers(0, 2**32 - 1)
 
-planar = st.builds(
-    PlanarTransform,
-    st.floats(-3.1, 3.1),
-    st.floats(-50, 50),
-    st.floats(-50, 50),
-)
+planar = st.builds(PlanarTransform, st.floats(-3.1, 3.1), st.floats(-50, 50), st.floats(-50, 50))
 
 
 def random_skeleton(random: np.random.Generator, joints: int) -> Skeleton:

@@ -87,11 +87,7 @@ class ThresholdCurve(NamedTuple):
 
 
 def threshold_curve(
-    clips: Sequence[Motion],
-    transitions: Transitions,
-    *,
-    window: int,
-    thresholds: ArrayLike | None = None,
+    clips: Sequence[Motion], transitions: Transitions, *, window: int, thresholds: ArrayLike | None = None
 ) -> ThresholdCurve:
     """Compute for many thresholds how large the motion graph is, and how much of it pruning keeps.
 

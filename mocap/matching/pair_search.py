@@ -22,14 +22,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
 from mocap.matching.chosen_pairs import fit, pair_distances
 from mocap.matching.distance_grids import Cloud, Floats, cloud_distances, tiles
-from mocap.matching.lower_bound import (
-    Weights,
-    evenly,
-    projections,
-    reach,
-    sample_directions,
-    whole_windows,
-)
+from mocap.matching.lower_bound import Weights, evenly, projections, reach, sample_directions, whole_windows
 from mocap.matching.minima import listed_minima, local_minima
 
 BLOCK, WIDE_BLOCK = 1280, 16384  # windows of a stretch, by products and by the bound

@@ -57,12 +57,7 @@ def command_headings(seconds: float, fps: float, seed: int = 0) -> Array:
 
 
 def judge_control(
-    make: Callable[[], Character],
-    usual: Spread,
-    *,
-    speed: float = 1.1,
-    seconds: float = 60.0,
-    seed: int = 0,
+    make: Callable[[], Character], usual: Spread, *, speed: float = 1.1, seconds: float = 60.0, seed: int = 0
 ) -> ControlReport:
     """Judge a character by the same commands as all others.
 

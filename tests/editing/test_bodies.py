@@ -8,11 +8,8 @@ import pytest
 from mocap.body.kinematics import joint_positions
 from mocap.body.limbs import find_legs
 from mocap.datasets.samples import sample
-from mocap.editing.bodies import (
-    body_of,
-    hinge_of,
-    require_reachable,
-)
+from mocap.editing import body_of
+from mocap.editing.bodies import hinge_of, require_reachable
 from mocap.editing.pins import join_pins, pin, plant_pins
 from mocap.files.load_save import load
 from tests.editing.wishes import captured, walk

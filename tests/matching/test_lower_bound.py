@@ -5,16 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocap.matching import principal_directions
 from mocap.matching.distance_grids import cloud, cloud_distances
-from mocap.matching.lower_bound import (
-    MOST,
-    Weights,
-    principal_directions,
-    projections,
-    reach,
-    whole_windows,
-    window_numbers,
-)
+from mocap.matching.lower_bound import MOST, Weights, projections, reach, whole_windows, window_numbers
 from mocap.matching.point_clouds import unit_weights
 from tests.strategies import planar, seeds
 

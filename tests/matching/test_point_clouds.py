@@ -10,13 +10,8 @@ from scipy.optimize import minimize
 from mocap.body.kinematics import joint_positions
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.matching.point_clouds import (
-    align,
-    distinct_joints,
-    point_cloud,
-    rms_distance,
-    unit_weights,
-)
+from mocap.matching import align
+from mocap.matching.point_clouds import distinct_joints, point_cloud, rms_distance, unit_weights
 from tests.oracles import squared_distance
 from tests.refusals import refused
 from tests.strategies import seeds, wave

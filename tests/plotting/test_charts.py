@@ -5,14 +5,8 @@ import pytest
 from matplotlib.colors import to_rgba
 
 from mocap.methods.match_webs import Match
-from mocap.plotting import (
-    box_chart,
-    joint_curve,
-    match_tree,
-    plant_bars,
-    quartile_band,
-    seen_beside_measured,
-)
+from mocap.plotting import joint_curve, match_tree, plant_bars, quartile_band, seen_beside_measured
+from mocap.plotting.charts import box_chart
 from mocap.plotting.style import ASTRAY, COLOURS, CURVES, QUIET, SOURCES
 
 AT = np.arange(3.0)

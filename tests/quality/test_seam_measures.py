@@ -15,14 +15,8 @@ from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from mocap.matching.transitions import Transition, find_transitions
-from mocap.quality.seam_measures import (
-    Spread,
-    blend_jolts,
-    jumps,
-    knee_turns,
-    seam_quality,
-    spread,
-)
+from mocap.quality import Spread
+from mocap.quality.seam_measures import blend_jolts, jumps, knee_turns, seam_quality, spread
 from tests.refusals import refused
 from tests.strategies import random_motion
 

@@ -43,8 +43,7 @@ def report(name):
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=[pytest.mark.sweep] * (name == "steps")) for name in CHARACTERS],
+    "name", [pytest.param(name, marks=[pytest.mark.sweep] * (name == "steps")) for name in CHARACTERS]
 )
 def test_all_obey_and_all_feet_can_be_cleaned(name):
     judged = report(name)

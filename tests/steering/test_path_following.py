@@ -171,12 +171,7 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
     ("path", "wishes", "error", "message"),
     [
         (STRAIGHT, Wishes(labels=[(0, "fly")]), NoWalk, "bears the label 'fly'; there are: walk"),
-        (
-            STRAIGHT,
-            Wishes(labels=[(99, "walk")]),
-            MocapError,
-            "'walk' is asked for 99 m along",
-        ),
+        (STRAIGHT, Wishes(labels=[(99, "walk")]), MocapError, "'walk' is asked for 99 m along"),
         (STRAIGHT, Wishes(start=(0, 99999)), NoWalk, r"no node \(0, 99999\); the nearest"),
         (STRAIGHT, Wishes(least=0.0), MocapError, "above 0 m/s"),
         (STRAIGHT, Wishes(slide=1.5), MocapError, "a share from 0 to 1, got 1.5"),

@@ -86,10 +86,7 @@ def test_bad_walks_are_refused():
         ([second, first], "jumps from node"),
     ):
         refused(message, to_motion, GRAPH, walk, kind=NoWalk)
-    for node, words in (
-        ((7, 7), "none in that clip"),
-        ((0, 999), r"node \(0, 999\); the nearest is \(0, "),
-    ):
+    for node, words in (((7, 7), "none in that clip"), ((0, 999), r"node \(0, 999\); the nearest is \(0, ")):
         refused(words, random_walk, GRAPH, seconds=1, start=node, kind=NoWalk)
     refused("longer than 0 s, got 0 s", random_walk, GRAPH, seconds=0)
 

@@ -31,12 +31,7 @@ LIMIT = 120.0  # seconds
 
 
 def steer_group(
-    start: Configuration,
-    scene: Scene,
-    *,
-    rules: Flock | None = None,
-    seed: int = 0,
-    limit: float = LIMIT,
+    start: Configuration, scene: Scene, *, rules: Flock | None = None, seed: int = 0, limit: float = LIMIT
 ) -> tuple[Trajectories, int]:
     """Simulate a flock that steers to each point in turn and away from discs [Rey87].
 

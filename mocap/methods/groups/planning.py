@@ -146,12 +146,7 @@ class _State(NamedTuple):
 
 
 def plan_group(
-    graph: GroupGraph,
-    scene: Scene,
-    *,
-    start: Placed | None = None,
-    weight: float = 1.5,
-    most: int = MOST,
+    graph: GroupGraph, scene: Scene, *, start: Placed | None = None, weight: float = 1.5, most: int = MOST
 ) -> GroupWalk:
     """Find clips that lead a group past all points and clear of all obstacles [LCF05, search].
 

@@ -6,15 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import norm
 
-from mocap.course.lab.sensitivity import (
-    COLUMNS,
-    Answer,
-    class_curve,
-    d_prime,
-    mean_d_prime,
-    read_answers,
-    sentence,
-)
+from mocap.course.lab import class_curve
+from mocap.course.lab.sensitivity import COLUMNS, Answer, d_prime, mean_d_prime, read_answers, sentence
 from mocap.plotting import seen_beside_measured
 from tests.refusals import refused
 

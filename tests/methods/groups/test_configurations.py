@@ -7,14 +7,8 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError, MocapWarning
-from mocap.methods.groups.configurations import (
-    SECONDS,
-    Configuration,
-    assignment_costs,
-    cluster,
-    compare,
-    seen_from_itself,
-)
+from mocap.methods.groups import Configuration
+from mocap.methods.groups.configurations import SECONDS, assignment_costs, cluster, compare, seen_from_itself
 from mocap.methods.groups.flocking import Trajectories
 from tests.methods.groups.built import flock
 from tests.refusals import refused

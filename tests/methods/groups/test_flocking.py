@@ -5,18 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.methods.groups.flocking import (
-    APART,
-    BODY,
-    RATE,
-    Flock,
-    Trajectories,
-    advance,
-    nearest_two,
-    push_apart,
-    simulate,
-    steering_force,
-)
+from mocap.methods.groups import RATE, Trajectories, nearest_two
+from mocap.methods.groups.flocking import APART, BODY, Flock, advance, push_apart, simulate, steering_force
 from mocap.methods.groups.group_steering import away_from
 from tests.methods.groups.built import flock
 from tests.refusals import refused

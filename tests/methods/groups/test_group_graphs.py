@@ -4,17 +4,11 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapWarning
+from mocap.methods.groups import GroupGraph
 from mocap.methods.groups.configurations import Configuration
 from mocap.methods.groups.flocking import APART, nearest_two
 from mocap.methods.groups.group_clips import accelerations
-from mocap.methods.groups.group_graphs import (
-    GroupGraph,
-    Placed,
-    build_group,
-    make_clips,
-    play_group,
-    random_group_walk,
-)
+from mocap.methods.groups.group_graphs import Placed, build_group, make_clips, play_group, random_group_walk
 from tests.methods.groups.built import flock, graph
 from tests.refusals import refused
 

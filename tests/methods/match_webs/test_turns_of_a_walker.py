@@ -8,13 +8,8 @@ from mocap import load
 from mocap._shared.arrays import runs
 from mocap.blending.registering import register
 from mocap.body.planar import heading
-from mocap.methods.match_webs import (
-    MotionSpace,
-    blend_of,
-    sample_space,
-    turn,
-    weights_for,
-)
+from mocap.methods.match_webs import blend_of, sample_space, turn, weights_for
+from mocap.methods.match_webs.motion_spaces import MotionSpace
 
 ANGLES = (45, 90, 180, -45, -90, -180)
 AROUND = 10  # frames at 30 Hz before and after the body turns by more than 25° per second

@@ -5,15 +5,8 @@ from hypothesis import strategies as st
 
 from mocap import datasets
 from mocap.blending.registering import register
-from mocap.methods.match_webs import (
-    MotionSpace,
-    blend_of,
-    hand_target,
-    neighbour_weights,
-    random_weights,
-    sample_space,
-    weights_for,
-)
+from mocap.methods.match_webs import hand_target, neighbour_weights, random_weights, sample_space, weights_for
+from mocap.methods.match_webs.motion_spaces import MotionSpace, blend_of
 from mocap.methods.match_webs.wishes import nearest_samples
 from tests.methods.match_webs.spaces_of_walks import PUNCHES, gait, space
 from tests.refusals import refused

@@ -11,16 +11,8 @@ from mocap.body.motion import concatenate
 from mocap.body.planar import heading, place
 from mocap.datasets.samples import sample
 from mocap.errors import MocapError
-from mocap.methods.motion_matching.pose_database import (
-    AHEAD,
-    GROUPS,
-    WEIGHTS,
-    body_track,
-    features,
-    standardise,
-    tabulate,
-    turn_speeds,
-)
+from mocap.methods.motion_matching import GROUPS, WEIGHTS, features
+from mocap.methods.motion_matching.pose_database import AHEAD, body_track, standardise, tabulate, turn_speeds
 from tests.methods.motion_matching.matched import clips, walks
 from tests.strategies import wave
 

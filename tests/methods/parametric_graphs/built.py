@@ -10,17 +10,10 @@ from mocap.body import joint_positions, rotations
 from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, random_weights, sample_space, weights_for
-from mocap.methods.parametric_graphs import (
-    ParametricController,
-    Sampling,
-    build_parametric,
-    cut_actions,
-    cut_strides,
-    make_space,
-)
+from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
 from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, changing_strides
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
-from mocap.methods.parametric_graphs.parametric_control import TARGET
+from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")

@@ -9,13 +9,8 @@ import pytest
 from mocap.errors import MocapError
 from mocap.feet import clean_up
 from mocap.methods.match_webs import random_weights, weights_for
-from mocap.methods.parametric_graphs import (
-    ParametricController,
-    cut_actions,
-    load_parametric,
-    save_parametric,
-    smallest_good,
-)
+from mocap.methods.parametric_graphs import cut_actions, load_parametric, save_parametric, smallest_good
+from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.quality import plant_slides
 from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, clips, of_hands
 

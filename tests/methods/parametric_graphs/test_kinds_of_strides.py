@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from mocap.errors import MocapError, NoWalk, SkeletonMismatch
-from mocap.methods.parametric_graphs.kinds_of_strides import (
-    _pairs,
-    build_kinds,
-    changing_strides,
-)
+from mocap.methods.parametric_graphs import build_kinds
+from mocap.methods.parametric_graphs.kinds_of_strides import _pairs, changing_strides
 from tests.methods.parametric_graphs.built import SMALL, clips, jogs, strides, walk_and_jog
 from tests.refusals import refused
 
