@@ -15,7 +15,8 @@ from mocap._shared.arrays import Array
 from mocap.blending import join
 from mocap.body import Motion
 from mocap.errors import MocapError
-from mocap.matching import Metric, distance_grid, euler_grid, local_minima, pose_grid, root_grid
+from mocap.matching import Metric, distance_grid, euler_grid, local_minima, root_grid
+from mocap.matching.distance_grids import diagonal_sum
 from mocap.quality import seam_quality, spread
 from tasks import BANDAI, HOMEWORK, WALKS, Case
 
@@ -52,6 +53,13 @@ def apart(rows: Array) -> Array:
         if len(taken) < PLACES and all(np.abs(row - other).max() >= WINDOW for other in taken):
             taken.append(row)
     return np.reshape(taken, (-1, 2))
+
+
+def pose_grid(a: Motion, b: Motion, *, window: int) -> Array:
+    """Average over the window √(Σ over joints ‖Δq‖²), without the root; of q and -q the nearer one counts."""
+    p, q = (np.swapaxes(clip.rotations[:, 1:], 0, 1) for clip in (a, b))
+    square = sum(2 - 2 * np.minimum(np.abs(one @ other.T), 1.0) for one, other in zip(p, q, strict=True))
+    return np.asarray(diagonal_sum(np.sqrt(square), window) / window)
 
 
 METRICS = {"roots": root_grid, "Euler angles": euler_grid, "poses": pose_grid, "point clouds": distance_grid}

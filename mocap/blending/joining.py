@@ -81,7 +81,7 @@ def lay_window_on(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     array([[5., 1., 0.],
            [5., 1., 0.]])
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     a, b = require_alike([a, b])
     if window < 1:
@@ -186,7 +186,7 @@ def inertialize(a: Motion, i: int, b: Motion, j: int, window: int) -> Motion:
     >>> inertialize(glide, 3, glide, 0, 2).root_positions[:, 0].round(6) + 0.0
     array([0., 1., 2., 3., 4., 5., 6., 7., 8.])
 
-    Notebook: 04-blending
+    Notebook: 09b-blend-window
     """
     b = lay_window_on(a, i, b, j, window)
     before = 1 if min(i, j) > 0 else 0

@@ -39,7 +39,7 @@ def draw_stretches(
     >>> [(len(a), len(b)) for a, b in pairs]
     [(120, 120), (120, 120), (120, 120)]
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     found = find_transitions(clips, window=window, below=below)
     lengths, half = np.array([len(clip) for clip in clips]), window // 2

@@ -40,7 +40,7 @@ def linear_weights(window: int) -> Array:
     >>> linear_weights(4)
     array([0.75, 0.5 , 0.25, 0.  ])
 
-    Notebook: 04-blending
+    Notebook: 09b-blend-window
     """
     return 1 - window_steps(window)
 
@@ -55,8 +55,6 @@ def quintic_weights(window: int) -> Array:
     --------
     >>> quintic_weights(4).round(4)
     array([0.8965, 0.5   , 0.1035, 0.    ])
-
-    Notebook: 04-blending
     """
     return 1 - quintic_step(window_steps(window))
 
@@ -71,7 +69,7 @@ def sine_weights(window: int) -> Array:
     >>> sine_weights(5).round(4)
     array([1.    , 0.8536, 0.5   , 0.1464, 0.    ])
 
-    Notebook: 04-blending
+    Notebook: 09b-blend-window
     """
     if window < 2:
         raise MocapError(f"Sine weights need a window of at least two frames, got {window}.")
@@ -85,8 +83,6 @@ def window_steps(window: int) -> Array:
     --------
     >>> window_steps(4)
     array([0.25, 0.5 , 0.75, 1.  ])
-
-    Notebook: 04-blending
     """
     if window < 1:
         raise MocapError(f"A window needs at least one frame, got {window}.")

@@ -55,7 +55,7 @@ def segment_distances(
     clips : motions of one skeleton and one frame rate, cut by `segments`; S segments together.
     segment : frames in a segment; the last one of a clip can be longer.
     window : frames to compare, at the end of one segment and at the start of the other.
-    metric : `euler_grid`, `root_grid` or `pose_grid` of `matching`.
+    metric : `euler_grid`, `root_grid` or `distance_grid` of `matching`.
 
     Returns
     -------

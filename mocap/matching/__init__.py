@@ -8,7 +8,7 @@ Reading order (notebooks 02, 05, 15)
 --------------------------------
 1. `point_clouds`: the points a motion drives, and how to align two clouds of them
 2. `distance_grids`: all windows against all, by matrix products
-3. `other_metrics`: three metrics that fail, and why; `Metric`, the signature that all four have
+3. `other_metrics`: the homework's two metrics, and why they fail; `Metric`, the signature that all have
 4. `minima`: the entries of a grid that are lower than all eight neighbours
 5. `chosen_pairs`: some pairs of windows, one by one, and the transform that aligns each
 6. `lower_bound`: why most pairs need no look, with the proof
@@ -39,13 +39,12 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "point_clouds": [
             "align",
             "distinct_joints",
-            "matching_clouds",
             "point_cloud",
             "rms_distance",
             "unit_weights",
         ],
-        "distance_grids": ["cloud", "cloud_distances", "distance_grid", "tapered_sum"],
-        "other_metrics": ["Metric", "euler_grid", "file_angles", "pose_grid", "root_grid"],
+        "distance_grids": ["cloud", "cloud_distances", "distance_grid"],
+        "other_metrics": ["Metric", "euler_grid", "root_grid"],
         "minima": ["local_minima"],
         "lower_bound": ["Weights", "principal_directions", "whole_windows", "window_numbers"],
         "transitions": ["Transition", "find_transitions"],

@@ -70,7 +70,7 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
     weights, taper : shapes (P,) and (k,), of the points and of the window's frames; each adds up to one.
     dtype : the precision of the result; the work is done in 64 bits.
 
-    Notebook: 02-matching
+    Notebook: 02c-most-pairs
     """
     window = len(taper)
     root = np.sqrt(weights)
@@ -111,8 +111,6 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
     >>> cloud_distances(ready, ready, np.ones(1)).round(6)
     array([[0. , 0.5],
            [0.5, 0. ]])
-
-    Notebook: 02b-distance-grids
     """
     ground = tapered_sum(a.ground @ b.ground.conj().T, taper)
     ground += a.paths @ b.paths.conj().T
@@ -132,8 +130,6 @@ def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
     >>> tapered_sum(np.array([[1.0, 2, 0], [0, 3, 4], [0, 0, 5]]), np.array([0.25, 0.75]))
     array([[2.5, 3.5],
            [0. , 4.5]])
-
-    Notebook: 02b-distance-grids
     """
     weights = taper.astype(products.real.dtype)
     if np.ptp(weights) == 0:

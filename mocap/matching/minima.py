@@ -34,7 +34,7 @@ def local_minima(grid: ArrayLike, below: float = np.inf) -> Indices:
     >>> local_minima(np.array([[3, 2, 3], [2, 1, 2], [0, 2, 2]]), below=2).tolist()
     [[2, 0]]
 
-    Notebook: 02-matching
+    Notebook: 00-quickstart
     """
     values = np.asarray(grid)
     if values.ndim != 2:

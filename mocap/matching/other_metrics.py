@@ -1,9 +1,9 @@
-"""Three other metrics for how alike two moments of motion are, and why each of them fails.
+"""The homework's two metrics for how alike two moments of motion are, and why each of them fails.
 
 Each takes two motions and a `window`, and gives a grid as `distance_grid` does: entry [i, j] compares the
-`window` frames of b that start at j with those of a that start at i. `root_grid` sees only the root,
-`euler_grid` and `pose_grid` see only the pose; 3.1 of [KGP02] says what goes wrong. `distance_grid` sees the
-points of the whole body. All four are a `Metric`, so where one is asked for you can try the others.
+`window` frames of b that start at j with those of a that start at i. `root_grid` sees only the root, and
+`euler_grid` only the pose; 3.1 of [KGP02] says what goes wrong. `distance_grid` sees the points of the whole
+body. All three are a `Metric`, so where one is asked for you can try the others.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,7 +28,7 @@ HOMEWORK_WEIGHTS: Mapping[str, float] = {
 
 
 class Metric(Protocol):
-    """What all four metrics have in common: their other keywords have defaults."""
+    """What all metrics have in common: their other keywords have defaults."""
 
     def __call__(self, a: Motion, b: Motion, *, window: int) -> NDArray[np.floating]:
         """Compare all windows of a with all of b."""
@@ -60,8 +60,6 @@ def root_grid(a: Motion, b: Motion, *, window: int) -> Array:
     >>> here, there = (Motion(dot, [[x, 1, 0]], [[[1, 0, 0, 0]]], 30.0) for x in (0, 3))
     >>> root_grid(here, there, window=1)
     array([[3.]])
-
-    Notebook: 02-matching
     """
     a, b = _alike(a, b, window)
 
@@ -111,8 +109,6 @@ def euler_grid(
     >>> a, b = (Motion(leg, [[0, 1, 0]], [[one, knee, one]], 30.0) for knee in (one, bent))
     >>> euler_grid(a, b, window=1, weights={"knee": 2.0}).round(6)
     array([[60.]])
-
-    Notebook: 02-matching
     """
     a, b = _alike(a, b, window)
     if unusable := {n: w for n, w in weights.items() if not (np.isfinite(w) and w >= 0)}:
@@ -148,71 +144,11 @@ def file_angles(motion: Motion, joint: int) -> Array:
     >>> bent = from_euler("x", [np.radians(30)])
     >>> file_angles(Motion(knee, [[0, 1, 0]], [[bent, [1, 0, 0, 0]]], 30.0), 0).round(6)
     array([[30.]])
-
-    Notebook: 02-matching
     """
     axis, dofs = motion.skeleton.axes[joint], motion.skeleton.dofs[joint]
     own = rotations.multiply(rotations.multiply(rotations.inverse(axis), motion.rotations[:, joint]), axis)
     every = dofs + "".join(sorted(set("xyz") - set(dofs)))  # it does not turn about the axes that it lacks
     return np.degrees(euler.to_euler(every, own)[:, : len(dofs)])
-
-
-def pose_grid(a: Motion, b: Motion, *, window: int, velocities: float = 0.0) -> Array:
-    """Measure the norm of the difference of pose vectors, which the paper discusses and rejects [KGP02, 3.1].
-
-    It is the mean over the window of √(Σ over joints of ‖Δq‖² + (velocities · ‖Δω‖)²), without the root.
-    Of q and -q, which are the same turn, the nearer one counts.
-
-    Parameters
-    ----------
-    a, b : motions.
-    window : frames in a window.
-    velocities : seconds by which a difference in angular velocity ω is multiplied, so that it counts as a
-        difference in pose; 0 leaves velocities out.
-
-    Returns
-    -------
-    Shape (F_a - window + 1, F_b - window + 1).
-
-    Raises
-    ------
-    SkeletonMismatch, MocapError : for different skeletons or rates, clips shorter than the window, and
-        velocities that are negative, not finite, or asked of a clip of one frame.
-
-    Examples
-    --------
-    >>> from mocap.body.skeleton import Skeleton
-    >>> bone = Skeleton(["root", "tip"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
-    >>> one, bent = rotations.from_rotvec([[0, 0, 0], [0.5, 0, 0]])
-    >>> a, b = (Motion(bone, [[0, 1, 0]], [[one, tip]], 30.0) for tip in (one, bent))
-    >>> pose_grid(a, b, window=1).round(3)  # 2 sin(0.5 / 4)
-    array([[0.249]])
-
-    Notebook: 02-matching
-    """
-    a, b = _alike(a, b, window)
-    if not (np.isfinite(velocities) and velocities >= 0):
-        raise MocapError(f"velocities must be seconds, 0 or more, got {velocities}.")
-
-    def apart(p: Array, q: Array) -> Array:
-        pairs = zip(np.swapaxes(p, 0, 1), np.swapaxes(q, 0, 1), strict=True)
-        return np.asarray(sum(2 - 2 * np.minimum(np.abs(one @ other.T), 1.0) for one, other in pairs))
-
-    square = _all_pairs(apart, a.rotations[:, 1:], b.rotations[:, 1:])
-    if velocities:
-        v, w = (_angular_velocities(motion)[:, 1:].reshape(len(motion), -1) for motion in (a, b))
-        gaps = (v**2).sum(1)[:, None] + (w**2).sum(1) - 2 * v @ w.T
-        square += velocities**2 * np.maximum(gaps, 0.0)
-    return diagonal_sum(np.sqrt(square), window) / window
-
-
-def _angular_velocities(motion: Motion) -> Array:
-    """Measure the turn from each frame to the next, radians per second; the last value stands twice."""
-    if len(motion) < 2:
-        raise MocapError(f"'{motion.name}' has one frame, and so no velocities.")
-    steps = rotations.multiply(rotations.inverse(motion.rotations[:-1]), motion.rotations[1:])
-    speeds = rotations.to_rotvec(steps) * motion.fps
-    return np.concatenate([speeds, speeds[-1:]])
 
 
 def _alike(a: Motion, b: Motion, window: int) -> tuple[Motion, ...]:

@@ -22,7 +22,7 @@ def distinct_joints(skeleton: Skeleton) -> list[int]:
     >>> distinct_joints(fork)
     [0, 1]
 
-    Notebook: 02-matching
+    Notebook: 02b-distance-grids
     """
     seen: set[tuple[int, ...]] = set()
     kept = []
@@ -115,8 +115,6 @@ def rms_distance(first: Motion, second: Motion) -> float:
     >>> here, there = (Motion(bone, [[x, 0, 0]], [[[1, 0, 0, 0]] * 2], 30.0) for x in (0, 3))
     >>> rms_distance(here, there)
     3.0
-
-    Notebook: 02-matching
     """
     first, second = require_alike([first, second])
     points, others = matching_clouds(point_cloud(first).reshape(-1, 3), point_cloud(second).reshape(-1, 3))
@@ -129,8 +127,6 @@ def matching_clouds(points: ArrayLike, others: ArrayLike) -> tuple[Array, Array]
     Raises
     ------
     MocapError : for clouds of different sizes, and points that are not finite or too far away.
-
-    Notebook: 02-matching
     """
     a, b = np.asarray(points, float), np.asarray(others, float)
     if a.shape[-2:] != b.shape[-2:] or a.shape[-1:] != (3,) or a.ndim < 2:
@@ -151,8 +147,6 @@ def unit_weights(weights: ArrayLike | None, count: int) -> Array:
     --------
     >>> unit_weights([1, 3], 2)
     array([0.25, 0.75])
-
-    Notebook: 02-matching
     """
     w = np.ones(count) if weights is None else np.asarray(weights, float)
     if w.shape != (count,) or not np.isfinite(w).all() or np.any(w < 0) or not np.any(w > 0):

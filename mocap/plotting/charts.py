@@ -43,7 +43,7 @@ def joint_curve(
     >>> plotting.show(curve, alt="A height that rises.")
     Picture('A height that rises.')
 
-    Notebook: 02-matching
+    Notebook: 00-quickstart
     """
     ax = ax or plt.figure(figsize=(6, 2.8), layout="constrained").add_subplot()
     columns = np.reshape(values, (len(np.asarray(values)), -1))
@@ -80,7 +80,7 @@ def quartile_band(
     >>> median.get_ydata().tolist()
     [2.0, 6.0]
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     ax = ax or plt.figure(figsize=(5, 3.5), layout="constrained").add_subplot()
     low, middle, high = np.percentile(np.asarray(samples, float), [25, 50, 75], axis=1)

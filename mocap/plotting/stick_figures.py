@@ -224,7 +224,7 @@ def laid_over(first: Motion, second: Motion, *, every: int = 5) -> list[list[Sti
     >>> plotting.show(first[0].figure, alt="A walk, and the same walk two frames later.")
     Picture('A walk, and the same walk two frames later.')
 
-    Notebook: 02-matching
+    Notebook: 04-blending
     """
     clouds = [joint_positions(motion)[::every] for motion in (first, second)]
     ax = ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))

@@ -114,7 +114,7 @@ def spread(clips: Sequence[Motion]) -> Spread:
     >>> usual.within(40).max().round(2)  # m/s
     np.float64(0.17)
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     if not clips:
         raise MocapError("A seam is measured against its clips; none were given.")
@@ -159,7 +159,7 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     >>> seam_quality(join(walk, 500, walk, 233, 40), (500, 540), spread([walk])).velocity_jump < 1
     True
 
-    Notebook: 04-blending
+    Notebook: 04b-feet
     """
     if not 0 <= seam[0] < seam[1] <= len(motion):
         none = f"no seam from {seam[0]} to {seam[1]}"
@@ -234,7 +234,7 @@ def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weigh
     0.28
     0.03
 
-    Notebook: 04-blending
+    Notebook: 09b-blend-window
     """
     inside = np.asarray(weights, float)
     result, first, second = require_alike([result, first, second])

@@ -22,7 +22,7 @@ from mocap.graphs.homework_graph import (
     segments,
 )
 from mocap.matching.distance_grids import distance_grid
-from mocap.matching.other_metrics import euler_grid, pose_grid, root_grid
+from mocap.matching.other_metrics import euler_grid, root_grid
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -61,7 +61,7 @@ def test_segments_take_every_frame_once(frames, length):
     assert all(cut.stop - cut.start == length for cut in cuts[:-1])
 
 
-@pytest.mark.parametrize("metric", [root_grid, pose_grid, distance_grid])
+@pytest.mark.parametrize("metric", [root_grid, distance_grid])
 def test_segment_distances_lay_heads_on_tails(metric):
     a, b = wave(25), wave(20, phase=1.0, name="b", seed=1)
     grid = segment_distances([a, b], segment=10, window=4, metric=metric)

@@ -1,4 +1,4 @@
-"""The four metrics side by side, each against its formula."""
+"""The metrics side by side, each against its formula."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
 from mocap.matching import distance_grids
 from mocap.matching.distance_grids import distance_grid
-from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, pose_grid, root_grid
+from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, root_grid
 from tests.refusals import refused
 from tests.strategies import random_motion, random_quaternions, seeds, wave
 
@@ -40,7 +40,7 @@ def body_motion(seed, frames=6):
     return Motion(skeleton, random.normal(size=(frames, 3)), turns, 30.0, f"body{seed}"), angles
 
 
-ALL = [root_grid, euler_grid, pose_grid, distance_grid]
+ALL = [root_grid, euler_grid, distance_grid]
 
 
 @pytest.mark.parametrize("metric", ALL)
@@ -56,7 +56,7 @@ def test_all_metrics_have_one_interface(metric):
     refused("elbow", metric, a, wave(9), window=2, kind=SkeletonMismatch)
 
 
-@pytest.mark.parametrize("metric", [root_grid, euler_grid, pose_grid])
+@pytest.mark.parametrize("metric", [root_grid, euler_grid])
 def test_tiles_do_not_show(metric, monkeypatch):
     a, _ = body_motion(0, 20)
     whole = metric(a, a, window=3)
@@ -114,38 +114,3 @@ def test_the_homework_weighs_bones_of_its_skeleton_left_and_right_alike():
     for name, weight in HOMEWORK_WEIGHTS.items():
         assert HOMEWORK_WEIGHTS.get("r" + name[1:], weight) == weight
     assert sum(HOMEWORK_WEIGHTS.values()) == pytest.approx(460 / 480)  # so it is there: not quite 1
-
-
-def test_the_pose_grid_adds_up_joints():
-    a, b = random_motion(0, frames=5), random_motion(1, frames=4)
-    b = replace(b, skeleton=a.skeleton)
-    q, p = a.rotations[:, 1:], b.rotations[:, 1:]
-    grid = pose_grid(a, b, window=2)
-    for i, j in np.ndindex(*grid.shape):
-        gaps = [np.linalg.norm(q[i : i + 2] - sign * p[j : j + 2], axis=-1) for sign in (1, -1)]
-        assert grid[i, j] == pytest.approx(np.linalg.norm(np.min(gaps, axis=0), axis=-1).mean())
-
-
-@pytest.mark.parametrize("velocities", [0.0, 0.5, 2.0])
-def test_the_pose_grid_weighs_differences_of_velocity(velocities):
-    """Two joints turn faster and faster about x; the root turns anyhow, and does not count."""
-    frames = np.arange(5.0)[:, None]
-    angles = [0.01 * frames**2 * [1, 2], 0.3 - 0.02 * frames**2 * [2, 1]]
-    speeds = [30 * np.diff(angle, axis=0)[[0, 1, 2, 3, 3]] for angle in angles]  # the last one stands twice
-    bones = Skeleton(["root", "l", "r"], [-1, 0, 0], np.zeros((3, 3)))
-    turns = np.zeros((2, 5, 3, 3))
-    turns[:, :, 0] = np.random.default_rng(0).normal(size=(2, 5, 3))
-    turns[:, :, 1:, 0] = angles
-    clips = [Motion(bones, np.zeros((5, 3)), rotations.from_rotvec(turn), 30.0) for turn in turns]
-    grid = pose_grid(*clips, window=1, velocities=velocities)
-    for i, j in np.ndindex(5, 5):
-        gaps = 2 * np.sin((angles[0][i] - angles[1][j]) / 4), velocities * (speeds[0][i] - speeds[1][j])
-        assert grid[i, j] == pytest.approx(np.linalg.norm(gaps))
-
-
-def test_pose_grid_refuses_what_it_does_not_know():
-    a = wave(5)
-    for bad in (-1, np.nan, np.inf):
-        refused("velocities must be seconds", pose_grid, a, a, window=2, velocities=bad)
-    refused("one frame, and so no velocities", pose_grid, a[:1], a[:1], window=1, velocities=1.0)
-    assert pose_grid(a[:2], a[:2], window=2, velocities=1.0) == pytest.approx(0, abs=1e-6)

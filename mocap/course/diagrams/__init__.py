@@ -8,9 +8,9 @@ Reading order (notebooks 00 to 09)
 ----------------------------------
  1. `small_graphs`: a motion graph's nodes and edges on two clips, and the homework's segments in rows
  2. `quaternions`: two half turns, and turns whose order matters; `trees`: forward kinematics by joint
- 3. `windows`: what a window is, what two windows have in common, their lower bound, and sums along diagonals
+ 3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
  4. `laying_clouds`: one cloud of points laid on another, from above
- 5. `ground`: turns, headings, and one clip aligned with another, seen from above
+ 5. `ground`: headings, and one clip aligned with another, seen from above
  6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
  7. `eight_nodes`: Tarjan's search with its low links, and the walks that branch and bound takes up
  8. `layers`: the layered search along a line, with the line of its code that runs
@@ -31,8 +31,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "quaternions": ["half_turns", "turns_in_order"],
         "trees": ["down_the_tree"],
         "laying_clouds": ["laid", "laying_on", "products", "turning"],
-        "windows": ["diagonal_sums", "matched_windows", "radius_gaps", "window_cloud"],
-        "ground": ["alignment", "compass", "meeting", "turn_on_ground", "two_ways_round"],
+        "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
+        "ground": ["alignment", "compass", "two_ways_round"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
         "eight_nodes": [
             "EIGHT_PLACES",

@@ -1,4 +1,4 @@
-"""The ground seen from above: how a turn looks there, and how one clip is aligned with another."""
+"""The ground seen from above: headings, and how one clip is aligned with another."""
 
 from collections.abc import Mapping
 
@@ -8,57 +8,9 @@ from matplotlib.figure import Figure
 
 from mocap.body import Motion, PlanarTransform, heading
 from mocap.course.diagrams.pens import arrow, say, trace
-from mocap.plotting.style import COLOURS, CURVES, FLOOR, QUIET, SOURCES
+from mocap.plotting.style import COLOURS, CURVES, FLOOR, SOURCES
 
 INK = COLOURS["middle"]
-START = 0.25  # radians from the first axis to the point before the turn
-
-
-SHEETS = (
-    ("1. as in school", ("x", "y"), 1 + 0j),
-    ("2. the sheet turned by a quarter", ("x", "y"), 1j),
-    ("3. the ground from above", ("z", "x"), 1j),
-)
-"""Planes with two axes: a title, the names of the axes, and where on the page the first one points."""
-
-
-def turn_on_ground(angle: float = 40.0, *, step: int = 3) -> Figure:
-    """Draw why the minus of a turn stands elsewhere on the ground than in the plane of school.
-
-    The plane of school, the same sheet turned by a quarter, and the same sheet with the names of the
-    ground. The first axis is always the one that a positive turn leads away from.
-
-    Parameters
-    ----------
-    angle : of the turn, degrees.
-    step : how many of the three sheets are drawn.
-
-    Examples
-    --------
-    >>> figure = turn_on_ground(step=2)
-    >>> [ax.get_title() for ax in figure.axes]
-    ['1. as in school', '2. the sheet turned by a quarter']
-
-    Notebook: 03-transforms
-    """
-    figure, turn = Figure(figsize=(9, 3.7)), np.radians(angle)
-    for number, (title, (first, second), axis) in enumerate(SHEETS[:step]):
-        ax = figure.add_axes((number / 3, 0.17, 1 / 3, 0.72))
-        for name, along in ((first, axis), (second, 1j * axis)):
-            arrow(ax, 0j, 1.25 * along, INK)
-            say(ax, 1.38 * along, name, fontsize=12)
-        trace(ax, 0.55 * np.exp(1j * np.linspace(START, START + turn, 30)) * axis, color=INK, linewidth=1)
-        say(ax, 0.7 * np.exp(1j * (START + turn / 2)) * axis, "θ", color=INK, fontsize=12)
-        for colour, way in ((QUIET, START), (CURVES[0], START + turn)):
-            point = np.exp(1j * way) * axis
-            trace(ax, np.array([0, point]), color=colour, linewidth=1.5)
-            trace(ax, point, marker="o", color=colour, markersize=8)
-        ax.set(xlim=(-1.55, 1.55), ylim=(-1.0, 1.6), aspect="equal", title=title)
-        ax.title.set_fontsize(11)
-        ax.set_axis_off()
-        lines = f"{first}′ = {first} cos θ − {second} sin θ\n{second}′ = {first} sin θ + {second} cos θ"
-        ax.text(0.5, -0.02, lines, transform=ax.transAxes, ha="center", va="top", fontsize=11)
-    return figure
 
 
 def alignment(
@@ -111,34 +63,6 @@ def alignment(
         ax.plot(0, 0, "+", color=INK, markersize=11)
     panels[0].set_ylabel("z (m)")
     panels[0].legend(frameon=False, fontsize=9)
-    return figure
-
-
-def meeting(target: Motion, moving: Motion) -> Figure:
-    """Draw one clip that ends and another that begins, seen from above, with where both bodies face.
-
-    Parameters
-    ----------
-    target : the motion up to the moment at which the clips match.
-    moving : the other motion from that moment on.
-
-    Examples
-    --------
-    >>> from mocap import datasets
-    >>> walk = datasets.sample("walk_straight")
-    >>> figure = meeting(walk[:120], walk[121:300])
-    >>> len(figure.axes)
-    1
-
-    Notebook: 03-transforms
-    """
-    figure = Figure(figsize=(5.2, 4.8), layout="constrained")
-    ax = figure.add_subplot()
-    ax.set(xlim=(5, -5), ylim=(-4.5, 4.5), aspect="equal", xlabel="x (m)", ylabel="z (m)")
-    _draw_walker(ax, target, SOURCES[0], at=-1)
-    _draw_walker(ax, moving, SOURCES[1], at=0)
-    ax.plot(0, 0, "+", color=INK, markersize=11)
-    ax.legend(frameon=False, fontsize=9, loc="lower left")
     return figure
 
 

@@ -1,4 +1,4 @@
-"""What a window is, what Eq. 1 of [KGP02] compares, a lower bound of it, and sums along diagonals."""
+"""What a window is, a lower bound of the distance of two, and sums along diagonals."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -14,9 +14,8 @@ from mocap._shared.arrays import Array
 from mocap.body import Motion, heading, joint_positions
 from mocap.course.diagrams.pens import require_step
 from mocap.errors import MocapError
-from mocap.matching.point_clouds import point_cloud, rms_distance
+from mocap.matching.point_clouds import point_cloud
 from mocap.plotting.stick_figures import StickFigure, ground_axes, keep_inside, to_picture
-from mocap.plotting.storyboards import draw_matched
 from mocap.plotting.style import COLOURS, FLOOR, QUIET, SOURCES
 
 
@@ -52,32 +51,6 @@ def window_cloud(motion: Motion, *, step: int = 4) -> Figure:
     sums = f"{cloud.shape[0]} frames × {cloud.shape[1]} joints = {len(flat)} points"
     titles = "one frame", f"a window: {len(motion)} frames", "its joints: a point on each"
     ax.set_title((*titles, f"the point cloud: {sums}")[step - 1], fontsize=11)
-    return figure
-
-
-def matched_windows(first: Motion, second: Motion) -> Figure:
-    """Draw two aligned windows from the side at three frames, with a thread from each joint to its partner.
-
-    Left and right keep their colours, so that feet which are exchanged are seen; the second body is dashed.
-
-    Parameters
-    ----------
-    first, second : windows of as many frames; they stay where they are, so align them first.
-
-    Examples
-    --------
-    >>> from mocap import datasets, resample
-    >>> walk = resample(datasets.sample("walk_straight"), 30)
-    >>> matched_windows(walk[:10], walk[:10]).axes[0].get_title()
-    'RMS distance 0.0 cm; blue is left, orange right'
-
-    Notebook: 02b-distance-grids
-    """
-    figure = Figure(figsize=(6.4, 4.2), layout="constrained")
-    ax = figure.add_subplot()
-    draw_matched(ax, first, second)
-    apart = 100 * rms_distance(first, second)
-    ax.set_title(f"RMS distance {apart:.1f} cm; blue is left, orange right", fontsize=11)
     return figure
 
 

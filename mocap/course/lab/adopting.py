@@ -80,7 +80,7 @@ def whose(*names: str) -> str:
     >>> whose("hamilton", "climb")
     "hamilton, climb: the package's"
 
-    Notebook: 02-matching
+    Notebook: 00-quickstart
     """
     found = slots(*names)
     parts = []

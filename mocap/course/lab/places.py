@@ -55,7 +55,10 @@ def packages() -> Tools:
 
 
 def pages_of(by: Tools, window: int, below: float = 0.0) -> Any:  # noqa: ANN401 (a module)
-    """Copy `mocap.plain`, with functions of exercises in the places of its own."""
+    """Copy `mocap.plain`, with functions of exercises in the places of its own.
+
+    Notebook: 04-blending
+    """
     spec = importlib.util.find_spec("mocap.plain")
     assert spec is not None and spec.loader is not None
     pages = importlib.util.module_from_spec(spec)

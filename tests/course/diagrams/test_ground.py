@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from mocap.body import PlanarTransform
-from mocap.course.diagrams import alignment, compass, meeting, turn_on_ground, two_ways_round
+from mocap.course.diagrams import alignment, compass, two_ways_round
 from mocap.datasets.samples import sample
 
 CLIP = sample("walk_circle")
@@ -15,34 +15,6 @@ TRANSFORM = PlanarTransform(2.0, 1.5, -0.7)
 
 def dots(ax):
     return [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o"]
-
-
-def test_each_step_draws_one_sheet_more():
-    for step in range(4):
-        titles = [ax.get_title() for ax in turn_on_ground(step=step).axes]
-        assert (
-            titles
-            == ["1. as in school", "2. the sheet turned by a quarter", "3. the ground from above"][:step]
-        )
-
-
-@pytest.mark.parametrize("angle", [40.0, -30.0])
-def test_the_drawn_point_goes_where_the_formulas_say(angle):
-    school, _, ground = turn_on_ground(angle).axes
-    before, after = dots(school)
-    cos, sin = np.cos(np.radians(angle)), np.sin(np.radians(angle))
-    assert after == pytest.approx([before @ [cos, -sin], before @ [sin, cos]])
-    (left, z), turned = dots(ground)  # x points to the left of the page, z up
-    x, _, z = PlanarTransform(np.radians(angle), 0.0, 0.0).apply_points([-left, 0, z])
-    assert turned == pytest.approx([-x, z])
-
-
-def test_the_minus_stands_with_the_first_axis():
-    formulas = [
-        next(text.get_text() for text in ax.texts if "cos" in text.get_text()) for ax in turn_on_ground().axes
-    ]
-    assert formulas[0] == formulas[1] == "x′ = x cos θ − y sin θ\ny′ = x sin θ + y cos θ"
-    assert formulas[2] == "z′ = z cos θ − x sin θ\nx′ = z sin θ + x cos θ"
 
 
 @pytest.mark.parametrize("shift_first", [False, True])
@@ -63,12 +35,6 @@ def test_the_turn_leads_round_the_origin():
     way = next(line for line in alignment(TARGET, MOVING, TRANSFORM).axes[1].lines if line.get_ls() == "--")
     distances = np.linalg.norm(way.get_xydata(), axis=1)
     assert distances == pytest.approx(distances[0])
-
-
-def test_two_clips_meet_where_they_are():
-    (ax,) = meeting(TARGET, MOVING).axes
-    assert np.array_equal(dots(ax), [TARGET.root_positions[-1, [0, 2]], MOVING.root_positions[0, [0, 2]]])
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["walk_circle", "walk_circle"]
 
 
 def arrows(ax):
