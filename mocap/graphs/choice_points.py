@@ -50,7 +50,7 @@ def merge_choice_points(motion_graph: MotionGraph, *, within: int, threshold: fl
     >>> len(merge_choice_points(graph, within=3, threshold=0.04).graph) < len(graph.graph)
     True
 
-    Notebook: 05b-choice-points
+    Notebook: 08c-judging-a-search
     """
     if not threshold > 0:
         raise MocapError(f"The threshold must be above 0 m, got {threshold} m.")

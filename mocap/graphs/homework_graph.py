@@ -38,7 +38,7 @@ def segments(frames: int, length: int) -> list[slice]:
     >>> [(s.start, s.stop) for s in segments(700, 200)]
     [(0, 200), (200, 400), (400, 700)]
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     check_window(length, max(frames, length), "A clip")
     starts = list(range(0, max(frames - length, 0) + 1, length))
@@ -65,7 +65,7 @@ def segment_distances(
     ------
     MocapError : for no clips, different skeletons, and segments that are shorter than the window.
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     clips = require_alike(clips)
     for clip in clips:
@@ -115,7 +115,7 @@ def segment_graph(  # noqa: PLR0913 - the homework's own five knobs, and the met
     MocapError, SkeletonMismatch : for clips of different skeletons or rates, clips that are too short, and
         settings out of range.
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     if weighting not in ("inverse", "distance"):
         raise MocapError(f"There are the weightings 'inverse' and 'distance', not '{weighting}'.")
@@ -153,7 +153,7 @@ def connect(
     >>> list(connect(parts, distances, 185, "inverse").edges(data="kind"))
     [(0, 1, 'clip'), (0, 2, 'transition'), (2, 0, 'transition')]
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     graph = nx.DiGraph()
     graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
@@ -182,7 +182,7 @@ def shares(costs: NDArray[np.floating], weighting: str) -> Array:
     >>> shares(np.array([100.0, 300.0]), "inverse"), shares(np.array([100.0, 300.0]), "distance")
     (array([0.75, 0.25]), array([0.25, 0.75]))
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     odds = np.maximum(costs, 1e-9) ** (1.0 if weighting == "distance" else -1.0)
     return np.asarray(odds / odds.sum())
@@ -202,7 +202,7 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     ------
     NoWalk : for a start that is not in the graph, and for a walk that reaches a segment without successor.
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     if count < 1:
         raise MocapError(f"A walk needs at least one segment, got {count}.")
@@ -250,7 +250,7 @@ def segment_motion(
     >>> len(segment_motion([clip], graph, segment_walk(graph, 2, start=0)))
     400
 
-    Notebook: 05-motion-graph
+    Notebook: 05b-choice-points
     """
     if not walk or walk[0] not in graph:
         raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")

@@ -116,7 +116,7 @@ def labels_between(motion: Motion, start: int, end: int) -> Labels:
     >>> labels_between(datasets.sample("walk_circle"), 0, 10)
     frozenset({'walk'})
 
-    Notebook: 05b-choice-points
+    Notebook: 05-motion-graph
     """
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 
@@ -145,7 +145,7 @@ def from_transitions(
     >>> from_transitions([clip], [back], window=10)
     MotionGraph(1 clips, 4 nodes, 4 edges, 1 of them transitions)
 
-    Notebook: 05b-choice-points
+    Notebook: 05-motion-graph
     """
     _require_names(clips)
     clips = require_alike(clips)
@@ -178,7 +178,7 @@ def cut_and_join(clips: Sequence[Motion], transitions: Sequence[Transition], win
     [((0, 0), (0, 20), 'clip'), ((0, 60), (0, 20), 'transition'), ((0, 60), (0, 90), 'clip'),
      ((0, 20), (0, 60), 'clip')]
 
-    Notebook: 05b-choice-points
+    Notebook: 05-motion-graph
     """
     graph = nx.MultiDiGraph()
     for clip, motion in enumerate(clips):

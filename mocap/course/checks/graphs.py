@@ -23,12 +23,6 @@ def matches(rng: np.random.Generator) -> tuple[Array, float]:
     return rng.uniform(100, 400, rng.integers(1, 9)), float(rng.choice([0.5, 1.0]))
 
 
-def draw_expected_seam(rng: np.random.Generator) -> tuple[Array, Array]:
-    costs, left = matches(rng)
-    odds = rng.uniform(0.1, 1, len(costs))
-    return costs, left * odds / odds.sum()
-
-
 def draw_chance_to_last(rng: np.random.Generator) -> tuple[Array, int]:
     """Draw the probabilities of going from segment to segment, some without successor, and a length."""
     count = int(rng.integers(3, 9))

@@ -139,7 +139,8 @@ class Places:
         graph.add_nodes_from(sorted(following))
         for clip, frames in enumerate(points):
             for start, end in pairwise(frames):
-                graph.add_edge((clip, start), (clip, end), kind="clip", frames=end - start, lay=(1, 0))
+                about = {"kind": "clip", "frames": end - start, "cost": 0.0, "lay": (1, 0)}
+                graph.add_edge((clip, start), (clip, end), **about)
         for a, i, b, j, cost, lay in transitions:
             about = {"kind": "transition", "frames": self._window, "cost": cost, "lay": lay}
             graph.add_edge((a, i), (b, j + self._window), **about)
