@@ -57,8 +57,9 @@ def save_parametric(path, size=1):
     values = np.linspace(-1, 1, 6)[:, None]
     space = MotionSpace(examples, np.full((6, count), 1 / count), values, np.ones(1), ("turn",))
     edge = ParametricEdge(values, values - 1, values + 1, np.ones(6), np.zeros(6), np.ones(1), 0.02)
-    graph = nx.DiGraph([("walk", "walk", {"edge": edge})])
+    graph = nx.DiGraph()
     graph.add_node("walk", space=space)
+    graph.add_edge("walk", "walk", edge=edge)
     parametric_files.save_parametric(ParametricGraph(graph), path)
 
 
