@@ -66,7 +66,7 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     >>> [trial.name for trial in trials(subject=127, kind="walk")]
     ['127_04']
 
-    Notebook: 01b-motion-files
+    Notebook: 10-real-data
     """
     found = []
     for name, row in _registry().items():

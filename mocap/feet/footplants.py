@@ -220,7 +220,7 @@ def find_footprints(motion: Motion) -> list[Footprint]:
     >>> find_footprints(Motion(foot, np.ones((4, 3)), still, 30.0, contacts={"lfoot": [1, 1, 0, 1]}))
     [Footprint(joint='lfoot', side='middle', start=0, end=2, x=1.0, z=1.0), ...start=3, end=4, x=1.0, z=1.0)]
 
-    Notebook: 01b-motion-files
+    Notebook: 12-path-editing
     """
     points, prints = joint_positions(motion)[..., [0, 2]], []
     for name, down in motion.contacts.items():

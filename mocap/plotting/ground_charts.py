@@ -78,8 +78,6 @@ def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCo
     >>> steps = [Footprint("lfoot", "left", 0, 20, 0.1, 0.0), Footprint("rfoot", "right", 18, 40, -0.1, 0.6)]
     >>> footprints(steps, ax=Figure().add_subplot()).get_offsets().tolist()  # (x, z)
     [[0.1, 0.0], [-0.1, 0.6]]
-
-    Notebook: 01b-motion-files
     """
     ax = seen_from_above(ax)
     at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)

@@ -47,18 +47,6 @@ def climb(skeleton: Skeleton, turns: Array, joint: int) -> Array:
 # ---- Notebook 01b
 
 
-def acclaim(axis: Array, angles: Array) -> Array:
-    c, m = (euler.from_euler("xyz", np.radians(turns)) for turns in (axis, angles))
-    return rotations.multiply(rotations.multiply(c, m), rotations.inverse(c))
-
-
-def draw_acclaim_turn(rng: np.random.Generator) -> tuple[Array, Array]:
-    """Draw the angles of two turns: mostly different ones, sometimes the same, opposite, or none."""
-    axis, angles = rng.uniform(-80, 80, (2, 3)).round(1)
-    special = [axis, -axis, np.zeros(3)]
-    return axis, np.array([*special, *[angles] * 12][rng.integers(15)])
-
-
 def strikes(contact: Mask) -> Indices:
     return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
 
