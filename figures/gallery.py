@@ -51,6 +51,7 @@ from mocap import (
 from mocap.body import GroundPath, arcs, figure_eight, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
+from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
 from mocap.plotting.search_tree import SearchTree
@@ -319,23 +320,14 @@ def draw_angles() -> Figure:
     return diagrams.two_ways_round()
 
 
-def _walk_costs(graph: nx.DiGraph, steps: int, seed: int) -> Array:
-    """Walk at random on the homework's graph: the cost of each step, 0 in a clip, NaN after a dead end."""
-    rng = np.random.default_rng(seed)
-    at, costs = int(rng.integers(len(graph))), np.full(steps, np.nan)
-    for step in range(steps):
-        if not (following := list(graph[at])):
-            break
-        after = int(rng.choice(following, p=[graph.edges[at, node]["probability"] for node in following]))
-        costs[step] = graph.edges[at, after].get("cost", 0)
-        at = after
-    return costs
-
-
 def draw_dying_walks() -> Figure:
     """Draw random walks on the homework's graph as rows; at the threshold 185, more than half of them die."""
     graph = graphs.segment_graph([datasets.sample(name) for name in datasets.SAMPLES[:3]], threshold=185)
-    rows = np.array([_walk_costs(graph, 60, seed) for seed in range(40)])
+    odds = nx.to_numpy_array(graph, weight="probability")
+    costs = np.zeros_like(odds)
+    for leave, enter, cost in graph.edges(data="cost", default=0):
+        costs[leave, enter] = cost
+    rows = walk_costs(odds, costs)
     ax = plt.figure(figsize=(8, 3.6), layout="constrained").add_subplot()
     image = plotting.walk_rows(rows, highest=185, ax=ax)
     ax.figure.colorbar(image, ax=ax, label="D of a transition")
@@ -344,23 +336,10 @@ def draw_dying_walks() -> Figure:
 
 def draw_added() -> Figure:
     """Draw what a short blend of two windows that hardly match adds to the jolts of their clips."""
-    sneak, stop = (resample(datasets.sample(name), 30) for name in ("sneak", "stop_and_go"))
-    (i, j), window, around = _loose(sneak, stop), 6, 30
-    second = blending.lay_window_on(sneak, i, stop, j, window)[j - around : j + around]
-    result = blending.join(sneak, i, stop, j, window)[i - around : i + around]
-    weights = blending.cubic_weights(window)
-    return diagrams.added_by_blend(result, sneak[i - around : i + around], second, around, weights)
-
-
-def _loose(first: Motion, second: Motion) -> tuple[int, int]:
-    """Find the first windows between 8 and 9 cm apart, far from the ends of two clips."""
-    found = matching.find_transitions([first, second], window=WINDOW, below=0.09)
-    return next(
-        (match.leave, match.enter)
-        for match in found
-        if (match.source, match.target) == (0, 1) and match.cost > 0.08 and min(match.leave, match.enter) > 60
-        if match.leave < len(first) - 60 and match.enter < len(second) - 60
-    )
+    clips = [resample(datasets.sample(name), 30) for name in ("sneak", "stop_and_go")]
+    found = matching.find_transitions(clips, window=WINDOW, below=0.09)
+    (match,) = choose_matches(clips, found, (0.08, 0.09), count=1)
+    return diagrams.added_by_blend(passage(clips, match, 6))
 
 
 def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthesis.Problem:

@@ -1,8 +1,16 @@
 """Captured clips for notebooks that can do without them."""
 
+import os
+from pathlib import Path
+
 from mocap import datasets
-from mocap.body.motion import Motion
+from mocap.body.motion import Motion, resample
 from mocap.errors import MocapError
+from mocap.feet.footplants import mark_plants
+from mocap.files.load_save import load
+
+UNEVEN = ("03_01", "03_03", "03_04")  # walks on uneven ground
+SETTLED = 20  # frames at the start of CMU's trials: until there some joints turn too fast
 
 
 def people(*names: str) -> list[Motion]:
@@ -32,3 +40,37 @@ def people(*names: str) -> list[Motion]:
     except MocapError as error:
         print(f"Without real clips: {error}")
         return []
+
+
+def collections(fps: float = 120) -> dict[str, list[Motion]]:
+    """Give the four collections on which the course measures side by side, or those of them that are here.
+
+    Parameters
+    ----------
+    fps : frames per second. Where captured clips are resampled, their feet are marked as well.
+
+    Returns
+    -------
+    By name: "generated", four bundled clips; "homework", the homework's three walks, from a folder `hw3` in
+    the one that the environment variable MOCAP_DATA names, or beside it; "CMU 16", a person's 26 walks; and
+    "CMU 03", three walks of another one on uneven ground. Of CMU's trials the first 20 frames are cut.
+
+    Examples
+    --------
+    >>> [clip.name for clip in collections()["generated"]]
+    ['walk_straight', 'sneak', 'jog', 'stop_and_go']
+
+    Notebook: 09-discussion
+    """
+    near = Path(os.environ.get("MOCAP_DATA", "."))
+    walks = people(*(f"16_{trial}" for trial in (*range(11, 35), 47, 58)))
+    found = {
+        "generated": [datasets.sample(name) for name in datasets.SAMPLES[3:]],
+        "homework": [load(f) for f in sorted([*near.glob("hw3/*.AMC"), *near.parent.glob("hw3/*.AMC")])],
+        "CMU 16": [clip[SETTLED:] for clip in walks],
+        "CMU 03": [clip[SETTLED:] for clip in (people(*UNEVEN) if walks else [])],
+    }
+    if fps != 120:
+        found = {name: [resample(clip, fps) for clip in clips] for name, clips in found.items()}
+        found |= {name: list(map(mark_plants, clips)) for name, clips in found.items() if name != "generated"}
+    return {name: clips for name, clips in found.items() if clips}

@@ -111,7 +111,7 @@ def seen_beside_measured(
     >>> upper.lines[1].get_ydata().tolist()
     [2.8, 0.9]
 
-    Notebooks: 09-discussion, 09b-blend-window
+    Notebook: 09b-blend-window
     """
     upper, lower = Figure(figsize=(6, 5), layout="constrained").subplots(2, 1, sharex=True)
     at, value, low, high = np.atleast_2d(np.asarray(seen, float)).T

@@ -18,7 +18,7 @@ from mocap.course.site import PAGES, STILL, build_site
 from mocap.widgets import live
 from tests.refusals import refused
 
-NAMES = ("00-quickstart", "09-discussion")
+NAMES = ("00-quickstart", "09b-blend-window")
 ROOMS = ("mocap.body", "mocap.blending")  # of the reference; the sweep makes all
 
 
@@ -81,7 +81,7 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
 def test_the_menu_lists_the_pages_and_the_sections_of_its_own(site):
     text = (site / "00-quickstart.html").read_text("utf-8")
     assert '<a class="reference internal" href="#the-clips">The clips</a>' in text
-    assert '<a class="reference internal" href="09-discussion.html">09 ' in text
+    assert '<a class="reference internal" href="09b-blend-window.html">09b ' in text
 
 
 def test_each_page_says_what_is_live_and_how_to_run_it(site):
@@ -92,7 +92,7 @@ def test_each_page_says_what_is_live_and_how_to_run_it(site):
     text = (site / "00-quickstart.html").read_text("utf-8")
     playing = "the players play, quizzes and bets answer you and seams can be looked into"
     assert f"On this page {playing}; code and other controls are still." in text
-    blind = (site / "09-discussion.html").read_text("utf-8")
+    blind = (site / "09b-blend-window.html").read_text("utf-8")
     assert "quizzes and bets answer you and the blind test can be taken;" in blind
     assert live.STILL == STILL
     stills = [part[:200] for part in text.split('<div class="mocap-still">')[1:]]

@@ -33,6 +33,18 @@ def inner(thigh: float, shank: float, distance: float) -> float:
 # ---- Notebook 09
 
 
+def draw_gap(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Draw how far two clips are apart, and weights that fall between frames of ones and of zeros."""
+    weights = np.concatenate([np.ones(3), falling(rng), np.zeros(3)])
+    return rng.normal(size=(len(weights), int(rng.integers(1, 7)))).cumsum(axis=0), weights
+
+
+def added_terms(gap: Array, alpha: Array) -> tuple[Array, Array]:
+    """Give both terms of the product rule by central differences."""
+    slope, speed = (alpha[2:] - alpha[:-2]) / 2, (gap[2:] - gap[:-2]) / 2
+    return np.diff(alpha, 2)[:, None] * gap[1:-1], 2 * slope[:, None] * speed
+
+
 # ---- Notebook 09b
 
 
@@ -67,17 +79,6 @@ def falling(rng: np.random.Generator) -> Array:
     return (1 - steps / len(steps)) ** rng.uniform(1.5, 4)
 
 
-def draw_reaction_time(rng: np.random.Generator) -> tuple[int, NDArray[np.intp], Array, float]:
-    """Draw frames at which transitions leave, and a frame up to the last of them; sometimes one of them."""
-    leaves = np.unique(rng.integers(0, 200, int(rng.integers(3, 12))))
-    now = rng.choice(leaves) if rng.random() < 0.3 else rng.integers(0, leaves[-1] + 1)
-    return int(now), leaves, falling(rng), float(rng.integers(24, 121))
-
-
-def next_leave(asked: int, leaves: NDArray[np.intp]) -> int:
-    return int(leaves[leaves >= asked].min())
-
-
 # ---- Notebook 10
 
 
@@ -87,19 +88,6 @@ def draw_standing(rng: np.random.Generator) -> tuple[Array, float, float]:
     speeds = np.concatenate([level * rng.uniform(0.6, 1.4, rng.integers(3, 8)) for level in levels])
     speeds[: len(speeds) - 2 : 9] = 0.7
     return speeds, 0.2, 0.9
-
-
-def draw_running(rng: np.random.Generator) -> tuple[Array, int, float]:
-    """Draw speeds that vary with every step, of a walk and then a run."""
-    frames, span = 120, 2 * int(rng.integers(3, 10)) + 1
-    change = rng.integers(40, 80)
-    speeds = np.where(np.arange(frames) < change, 1.2, 2.8) + rng.normal(0, 0.9, frames)
-    return np.abs(speeds), span, 2.0
-
-
-def smooth(speeds: Array, span: int) -> Array:
-    counts = np.convolve(np.ones(len(speeds)), np.ones(span), "same")
-    return np.asarray(np.convolve(speeds, np.ones(span), "same") / counts)
 
 
 def share_kept(lengths: Indices, window: float, least: float = 0.0) -> float:

@@ -1,7 +1,7 @@
 """Where one clip passes into another: frames, weights, ways between two rotations, a leg, added jolts."""
 
 from collections.abc import Mapping
-from typing import Any
+from types import MappingProxyType
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,14 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.blending.weights import cubic_weights
-from mocap.body import Motion, rotations
+from mocap.body import rotations
 from mocap.course.diagrams.pens import trace
+from mocap.course.seam_trials import Passage
 from mocap.plotting import COLOURS, CURVES, MARK, QUIET, SOURCES, to_picture
-from mocap.quality.seam_measures import blend_jolts, jumps
 
 AROUND = 4  # frames of each clip before the window and after it
 FIRST, SECOND, RESULT = 2.6, 1.3, 0.0  # the heights of the rows
@@ -174,59 +173,48 @@ def _draw_angles(ax: Axes, knee: complex, ankle: complex) -> None:
     ax.text(knee.real + 0.1, knee.imag - 0.12, f"bend {bend:.0f}°")
 
 
-def added_by_blend(  # noqa: PLR0913 (the parameters of `blend_jolts`, and a step)
-    result: Motion, first: Motion, second: Motion, start: int, weights: ArrayLike, *, step: int = 4
-) -> Figure:
-    """Draw how a blend changes velocities, and which of the jolts are the blend's own.
+def added_by_blend(blended: Passage, terms: Mapping[str, Array] = MappingProxyType({})) -> Figure:
+    """Draw how a blend changes velocities, and the jolt that it adds.
 
     Parameters
     ----------
-    result, first, second, start, weights : as for `quality.blend_jolts`.
-    step : how much is drawn: 1 the root's velocities in both clips, 2 that in the blend too, 3 the jolts of
-        all three, 4 the jolt that the blend adds.
+    blended : as from `seam_trials.passage`.
+    terms : by their names, shape (F - 2, 3P) each, metres per frame: what explains this jolt.
 
     Returns
     -------
-    A figure with the velocities above, the jolts below, and the window shaded in both.
+    A figure with the root's velocities above, and the jolts below, in the window and a frame on either side.
 
     Examples
     --------
     >>> from mocap.blending import cubic_weights, join
     >>> from mocap.datasets.samples import sample
     >>> walk = sample("walk_straight")[:80]
-    >>> figure = added_by_blend(join(walk, 20, walk, 20, 10), walk, walk, 20, cubic_weights(10), step=2)
+    >>> blended = Passage(join(walk, 20, walk, 20, 10), walk, walk, 20, cubic_weights(10))
+    >>> figure = added_by_blend(blended, {"no gap, no jolt": blended.gap[1:-1]})
     >>> [len(ax.lines) for ax in figure.axes]
-    [3, 0]
+    [3, 1]
 
-    Notebook: 09b-blend-window
+    Notebook: 09-discussion
     """
-    window = len(np.asarray(weights))
-    above, below = (figure := Figure(figsize=(7.5, 5.2), layout="constrained")).subplots(2, 1, sharex=True)
-    travelled = first.root_positions[-1] - first.root_positions[0]
+    above, below = (figure := Figure(figsize=(7.5, 4.4), layout="constrained")).subplots(2, 1)
+    start, window = blended.start, len(blended.weights)
+    travelled = blended.first.root_positions[-1] - blended.first.root_positions[0]
     ahead = travelled / max(float(np.linalg.norm(travelled)), 1e-9)
-    tracks, jolts, colours = [], [], (*SOURCES[:2], COLOURS["middle"])
-    names = ("first clip", "second clip, aligned", "the blend")
-    for motion, name, colour in zip((first, second, result), names, colours, strict=True):
-        look: dict[str, Any] = {"color": colour, "linewidth": 1.3 if motion is result else 2.6}
-        tracks.append(np.diff(motion.root_positions, axis=0) @ ahead * motion.fps)
-        jolts.append(jumps(motion)[0])
-        if motion is not result or step >= 2:
-            above.plot((np.arange(len(motion) - 1) + 0.5) / motion.fps, tracks[-1], label=name, **look)
-        if step >= 3:  # at the ends there are none
-            times = np.arange(1, len(motion) - 1) / motion.fps
-            below.plot(times, jolts[-1][1:-1], label=name.removesuffix(", aligned"), **look)
-    low, wide = np.min(tracks), np.ptp(tracks)
-    above.set(ylabel="forward velocity of 'root' (m/s)", ylim=(low - 0.1, low + 1.35 * wide + 0.1))
-    below.set(xlabel="time (s)", ylabel="jolt, RMS over joints (m/s)", ylim=(0, 1.15 * np.max(jolts)))
-    if step >= 3:
-        below.axhline(0, color=QUIET, linewidth=0.8)
-    if step >= 4:
-        added = blend_jolts(result, first, second, start, weights).added
-        clock = (max(start - 1, 1) + np.arange(len(added))) / result.fps
-        below.fill_between(clock, added, color=MARK, zorder=1, label="added by the blend")
+    names, colours = ("first clip", "second clip, aligned", "the blend"), (*SOURCES[:2], COLOURS["middle"])
+    for motion, name, colour in zip(
+        (blended.first, blended.second, blended.result), names, colours, strict=True
+    ):
+        speeds = np.diff(motion.root_positions, axis=0) @ ahead * motion.fps
+        wide = 1.3 if motion is blended.result else 2.6
+        above.plot(np.arange(len(speeds)) + 0.5 - start, speeds, color=colour, linewidth=wide, label=name)
+    above.axvspan(0, window - 1, color=MARK, alpha=0.15, linewidth=0)
+    frames = np.arange(-1, window + 1)
+    below.fill_between(frames, blended.jolts.added, color=MARK, alpha=0.4, label="added jolt, measured")
+    for (name, term), colour in zip(terms.items(), CURVES, strict=False):
+        below.plot(frames, blended.size(term)[start - 2 :][: window + 2], color=colour, label=name)
+    above.set(ylabel="forward velocity\nof 'root' (m/s)")
+    below.set(xlabel="frame, counted from the start of the window", ylabel="jolt, RMS over\npoints (m/s)")
     for ax in (above, below):
-        if ax is above or step >= 3:
-            ax.legend(frameon=False, loc="upper left", ncols=4, fontsize=9)
-        ax.axvspan(start / result.fps, (start + window) / result.fps, color=MARK, alpha=0.15, linewidth=0)
-        ax.set_xlim(0, (len(result) - 1) / result.fps)
+        ax.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
     return figure

@@ -73,7 +73,7 @@ def blind_test(
     >>> blind_test(clips, matching.find_transitions(clips, window=10, below=0.04))
     Blind test: 20 pairs of films, seams below 4.0 cm, blends of 10 frames, seed 0.
 
-    Notebooks: 09-discussion, 09b-blend-window
+    Notebook: 09b-blend-window
     """
     plan = Plan(window, below, seed)
     return BlindTest(make_pairs(clips, found, plan), plan)
@@ -95,7 +95,7 @@ class BlindTest:
     @cached_property
     def still(self) -> Picture:
         """The first pair, the left film above."""
-        seam, control, on_left, _ = self.pairs[0]
+        seam, control, on_left, *_ = self.pairs[0]
         films = [seam, control] if on_left else [control, seam]
         return stack([figure_of(film_strip([film])) for film in films], ALT)
 
@@ -146,12 +146,16 @@ def packed(films: Sequence[Motion]) -> tuple[dict[str, Any], list[dict[str, Any]
 
 
 class Pair(NamedTuple):
-    """Two films, the control and the one with the seam, and whether the seam is in the left one."""
+    """Two films, the one with the seam and its control, and whether the seam is in the left one.
+
+    `other` is the clip of the two that the control does not show: a film without a seam in the seam's place.
+    """
 
     seam: Motion
     control: Motion
     on_left: bool
     match: Transition
+    other: Motion
 
 
 class Plan(NamedTuple):
@@ -217,8 +221,8 @@ def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[
         start = seam_at - plan.window // 2
         second = lay_window_on(first, start, second, start, plan.window)
         joined = join(first, start, second, start, plan.window)
-        control = first if rng.random() < 0.5 else second
+        control, other = (first, second) if rng.random() < 0.5 else (second, first)
         ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
-        films = ahead.apply_motion(joined), ahead.apply_motion(control)
-        pairs.append(Pair(*films, bool(rng.random() < 0.5), match))
+        films = (ahead.apply_motion(film) for film in (joined, control))
+        pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(other)))
     return pairs

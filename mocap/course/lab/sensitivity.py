@@ -53,7 +53,7 @@ def d_prime(right: int, of: int, confidence: float = 0.95) -> DPrime:
     >>> round(d_prime(20, 20).value, 2), d_prime(20, 20).high  # the most that 20 answers can show
     (2.8, inf)
 
-    Notebooks: 09-discussion, 09b-blend-window
+    Notebook: 09b-blend-window
     """
     if not (0 <= right <= of and of > 0 and 0 < confidence < 1):
         raise MocapError(f"No d′ for {right} right answers of {of} at a confidence of {confidence}.")
@@ -149,7 +149,7 @@ def read_answers(files: str | Path | Iterable[str | Path]) -> list[Answer]:
     Traceback (most recent call last):
     mocap.errors.MocapError: There are no files of answers.
 
-    Notebooks: 09-discussion, 09b-blend-window
+    Notebook: 09b-blend-window
     """
     answers: dict[tuple[object, ...], Answer] = {}
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
@@ -209,7 +209,7 @@ def class_curve(answers: Sequence[Answer], over: Literal["below_cm", "window"]) 
     >>> class_curve(answers, "below_cm")
     [ClassPoint(setting=4.0, people=1, right=15, of=20, seen=DPrime(...))]
 
-    Notebooks: 09-discussion, 09b-blend-window
+    Notebook: 09b-blend-window
     """
     if over not in ("below_cm", "window"):
         raise MocapError(f"A curve of a class runs over 'below_cm' or 'window', got {over!r:.40}.")

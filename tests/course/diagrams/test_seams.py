@@ -7,9 +7,11 @@ from matplotlib.colors import to_rgb
 from mocap.blending import cubic_weights, join, lay_window_on
 from mocap.body import rotations
 from mocap.course.diagrams import added_by_blend, blended_seam, knee_triangle, turning_paths
+from mocap.course.seam_trials import Passage
 from mocap.datasets.samples import sample
+from mocap.matching.point_clouds import point_cloud
 from mocap.plotting import MARK, SOURCES
-from mocap.quality import blend_jolts, jumps
+from mocap.quality import blend_jolts
 
 ALPHA = 0.6
 
@@ -68,34 +70,19 @@ SECOND = lay_window_on(WALK, 500, WALK, 233, 12)[223:293]
 RESULT = join(WALK, 500, WALK, 233, 12)[490:560]
 
 
-def drawn(step):
-    return added_by_blend(RESULT, FIRST, SECOND, 10, cubic_weights(12), step=step).axes
-
-
-def test_each_step_adds_what_it_says_on_the_same_axes_with_the_window_shaded():
-    steps = [drawn(step) for step in range(1, 5)]
-    counts = [[len(above.lines), len(below.lines), len(below.collections)] for above, below in steps]
-    assert counts == [[2, 0, 0], [3, 0, 0], [3, 4, 0], [3, 4, 1]]
-    limits = [[(*ax.get_xlim(), *ax.get_ylim()) for ax in axes] for axes in steps]
-    assert all(np.allclose(limits[0], other) for other in limits[1:])
-    for ax in steps[0]:
-        ends = ax.patches[0].get_extents().transformed(ax.transData.inverted()).intervalx
-        assert ends * WALK.fps == pytest.approx([10, 22])
-
-
-def test_outside_the_window_the_blend_has_the_velocity_of_one_clip():
-    first, second, result = (line.get_ydata() for line in drawn(4)[0].lines)
+def test_what_a_blend_adds_is_drawn_as_measured_beside_the_terms_that_explain_it():
+    blended = Passage(RESULT, FIRST, SECOND, 10, cubic_weights(12))
+    above, below = added_by_blend(blended, {"term": blended.gap[1:-1]}).axes
+    ends = above.patches[0].get_extents().transformed(above.transData.inverted()).intervalx
+    assert ends == pytest.approx([0, 11])
+    first, second, result = (line.get_ydata() for line in above.lines)
     assert result[:9] == pytest.approx(first[:9])
     assert result[22:] == pytest.approx(second[22:])
     ahead = FIRST.root_positions[-1] - FIRST.root_positions[0]
     assert first.sum() / WALK.fps == pytest.approx(np.linalg.norm(ahead))
-
-
-def test_the_jolts_are_the_measured_ones():
-    below = drawn(4)[1]
-    for line, motion in zip(below.lines, (FIRST, SECOND, RESULT), strict=False):
-        assert line.get_ydata() == pytest.approx(jumps(motion)[0][1:-1])
-    (area,) = below.collections
+    (area,), (term,) = below.collections, below.lines
     assert np.allclose(area.get_facecolor()[0, :3], [int(MARK[n : n + 2], 16) / 255 for n in (1, 3, 5)])
     added = blend_jolts(RESULT, FIRST, SECOND, 10, cubic_weights(12)).added
     assert area.get_paths()[0].vertices[:, 1].max() == pytest.approx(added.max())
+    gaps = np.linalg.norm(point_cloud(FIRST) - point_cloud(SECOND), axis=-1)
+    assert term.get_ydata() == pytest.approx(np.sqrt((gaps**2).mean(axis=1))[9:23] * WALK.fps)

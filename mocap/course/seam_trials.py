@@ -1,0 +1,228 @@
+"""What the discussion shares: random walks by a matrix, matches drawn at random, and blends of these.
+
+Both questions are asked of many collections of clips in the same way, in notebooks 09 and 09b.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mocap._shared.arrays import Array
+from mocap.blending.joining import inertialize, join, lay_window_on
+from mocap.blending.weights import cubic_weights
+from mocap.body.motion import Motion
+from mocap.matching.point_clouds import point_cloud
+from mocap.matching.transitions import Transition, Transitions
+from mocap.quality.seam_measures import BlendJolts, blend_jolts
+from mocap.quality.standing_feet import ground_slides
+
+MATCHED = 10  # frames of a window in which matches were found; blends are centred at its middle
+BESIDE = 24  # frames of both clips on either side of this middle
+
+
+def walk_costs(odds: Array, costs: Array, *, walks: int = 40, steps: int = 60, seed: int = 0) -> Array:
+    """Walk at random by a matrix of probabilities, and list what the steps cost.
+
+    Parameters
+    ----------
+    odds : shape (S, S), P[i, j] of the step from i to j; where a row holds zeros only, a walk ends.
+    costs : shape (S, S), of these steps.
+    walks, steps, seed : how many walks of how many steps; they start where P leads on.
+
+    Returns
+    -------
+    Shape (walks, steps): NaN after the end of a walk, as `plotting.walk_rows` draws them.
+
+    Examples
+    --------
+    >>> walk_costs(np.array([[0.0, 1], [0, 0]]), np.array([[0.0, 7], [0, 0]]), walks=1, steps=3)
+    array([[ 7., nan, nan]])
+
+    Notebook: 09-discussion
+    """
+    rng, rows = np.random.default_rng(seed), np.full((walks, steps), np.nan)
+    for row in rows:
+        at = rng.choice(np.flatnonzero(odds.any(axis=1)))
+        for step in range(steps):
+            if not odds[at].any():
+                break
+            before, at = at, rng.choice(len(odds), p=odds[at] / odds[at].sum())
+            row[step] = costs[before, at]
+    return rows
+
+
+def visit(odds: Array, jumps: Array, costs: Array, *, steps: int = 60) -> tuple[float, float]:
+    """Follow all random walks at once, from starts that are equally likely, without random numbers.
+
+    Parameters
+    ----------
+    odds : shape (S, S), P.
+    jumps : the part of P that belongs to transitions.
+    costs : of transitions, shape (S, S).
+
+    Returns
+    -------
+    Transitions per step, and their mean cost; 0 and 0 where there are none.
+
+    Examples
+    --------
+    >>> odds = np.array([[0, 0.5, 0.5], [1, 0, 0], [1, 0, 0]])
+    >>> visit(odds, odds * [[0, 0, 1], [0, 0, 0], [0, 0, 0]], np.full((3, 3), 7.0))
+    (0.25, 7.0)
+
+    Notebook: 09-discussion
+    """
+    at, visits = np.full(len(odds), 1 / len(odds)), np.zeros(len(odds))
+    for _ in range(steps):
+        visits, at = visits + at * odds.any(axis=1), at @ odds
+    taken = visits[:, None] * jumps
+    total = float(taken.sum())
+    return total / max(float(visits.sum()), 1e-9), float((taken * costs).sum()) / max(total, 1e-9)
+
+
+def choose_matches(
+    clips: Sequence[Motion],
+    found: Transitions,
+    limits: tuple[float, float],
+    *,
+    count: int = 30,
+    beside: int = BESIDE,
+) -> list[Transition]:
+    """Draw matches of two different clips at random, with room for a `passage` around them.
+
+    Parameters
+    ----------
+    clips : in which they were found, over windows of ten frames.
+    found : as from `matching.find_transitions`.
+    limits : their costs, from the first to just below the second, metres.
+    count : how many; fewer where there are no more.
+    beside : frames of both clips on either side.
+
+    Examples
+    --------
+    >>> choose_matches([], Transitions(*np.zeros((4, 0), int), np.zeros(0), None), (0, 0.04))
+    []
+
+    Notebook: 09-discussion
+    """
+    lengths, half = np.array([len(clip) for clip in clips], int), MATCHED // 2
+    after = np.minimum(lengths[found.source] - found.leave, lengths[found.target] - found.enter)
+    room = (np.minimum(found.leave, found.enter) >= beside - half) & (after >= beside + half)
+    near = (found.cost >= limits[0]) & (found.cost < limits[1]) & (found.source != found.target)
+    numbers = np.random.default_rng(0).permutation(np.flatnonzero(room & near))
+    return [found[number] for number in numbers[:count]]
+
+
+class Passage(NamedTuple):
+    """A blend and its two clips on one clock, the second one aligned, as `quality.blend_jolts` takes them."""
+
+    result: Motion
+    first: Motion
+    second: Motion
+    start: int
+    weights: Array
+
+    @property
+    def alpha(self) -> Array:
+        """The weight of the first clip in each frame, shape (F,)."""
+        after = len(self.first) - self.start - len(self.weights)
+        return np.concatenate([np.ones(self.start), self.weights, np.zeros(after)])
+
+    @property
+    def gap(self) -> Array:
+        """How far the points of the two clips are apart, shape (F, 3P), metres."""
+        return (point_cloud(self.first) - point_cloud(self.second)).reshape(len(self.first), -1)
+
+    def size(self, vectors: Array) -> Array:
+        """Give the RMS length over the points of vectors (F, 3P), metres per frame, in m/s, shape (F,)."""
+        points = np.asarray(vectors).reshape(len(vectors), -1, 3)
+        return np.asarray(np.sqrt((points**2).sum(axis=-1).mean(axis=-1)) * self.first.fps)
+
+    @property
+    def jolts(self) -> BlendJolts:
+        """The jolts of the result and of both clips, and what the blend adds."""
+        return blend_jolts(*self)
+
+    @property
+    def slide(self) -> float:
+        """How much further planted feet slide than in the two clips, each up to or from the middle, cm."""
+        middle = self.start + len(self.weights) // 2
+        own = ground_slides(self.first)[:middle].sum() + ground_slides(self.second)[middle:].sum()
+        return float(ground_slides(self.result).sum() - own)
+
+
+def passage(
+    clips: Sequence[Motion],
+    match: Transition,
+    window: int,
+    weights: Callable[[int], Array] | None = cubic_weights,
+    *,
+    beside: int = BESIDE,
+) -> Passage:
+    """Blend two clips over a window that is centred at a match.
+
+    Parameters
+    ----------
+    clips : with contacts of the feet for slides.
+    match : from `choose_matches`.
+    window : frames k of the blend.
+    weights : as for `blending.join`; None stands for `blending.inertialize`.
+    beside : frames of both clips on either side.
+
+    Notebook: 09-discussion
+    """
+    middles = ((match.source, match.leave + MATCHED // 2), (match.target, match.enter + MATCHED // 2))
+    first, second = (clips[clip][middle - beside : middle + beside] for clip, middle in middles)
+    start = beside - window // 2
+    laid = lay_window_on(first, start, second, start, window)
+    if weights is None:
+        return Passage(inertialize(first, start, second, start, window), first, laid, start, np.zeros(window))
+    mixed = join(first, start, second, start, window, weights=weights)
+    return Passage(mixed, first, laid, start, weights(window))
+
+
+class Blends(NamedTuple):
+    """What blends of N matches over W windows do, shape (W, N) each.
+
+    added : the largest added jolt, m/s.
+    leads : whether the second of both terms is larger than the first.
+    stands_out : whether the result jolts more than both clips.
+    slide : the slide added, cm.
+    """
+
+    added: Array
+    leads: Array
+    stands_out: Array
+    slide: Array
+
+
+def measure_blends(
+    clips: Sequence[Motion],
+    matches: Sequence[Transition],
+    windows: Sequence[int],
+    terms: Callable[[Array, Array], Sequence[Array]],
+) -> Blends:
+    """Blend each match over each window by cubic weights, and measure what the blend adds.
+
+    Parameters
+    ----------
+    clips, matches : as for `passage`.
+    windows : W numbers of frames.
+    terms : gives for `Passage.gap` and `Passage.alpha` two arrays (F - 2, 3P), of which the leading one is
+        asked for.
+
+    Examples
+    --------
+    >>> measure_blends([], [], [4, 10], lambda gap, alpha: (gap, gap)).added.shape
+    (2, 0)
+
+    Notebook: 09-discussion
+    """
+    each = list[tuple[float, ...]]()
+    for window in windows:
+        for blended in (passage(clips, match, window) for match in matches):
+            place, speed = (blended.size(term).max() for term in terms(blended.gap, blended.alpha))
+            jolts = blended.jolts
+            each.append((jolts.added.max(), speed > place, jolts.stands_out, blended.slide))
+    return Blends(*np.reshape(np.array(each, float), (len(windows), len(matches), 4)).transpose(2, 0, 1))
