@@ -93,18 +93,6 @@ def draw_turn_between(rng: np.random.Generator) -> tuple[float, float]:
     return a, wrapped(a + float(apart))
 
 
-def draw_mean_heading(rng: np.random.Generator) -> tuple[Array]:
-    """Draw headings around the cut at ±180°; now and then all the same."""
-    middle = np.pi + rng.uniform(-0.3, 0.3)
-    spread = 0.0 if rng.integers(8) == 0 else 0.8
-    headings = middle + spread * rng.uniform(-1, 1, int(rng.integers(3, 9)))
-    return ((headings + np.pi) % TURN - np.pi,)
-
-
-def mean_vector(headings: ArrayLike) -> tuple[float, float]:
-    return float(np.sin(headings).mean()), float(np.cos(headings).mean())
-
-
 def draw_nearest_twin(rng: np.random.Generator) -> tuple[Array, Array]:
     """Draw the angles z, x, y of two frames: nearly the same, or near twins, plus whole turns."""
     before = rng.uniform(-1, 1, 3) * [np.pi, 1.2, np.pi]
