@@ -19,6 +19,7 @@ import numpy as np
 from mocap._shared.limits import Overdue, time_limit
 
 Answer = Callable[..., Any]
+Table = Mapping[str, Any]
 
 
 class Mistake(NamedTuple):
@@ -118,9 +119,7 @@ class Check:
 
     seconds = 30.0
 
-    def __init__(
-        self, name: str, table: Mapping[str, Any], known: Mapping[str, Any], notebook: str = ""
-    ) -> None:
+    def __init__(self, name: str, table: Table, known: Mapping[str, Any], notebook: str = "") -> None:
         self.name, self.notebook = name, notebook
         self.asks, self.start, self.trials = table["asks"], table["start"], table.get("trials", 40)
         self._table, self._known = table, {**globals(), **known}
@@ -129,9 +128,8 @@ class Check:
         named = {word.split(".")[-1]: getattr(eval(word, self._known), "__module__", "") for word in called}
         self.oracles = [name for name, room in named.items() if re.match(r"mocap\.(?!course\.)", room or "")]
         self.draw, self.truth = self._function(table["draw"], "rng"), self._function("right", table["takes"])
-        self.mistakes = [
-            Mistake(self._function(wrong, table["takes"]), hint) for wrong, hint in table["wrong"].items()
-        ]
+        wrong = table["wrong"].items()
+        self.mistakes = [Mistake(self._function(one, table["takes"]), hint) for one, hint in wrong]
 
     def _function(self, expression: str, takes: str) -> Answer:
         """Make a function of an expression of a table."""

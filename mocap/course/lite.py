@@ -69,9 +69,8 @@ def _copy(notebooks: Path, contents: Path) -> None:
 
 def _call(folder: str, command: list[str | Path]) -> None:
     """Run a Python module in a folder, where it may leave files."""
-    done = subprocess.run(
-        [sys.executable, "-m", *map(str, command)], cwd=folder, capture_output=True, text=True, check=False
-    )
+    whole = [sys.executable, "-m", *map(str, command)]
+    done = subprocess.run(whole, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode:
         last = (done.stderr or done.stdout).strip().splitlines()[-1:]
         raise MocapError(f"'{command[0]} {command[1]}' failed: {shortened(''.join(last), 120)}")

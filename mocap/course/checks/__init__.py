@@ -22,9 +22,8 @@ FILES = ("poses", "likeness", "graphs", "walks", "measures", "edits")
 @cache
 def all_checks() -> dict[str, Check]:
     """Return every check by its name, notebook by notebook."""
-    known = {
-        name: value for file in FILES for name, value in vars(import_module(f"{__name__}.{file}")).items()
-    }
+    files = [vars(import_module(f"{__name__}.{file}")) for file in FILES]
+    known = {name: value for file in files for name, value in file.items()}
     found: dict[str, Check] = {}
     for file in sorted(Path(__file__).parent.glob("*.toml")):
         for name, table in tomllib.loads(file.read_text("utf-8")).items():

@@ -98,6 +98,9 @@ def within_reach(rows: Array, reach: float) -> NDArray[np.bool_]:
 # ---- Notebook 15
 
 
+Stood = tuple[float, complex]
+
+
 def draw_next_row(rng: np.random.Generator) -> tuple[Array, Array, Array]:
     """Draw what is known of the row above, with cells that no path has reached, and a row of costs."""
     diagonal = rng.uniform(1, 5, 8)
@@ -123,9 +126,7 @@ def draw_ground_step(rng: np.random.Generator) -> tuple[float, complex, Array, P
     return float(rng.uniform(-3, 3)), place, turns, moves, rng.dirichlet(np.ones(3))
 
 
-def step(
-    heading: float, place: complex, turns: Array, moves: Points, weights: Array
-) -> tuple[float, complex]:
+def step(heading: float, place: complex, turns: Array, moves: Points, weights: Array) -> Stood:
     after = heading - float(weights @ (turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + after)
     return after, complex(place + weights @ (np.exp(1j * angles) * moves))
@@ -220,9 +221,8 @@ def shares(distances: Array) -> Array:
 
 def same_or_nan(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     """Compare numbers; those that are none are the same only as themselves."""
-    return np.shape(given) == np.shape(wanted) and np.allclose(
-        given, wanted, rtol=1e-8, atol=1e-9, equal_nan=True
-    )
+    same_shape = np.shape(given) == np.shape(wanted)
+    return same_shape and np.allclose(given, wanted, rtol=1e-8, atol=1e-9, equal_nan=True)
 
 
 def draw_neighbour_weights(rng: np.random.Generator) -> tuple[Array]:

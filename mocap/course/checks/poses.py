@@ -146,9 +146,8 @@ def normalised(q: Array) -> Array:
 
 def draw_mix(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:
     """Draw two motions of three joints, in some frames with equal poses, and falling weights."""
-    body = Skeleton(
-        ["hip", "knee", "foot"], np.array([-1, 0, 1]), np.array([[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
-    )
+    offsets = np.array([[0, 0, 0], [0, -0.4, 0], [0, -0.4, 0]])
+    body = Skeleton(["hip", "knee", "foot"], np.array([-1, 0, 1]), offsets)
     frames = int(rng.integers(4, 9))
     turns = normalised(rng.normal(size=(2, frames, 3, 4)))
     turns[1, 0] = turns[0, 0] * rng.choice([-1, 1])

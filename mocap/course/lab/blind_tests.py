@@ -183,9 +183,7 @@ def choose(clips: Sequence[Motion], found: Transitions, plan: Plan) -> Transitio
     usable: Transitions = found[near & elsewhere & (around >= round((SECONDS / 2 + AROUND + MATCHED) * fps))]
     if len(usable) < plan.pairs:
         costs = f"{100 * NEAR * plan.below:.1f} to {100 * plan.below:.1f} cm"
-        needed = (
-            f"{plan.pairs} matches of {costs}, with {SECONDS / 2 + AROUND:.1f} s of both clips around them"
-        )
+        needed = f"{plan.pairs} matches of {costs}, with {SECONDS / 2 + AROUND:.1f} s of both clips around"
         raise MocapError(f"A blind test needs {needed}; got {len(usable)}.")
     chosen: Transitions = usable[np.random.default_rng(plan.seed).permutation(len(usable))[: plan.pairs]]
     return chosen

@@ -97,9 +97,8 @@ def _place_exercises(search: Any, graph: OwnGraph, path: GroundPath, by: Tools) 
     def look_ahead(walk: Walk) -> Walk:
         ahead = np.append(search.before[walk.node], search.ahead[walk.node])
         stands = walk.turn, walk.move, walk.along, walk.cost
-        return walk._replace(
-            expected=by.look_ahead(stands, ahead, lambda s: path.at(s) @ [1j, 1], plain.RESCUE)
-        )
+        expected = by.look_ahead(stands, ahead, lambda s: path.at(s) @ [1j, 1], plain.RESCUE)
+        return walk._replace(expected=expected)
 
     def lengthen(walk: Walk, edge: Edge) -> Walk:
         data, track = graph.graph.edges[edge], search.tracks[edge]

@@ -82,9 +82,8 @@ class Places:
         """Let each joint climb to the root."""
         joints, frames = range(len(clip.skeleton)), zip(clip.root_positions, clip.rotations, strict=True)
         climb = self._by.climb
-        return np.array(
-            [[at + climb(clip.skeleton, turns, joint) for joint in joints] for at, turns in frames]
-        )
+        body = clip.skeleton
+        return np.array([[at + climb(body, turns, joint) for joint in joints] for at, turns in frames])
 
     def distance_grid(self, a: Array, b: Array) -> Array:
         """Compare all windows by sums along diagonals."""

@@ -128,9 +128,8 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
         asking = list(range(before, len(found)))
     _warn(found, left_out)
     own = [_in_own_frames(web, clip, one) for one in found]
-    own[0] = own[0]._replace(
-        start=frames.start or 0, stop=len(web.clips[clip]) if frames.stop is None else frames.stop
-    )
+    first, last, _ = frames.indices(len(web.clips[clip]))
+    own[0] = own[0]._replace(start=first, stop=last)
     return own
 
 
@@ -240,7 +239,7 @@ def crossings(web: MatchWeb, start: int, stop: int, below: float) -> Iterator[Ma
     needed = COVER * (stop - start)
     for side in (0, 1):
         covered = np.minimum(last[:, side], stop - 1) - np.maximum(first[:, side], start) + 1
-        for number in np.flatnonzero(covered >= needed):
+        for number in np.flatnonzero(covered >= needed).tolist():
             cells, costs = web.path(number)
             inside = slice(*np.searchsorted(cells[:, side], [start, stop]))
             cost = float(costs[inside].mean())

@@ -69,9 +69,7 @@ class MatchWeb:
     def __repr__(self) -> str:
         return f"MatchWeb({len(self.clips)} clips, {len(self)} paths, below {100 * self.below:g} cm)"
 
-    def path(
-        self, number: int | np.integer[Any]
-    ) -> tuple[NDArray[np.integer[Any]], NDArray[np.floating[Any]]]:
+    def path(self, number: int) -> tuple[NDArray[np.integer[Any]], NDArray[np.floating[Any]]]:
         """Give the cells of a path, shape (K, 2), and their costs, shape (K,)."""
         part = slice(self.offsets[number], self.offsets[number + 1])
         return self.cells[part], self.costs[part]
@@ -226,9 +224,7 @@ def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
     for name, known, clip in zip(names, arrays["fingerprints"].tolist(), clips, strict=True):
         if fingerprint(clip) != known and not (clip.name == name and is_bundled(clip)):
             built, given = shortened(name, 50), shortened(clip.name, 50)
-            raise MocapError(
-                f"{path} was built of '{built}', not of this '{given}': take that, or build anew."
-            )
+            raise MocapError(f"{path} was built of '{built}', not this '{given}': take that, or build anew.")
     at_rate = [int(clip.duration * MatchWeb.rate + 1e-9) + 1 for clip in clips]  # as `resample` counts
     if not np.all((arrays["lengths"] == at_rate) | (arrays["lengths"] == 0)):
         raise FormatError(path, None, f"clips of {shortened(str(at_rate), 60)} frames", "a damaged file")

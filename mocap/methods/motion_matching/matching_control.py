@@ -14,6 +14,8 @@ from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
 from mocap.methods.motion_matching.springs import fade
 from mocap.steering.characters import Pose, place_frames, require_command
 
+USUAL = Wants()
+
 
 class MotionMatcher:
     """A character that searches all clips for the frame to play next; it fits `steering.Character`.
@@ -44,10 +46,8 @@ class MotionMatcher:
     Notebook: 18-motion-matching
     """
 
-    def __init__(
-        self, database: PoseDatabase, wants: Wants | None = None, *, start: int | None = None
-    ) -> None:
-        self.database, self.wants = database, wants or Wants()
+    def __init__(self, database: PoseDatabase, wants: Wants = USUAL, *, start: int | None = None) -> None:
+        self.database, self.wants = database, wants
         self.wants.check()
         self.frame = int(np.argmax(database.usable)) if start is None else start
         if not 0 <= self.frame < len(database):

@@ -24,6 +24,7 @@ from mocap.matching.point_clouds import distinct_joints
 
 MARGIN = 0.38  # of an action, before and after it
 FINE = 60  # phases per stride
+Cut = tuple[Motion, Array]  # a clip, and its frames (G,) at the phases of a grid
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,9 +134,7 @@ class Examples:
             raise MocapError(f"Examples are joined with the same marks; some of them lack {min(odd)}.")
 
 
-def on_one_clock(
-    found: Sequence[tuple[Motion, Array]], within: tuple[int, int]
-) -> list[tuple[Motion, Array]]:
+def on_one_clock(found: Sequence[Cut], within: tuple[int, int]) -> list[Cut]:
     """Put the frames of all examples on the clock of the one whose turn is the median [KG03].
 
     They are registered from the one to the other of two phases, by their numbers. Outside each clip goes on
@@ -156,16 +155,15 @@ def on_one_clock(
     return rows
 
 
-def cut_actions(
-    clips: Sequence[Motion], spans: Sequence[tuple[int, int]], *, margin: float = MARGIN
-) -> Examples:
+def cut_actions(clips: Sequence[Motion], spans: Sequence[tuple[int, int]]) -> Examples:
     """Cut one action out of each clip, register them, and put all on one grid of phases [HG07, examples].
+
+    At both ends 0.38 of the action is kept for the windows of transitions, which take 0.3 s.
 
     Parameters
     ----------
     clips : one for each example, of one skeleton and rate; feet that are not marked are marked.
     spans : for each clip the frames at which the action begins and ends.
-    margin : of the action, kept at both ends for the windows of transitions, which take 0.3 s.
 
     Raises
     ------
@@ -181,7 +179,7 @@ def cut_actions(
     if not clips or len(spans) != len(clips):
         raise MocapError(f"Actions are cut by one span for each clip, got {len(clips)} and {len(spans)}.")
     clips = require_alike(clips)
-    grid = np.arange(-round(margin * FINE), round((1 + margin) * FINE) + 1) / FINE
+    grid = np.arange(-round(MARGIN * FINE), round((1 + MARGIN) * FINE) + 1) / FINE
     found = []
     for clip, (first, last) in zip(clips, spans, strict=True):
         frames = first + grid * (last - first)
@@ -194,7 +192,7 @@ def cut_actions(
     return tabled(on_one_clock(found, (int(zero), int(one))), grid)
 
 
-def tabled(found: Sequence[tuple[Motion, Array]], grid: Array, *, dropped: int = 0) -> Examples:
+def tabled(found: Sequence[Cut], grid: Array, *, dropped: int = 0) -> Examples:
     """Take the motion at the frames (G,) of each clip."""
     step, names = grid[1] - grid[0], tuple(found[0][0].contacts)
     zero, one = np.searchsorted(grid, [-1e-9, 1 - 1e-9])

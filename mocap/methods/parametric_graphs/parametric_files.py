@@ -116,10 +116,9 @@ def save_parametric(graph: ParametricGraph, path: str | Path) -> None:
     MocapError : for another suffix, and where the file cannot be written.
     """
     nodes, edges = list(graph.graph), list(graph.graph.edges)
-    ends = {
-        key: [nodes.index(pair[side]) for pair in edges] for side, key in enumerate(("sources", "targets"))
-    }
-    arrays = {"nodes": nodes, **ends, **_taken(graph.space(nodes[0]).examples, BODY)}
+    sources, targets = ([nodes.index(pair[side]) for pair in edges] for side in (0, 1))
+    arrays = {"nodes": nodes, "sources": sources, "targets": targets}
+    arrays |= _taken(graph.space(nodes[0]).examples, BODY)
     for number, node in enumerate(nodes):
         arrays |= _taken(graph.space(node), NODE, f"_of_{number}")
     for number, pair in enumerate(edges):

@@ -104,9 +104,8 @@ def make_space(
     if not names or len(set(columns)) < len(names):
         raise MocapError(f"A space is asked by 'turn', 'speed' or both, got {', '.join(names) or 'none'}.")
     lowest, highest, width = ends = [np.atleast_1d(np.asarray(value, float)) for value in (low, high, width)]
-    if {end.shape for end in ends} != {(len(names),)} or not (
-        np.isfinite(ends).all() and (width > 0).all() and (lowest < highest).all()
-    ):
+    alike = {end.shape for end in ends} == {(len(names),)} and np.isfinite(ends).all()
+    if not (alike and (width > 0).all() and (lowest < highest).all()):
         raise MocapError(f"A range has ends low < high and a width above 0, got {ends}.")
     values = strides.values[:, columns]
     if len(values) < len(names) + 2 or (np.ptp(values, axis=0) < width / 2).any():

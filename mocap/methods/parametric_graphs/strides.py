@@ -105,9 +105,8 @@ def _examples(clip: Motion, feet: str, label: str, grid: Array) -> Iterator[Arra
             continue
         before = at[0] - events[first - 1][0] if first else 0.0
         after = events[first + count][0] - at[-1] if first + count < len(events) else 0.0
-        before, after = (
-            own if low <= own <= high else gap for own, gap in ((before, gaps[0]), (after, gaps[-1]))
-        )
+        pairs = (before, gaps[0]), (after, gaps[-1])
+        before, after = (own if low <= own <= high else gap for own, gap in pairs)
         phases = np.arange(-1, count + 1) / (count - 1)
         frames = np.interp(grid, phases, [at[0] - before, *at, at[-1] + after])
         yield frames if frames[0] >= 0 and frames[-1] <= len(clip) - 1 else None

@@ -183,9 +183,9 @@ def test_other_clips_are_refused(bundled, saved):
     clips = bundled.clips
     with pytest.raises(MocapError, match=r"web\.npz was built of 5 clips, got 4\."):
         load_web(saved, clips[:4])
-    with pytest.raises(MocapError, match="was built of 'walk_straight', not of this 'walk_circle'"):
+    with pytest.raises(MocapError, match="was built of 'walk_straight', not this 'walk_circle'"):
         load_web(saved, [clips[1], clips[0], *clips[2:]])
-    with pytest.raises(MocapError, match="not of this 'walk_straight': take that, or build anew"):
+    with pytest.raises(MocapError, match="not this 'walk_straight': take that, or build anew"):
         load_web(saved, [clips[0][1:], *clips[1:]])
 
 
