@@ -22,9 +22,7 @@ PACKAGE = ROOT / "mocap"
 MODULES = {str(path.relative_to(PACKAGE)): path for path in sorted(PACKAGE.rglob("*.py"))}
 ROOMS = sorted(path.parent.name for path in PACKAGE.glob("*/__init__.py"))
 STOREYS = ("course", "methods")  # rooms in them are rooms too
-ROOMS += sorted(
-    f"{storey}/{path.parent.name}" for storey in STOREYS for path in PACKAGE.glob(f"{storey}/*/__init__.py")
-)
+ROOMS += sorted(f"{s}/{path.parent.name}" for s in STOREYS for path in PACKAGE.glob(f"{s}/*/__init__.py"))
 ROOMS.remove("course/checks")  # a table a notebook, found by itself
 LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc__, re.MULTILINE))
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
@@ -48,12 +46,7 @@ def files(room: str) -> list[str]:
 
 
 def test_the_rooms_are_those_of_the_plan():
-    assert {path.name for path in PACKAGE.glob("*.py")} == {
-        "__init__.py",
-        "__main__.py",
-        "errors.py",
-        "plain.py",
-    }
+    assert {p.name for p in PACKAGE.glob("*.py")} == {"__init__.py", "__main__.py", "errors.py", "plain.py"}
     assert {"_shared", *LISTED} == {room for room in ROOMS if "/" not in room}
 
 

@@ -50,14 +50,7 @@ facing(q)
 [mocap.load(path).fps for path in paths]
 graph.nodes
 """
-    assert {function.__name__ for function in met(source)} == {
-        "build",
-        "heading",
-        "load",
-        "multiply",
-        "prune",
-        "resample",
-    }
+    assert {f.__name__ for f in met(source)} == {"build", "heading", "load", "multiply", "prune", "resample"}
 
 
 def test_every_function_that_the_course_uses_names_a_notebook_that_teaches_it():

@@ -48,9 +48,7 @@ def demo(
     walk = synthesis.to_motion(pruned, edges)
     _tell_of_clips(whole.clips)
     tell(candidates=f"{whole.count('transition') // 2} pairs of windows alike")
-    rows = [
-        (each.count("transition"), len(each.graph), each.graph.number_of_edges()) for each in (whole, pruned)
-    ]
+    rows = [(e.count("transition"), len(e.graph), e.graph.number_of_edges()) for e in (whole, pruned)]
     print(f"{'':<12} {'whole':>8}{'pruned':>8}")
     for name, *counts in zip(("transitions", "nodes", "edges"), *rows, strict=True):
         tell(**{name: "".join(f"{count:8}" for count in counts)})

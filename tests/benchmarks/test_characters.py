@@ -74,9 +74,7 @@ def test_worst_steps_beside_those_of_a_character_on_a_motion_graph():
         "steps": lambda: ParametricController(steps_),
         "matching": lambda: MotionMatcher(table),
     }
-    worst = {
-        name: min(measure_delay(make(), speed=0.8).worst for _ in range(5)) for name, make in makes.items()
-    }
+    worst = {n: min(measure_delay(make(), speed=0.8).worst for _ in range(5)) for n, make in makes.items()}
     print("\nworst steps:", ", ".join(f"{name} {took:.2f} ms" for name, took in worst.items()))
     assert worst["matching"] <= 1.2 * worst["motion graph"]
     assert max(worst["strides"], worst["steps"]) <= 3 * worst["motion graph"]

@@ -40,9 +40,7 @@ def minute():
 
 def median_change(experiment):
     slider = experiment.controls["frame"]
-    return statistics.median(
-        least(partial(setattr, slider, "value", frame), 1) for frame in range(0, 800, 40)
-    )
+    return statistics.median(least(partial(setattr, slider, "value", f), 1) for f in range(0, 800, 40))
 
 
 def drawn(artists):

@@ -22,9 +22,7 @@ WALK = sample("walk_straight")[:480]
 
 def share(work):
     """Return how many forward kinematics of 4 s of motion some work takes; the best of five runs."""
-    once, unit = (
-        min(timeit.repeat(call, number=3, repeat=5)) for call in (work, lambda: forward_kinematics(WALK))
-    )
+    once, unit = (min(timeit.repeat(c, number=3, repeat=5)) for c in (work, lambda: forward_kinematics(WALK)))
     print(f"\n{once / unit:.1f} forward kinematics, {1000 * once / 3:.1f} ms")
     return once / unit
 

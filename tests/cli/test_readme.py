@@ -36,9 +36,7 @@ def test_the_readme_shows_commands():
 def newcomer(tmp_path, monkeypatch):
     """Give a newcomer a folder with clips, and with a path."""
     (tmp_path / "my-clips").mkdir()
-    walk, *others = (
-        resample(samples.sample(f"walk_{name}"), 30) for name in ("curve_1", "curve_2", "circle")
-    )
+    walk, *others = (resample(samples.sample(f"walk_{n}"), 30) for n in ("curve_1", "curve_2", "circle"))
     for name, clip in zip("ab", others, strict=True):
         load_save.save(clip[:240], tmp_path / "my-clips" / f"{name}.bvh")
     load_save.save(walk[:200], tmp_path / "walk.amc")

@@ -164,9 +164,7 @@ def test_each_exercise_has_its_parts_in_order(name):
     assert len(found) >= 2
     for check in found:
         at = tags.index(f"exercise:{check}")
-        assert tags[at - 1 : at + 3] == [
-            f"{part}:{check}" for part in ("ask", "exercise", "check", "solution")
-        ]
+        assert tags[at - 1 : at + 3] == [f"{p}:{check}" for p in ("ask", "exercise", "check", "solution")]
         assert check in checks.all_checks()
 
 

@@ -38,9 +38,7 @@ def said(text):
     numbers = re.findall(
         r"(?<![\w.])\d{1,3}(?: \d{3})+(?:\.\d+)?(?![\w])|(?<![\w.])\d+(?:\.\d+)?(?![\w])", text
     )
-    return {
-        number.replace(" ", "") for number in numbers if len(re.sub(r"\D", "", number)) >= 3 or "." in number
-    }
+    return {n.replace(" ", "") for n in numbers if len(re.sub(r"\D", "", n)) >= 3 or "." in n}
 
 
 def printed(name):

@@ -154,9 +154,7 @@ KINDS |= {"walk_straight": "straight", "jog": "running"}
 def test_a_clip_moves_as_real_people_do(name, kind):
     for motion in parts(sample("jog"), "jog") if name == "jog" else [sample(name)]:
         measured = measure(motion)
-        outside = {
-            key: measured[key] for key, (low, high) in REAL[kind].items() if not low <= measured[key] <= high
-        }
+        outside = {k: measured[k] for k, (low, high) in REAL[kind].items() if not low <= measured[k] <= high}
         assert outside == {}
 
 

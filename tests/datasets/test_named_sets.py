@@ -54,9 +54,7 @@ def packed(clips):
 
 @pytest.fixture
 def server(monkeypatch, tmp_path, data, server):
-    clips = {
-        f"{name}{number}": bvh(tmp_path, "lafan1", number) for name in ("walk", "run") for number in (1, 2)
-    }
+    clips = {f"{n}{number}": bvh(tmp_path, "lafan1", number) for n in ("walk", "run") for number in (1, 2)}
     server.files["set.zip"] = packed(clips)
     known = {"archive": f"{server.url}/set.zip", "megabytes": 1}
     digest = hashlib.sha256(server.files["set.zip"]).hexdigest()

@@ -71,9 +71,7 @@ def test_it_says_where_the_line_was_rounded():
 
 
 def test_a_tighter_limit_rounds_more():
-    slow, fast, free = (
-        bend(clip("walk_straight"), CORNER, limit=np.radians(rate)) for rate in (30, 100, np.inf)
-    )
+    slow, fast, free = (bend(clip("walk_straight"), CORNER, limit=np.radians(r)) for r in (30, 100, np.inf))
     assert slow.off.max() > 2 * fast.off.max() > 2 * free.off.max()
     for bent, rate in ((slow, 30), (fast, 100)):
         assert np.abs(bent.turned).max() <= np.radians(rate + 1)

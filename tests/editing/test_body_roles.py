@@ -46,9 +46,7 @@ def test_the_trunk_is_found_by_the_tree():
     armless = renamed(walk(), {"lhumerus": "wing"})
     assert "chest" not in roles(armless.skeleton)  # nothing says where the arms meet
     legs = without(walk(), *SKELETON.names[13:]).skeleton
-    assert set(roles(legs)) == {"pelvis"} | {
-        role for role in ROLES if role.split()[-1] in "hip knee ankle ball"
-    }
+    assert set(roles(legs)) == {"pelvis"} | {r for r in ROLES if r.split()[-1] in "hip knee ankle ball"}
 
 
 def test_arms_that_hang_on_the_pelvis_make_no_chest():

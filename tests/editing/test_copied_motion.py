@@ -79,9 +79,7 @@ def test_there_and_back():
     back = copied(there, stance_of(fewer), adult())
     apart = joint_positions(back) - joint_positions(walk())
     assert 0.001 < rms(np.linalg.norm(apart, axis=-1)) < 0.025  # the turns of joints that it lacks are lost
-    legs = [
-        joint for role, joint in adult().roles.items() if role.split()[-1] in ("hip", "knee", "ankle", "ball")
-    ]
+    legs = [joint for r, joint in adult().roles.items() if r.split()[-1] in ("hip", "knee", "ankle", "ball")]
     assert np.abs(apart[:, legs]).max() < 1e-12
 
 

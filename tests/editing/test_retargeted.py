@@ -90,9 +90,7 @@ def broad() -> Stance:
     for side in "lr":
         offsets[old.index(f"{side}femur"), 0] *= 1.3
         offsets[old.index(f"{side}foot")] *= 0.85
-    heights = {
-        role: height + 0.03 * role.endswith("ankle") + 0.01 for role, height in adult().heights.items()
-    }
+    heights = {r: height + 0.03 * r.endswith("ankle") + 0.01 for r, height in adult().heights.items()}
     body = replace(old, offsets=offsets)
     return replace(adult(), skeleton=body, heights=heights)
 
@@ -248,9 +246,7 @@ def test_feet_that_slide_are_cleaned_up_first_and_no_further_plant_is_lost(real_
 
 
 def test_plants_are_held_at_the_heights_of_the_stance_a_flat_foot_apart():
-    thick = {
-        role: height + (0.02 if role.endswith("ankle") else 0.01) for role, height in child().heights.items()
-    }
+    thick = {r: height + (0.02 if r.endswith("ankle") else 0.01) for r, height in child().heights.items()}
     stance = replace(child(), heights=thick)
     base = copied(walk(), adult(), stance)
     pins = floor_pins(base, stance)

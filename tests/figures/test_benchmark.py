@@ -71,9 +71,7 @@ def test_an_answer_of_another_program_is_scored_as_those_of_methods(tmp_path):
     for case in CASES[1:]:
         (tmp_path / f"{case.name}.csv").write_text(f"{case.truth - 1}\n")
     rows = list(benchmark.run(TOY, CASES, tmp_path))
-    values = {
-        method: [row.value for row in rows if row.method == method] for method in ("guess", benchmark.ENTERED)
-    }
+    values = {m: [row.value for row in rows if row.method == m] for m in ("guess", benchmark.ENTERED)}
     assert np.array_equal(values["guess"], values[benchmark.ENTERED], equal_nan=True)  # the first is missing
 
 

@@ -81,9 +81,7 @@ class Glb:
     def skinned(self, seconds, rest=False):
         """Give where the body's corners are, (V, 3): the sum of weight · joint · inverse bind · corner."""
         attributes = self.document["meshes"][0]["primitives"][0]["attributes"]
-        places, joints, weights = (
-            self.arrays[attributes[key]] for key in ("POSITION", "JOINTS_0", "WEIGHTS_0")
-        )
+        places, joints, weights = (self.arrays[attributes[k]] for k in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
         bind = self.arrays[self.document["skins"][0]["inverseBindMatrices"]].reshape(-1, 4, 4).swapaxes(1, 2)
         moves = self.poses(seconds, rest) @ bind
         mixed = np.einsum("vk,vkij->vij", weights, moves[joints])

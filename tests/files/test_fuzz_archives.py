@@ -166,9 +166,7 @@ def changed(members, chance):
     if way == 0:
         return members | {name: members[other], other: data}
     if way == 1:
-        return {key: part for key, part in members.items() if key != name} | {
-            chance.choice(["a", other]): data
-        }
+        return {k: part for k, part in members.items() if k != name} | {chance.choice(["a", other]): data}
     try:
         array = np.load(io.BytesIO(data), allow_pickle=True)
     except Exception:  # it was broken before

@@ -48,9 +48,7 @@ def test_it_comes_back_bit_for_bit(tmp_path, graph):
     back = storage.load(tmp_path / "graph.npz", graph.clips[::-1])
     assert list(back.graph.nodes) == list(graph.graph.nodes)
     assert list(back.graph.edges(keys=True, data=True)) == list(graph.graph.edges(keys=True, data=True))
-    types = [
-        {k: type(v) for k, v in data.items()} for g in (back, graph) for *_, data in g.graph.edges(data=True)
-    ]
+    types = [{k: type(v) for k, v in d.items()} for g in (back, graph) for *_, d in g.graph.edges(data=True)]
     assert types[: len(types) // 2] == types[len(types) // 2 :]
     assert (back.clips, back.window) == (graph.clips, graph.window)
     again = tmp_path / "again.npz"

@@ -131,9 +131,7 @@ def test_in_32_bits_both_methods_differ_in_flat_valleys_only(window):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(transitions, "FEW", 0)
         every, few = both_ways(CLIPS, window=window, below=0.1)
-    places, others = (
-        set(zip(*(c.tolist() for c in found.columns[:4]), strict=True)) for found in (every, few)
-    )
+    places, others = (set(zip(*(c.tolist() for c in f.columns[:4]), strict=True)) for f in (every, few))
     assert len(places & others) > 0.95 * max(len(places), len(others))
     assert few.cost.min() == pytest.approx(every.cost.min(), abs=1e-6)
 

@@ -26,9 +26,7 @@ def sides(walk):
 
 def test_bodies_are_drawn_flat_where_they_are_from_the_side_and_from_the_front():
     walk = sample("walk_straight")
-    side, front = (
-        flat_bodies(walk, [0, 90], view=view, ax=Figure().add_subplot()) for view in ("side", "front")
-    )
+    side, front = (flat_bodies(walk, [0, 90], view=v, ax=Figure().add_subplot()) for v in ("side", "front"))
     for ax, across in ((side, 2), (front, 0)):
         points = joint_positions(walk)[90][:, [across, 1]]
         drawn = np.concatenate(ax.collections[1].get_segments())

@@ -63,9 +63,7 @@ def test_a_stick_figure_has_every_bone_where_the_joints_are_in_the_colour_of_its
     motion = replace(wave(5), skeleton=body, rotations=np.tile([1.0, 0, 0, 0], (5, 6, 1)), contacts={})
     (figure,) = stick_figures.stick_figure(motion, 2)
     at = to_picture(joint_positions(motion)[2])
-    expected = {
-        (*at[a], *at[b], side) for a, b, side in ((0, 1, "middle"), (0, 2, "middle"), (0, 5, "middle"))
-    }
+    expected = {(*at[a], *at[b], s) for a, b, s in ((0, 1, "middle"), (0, 2, "middle"), (0, 5, "middle"))}
     expected |= {(*at[1], *at[3], "left"), (*at[2], *at[4], "right")}
     named = {to_rgba(colour): side for side, colour in COLOURS.items()}
     colours = map(tuple, figure.bones.get_color())

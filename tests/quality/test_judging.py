@@ -75,9 +75,7 @@ def test_the_bundled_clips_pass_at_any_rate(name):
 
 
 def test_an_elbow_that_bends_backwards_is_found():
-    bent, straight = (
-        measured(turned("lradius", np.full(len(WALK), at), [1, 0, 0]), "bent") for at in (-25, 0)
-    )
+    bent, straight = (measured(turned("lradius", np.full(len(WALK), a), [1, 0, 0]), "bent") for a in (-25, 0))
     swung = np.where(np.arange(len(WALK)) % 200 < 20, 60.0, 0.0)
     broken = measured(turned("lradius", swung, [1, 0, 0]), "bent")
     assert broken.ratio > 1 > straight.ratio

@@ -181,9 +181,7 @@ def captured(real_data) -> tuple[list[Motion], Spread, list[Transition], list[Tr
     def leaps(t: Transition) -> bool:
         """Tell whether the data leap in one of the windows: then the seam has it from them."""
         around = ((t.source, t.leave), (t.target, t.enter))
-        return any(
-            np.isnan(usual.velocity[clip][max(at - 1, 0) : at + WINDOW + 1]).any() for clip, at in around
-        )
+        return any(np.isnan(usual.velocity[clip][max(a - 1, 0) : a + WINDOW + 1]).any() for clip, a in around)
 
     good, bad = ([t for t in every if low < t.cost < high] for low, high in ((0, 0.04), (0.2, 1)))
     whole = [[t for t in some if not leaps(t)] for some in (good, bad)]

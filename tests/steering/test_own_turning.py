@@ -18,9 +18,7 @@ OWN = turning_of(GRAPH)
 
 def ride_edges(clip):
     """Give the numbers of the edges that play a clip from its first node to its last."""
-    return np.array(
-        [n for n, (start, _, _) in enumerate(GRAPH.edges) if start[0] == clip and not GRAPH.blended[n]]
-    )
+    return np.array([n for n, (s, _, _) in enumerate(GRAPH.edges) if s[0] == clip and not GRAPH.blended[n]])
 
 
 def rows_of(edges):

@@ -59,9 +59,7 @@ def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds():
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_a_wider_beam_costs_more_and_follows_better_and_the_work_is_linear_in_the_length():
-    narrow, wide = (
-        follow_path(GRAPH, s_curve(15), settings=Settings(width=width, tries=1)) for width in (3, 100)
-    )
+    narrow, wide = (follow_path(GRAPH, s_curve(15), settings=Settings(width=w, tries=1)) for w in (3, 100))
     assert wide.found.cost < narrow.found.cost
     assert wide.found.expanded > 10 * narrow.found.expanded
     assert wide.found.cut > 0

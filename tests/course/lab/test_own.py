@@ -124,9 +124,7 @@ def test_a_steered_walk_takes_the_edges_that_were_chosen_and_knows_where_they_wo
 
 @pytest.mark.exhaustive
 def test_commands_are_obeyed_better_than_by_chance(by):
-    straight, circle = (
-        mocap.resample(datasets.sample(f"walk_{name}"), 30) for name in ("straight", "circle")
-    )
+    straight, circle = (mocap.resample(datasets.sample(f"walk_{n}"), 30) for n in ("straight", "circle"))
     graph = own.build_own([straight, circle[350:750]], WINDOW, BELOW, by)
     rng = np.random.default_rng(0)
     chance = replaced(by, next_edge=lambda turn, tracks, *command: rng.integers(len(tracks)))

@@ -135,10 +135,7 @@ def marked(request, copy, tmp_path_factory):
 def test_students_get_marks_only_for_what_is_right(marked):
     wanted = dict.fromkeys(DISHONEST, "01") | {"zoe": "11", "zz": "01"}
     wanted |= {name: right for name, (right, _) in (UNLUCKY | SPOILED).items()}
-    said = {
-        (row["handed in"].lstrip("'").split("/")[0], row["exercise"]): row
-        for row in rows(marked / "marks.csv")
-    }
+    said = {(r["handed in"].lstrip("'").split("/")[0], r["exercise"]): r for r in rows(marked / "marks.csv")}
     got = {name: "".join(said[name, exercise]["right"] for exercise in EXERCISES) for name in wanted}
     assert got == wanted
 
@@ -182,9 +179,7 @@ def test_no_line_is_a_formula_or_two_lines(marked):
     lines = (marked / "marks.csv").read_text("utf-8").splitlines()
     values = [value for row in rows(marked / "marks.csv") for value in row.values()]
     assert len(lines) == len(rows(marked / "marks.csv")) + 1
-    assert not any(value.startswith(("=", "+", "-", "@")) for value in values) and "\x1b" not in "".join(
-        lines
-    )
+    assert not any(v.startswith(("=", "+", "-", "@")) for v in values) and "\x1b" not in "".join(lines)
 
 
 def test_the_table_has_a_line_for_each_student_and_a_column_for_each_exercise(marked):

@@ -46,11 +46,7 @@ def test_the_command_writes_them_and_a_sheet_of_all(tmp_path, monkeypatch, capsy
     monkeypatch.setattr(board, "BOARD", few)
     assert main(["course", "board", "-o", str(tmp_path)]) == 0
     assert capsys.readouterr().out.startswith("wrote 3 pictures to")
-    assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "04-laid-on.png",
-        "11-pinned.png",
-        "board.png",
-    ]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["04-laid-on.png", "11-pinned.png", "board.png"]
 
 
 def test_the_sheet_beside_the_course_shows_all():

@@ -46,9 +46,7 @@ def common(match, clip, part):
 def judge(found, truth, share=0.5, forgiven=lambda match: False):
     """Count the true stretches (clip, slice) that were found, and the matches that are none of them."""
     hit = sum(any(common(match, *true) > share for match in found) for true in truth)
-    wrong = sum(
-        not forgiven(match) and all(common(match, *true) <= share for true in truth) for match in found
-    )
+    wrong = sum(not forgiven(match) and all(common(match, *t) <= share for t in truth) for match in found)
     return hit, wrong
 
 

@@ -60,9 +60,7 @@ def test_costs_are_those_of_a_distance_grid(source, target):
         for column, other in enumerate(to):
             two = make_motion(second, other)
             into = int(np.round(np.interp(0.0, two.phases, np.arange(len(two.phases)))))
-            some = [
-                made.motion[c - HALF - SPAN : c + HALF + SPAN + 1] for made, c in ((one, centre), (two, into))
-            ]
+            some = [m.motion[c - HALF - SPAN : c + HALF + SPAN + 1] for m, c in ((one, centre), (two, into))]
             grid = np.sqrt(np.maximum(distance_grid(*some, window=WINDOW), 0))
             assert found.cost[row, column] == pytest.approx(grid.min(), abs=2e-4)
 
@@ -86,9 +84,7 @@ def test_only_the_frames_near_a_strike_are_made():
 
 def test_windows_that_run_off_the_margins_of_quick_strides_are_refused():
     """A quiet `np.interp` would hold the last frame; with half a stride beyond its strikes a jog has room."""
-    jogs = [
-        resample(generate_walk([[0, 0], [side, 6], [5 * side, 12]], style="jog"), 30) for side in (-2, 0, 2)
-    ]
+    jogs = [resample(generate_walk([[0, 0], [s, 6], [5 * s, 12]], style="jog"), 30) for s in (-2, 0, 2)]
     tight, wide = (make_space(cut_strides(jogs, margin=m), 0.2, -0.3, 0.3) for m in (0.3, 0.5))
     with pytest.raises(MocapError, match=r"A window runs 0.\d+ s off a motion of 1.\d+ s, margins and all"):
         near_end(tight, np.zeros((1, 1)), 1.0)
