@@ -48,13 +48,12 @@ from mocap import (
     steering,
     synthesis,
 )
-from mocap.body import GroundPath, arcs, figure_eight, joint_positions, planar, rotations, spline, velocities
+from mocap.body import arcs, figure_eight, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
-from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES, TreePicture
-from mocap.plotting.search_tree import SearchTree
+from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
 
 Array = NDArray[np.float64]
 Edge = tuple[Hashable, Hashable, int]
@@ -356,29 +355,9 @@ def _steps(*, price: Callable[[complex, int, int], float], count: int) -> synthe
     return synthesis.Problem(graph, step, lambda state: state[2] == count)
 
 
-def _fan(tree: SearchTree, ax: Axes) -> None:
-    """Draw a search on the ground, seen from above."""
-    TreePicture(tree, places=[(at.imag, at.real) for at, _, _ in tree.state], ax=ax).after()
-    ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
-    ax.xaxis.set_inverted(True)
-
-
 def draw_search() -> Figure:
-    """Draw a search for five steps along a path that turns back: its tree, and the same on the ground."""
-    path = GroundPath(np.array([(0, 0), (0, 2.1), (0.7, 2.1), (0.7, 0)]))
-
-    def price(at: complex, made: int, _: int) -> float:
-        x, z = path.at(0.7 * made)
-        return float(abs(at - complex(z, x)) ** 2)
-
-    tree = plotting.grow_tree(_steps(price=price, count=5), "left", (0j, 0.0, 0))
-    figure = plt.figure(figsize=(10, 4), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    TreePicture(tree, ax=left).after()
-    right.plot(*path.points.T, color=ASKED, linewidth=5, alpha=0.85, label="asked for")
-    _fan(tree, right)
-    figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
-    return figure
+    """Draw the eight nodes, the best walk from 6 to 2, and the tree of all walks that the search has met."""
+    return diagrams.search_steps(graphs.notes_example(), 6, 2)
 
 
 def draw_bound() -> Figure:
@@ -386,7 +365,9 @@ def draw_bound() -> Figure:
     goal, count = -2 + 2j, 6
     plain = _steps(price=lambda *_: 0.0, count=count)
 
-    def problem(bounded: bool) -> synthesis.Problem:
+    def draw(bounded: bool, ax: Axes) -> None:
+        tried: list[Any] = []
+
         def ahead(at: complex, made: int) -> float:
             return max(0.0, abs(at - goal) - 0.7 * (count - made)) ** 2 * (bounded and made < count)
 
@@ -394,18 +375,23 @@ def draw_bound() -> Figure:
             _, after = plain.step(state, edge)
             left = abs(after[0] - goal) ** 2 if after[2] == count else 0.0
             turning = 0.02 * abs(edge[2] - 1)
+            tried.append(np.array([state[0], after[0]]))
             return turning + left + ahead(after[0], after[2]) - ahead(state[0], state[2]), after
 
-        return synthesis.Problem(plain.graph, step, plain.done)
+        start = (0j, 0.0, 0)
+        found = synthesis.branch_and_bound(synthesis.Problem(plain.graph, step, plain.done), "left", start)
+        states = [start]
+        for edge in found.walk:
+            states.append(plain.step(states[-1], edge)[1])
+        diagrams.from_above([np.array([at for at, *_ in states])], tried=tried, goal=goal, ax=ax)
+        how = "with a lower bound" if bounded else "without a lower bound"
+        ax.set_title(f"{how}: {found.expanded} walks expanded", fontsize=11)
 
     figure = plt.figure(figsize=(10, 4.6), layout="constrained")
-    for ax, bounded in zip(figure.subplots(1, 2), (False, True), strict=True):
-        tree = plotting.grow_tree(problem(bounded), "left", (0j, 0.0, 0))
-        _fan(tree, ax)
-        ax.plot(goal.imag, goal.real, "*", color=ASKED, markersize=16, label="goal")
-        how = "with a lower bound" if bounded else "without a lower bound"
-        ax.set_title(f"{how}: {tree.expanded} walks expanded", fontsize=11)
-    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
+    axes = figure.subplots(1, 2)
+    for ax, bounded in zip(axes, (False, True), strict=True):
+        draw(bounded, ax)
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False)
     return figure
 
 

@@ -47,10 +47,7 @@ class FrameTable(NamedTuple):
 
 
 def require_node(motion_graph: MotionGraph, node: Node) -> None:
-    """Raise `NoWalk` for a node that is not in the graph.
-
-    Notebook: 07-walks-and-search
-    """
+    """Raise `NoWalk` for a node that is not in the graph."""
     if node not in motion_graph.graph:
         of_clip = [n for n in motion_graph.graph if n[0] == node[0]]
         near = min(of_clip, key=lambda n: abs(n[1] - node[1]), default=None)
@@ -70,8 +67,6 @@ def edge_table(motion_graph: MotionGraph, edges: Sequence[Edge]) -> EdgeTable:
     >>> edges = edge_table(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)])
     >>> edges.frames.tolist(), edges.blended.tolist(), edges.cost.tolist()
     ([40, 10], [False, True], [0.0, 0.02])
-
-    Notebook: 07-walks-and-search
     """
     data = [motion_graph.graph.edges[edge] for edge in edges]
     transforms = np.array([edge.get("transform", IDENTITY) for edge in data], float).reshape(-1, 3)

@@ -13,7 +13,6 @@ Reading order (notebooks 00 to 19)
 6. `ground_charts`: paths, footprints and ways from above
 7. `charts`: curves, bands, bars and trees
 8. `graph_drawing`: motion graphs as timelines and as nodes with arrows
-9. `search_tree`: the walks that a search expands and cuts off
 10. `storyboards`: a transition in panels
 11. `picture`: a figure as a picture in a notebook
 
@@ -49,7 +48,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "space_image",
         ],
         "graph_drawing": ["before_and_after", "node_link", "timeline"],
-        "search_tree": ["TreePicture", "grow_tree"],
         "picture": ["show"],
     },
 )

@@ -20,15 +20,13 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "walk_to_motion": ["places", "seams", "sources", "to_motion", "with_plants"],
-        "random_walks": ["dump", "random_walk", "stream"],
+        "walk_to_motion": ["seams", "sources", "to_motion", "with_plants"],
+        "random_walks": ["dump", "random_walk"],
         "bounded_search": [
-            "Branch",
             "Budget",
             "Problem",
             "SearchResult",
             "branch_and_bound",
-            "children",
             "search_ahead",
         ],
         "ground_walks": ["GroundWalks"],

@@ -186,8 +186,6 @@ def children(problem: Problem, branch: Branch) -> list[Branch]:
     >>> problem = Problem(graph, lambda state, edge: (edge[1], None), lambda state: False)
     >>> [(child.node, child.cost) for child in children(problem, Branch(0.0, 1, None))]
     [(3, 3.0), (2, 2.0)]
-
-    Notebook: 07-walks-and-search
     """
     found = []
     for start, end, key, frames in problem.graph.out_edges(branch.node, keys=True, data="frames"):

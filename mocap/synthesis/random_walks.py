@@ -104,8 +104,6 @@ def wander(
     >>> graph = graphs.prune(graphs.from_transitions([clip], [back], window=10))
     >>> [end for _, end, _ in islice(wander(graph, start=(0, 20)), 4)]
     [(0, 60), (0, 20), (0, 60), (0, 20)]
-
-    Notebook: 07-walks-and-search
     """
     graph, fps = motion_graph.graph, motion_graph.clips[0].fps
     random = np.random.default_rng(seed)
@@ -150,8 +148,6 @@ def stream(
     >>> graph = graphs.prune(graphs.build(clips, window=10, threshold=0.04))
     >>> sum(len(part) for part in stream(graph, seconds=90)) >= 90 * 30
     True
-
-    Notebook: 07-walks-and-search
     """
     if clean:
         motion_graph = with_plants(motion_graph)
@@ -221,8 +217,6 @@ def dump(  # noqa: PLR0913 (which walk, where to, how long, and how)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     dump(graph, f"{folder}/long.bvh", seconds=20) >= 20 * 30
     True
-
-    Notebook: 07-walks-and-search
     """
     suffix = Path(path).suffix.lower()
     if suffix not in (".bvh", ".glb"):

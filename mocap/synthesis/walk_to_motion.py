@@ -44,7 +44,7 @@ def seams(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[Seam]:
     >>> seams(graph, [((0, 20), (0, 60), 0), ((0, 60), (0, 20), 0)])
     [Seam(frame=40, cost=0.02)]
 
-    Notebook: 07-walks-and-search
+    Notebook: 09-discussion
     """
     edges = edge_table(motion_graph, walk)
     first = np.cumsum(edges.frames) - edges.frames
@@ -65,7 +65,7 @@ def sources(motion_graph: MotionGraph, walk: Sequence[Edge]) -> list[tuple[int, 
     >>> sources(graph, [((0, 0), (0, 60), 0), ((0, 60), (1, 20), 0)])
     [(0, 'walk_circle'), (65, 'sneak')]
 
-    Notebook: 07-walks-and-search
+    Notebook: 05-motion-graph
     """
     found, frame = [(0, motion_graph.clips[walk[0][0][0]].name)], 0
     for start, end, key in walk:
@@ -200,8 +200,6 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
     >>> x, z = places(EdgeTable(one, one, one, one > 0, one, turn))[1:]
     >>> x.round(6).tolist(), z.round(6).tolist()
     ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0])
-
-    Notebook: 07-walks-and-search
     """
     angle = np.cumsum(np.concatenate([[place.angle], np.asarray(edges.transform.angle)]))
     steps = edges.transform.move * np.exp(1j * angle[:-1])

@@ -15,15 +15,6 @@ from mocap.course.check import close, close_angles
 # ---- Notebook 07
 
 
-def running_shares(costs: Array) -> Array:
-    return np.asarray(np.cumsum(1 / (costs + 1e-3)) / np.sum(1 / (costs + 1e-3)))
-
-
-def chosen(shares: Array, chance: float) -> int:
-    """Find the first item whose running share exceeds the chance."""
-    return min(int(np.searchsorted(shares, chance, side="right")), len(shares) - 1)
-
-
 def product_in_turn(transforms: Array) -> tuple[float, float, float]:
     """Multiply rows (angle, x, z): each step is turned by the angles before it."""
     angle, at = 0.0, 0j
@@ -49,32 +40,46 @@ def draw_product_of(rng: np.random.Generator) -> tuple[Array]:
 
 
 Lengths = dict[int, dict[int, float]]
+At = tuple[int, int]  # a node, and the edges walked before it
+Ways = Callable[[At], list[tuple[float, At]]]
 
 
-def draw_shortest_walk(rng: np.random.Generator) -> tuple[Lengths, int, int, int]:
+def ways_from(lengths: Lengths, longest: int, state: At) -> list[tuple[float, At]]:
+    """Lengthen a walk by each edge of its last node, unless it has so many already."""
+    node, made = state
+    return [(more, (end, made + 1)) for end, more in lengths[node].items()] if made < longest else []
+
+
+def is_at(goal: int, state: At) -> bool:
+    return state[0] == goal
+
+
+def draw_cheapest_walk(rng: np.random.Generator) -> tuple[Ways, At, Callable[[At], bool]]:
     """Draw eight nodes with three edges each, some of them loops, a start, a goal, and a limit of edges."""
     lengths = {
-        node: {int(after): float(rng.uniform(0.1, 2)) for after in rng.choice(8, size=3, replace=False) + 1}
+        node: {int(end): float(rng.uniform(0.1, 2)) for end in rng.choice(8, size=3, replace=False) + 1}
         for node in range(1, 9)
     }
     start, goal = rng.choice(8, size=2, replace=False) + 1
-    return lengths, int(start), int(goal), int(rng.integers(3, 7))
+    ways = partial(ways_from, lengths, int(rng.integers(3, 7)))
+    return ways, (int(start), 0), partial(is_at, int(goal))
 
 
-def shortest(lengths: Lengths, start: int, goal: int, longest: int) -> tuple[float, list[int]]:
-    """Search as the notebook does: the cost of the shortest walk of at most so many edges, and its nodes."""
-    best: tuple[float, list[int]] = (np.inf, [])
-    waiting = [(0.0, [start])]
+def cheapest(ways: Ways, start: At, done: Callable[[At], bool]) -> tuple[float, list[At], int]:
+    """Search as the notebook does: the least cost, the states of this walk, and the number expanded."""
+    best: tuple[float, list[At]] = (np.inf, [])
+    waiting, expanded = [(0.0, [start])], 0
     while waiting:
         cost, walk = waiting.pop()
         if cost >= best[0]:
             continue
-        if walk[-1] == goal:
+        if done(walk[-1]):
             best = cost, walk
-        elif len(walk) <= longest:
-            ways = sorted(lengths[walk[-1]].items(), key=lambda way: -way[1])
-            waiting += [(cost + more, [*walk, node]) for node, more in ways]
-    return best
+            continue
+        expanded += 1
+        found = [(cost + more, [*walk, state]) for more, state in ways(walk[-1])]
+        waiting += sorted(found, key=lambda longer: -longer[0])
+    return *best, expanded
 
 
 # ---- Notebooks 08 and 08c

@@ -12,10 +12,11 @@ Reading order (notebooks 00 to 09)
  4. `laying_clouds`: one cloud of points laid on another, from above
  5. `ground`: headings, and one clip aligned with another, seen from above
  6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
- 7. `eight_nodes`: Tarjan's search with its low links, and the walks that branch and bound takes up
- 8. `layers`: the layered search along a line, with the line of its code that runs
- 9. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
-10. `pens`: arrows, words, discs and steps that several of them share
+ 7. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
+ 8. `branching`: the walks that branch and bound takes up, and walks from above
+ 9. `layers`: the layered search along a line, with the line of its code that runs
+10. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
+11. `pens`: arrows, words, discs and steps that several of them share
 
 References
 ----------
@@ -34,15 +35,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
         "ground": ["alignment", "compass", "two_ways_round"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
-        "eight_nodes": [
-            "EIGHT_PLACES",
-            "edge_lengths",
-            "eight_node_graph",
-            "search_events",
-            "search_steps",
-            "tarjan_states",
-            "tarjan_step",
-        ],
+        "eight_nodes": ["EIGHT_PLACES", "eight_node_graph", "tarjan_states", "tarjan_step"],
+        "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],
         "layers": ["layer_states", "layer_step"],
         "distances_to_paths": ["two_distances"],
     },

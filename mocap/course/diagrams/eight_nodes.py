@@ -1,18 +1,15 @@
-"""Searches on eight nodes, step by step: Tarjan's with its low links, and branch and bound [KGP02, 4.2]."""
+"""The eight nodes of the paper's Figure 4, and Tarjan's search on them, step by step [KGP02, 3.4]."""
 
 from collections.abc import Collection, Hashable, Mapping, Sequence
-from itertools import count, pairwise
-from math import dist, inf
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import networkx as nx
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mocap.course.diagrams.pens import disc, say, show_program
-from mocap.plotting import CURVES, PATH, QUIET, SOURCES, node_link
+from mocap.plotting import PATH, QUIET, SOURCES, node_link
 
 Node = Hashable
 EIGHT_PLACES: dict[Node, tuple[float, float]] = {
@@ -209,144 +206,3 @@ def _draw_stack(ax: Axes, stack: Sequence[Node], most: int) -> None:
     ax.set_title("stack" if stack else "stack: empty", fontsize=10)
     ax.spines[["top", "left", "right"]].set_visible(False)
     ax.spines["bottom"].set_color(QUIET)
-
-
-Walk = tuple[int, ...]
-Lengths = Mapping[int, Mapping[int, float]]  # lengths[a][b] is that of the edge from a to b
-
-FATES = {
-    **{"expanded": CURVES[0], "complete": PATH, "cut": CURVES[1]},
-    **{"a dead end": "#000000", "too long": "#666666", "waiting": QUIET},
-}
-"""What may happen to a walk, and its colour."""
-
-
-class Event(NamedTuple):
-    """A walk that the search takes up: its nodes, its cost, what happens to it, and the walks it adds."""
-
-    walk: Walk
-    cost: float
-    fate: str
-    added: list[tuple[float, Walk]]
-
-
-def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list[Event]:
-    """Search for the shortest walk depth first, the cheapest edge first, and note what happens to each walk.
-
-    Parameters
-    ----------
-    lengths : of the edges.
-    start, goal : where the walk begins, and where it is complete.
-    longest : a walk of so many edges is not expanded.
-
-    Examples
-    --------
-    >>> events = search_events({1: {2: 1.0, 3: 3.0}, 2: {2: 1.0}, 3: {}}, 1, 3, longest=2)
-    >>> [(event.walk, event.fate) for event in events]
-    [((1,), 'expanded'), ((1, 2), 'expanded'), ((1, 2, 2), 'too long'), ((1, 3), 'complete')]
-
-    Notebook: 07-walks-and-search
-    """
-    events: list[Event] = []
-    waiting: list[tuple[float, Walk]] = [(0.0, (start,))]
-    best = inf
-    while waiting:
-        cost, walk = waiting.pop()
-        added: list[tuple[float, Walk]] = []
-        if cost >= best:
-            fate = "cut"
-        elif walk[-1] == goal:
-            fate, best = "complete", cost
-        else:
-            if len(walk) <= longest:
-                added = [(cost + more, (*walk, node)) for node, more in lengths[walk[-1]].items()]
-            fate = "expanded" if added else "a dead end" if len(walk) <= longest else "too long"
-        waiting += sorted(added, key=lambda child: child[0], reverse=True)
-        events.append(Event(walk, cost, fate, added))
-    return events
-
-
-def search_steps(
-    graph: nx.MultiDiGraph, start: int, goal: int, *, longest: int = 8, step: int | None = None
-) -> Figure:
-    """Draw the search for the shortest walk between two nodes of the eight-node graph, after some steps.
-
-    On the left stands the graph with the best walk so far, on the right the tree of all walks that the search
-    has met. A walk costs its length as it is drawn.
-
-    Parameters
-    ----------
-    graph : `graphs.notes_example()`, or a part of it.
-    start, goal : where the walk begins and ends.
-    longest : a walk of so many edges is not expanded.
-    step : how many walks the search has taken up; by default all.
-
-    Examples
-    --------
-    >>> from mocap import graphs
-    >>> figure = search_steps(graphs.notes_example(), 6, 2, step=3)
-    >>> figure.axes[1].get_title()
-    'step 3: 6 → 7 → 8 is expanded'
-
-    Notebook: 07-walks-and-search
-    """
-    lengths = edge_lengths(graph)
-    events = search_events(lengths, start, goal, longest)
-    shown = events[: len(events) if step is None else step]
-    best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
-    eight_node_graph(graph, thick=[*pairwise(best.walk if best else ())], ax=left)
-    for a, row in lengths.items():
-        for b, length in row.items():
-            middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2) + 0.75j * (a == b)
-            say(left, middle, f"{length:.1f}", fontsize=8, bbox=BOX)
-    left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet", fontsize=10)
-    _draw_tree(right, events, shown)
-    if shown:
-        named = " → ".join(map(str, shown[-1].walk))
-        right.set_title(f"step {len(shown)}: {named} is {shown[-1].fate}", fontsize=10)
-    return figure
-
-
-def _draw_tree(ax: Axes, events: list[Event], shown: list[Event]) -> None:
-    """Draw the walks met so far as discs with their last node, each below the walk that it lengthens."""
-    children = {event.walk: [walk for _, walk in sorted(event.added)] for event in events}
-    columns: dict[Walk, float] = {}  # a leaf of the whole tree has its own, other walks the middle of theirs
-    leaves = count(1)
-
-    def place(walk: Walk) -> float:
-        below = [place(child) for child in children.get(walk, ())]
-        columns[walk] = sum(below) / len(below) if below else float(next(leaves))
-        return columns[walk]
-
-    place(events[0].walk)
-    fates = {walk: "waiting" for event in shown for _, walk in event.added} | {e.walk: e.fate for e in shown}
-    faces = FATES | {"waiting": "white"}
-    for walk, fate in fates.items():
-        x, y = columns[walk], 1 - len(walk)
-        if len(walk) > 1:
-            ax.plot([columns[walk[:-1]], x], [y + 1, y], color=FATES[fate], linewidth=1.5, zorder=1)
-        ax.plot(x, y, "o", markersize=15, color=faces[fate], markeredgecolor=FATES[fate], zorder=2)
-        ink = "black" if fate in {"waiting", "complete"} else "white"
-        ax.text(x, y, str(walk[-1]), color=ink, ha="center", va="center", fontsize=9, zorder=3)
-    ends = min(columns.values()), max(columns.values())
-    ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
-    ax.set_axis_off()
-    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
-    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False, fontsize=8)
-
-
-def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:
-    """Measure the edges of the eight-node graph as it is drawn; a loop at a node counts 0.5.
-
-    Examples
-    --------
-    >>> from mocap import graphs
-    >>> lengths = edge_lengths(graphs.notes_example())
-    >>> round(lengths[3][1], 2), lengths[4]
-    (1.41, {4: 0.5})
-
-    Notebook: 07-walks-and-search
-    """
-    at = EIGHT_PLACES
-    return {a: {b: dist(at[a], at[b]) or 0.5 for b in sorted(graph.successors(a))} for a in graph}

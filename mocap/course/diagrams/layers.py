@@ -12,7 +12,7 @@ from mocap._shared.arrays import Array
 from mocap.course.diagrams.pens import show_program
 from mocap.plotting import ASKED, CURVES, PATH, QUIET
 
-STRIDE, TURNS = 0.7, np.radians([-30, 0, 30])  # of the three edges at each node, as in notebook 07
+STRIDE, TURNS = 0.7, np.radians([-30, 0, 30])  # of the three edges at each node
 PROGRAM = """waiting = {0: [start]}
 while waiting:
     layer = min(waiting)

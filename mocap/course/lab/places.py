@@ -38,7 +38,7 @@ Tools = SimpleNamespace  # a function for each of `NAMES`, as `tools.climb`
 def tools() -> Tools:
     """Take the student's functions, where they passed their checks, and the package's for the rest.
 
-    Notebook: 08b-steering
+    Notebook: 07-walks-and-search
     """
     return Tools(**{slot.name: slot for slot in slots(*NAMES)})
 

@@ -8,15 +8,19 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from mocap import graphs
-from mocap.course.diagrams.eight_nodes import (
+from mocap.course.diagrams.branching import (
     FATES,
+    edge_lengths,
+    from_above,
+    laid_in_turn,
+    search_events,
+    search_steps,
+)
+from mocap.course.diagrams.eight_nodes import (
     ON_STACK,
     PROGRAM,
     UNSEEN,
-    edge_lengths,
     eight_node_graph,
-    search_events,
-    search_steps,
     tarjan_states,
     tarjan_step,
 )
@@ -145,3 +149,35 @@ def test_in_the_pruned_graph_the_search_has_no_choice():
     pruned = graphs.prune_graph(EIGHT).graph
     fates = [event.fate for event in search_events(edge_lengths(pruned), 6, 2, longest=8)]
     assert fates == ["expanded"] * 5 + ["complete"]
+
+
+def test_a_walk_from_above_lies_over_what_was_tried_and_left_is_left():
+    """A point z + ix is drawn at x to the left and z up."""
+    ax = from_above([np.array([0, 1 + 2j])], tried=[np.array([0, 1]), np.array([0, 1j])], goal=3j)
+    tried, walk = ax.collections
+    assert len(tried.get_segments()) == 2
+    assert walk.get_segments()[0].tolist() == [[0, 0], [2, 1]]
+    assert ax.lines[0].get_xydata().tolist() == [[3, 0]]
+    assert ax.xaxis.get_inverted()
+
+
+def test_pieces_laid_by_the_product_of_all_transforms_make_one_line():
+    """A clip of three frames is left after two of them, by a transition that turns left, and entered anew."""
+    graph, a, b = nx.MultiDiGraph(), ((0, 0), (0, 2), 0), ((0, 2), (0, 0), 0)
+    graph.add_edge(*a, lay=(1, 0))
+    graph.add_edge(*b, lay=(1j, 2 + 0j))
+    tracks = {a: np.array([0, 1, 2]), b: np.array([2, 2 + 0.01j])}
+
+    def product_of(rows):
+        turn, move = 1, 0
+        for angle, x, z in rows:
+            turn, move = turn * np.exp(1j * angle), move + turn * (z + 1j * x)
+        return np.angle(turn), move.imag, move.real
+
+    figure = laid_in_turn(graph, [a, b, a, b, a], tracks, product_of)
+    assert [len(ax.collections[0].get_segments()) for ax in figure.axes] == [3, 2, 1]
+    assert [ax.get_title() for ax in figure.axes] == [
+        "as captured",
+        "by the last transform",
+        "by the product",
+    ]

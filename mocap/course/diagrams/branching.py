@@ -1,0 +1,232 @@
+"""Branch and bound, step by step on eight nodes, and its walks on the ground [KGP02, 4.2]."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import count, pairwise
+from math import dist, inf
+from typing import Any, NamedTuple
+
+import matplotlib.pyplot as plt
+import networkx as nx
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+from mocap._shared.arrays import Points
+from mocap.course.diagrams.eight_nodes import BOX, EIGHT_PLACES, eight_node_graph
+from mocap.course.diagrams.pens import disc, say
+from mocap.plain import Edge
+from mocap.plotting import ASKED, CURVES, PATH, QUIET
+
+Walk = tuple[int, ...]
+Lengths = Mapping[int, Mapping[int, float]]  # lengths[a][b] is that of the edge from a to b
+
+FATES = {
+    **{"expanded": CURVES[0], "complete": PATH, "cut": CURVES[1]},
+    **{"a dead end": "#000000", "too long": "#666666", "waiting": QUIET},
+}
+"""What may happen to a walk, and its colour."""
+
+
+class Event(NamedTuple):
+    """A walk that the search takes up: its nodes, its cost, what happens to it, and the walks it adds."""
+
+    walk: Walk
+    cost: float
+    fate: str
+    added: list[tuple[float, Walk]]
+
+
+def search_events(lengths: Lengths, start: int, goal: int, longest: int) -> list[Event]:
+    """Search for the shortest walk depth first, the cheapest edge first, and note what happens to each walk.
+
+    Parameters
+    ----------
+    lengths : of the edges.
+    start, goal : where the walk begins, and where it is complete.
+    longest : a walk of so many edges is not expanded.
+
+    Examples
+    --------
+    >>> events = search_events({1: {2: 1.0, 3: 3.0}, 2: {2: 1.0}, 3: {}}, 1, 3, longest=2)
+    >>> [(event.walk, event.fate) for event in events]
+    [((1,), 'expanded'), ((1, 2), 'expanded'), ((1, 2, 2), 'too long'), ((1, 3), 'complete')]
+
+    Notebook: 07-walks-and-search
+    """
+    events: list[Event] = []
+    waiting: list[tuple[float, Walk]] = [(0.0, (start,))]
+    best = inf
+    while waiting:
+        cost, walk = waiting.pop()
+        added: list[tuple[float, Walk]] = []
+        if cost >= best:
+            fate = "cut"
+        elif walk[-1] == goal:
+            fate, best = "complete", cost
+        else:
+            if len(walk) <= longest:
+                added = [(cost + more, (*walk, node)) for node, more in lengths[walk[-1]].items()]
+            fate = "expanded" if added else "a dead end" if len(walk) <= longest else "too long"
+        waiting += sorted(added, key=lambda child: child[0], reverse=True)
+        events.append(Event(walk, cost, fate, added))
+    return events
+
+
+def search_steps(
+    graph: nx.MultiDiGraph, start: int, goal: int, *, longest: int = 8, step: int | None = None
+) -> Figure:
+    """Draw the search for the shortest walk between two nodes of the eight-node graph, after some steps.
+
+    On the left stands the graph with the best walk so far, on the right the tree of all walks that the search
+    has met. A walk costs its length as it is drawn.
+
+    Parameters
+    ----------
+    graph : `graphs.notes_example()`, or a part of it.
+    start, goal : where the walk begins and ends.
+    longest : a walk of so many edges is not expanded.
+    step : how many walks the search has taken up; by default all.
+
+    Examples
+    --------
+    >>> from mocap import graphs
+    >>> figure = search_steps(graphs.notes_example(), 6, 2, step=3)
+    >>> figure.axes[1].get_title()
+    'step 3: 6 → 7 → 8 is expanded'
+
+    Notebook: 07-walks-and-search
+    """
+    lengths = edge_lengths(graph)
+    events = search_events(lengths, start, goal, longest)
+    shown = events[: len(events) if step is None else step]
+    best = min((e for e in shown if e.fate == "complete"), key=lambda e: e.cost, default=None)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.6), layout="constrained")
+    eight_node_graph(graph, thick=[*pairwise(best.walk if best else ())], ax=left)
+    for a, row in lengths.items():
+        for b, length in row.items():
+            middle = complex(*np.add(EIGHT_PLACES[a], EIGHT_PLACES[b]) / 2) + 0.75j * (a == b)
+            say(left, middle, f"{length:.1f}", fontsize=8, bbox=BOX)
+    left.set_title(f"best so far: {best.cost:.2f} long" if best else "no complete walk yet", fontsize=10)
+    _draw_tree(right, events, shown)
+    if shown:
+        named = " → ".join(map(str, shown[-1].walk))
+        right.set_title(f"step {len(shown)}: {named} is {shown[-1].fate}", fontsize=10)
+    return figure
+
+
+def _draw_tree(ax: Axes, events: list[Event], shown: list[Event]) -> None:
+    """Draw the walks met so far as discs with their last node, each below the walk that it lengthens."""
+    children = {event.walk: [walk for _, walk in sorted(event.added)] for event in events}
+    columns: dict[Walk, float] = {}  # a leaf of the whole tree has its own, other walks the middle of theirs
+    leaves = count(1)
+
+    def place(walk: Walk) -> float:
+        below = [place(child) for child in children.get(walk, ())]
+        columns[walk] = sum(below) / len(below) if below else float(next(leaves))
+        return columns[walk]
+
+    place(events[0].walk)
+    fates = {walk: "waiting" for event in shown for _, walk in event.added} | {e.walk: e.fate for e in shown}
+    faces = FATES | {"waiting": "white"}
+    for walk, fate in fates.items():
+        x, y = columns[walk], 1 - len(walk)
+        if len(walk) > 1:
+            ax.plot([columns[walk[:-1]], x], [y + 1, y], color=FATES[fate], linewidth=1.5, zorder=1)
+        ax.plot(x, y, "o", markersize=15, color=faces[fate], markeredgecolor=FATES[fate], zorder=2)
+        ink = "black" if fate in {"waiting", "complete"} else "white"
+        ax.text(x, y, str(walk[-1]), color=ink, ha="center", va="center", fontsize=9, zorder=3)
+    ends = min(columns.values()), max(columns.values())
+    ax.set(xlim=(ends[0] - 0.6, ends[1] + 0.6), ylim=(0.5 - max(map(len, columns)), 0.5))
+    ax.set_axis_off()
+    dots = [disc(face, markeredgecolor=FATES[fate]) for fate, face in faces.items()]
+    ax.legend(dots, FATES, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3, frameon=False, fontsize=8)
+
+
+def edge_lengths(graph: nx.MultiDiGraph) -> dict[int, dict[int, float]]:
+    """Measure the edges of the eight-node graph as it is drawn; a loop at a node counts 0.5.
+
+    Examples
+    --------
+    >>> from mocap import graphs
+    >>> lengths = edge_lengths(graphs.notes_example())
+    >>> round(lengths[3][1], 2), lengths[4]
+    (1.41, {4: 0.5})
+
+    Notebook: 07-walks-and-search
+    """
+    at = EIGHT_PLACES
+    return {a: {b: dist(at[a], at[b]) or 0.5 for b in sorted(graph.successors(a))} for a in graph}
+
+
+def from_above(
+    pieces: Iterable[Points],
+    *,
+    tried: Iterable[Points] = (),
+    goal: complex | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw pieces of a walk on the ground, thick and orange, above what a search tried, thin and grey.
+
+    Parameters
+    ----------
+    pieces, tried : arrays of ground points z + ix, metres.
+    goal : where the walk should lead; a star.
+    ax : axes; new ones by default.
+
+    Examples
+    --------
+    >>> ax = from_above([np.array([0, 1j])], tried=[np.array([0, 1])], goal=1j)
+    >>> [len(lines.get_segments()) for lines in ax.collections]
+    [1, 1]
+
+    Notebook: 07-walks-and-search
+    """
+    ax = ax or plt.figure(figsize=(4.6, 4), layout="constrained").add_subplot()
+    joined: list[Points] = []
+    for piece in pieces:  # those that meet make one line
+        meets = joined and abs(piece[0] - joined[-1][-1]) < 0.1
+        joined.append(np.concatenate([joined.pop(), piece]) if meets else piece)
+    looks = {"tried": (tried, QUIET, 0.5), "walk": (joined, PATH, 3)}
+    for name, (lines, colour, width) in looks.items():
+        segments = [np.stack([line.imag, line.real], axis=1) for line in lines]
+        if segments:
+            ax.add_collection(LineCollection(segments, colors=colour, linewidths=width, label=name))
+    if goal is not None:
+        ax.plot(goal.imag, goal.real, "*", color=ASKED, markersize=16, label="goal")
+    ax.autoscale_view()
+    ax.set(aspect="equal", xlabel="x (m)", ylabel="z (m)")
+    ax.xaxis.set_inverted(True)
+    return ax
+
+
+def laid_in_turn(
+    graph: nx.MultiDiGraph,
+    walk: Sequence[Edge],
+    tracks: Mapping[Edge, Points],
+    product_of: Callable[..., Any],
+) -> Figure:
+    """Draw the pieces of a walk: as captured, moved by the last transform alone, and by their product.
+
+    Parameters
+    ----------
+    graph, walk : as in `mocap.plain`; `lay` of an edge is its (turn, move).
+    tracks : the root's ground points along each edge.
+    product_of : composes rows (angle, x, z), shape (n, 3), into one.
+
+    Notebook: 07-walks-and-search
+    """
+    lays = [graph.edges[edge]["lay"] for edge in walk]
+    rows = np.array([(0, 0, 0), *[(np.angle(turn), np.imag(move), np.real(move)) for turn, move in lays]])
+    last = np.maximum.accumulate(np.arange(len(rows)) * rows.any(axis=1))[:-1]  # the last one that moves
+    states = {
+        "as captured": np.zeros((len(walk), 3)),
+        "by the last transform": rows[last],
+        "by the product": [product_of(rows[: n + 1]) for n in range(len(walk))],
+    }
+    figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
+    for ax, (name, places) in zip(axes, states.items(), strict=True):
+        laid = zip(walk, places, strict=True)
+        from_above([np.exp(1j * a) * tracks[edge] + z + 1j * x for edge, (a, x, z) in laid], ax=ax)
+        ax.set_title(name, fontsize=10)
+    return figure
