@@ -1,8 +1,9 @@
-"""Lead twelve through walls with one gap, through corridors and random discs, to a point behind.
+"""Lead twelve through walls with one gap, through corridors and random discs, and to points all around.
 
 There: 100 when the middle of the group comes within a metre of it. Takes: seconds until then. Nearest two:
 how near members come to each other, metres. Rim: how near to a disc's rim. `steered` has no plan; it has
-three goes with other whims, of which the quickest counts.
+three goes with other whims, of which the quickest counts. `the quicker` is the plan or, if that
+is as clear, steered without whims.
 """
 
 from collections.abc import Iterator
@@ -19,6 +20,7 @@ from mocap.methods.groups import (
     Scene,
     build_group,
     clearances,
+    lead_group,
     plan_group,
     play_group,
     steer_group,
@@ -26,15 +28,20 @@ from mocap.methods.groups import (
 from mocap.methods.groups.flocking import Configuration
 from tasks import Case
 
-CLIPS: dict[str, tuple[str, ...]] = {"gaps": (), "corridors of 10 m": (), "random discs": ()}
-MEMBERS, WIDTHS, SPOTS, SEEDS, LIMIT = 12, (4.0, 3.0, 2.5, 2.0), (12, 16), range(8), 90.0
+CLIPS: dict[str, tuple[str, ...]] = {
+    "gaps": (),
+    "corridors of 10 m": (),
+    "random discs": (),
+    "all around": (),
+}
+MEMBERS, WIDTHS, SPOTS, SEEDS, LIMIT = 12, (4.0, 3.0, 2.5, 2.0), (12, 16), range(24), 90.0
 MEASURES = {"there, %": False, "takes, s": True, "nearest two, m": False, "rim, m": False}
 BASELINES = ("steered",)
 
 
 def scenes(collection: str) -> Iterator[tuple[str, Scene]]:
-    """Yield walls with a gap, and with a corridor behind it, or discs at random."""
-    if collection != "random discs":
+    """Yield walls with a gap, and with a corridor behind it, or discs at random and a goal."""
+    if collection in ("gaps", "corridors of 10 m"):
         length = 10 if collection.startswith("corridors") else 0
         for width in WIDTHS[: 3 if length else 4]:
             for spot in SPOTS:
@@ -44,11 +51,16 @@ def scenes(collection: str) -> Iterator[tuple[str, Scene]]:
                 ]
                 goal = spot + 14 + length + 0j
                 yield f"{collection[:3]}-{width}-{spot}", Scene((goal,), tuple((disc, 0.6) for disc in wall))
-    else:
-        for seed in SEEDS:
-            draw = np.random.default_rng(seed)
+        return
+    for seed in SEEDS:
+        draw, goal = np.random.default_rng(seed), 24 + 0j
+        if collection == "random discs":
             discs = draw.uniform(6, 18, 7) + 1j * draw.uniform(-6, 6, 7)
-            yield f"discs-{seed}", Scene((24 + 0j,), tuple((complex(disc), 1.0) for disc in discs))
+        else:
+            goal = complex(draw.uniform(8, 24) * np.exp(1j * draw.uniform(-np.pi, np.pi)))
+            discs = draw.uniform(-18, 18, 9) + 1j * draw.uniform(-18, 18, 9)
+            discs = discs[(np.abs(discs) > 5) & (np.abs(discs - goal) > 4)]
+        yield f"discs-{seed}", Scene((goal,), tuple((complex(disc), 1.0) for disc in discs))
 
 
 def cases(collection: str, clips: list[Motion]) -> Iterator[Case]:
@@ -87,7 +99,12 @@ def planned(case: Case) -> Array:
     return flat(play_group(group(), plan.clips).places[: round(plan.seconds * RATE) + 1])
 
 
-METHODS = {"steered": steered, "planned": planned}
+def quicker(case: Case) -> Array:
+    """Take the plan, or a steered way that is quicker and as clear."""
+    return flat(lead_group(group(), case.truth)[0].places)
+
+
+METHODS = {"steered": steered, "planned": planned, "the quicker": quicker}
 
 
 def score(case: Case, answer: Array) -> tuple[float, float, float, float]:

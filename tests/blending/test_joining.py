@@ -52,7 +52,7 @@ def test_a_clip_joined_to_itself_where_it_is_goes_on(way):
 
 
 def test_a_join_is_the_blend_of_the_two_windows_and_any_weights_may_be_given():
-    """As in [WP95, joining]."""
+    """As in [KGP02, 3.3], [WP95, joining]."""
     laid = lay_window_on(A, LEAVE, B, ENTER, 8)
     for weights in (linear_weights, lambda window: np.full(window, 0.3)):
         joined = join(A, LEAVE, B, ENTER, 8, weights=weights)
@@ -92,6 +92,7 @@ def test_motions_must_go_together(way):
 
 @given(st.sampled_from([*GRIDS]), st.integers(0, 112), st.integers(0, 82), planar)
 def test_the_windows_agree_as_well_as_the_distance_grid_says(window, i, j, transform):
+    """As in [KGP02, Eqs. 2-4]."""
     laid = lay_window_on(A, i, transform.apply_motion(B), j, window)
     gaps = point_cloud(A)[i : i + window] - point_cloud(laid)[j : j + window]
     assert (gaps**2).sum(-1).mean() == pytest.approx(GRIDS[window][i, j], abs=1e-9)

@@ -138,7 +138,7 @@ def test_each_frame_by_itself_jolts_and_all_at_once_do_not(fps, least):
 
 
 def test_few_knots_leave_centimetres_and_many_jolt(real_data):
-    """As in [Gle98, smooth change]."""
+    """As in [Gle98, smooth change; finer knots]."""
     clip = captured(real_data)
     pins = stone(clip, 0.2)
     solved = {}

@@ -64,6 +64,7 @@ def test_the_stretches_of_a_clip_are_the_clip(found):
 
 
 def test_building_finds_transitions_below_the_threshold():
+    """As in [KGP02, 3]."""
     loose, strict = (build(CLIPS, window=WINDOW, threshold=t) for t in (0.08, 0.02))
     costs = [cost for _, _, cost in strict.graph.edges(data="cost") if cost is not None]
     assert 0 < strict.count("transition") < loose.count("transition")

@@ -67,7 +67,7 @@ def test_cheap_transitions_are_taken_more_often():
 
 @given(st.integers(0, 60), st.integers(0, 60), st.floats(-3, 3), st.floats(-5, 5))
 def test_a_transition_blends_the_two_windows_and_leads_on_from_the_second(leave, enter, angle, x):
-    """Against the same written down by hand for one transition [KGP02, 3.3]."""
+    """Against the same written down by hand for one transition [KGP02, 3.3; Eqs. 5-7]."""
     transform = PlanarTransform(angle, x, 1.0)
     whole = from_transitions(CLIPS, [Transition(0, leave, 1, enter, 0.1, transform)], window=WINDOW)
     walk = [((0, leave), (1, enter + WINDOW), 0), ((1, enter + WINDOW), (1, 90), 0)]

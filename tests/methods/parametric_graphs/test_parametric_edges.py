@@ -63,6 +63,7 @@ def test_a_shrunk_box_holds_no_bad_target_and_lies_in_the_good_ones(good, bad):
 
 
 def test_the_side_that_loses_least_moves_and_shares_count_not_metres():
+    """As in [HG07, 3.2]."""
     good, bad = np.array([[0.0, 0], [10, 1]]), np.array([[5.0, 0.9]])
     _, high = shrink_box(good, bad, np.array([5.0, 0.5]))
     assert high[1] < 0.9 and high[0] == 10  # of the second half range 0.2 is lost, of the first 1

@@ -17,6 +17,7 @@ from tests.refusals import refused
 
 
 def test_phases_0_and_1_are_strikes_of_one_foot():
+    """As in [HG07, examples]."""
     cut = strides()
     zero, one = cut.ends
     assert cut.grid[zero] == pytest.approx(0) and cut.grid[one] == pytest.approx(1)
