@@ -122,10 +122,33 @@ def _name_joints(ax: Axes, place: Array, names: str) -> None:
 
 
 def draw_segments() -> Figure:
-    """Draw the homework's graph of segments, with the transitions that leave one of them."""
+    """Draw the homework's segments, a row of numbered boxes per clip, and the transitions of one of them.
+
+    A transition leaves the end of a box and enters the start of another.
+    """
     clips = [datasets.sample(name) for name in datasets.SAMPLES[:3]]
     graph = graphs.segment_graph(clips, threshold=250)
-    return diagrams.segments_in_rows(graph, [clip.name for clip in clips], step=15)
+    nodes, wide, high = dict(graph.nodes(data=True)), 0.9, 0.42
+    firsts = {part["clip"]: node for node, part in reversed(nodes.items())}
+    at = {node: (node - firsts[part["clip"]], -2 * part["clip"]) for node, part in nodes.items()}
+    figure, ax = plt.subplots(figsize=(9, 4), layout="constrained")
+    for node, (x, y) in at.items():
+        colour = SOURCES[nodes[node]["clip"]]
+        ax.add_patch(Rectangle((x, y - high), wide, 2 * high, facecolor=colour, edgecolor="white", lw=0.5))
+        ax.text(x + wide / 2, y, str(node), ha="center", va="center", fontsize=7, color="white", zorder=4)
+    for _, there, kind in graph.out_edges(15, data="kind"):
+        if kind == "transition":
+            (x, y), (to, below) = at[15], at[there]
+            down = 1 if below < y else -1
+            ends = [(x + wide, y - down * high), (to + 0.1, below + down * high)]
+            ax.plot(*zip(*ends, strict=True), color=MARK, linewidth=1.8, zorder=0.5)
+            ax.plot(*ends[1], "v" if down > 0 else "^", color=MARK, markersize=6, zorder=3)
+    ax.set_yticks([0, -2, -4], [clip.name for clip in clips])
+    ax.set(xlim=(-0.5, max(x for x, _ in at.values()) + 1.5), ylim=(-5, 1))
+    ax.set(xlabel="segment of the clip, in order")
+    ax.spines[["top", "right", "left"]].set_visible(False)
+    ax.tick_params(left=False)
+    return figure
 
 
 def draw_motion_file() -> Figure:

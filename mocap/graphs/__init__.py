@@ -26,7 +26,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "motion_graph": ["MotionGraph", "build", "from_transitions", "labels_between"],
+        "motion_graph": ["MotionGraph", "build", "from_transitions"],
         "components": ["largest_component", "numbered_edges", "NO_LABELS"],
         "pruning": ["prune", "prune_graph", "notes_example"],
         "thresholds": ["smallest_threshold", "threshold_curve", "velocity_gaps"],

@@ -2,9 +2,9 @@
 
 A node is a segment; an edge leads to a segment that may follow it. Where the homework's program has a
 mistake, the default is correct and the mistake is an option: `weighting="distance"` makes the worse match
-more likely, and `drift=True` also shifts segments in height, so that a walk slowly rises or sinks. Three more
-mistakes are shown in `homework_slips` only: Euler angles that flip, segments that repeat the last frame of
-the one before, and clips that are changed in place.
+more likely. Three more mistakes are shown in `homework_slips` only: Euler angles that flip, segments that
+repeat the last frame of the one before, and clips that are changed in place. And the homework moves segments
+in height too, so that a walk slowly rises or sinks.
 """
 
 from collections.abc import Sequence
@@ -219,9 +219,7 @@ def segment_walk(graph: nx.DiGraph, count: int, *, seed: int = 0, start: int | N
     return walk
 
 
-def segment_motion(
-    clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int], *, drift: bool = False
-) -> Motion:
+def segment_motion(clips: Sequence[Motion], graph: nx.DiGraph, walk: Sequence[int]) -> Motion:
     """Play a walk: the next segment of the clip follows as it is, a segment after a transition is blended in.
 
     The first frame of a segment after a transition gets the heading and the place of the frame `window`
@@ -232,7 +230,6 @@ def segment_motion(
     clips : the clips of the graph.
     graph : from `segment_graph`.
     walk : segments, each with an edge to the next.
-    drift : also shift the height, as the homework does.
 
     Returns
     -------
@@ -255,7 +252,7 @@ def segment_motion(
     if not walk or walk[0] not in graph:
         raise NoWalk(f"The walk starts at no segment of the graph: {list(walk[:1])}.")
     window = graph.graph["window"]
-    place, lift = IDENTITY, 0.0
+    place = IDENTITY
     pieces: list[Motion] = []
     for before, node in pairwise([None, *walk]):
         part = Segment(**graph.nodes[node])
@@ -266,11 +263,8 @@ def segment_motion(
         if blended:
             tail = pieces[-1][-window:]
             place = lay_on(piece, tail)
-            lift = tail.root_positions[0, 1] - piece.root_positions[0, 1] if drift else 0.0
         if place is not IDENTITY:
             piece = place.apply_motion(piece)
-        if lift:
-            piece = replace(piece, root_positions=np.add(piece.root_positions, [0.0, lift, 0.0]))
         if blended:
             mixed = blend(tail, piece[:window], sine_weights(window))
             pieces[-1:] = [pieces[-1][:-window], mixed]

@@ -6,7 +6,7 @@ in the file of its subject.
 
 Reading order (notebooks 00 to 09)
 ----------------------------------
- 1. `small_graphs`: a motion graph's nodes and edges on two clips, and the homework's segments in rows
+ 1. `small_graphs`: a motion graph's nodes and edges on two clips
  2. `quaternions`: two half turns, and turns whose order matters; `trees`: forward kinematics by joint
  3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
  4. `laying_clouds`: one cloud of points laid on another, from above
@@ -28,7 +28,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "small_graphs": ["nodes_and_edges", "segments_in_rows"],
+        "small_graphs": ["nodes_and_edges"],
         "quaternions": ["half_turns", "turns_in_order"],
         "trees": ["down_the_tree"],
         "laying_clouds": ["laid", "laying_on", "products", "turning"],

@@ -4,13 +4,7 @@ from itertools import pairwise
 from typing import Any
 
 import matplotlib.pyplot as plt
-import networkx as nx
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Rectangle
 
 from mocap.course.diagrams.pens import arrow, say
 from mocap.plotting.style import COLOURS, MARK, PATH, QUIET, SOURCES
@@ -78,62 +72,3 @@ def nodes_and_edges(step: int = 5) -> Figure:
     ax.tick_params(left=False)
     ax.spines[["top", "right", "left"]].set_visible(False)
     return figure
-
-
-BOX, GAP = 0.9, 0.42  # a box's width where segments are 1 apart; its height where rows are 2 apart
-
-
-def segments_in_rows(graph: nx.DiGraph, names: list[str], *, step: int | None = None) -> Figure:
-    """Draw a graph of segments: a row of numbered boxes per clip, and a line per transition.
-
-    A transition leaves the end of a box and enters the start of another. That a segment is followed by its
-    neighbour on the right is not drawn. Segments that nothing follows have a thick rim.
-
-    Parameters
-    ----------
-    graph : from `graphs.segment_graph`.
-    names : the clips' names.
-    step : draw the transitions of this segment only; by default those of all.
-
-    Examples
-    --------
-    >>> from mocap import datasets, graphs
-    >>> clips = [datasets.sample(name)[:1200] for name in ("walk_circle", "walk_curve_1")]
-    >>> figure = segments_in_rows(graphs.segment_graph(clips, threshold=250), ["circle", "curve"])
-    >>> len(figure.axes[0].patches)  # six segments of each clip
-    12
-
-    Notebook: 05-motion-graph
-    """
-    nodes = dict(graph.nodes(data=True))
-    firsts = {part["clip"]: node for node, part in reversed(nodes.items())}
-    at = {node: (node - firsts[part["clip"]], -2 * part["clip"]) for node, part in nodes.items()}
-    figure, ax = plt.subplots(figsize=(9, 0.9 * len(names) + 1.3), layout="constrained")
-    for node, (x, y) in at.items():
-        dead = not graph.out_degree(node)
-        box = Rectangle((x, y - GAP), BOX, 2 * GAP, facecolor=SOURCES[nodes[node]["clip"]], zorder=1)
-        box.set(edgecolor="black" if dead else "white", linewidth=3 if dead else 0.5)
-        ax.add_patch(box)
-        ax.text(x + BOX / 2, y, str(node), ha="center", va="center", fontsize=7, color="white", zorder=4)
-    taken = [(a, b) for a, b, kind in graph.edges(data="kind") if kind == "transition" and step in (None, a)]
-    ends = np.array([(at[a], at[b]) for a, b in taken], float).reshape(-1, 2, 2)
-    down = np.sign(ends[:, 0, 1] - ends[:, 1, 1])[:, None]
-    ends += np.stack([down * [0, -GAP] + [BOX, 0], down * [0, GAP] + [0.1, 0]], axis=1)  # from edge to edge
-    few = len(ends) < 20
-    ax.add_collection(LineCollection(list(ends), colors=MARK, linewidths=1.8 if few else 0.7, zorder=0.5))
-    for sign, marker in ((1, "v"), (-1, "^")):
-        tips = ends[down[:, 0] == sign, 1]
-        ax.plot(*tips.T, marker, color=MARK, markersize=6 if few else 4, zorder=3)
-    _frame(ax, names, max(x for x, _ in at.values()))
-    return figure
-
-
-def _frame(ax: Axes, names: list[str], last: int) -> None:
-    ax.set_yticks([-2 * row for row in range(len(names))], names)
-    ax.set(xlim=(-0.5, last + 1.5), ylim=(-2 * len(names) + 1, 1), xlabel="segment of the clip, in order")
-    ax.spines[["top", "right", "left"]].set_visible(False)
-    ax.tick_params(left=False)
-    match = Line2D([], [], color=MARK, marker="v", markersize=5, label="a match: may follow")
-    dead = Rectangle((0, 0), 1, 1, facecolor=QUIET, edgecolor="black", linewidth=3, label="nothing follows")
-    look: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1, 1), "fontsize": 8, "frameon": False}
-    ax.legend(handles=[match, dead], ncols=2, **look)

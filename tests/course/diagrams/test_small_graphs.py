@@ -1,16 +1,12 @@
-"""What nodes and edges are, and the homework's segments in rows, read back from the artists."""
+"""What nodes and edges are, read back from the artists."""
 
 from itertools import pairwise
 
-import networkx as nx
 import pytest
-from matplotlib.collections import LineCollection
 from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
 
 from mocap.course.diagrams import small_graphs
-from mocap.course.diagrams.small_graphs import BOX, segments_in_rows
-from mocap.graphs import Segment
 from mocap.plotting.style import MARK, PATH, QUIET, SOURCES
 
 
@@ -71,43 +67,3 @@ def test_each_edge_of_the_walk_begins_where_the_one_before_ends():
     ends = [(leap[1], leap[3]) for leap in small_graphs.LEAPS]
     for (_, _, end), (_, start, _) in pairwise(small_graphs.WALK):
         assert (end, start) in ends
-
-
-@pytest.fixture
-def segments():
-    """Two clips of three and two segments; nothing follows segment 2."""
-    parts = [Segment(0, 0, 200), Segment(0, 200, 400), Segment(0, 400, 650), Segment(1, 0, 200)]
-    parts.append(Segment(1, 200, 400))
-    graph = nx.DiGraph()
-    graph.add_nodes_from((node, part._asdict()) for node, part in enumerate(parts))
-    graph.add_edges_from([(0, 1), (1, 2), (3, 4)], kind="clip")
-    graph.add_edges_from([(0, 4), (4, 1)], kind="transition")
-    return graph
-
-
-def lines(figure):
-    (drawn,) = [c for c in figure.axes[0].collections if isinstance(c, LineCollection)]
-    return [(tuple(line[0].round(2)), tuple(line[-1].round(2))) for line in drawn.get_segments()]
-
-
-def test_each_segment_is_a_box_in_the_row_of_its_clip(segments):
-    ax = segments_in_rows(segments, ["a", "b"]).axes[0]
-    assert [text.get_text() for text in ax.texts] == ["0", "1", "2", "3", "4"]
-    assert [box.get_x() for box in ax.patches] == [0, 1, 2, 0, 1]
-    assert len({box.get_facecolor() for box in ax.patches[:3]}) == 1
-    assert ax.patches[0].get_facecolor() != ax.patches[3].get_facecolor()
-    assert [box.get_linewidth() > 1 for box in ax.patches] == [False, False, True, False, False]
-
-
-def test_a_transition_leaves_the_end_of_a_box_and_enters_the_start_of_another(segments):
-    (leave, enter), (leave_back, enter_back) = lines(segments_in_rows(segments, ["a", "b"]))
-    assert leave[0] == BOX
-    assert leave[1] > enter[1]  # downwards, from the first clip to the second
-    assert enter[0] == pytest.approx(1.1)
-    assert leave_back[0] == pytest.approx(1 + BOX)
-    assert leave_back[1] < enter_back[1]
-
-
-def test_one_segment_alone_shows_its_own_transitions(segments):
-    assert len(lines(segments_in_rows(segments, ["a", "b"], step=4))) == 1
-    assert lines(segments_in_rows(segments, ["a", "b"], step=1)) == []
