@@ -7,16 +7,17 @@ in the file of its subject.
 Reading order (notebooks 00 to 09)
 ----------------------------------
  1. `small_graphs`: a motion graph's nodes and edges on two clips
- 2. `quaternions`: two half turns, and turns whose order matters; `trees`: forward kinematics by joint
- 3. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
- 4. `laying_clouds`: one cloud of points laid on another, from above
- 5. `ground`: headings, and one clip aligned with another, seen from above
- 6. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
- 7. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
- 8. `branching`: the walks that branch and bound takes up, and walks from above
- 9. `layers`: the layered search along a line, with the line of its code that runs
-10. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
-11. `pens`: arrows, words, discs and steps that several of them share
+ 2. `quaternions`: two half turns, and turns whose order matters
+ 3. `trees`: forward kinematics by joint
+ 4. `windows`: what a window is, a lower bound of the distance of two, and sums along diagonals
+ 5. `laying_clouds`: one cloud of points laid on another, from above
+ 6. `ground`: headings, and one clip aligned with another, seen from above
+ 7. `seams`: frames of a transition, ways between two rotations, a leg as a triangle, and added jolts
+ 8. `eight_nodes`: the paper's small graph, and Tarjan's search on it with its low links
+ 9. `branching`: the walks that branch and bound takes up, and walks from above
+10. `layers`: the layered search along a line, with the line of its code that runs
+11. `distances_to_paths`: how far a walk is from its path, at equal arc length and to the nearest point
+12. `pens`: arrows, words, discs and steps that several of them share
 
 References
 ----------
