@@ -8,7 +8,7 @@ from typing import Annotated
 
 from mocap import body, datasets, editing, files, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_npz, require_writable
-from mocap.cli.options import Building, Seed, bar, number, require_other, tell, write_out
+from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
 from mocap.errors import MocapError, MocapWarning, NoWalk
 
@@ -95,10 +95,8 @@ def build(
     """
     require_npz(out)
     require_writable(out)
-    if graphml and graphml.suffix.lower() != ".graphml":
-        raise MocapError(f"--graphml writes .graphml, got '{graphml}'.")
     if graphml:
-        require_writable(graphml)
+        check_out("graph for other tools", graphml, [".graphml"])
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
     found = files.find_files(clips)

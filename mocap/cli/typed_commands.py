@@ -36,16 +36,13 @@ class _Text(argparse.HelpFormatter):
 
 def add_commands(above: argparse.ArgumentParser, commands: Mapping[str, Run | Group]) -> None:
     """Make a parser for each command, and name it in its options: an error shows its usage."""
-    parsers = above.add_subparsers(title="commands", required=True, metavar="COMMAND", prog=above.prog)
+    parsers: Any = above.add_subparsers(title="commands", required=True, metavar="COMMAND", prog=above.prog)
     for name, run in commands.items():
         whole = f"{inspect.getdoc(run)}" if callable(run) else run.text
         text, _, notes = whole.partition("\n\nNotes\n-----\n")
         about, _, parameters = text.partition("\n\nParameters\n----------\n")
         first, _, more = about.partition("\n\n")
-        texts: dict[str, Any] = {
-            "help": first[0].lower() + first[1:].rstrip("."),
-            "description": more or first,
-        }
+        texts = {"help": first[0].lower() + first[1:].rstrip("."), "description": more or first}
         parser = parsers.add_parser(name, epilog=notes, formatter_class=_Text, **texts)
         parser.set_defaults(parser=parser, run=run)
         if callable(run):

@@ -183,6 +183,4 @@ def stiff(skeleton: Skeleton, trunk: float, neck: float) -> dict[str, float]:
     factors = np.where(
         below > len(skeleton) / 3, trunk, np.where(np.isin(range(len(paths)), [*heads]), neck, 1)
     )
-    return {
-        name: factor for name, factor in zip(skeleton.names, factors.tolist(), strict=True) if factor != 1
-    }
+    return {n: factor for n, factor in zip(skeleton.names, factors.tolist(), strict=True) if factor != 1}

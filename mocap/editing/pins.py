@@ -236,9 +236,7 @@ def plant_pins(motion: Motion, legs: Sequence[Leg] | None = None, heights: Array
         places = place_plants((tracks[0], tracks[1]), (marks[0], marks[1]), length)
         if heights is not None:
             places[..., 1] = own[:, None]
-        low, high = (
-            np.swapaxes(np.where(marks[..., None], places, free), 0, 1) for free in (-np.inf, np.inf)
-        )
+        low, high = (np.swapaxes(np.where(marks[..., None], places, f), 0, 1) for f in (-np.inf, np.inf))
         several.append(Pins((leg.ankle, leg.ball), low, high))
     return join_pins(*several)
 

@@ -87,9 +87,7 @@ def clean_up(
     for track, target, bend in zip(tracks, targets, bends, strict=True):
         pose[:, track.leg[:3]] = pose_leg(track, bend, target.ankle - track.hip - up, target.turn)
     names = [motion.skeleton.names[joint] for leg in legs for joint in leg[2:]]
-    found, gone = (
-        dict(zip(names, some.reshape(len(names), -1), strict=True)) for some in (marks, asked & ~marks)
-    )
+    found, gone = (dict(zip(names, s.reshape(len(names), -1), strict=True)) for s in (marks, asked & ~marks))
     _warn_of_plants_let_go(motion, gone, MOST * tracks[0].length)
     roots, contacts = motion.root_positions + up, {**motion.contacts, **found}
     return replace(motion, root_positions=roots, rotations=pose, contacts=contacts)

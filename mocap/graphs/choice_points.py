@@ -89,9 +89,7 @@ def _goals(ways: Sequence[Ends], within: int) -> dict[Node, Node]:
             last.append(node)
         else:
             groups.append([node])
-    return {
-        node: max((n for n in group if n in left), default=group[0]) for group in groups for node in group
-    }
+    return {node: max((n for n in g if n in left), default=g[0]) for g in groups for node in g}
 
 
 def _fits(clips: Sequence[Motion], window: int, leave: Node, enter: Node) -> bool:

@@ -181,9 +181,7 @@ def time_path(grid: ArrayLike, *, slope: int = 2, slack: int = 0) -> Indices:
     """
     costs = np.asarray(grid, float)
     if costs.ndim != 2 or not costs.size or not np.isfinite(costs.sum()):
-        raise MocapError(
-            f"A path needs a grid of finite numbers, of two dimensions; got shape {costs.shape}."
-        )
+        raise MocapError(f"A path needs a grid of finite numbers, of two dimensions, got {costs.shape}.")
     if not (1 <= slope <= 63 and 0 <= slack < min(costs.shape)):
         short = f"slack from 0 to less than the {min(costs.shape)} frames of a clip"
         raise MocapError(f"A path needs a slope from 1 to 63 and {short}, got {slope} and {slack}.")

@@ -126,13 +126,8 @@ def _frame(ax: Axes, figure: Figure) -> Figure:
     figure.set_size_inches(WIDTH, float(np.clip(WIDTH * high / wide + 0.35, LOW, HIGH)))
     handles, names = ax.get_legend_handles_labels()
     if named := dict(zip(names, handles, strict=True)):
-        look: dict[str, Any] = {
-            "loc": "lower left",
-            "bbox_to_anchor": (0, 1),
-            "fontsize": 9,
-            "frameon": False,
-        }
-        ax.legend(list(named.values()), list(named), ncols=min(6, len(named)), **look)
+        how: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0, 1), "fontsize": 9, "frameon": False}
+        ax.legend(list(named.values()), list(named), ncols=min(6, len(named)), **how)
     ax.text(1, 1.02, "lines 1 m apart", transform=ax.transAxes, ha="right", fontsize=8, color="#666666")
     return figure
 

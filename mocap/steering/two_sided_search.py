@@ -102,9 +102,7 @@ class TwoSided:
         behind = States.join(back.history)
         # Pair every walk of one side with those of the other that stand at the same node, `PAIRS` at most.
         order = np.argsort(behind.node, kind="stable")
-        first_of, stop = (
-            np.searchsorted(behind.node[order], middle.node, side) for side in ("left", "right")
-        )
+        first_of, stop = (np.searchsorted(behind.node[order], middle.node, s) for s in ("left", "right"))
         count = np.where(np.cumsum(stop - first_of) > PAIRS, 0, stop - first_of)
         one, other = np.repeat(np.arange(len(count)), count), order[ranges(first_of, count)]
         price = self.prices(middle.take(one), behind.take(other))

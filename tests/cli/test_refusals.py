@@ -88,7 +88,7 @@ REFUSED = [
     ("graph a.bvh -o g.json", "written as .npz, got"),
     ("graph a.bvh -o .", "written as .npz"),
     ("graph a.bvh -o nowhere/g.npz", "No such file or directory"),
-    ("graph a.bvh --graphml g.xml", "--graphml writes .graphml, got"),
+    ("graph a.bvh --graphml g.xml", "graph for other tools is written as .graphml, got"),
     ("graph a.bvh --threshold 0.001", "no cycle"),
     ("graph a.bvh --threshold nan", "--threshold: 'nan' is not a number"),
     ("graph info a.bvh", "a.bvh: expected a motion graph"),

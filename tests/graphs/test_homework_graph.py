@@ -138,9 +138,7 @@ def test_successors_are_the_clip_bit_for_bit():
 
 
 def transition_of(graph):
-    return next(
-        (a, b) for a, b, kind in graph.edges(data="kind") if kind == "transition" and b + 1 in graph[b]
-    )
+    return next((a, b) for a, b, k in graph.edges(data="kind") if k == "transition" and b + 1 in graph[b])
 
 
 def test_a_transition_goes_from_one_segment_to_the_other_and_on_without_a_stutter():

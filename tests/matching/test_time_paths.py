@@ -123,7 +123,7 @@ def test_begun_anywhere_the_sums_are_those_of_a_local_alignment(seed, rows, colu
 @pytest.mark.parametrize(
     ("grid", "settings", "message"),
     [
-        (np.ones((0, 4)), {}, r"of two dimensions; got shape \(0, 4\)"),
+        (np.ones((0, 4)), {}, r"of two dimensions, got \(0, 4\)"),
         ([[1.0, np.nan], [1.0, 1.0]], {}, "a grid of finite numbers"),
         (np.ones((9, 4)), {"slope": 1}, "9 frames cannot be laid on 4 with slope 1: at most 2 to 1"),
         (np.ones((4, 4)), {"slope": 0}, "from 1 to 63 and slack .* got 0 and 0"),

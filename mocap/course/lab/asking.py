@@ -13,15 +13,7 @@ from typing import Any
 from zlib import crc32
 
 from mocap.course.lab.page import BLANK, Shown, listed, shown, to_html, to_text
-from mocap.course.lab.questions import (
-    Names,
-    filled,
-    names_of_cell,
-    question,
-    read_questions,
-    require,
-    rounded,
-)
+from mocap.course.lab.questions import Names, cell_names, filled, question, read_questions, require, rounded
 from mocap.errors import MocapError
 
 HEADS = {"choice": "Quiz: choose one", "number": "Quiz: a number", "order": "Quiz: put in order"}
@@ -57,7 +49,7 @@ def quiz(key: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    return asked(key, question("quiz", key), names_of_cell())
+    return asked(key, question("quiz", key), cell_names())
 
 
 def asked(key: str, quiz: dict[str, Any], names: Names) -> Shown:
@@ -130,7 +122,7 @@ def bet(*keys: str) -> Shown:
 
     Notebooks: 00-quickstart to 19-group-graphs
     """
-    return asked_before({key: question("bet", key) for key in keys}, names_of_cell())
+    return asked_before({key: question("bet", key) for key in keys}, cell_names())
 
 
 def asked_before(bets: Bets, names: Names) -> Shown:
@@ -173,7 +165,7 @@ def bets(notebook: str) -> Shown:
     Notebooks: 00-quickstart to 19-group-graphs
     """
     found = read_questions(notebook)["bet"]
-    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, names_of_cell())
+    return summed_up({f"{notebook}-{name}": bet for name, bet in found.items()}, cell_names())
 
 
 def summed_up(bets: Bets, names: Names) -> Shown:

@@ -221,6 +221,6 @@ def make_pairs(clips: Sequence[Motion], found: Transitions, plan: Plan) -> list[
         joined = join(first, start, second, start, plan.window)
         control, other = (first, second) if rng.random() < 0.5 else (second, first)
         ahead = lay_on(first[seam_at:], place(first[seam_at:], 0.0, (0.0, 0.0)))
-        films = (ahead.apply_motion(film) for film in (joined, control))
+        films = ahead.apply_motion(joined), ahead.apply_motion(control)
         pairs.append(Pair(*films, bool(rng.random() < 0.5), match, ahead.apply_motion(other)))
     return pairs

@@ -60,7 +60,7 @@ def question(kind: str, key: str) -> dict[str, Any]:
     return dict(found[name])
 
 
-def names_of_cell() -> Names:
+def cell_names() -> Names:
     """Give the names of the notebook whose cell called the function that calls this one."""
     return sys._getframe(2).f_globals
 

@@ -54,12 +54,7 @@ class MatchWeb:
     rate: ClassVar[float] = 30.0  # frames per second at which clips are compared
 
     def __post_init__(self) -> None:
-        kinds: dict[str, Any] = {
-            "starts": np.intp,
-            "cells": np.int32,
-            "costs": np.float32,
-            "offsets": np.intp,
-        }
+        kinds = dict[str, Any](starts=np.intp, cells=np.int32, costs=np.float32, offsets=np.intp)
         for key, kind in kinds.items():
             object.__setattr__(self, key, frozen(getattr(self, key), kind))
 
