@@ -176,8 +176,8 @@ def test_what_is_not_there_is_said(call, said):
 
 def test_names_are_those_of_the_caller():
     space = {}
-    exec("from mocap.course import lab\nimport numpy as np\ngap, rms = 0.42, np.array([2.0])", space)
-    assert "The walker jumps by 42 cm in one frame" in eval("lab.quiz('00-bug-hunt')", space).text
+    exec("from mocap.course import lab\nminima = range(42)", space)
+    assert "Of the 42 minima, those left at 6 cm" in eval("lab.bet('00-left-at-6')", space).text
     assert eval("lab.bet('09-die-at-185')", space).text == "Share of the walks that die at 185: ______ %"
 
 
