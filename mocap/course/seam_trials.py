@@ -28,7 +28,7 @@ def walk_costs(odds: Array, costs: Array, *, walks: int = 40, steps: int = 60, s
     ----------
     odds : shape (S, S), P[i, j] of the step from i to j; where a row holds zeros only, a walk ends.
     costs : shape (S, S), of these steps.
-    walks, steps, seed : how many walks of how many steps; they start where P leads on.
+    walks, steps, seed : how many walks of how many steps; all starts are equally likely.
 
     Returns
     -------
@@ -36,14 +36,14 @@ def walk_costs(odds: Array, costs: Array, *, walks: int = 40, steps: int = 60, s
 
     Examples
     --------
-    >>> walk_costs(np.array([[0.0, 1], [0, 0]]), np.array([[0.0, 7], [0, 0]]), walks=1, steps=3)
-    array([[ 7., nan, nan]])
+    >>> walk_costs(np.array([[0.0, 1], [1, 0]]), np.array([[0.0, 7], [7, 0]]), walks=1, steps=3)
+    array([[7., 7., 7.]])
 
     Notebook: 09-discussion
     """
     rng, rows = np.random.default_rng(seed), np.full((walks, steps), np.nan)
     for row in rows:
-        at = rng.choice(np.flatnonzero(odds.any(axis=1)))
+        at = rng.integers(len(odds))
         for step in range(steps):
             if not odds[at].any():
                 break
