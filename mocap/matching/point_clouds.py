@@ -115,6 +115,8 @@ def rms_distance(first: Motion, second: Motion) -> float:
     >>> here, there = (Motion(bone, [[x, 0, 0]], [[[1, 0, 0, 0]] * 2], 30.0) for x in (0, 3))
     >>> rms_distance(here, there)
     3.0
+
+    Notebook: 09b-blend-window
     """
     first, second = require_alike([first, second])
     points, others = matching_clouds(point_cloud(first).reshape(-1, 3), point_cloud(second).reshape(-1, 3))
