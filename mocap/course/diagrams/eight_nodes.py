@@ -74,13 +74,10 @@ def tarjan_states(successors: Mapping[Node, Sequence[Node]]) -> list[SearchState
     Notebook: 06-pruning
     """
     number, low = dict[Node, int](), dict[Node, int]()
-    stack: list[Node] = []
-    components: list[set[Node]] = []
-    states: list[SearchState] = []
+    stack, components, states = list[Node](), list[set[Node]](), list[SearchState]()
 
     def note(line: int, message: str, node: Node) -> None:
-        known = dict(number), dict(low), list(stack), list(components)
-        states.append(SearchState(line, message, node, *known))
+        states.append(SearchState(line, message, node, dict(number), dict(low), [*stack], [*components]))
 
     def visit(node: Node) -> None:
         number[node] = low[node] = len(number)
