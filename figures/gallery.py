@@ -48,7 +48,7 @@ from mocap import (
     steering,
     synthesis,
 )
-from mocap.body import arcs, figure_eight, joint_positions, planar, rotations, spline, velocities
+from mocap.body import SHAPES, arcs, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
@@ -262,7 +262,7 @@ def draw_components() -> Figure:
 
 def draw_path() -> Figure:
     """Draw a path that was asked for, black, and the walk that follows it, yellow, with its footprints."""
-    path = figure_eight()
+    path = SHAPES["figure of eight"]()
     walk = steering.follow_path(_graph(), path).motion()
     plotting.asked_and_walked(path.points, walk)
     plotting.footprints(feet.find_footprints(walk), ax=plt.gca())

@@ -80,6 +80,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "body.skeleton": ["Skeleton"],
         "body.motion": ["Motion", "concatenate", "resample"],
         "body.planar": ["PlanarTransform"],
-        "files.load_save": ["load", "load_skeleton", "save"],
+        "files.load_save": ["load", "save"],
     },
 )

@@ -10,7 +10,8 @@ from functools import cache
 import numpy as np
 
 from mocap._shared.arrays import Array
-from mocap.body import Motion, forward_kinematics, rotations
+from mocap.body import Motion, rotations
+from mocap.body.kinematics import forward_kinematics
 from mocap.body.planar import lay_on, place
 from mocap.errors import MocapError
 from mocap.steering import Moment, in_between

@@ -30,14 +30,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "skeleton": ["Skeleton"],
         "motion": ["Motion", "concatenate", "resample"],
-        "kinematics": ["forward_kinematics", "joint_positions", "velocities"],
+        "kinematics": ["joint_positions", "velocities"],
         "planar": ["PlanarTransform", "heading", "lay_on", "on_ground", "place"],
         "ground_path": [
             "GroundPath",
             "SHAPES",
             "arcs",
             "circle",
-            "figure_eight",
             "letter_s",
             "s_curve",
             "spline",

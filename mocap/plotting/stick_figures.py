@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mocap._shared.arrays import Array
 from mocap.body import Motion, Skeleton, joint_positions
 from mocap.plotting.bodies import bones, head_joints
-from mocap.plotting.style import COLOURS, FLOOR, PATH, SOURCES, own_colour
+from mocap.plotting.style import COLOURS, FLOOR, SOURCES, own_colour
 
 TALL = 1.9  # metres above the ground that pictures show
 ZOOM = 1.55  # of the camera, where nothing has to be brought inside the picture
@@ -160,48 +160,6 @@ class StickFigure:
         return [self.bones, self.dot]
 
 
-def _draw_poses(
-    motion: Motion, points: Array, ax: Axes3D, alphas: Sequence[float], colour: str | None = None
-) -> list[StickFigure]:
-    """Draw a stick figure for each pose, shape (F, J, 3)."""
-    figures = [StickFigure(motion.skeleton, ax, alpha, colour) for alpha in alphas]
-    for figure, pose in zip(figures, points, strict=True):
-        figure.pose(pose)
-    return figures
-
-
-def stick_figure(
-    motion: Motion, frames: Sequence[int] | int = 0, *, ax: Axes3D | None = None
-) -> list[StickFigure]:
-    """Draw poses of a motion: the last one solid, those before it as ghosts, the root's path on the ground.
-
-    Parameters
-    ----------
-    motion : the motion.
-    frames : which frames; one or several.
-    ax : 3D axes; by default new ones around these poses.
-
-    Returns
-    -------
-    One stick figure per pose.
-
-    Examples
-    --------
-    >>> from mocap import datasets, plotting
-    >>> walk = datasets.sample("walk_straight")
-    >>> plotting.show(stick_figure(walk, [0, 40, 80]), alt="Three poses of a walk.")
-    Picture('Three poses of a walk.')
-
-    Notebook: 02-matching
-    """
-    shown = [frames] if isinstance(frames, int) else list(frames)
-    points = joint_positions(motion)[shown]
-    ax = ax or ground_around(points)
-    ax.plot(*to_picture(motion.root_positions * [1, 0, 1]).T, color=PATH, linewidth=1.5, zorder=1)
-    ghosts = [0.15 + 0.35 * k / len(shown) for k in range(len(shown) - 1)]
-    return _draw_poses(motion, points, ax, [*ghosts, 1.0])
-
-
 def laid_over(first: Motion, second: Motion, *, every: int = 5) -> list[list[StickFigure]]:
     """Draw two motions over each other, each in one colour, to see how well they match.
 
@@ -230,7 +188,9 @@ def laid_over(first: Motion, second: Motion, *, every: int = 5) -> list[list[Sti
     ax = ground_around(np.concatenate([points.reshape(-1, 3) for points in clouds]))
     drawn = []
     for motion, points, colour in zip((first, second), clouds, SOURCES[:2], strict=True):
-        drawn.append(_draw_poses(motion, points, ax, [0.7] * len(points), colour))
+        drawn.append([StickFigure(motion.skeleton, ax, 0.7, colour) for _ in points])
+        for figure, pose in zip(drawn[-1], points, strict=True):
+            figure.pose(pose)
         ax.plot([], [], [], color=colour, linewidth=2.4, label=motion.name)
     ax.legend(loc="upper left", frameon=False)
     return drawn

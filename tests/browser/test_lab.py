@@ -20,7 +20,7 @@ CELLS = {
         points = joint_positions(walk)
 """,
     "explore": """
-        (body,) = plotting.stick_figure(walk, 0)
+        body = plotting.StickFigure(walk.skeleton, plotting.ground_axes((0, 0), 3.0))
         def pose(frame=0):
             if frame == 239:
                 raise ValueError("here the clip ends")
@@ -32,7 +32,7 @@ CELLS = {
             return plotting.path_from_above(walk[:count], seams=[30] if seam else [], colour=colour)
         count = ipywidgets.SelectionSlider(options=[60, 120, 240], value=60)
         explore(steps, alt="A path from above.", side=["left", "right"], count=count, seam=False)""",
-    "show": 'show(plotting.stick_figure(walk, 40), alt="One pose of a walk.")',
+    "show": 'show(plotting.laid_over(walk[40:41], walk[50:51]), alt="Two poses of a walk.")',
     "point": """
         def lay(at=(30, 100)):
             i, j = at

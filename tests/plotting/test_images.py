@@ -8,7 +8,8 @@ import networkx as nx
 import pytest
 from matplotlib.text import Text
 
-from mocap.plotting import graph_drawing, stick_figures
+from mocap.body import joint_positions
+from mocap.plotting import PATH, graph_drawing, stick_figures
 from tests.strategies import wave
 
 pytest.importorskip("pytest_mpl", reason="pip install pytest-mpl")
@@ -38,7 +39,13 @@ def without_text(figure):
 
 @alike()
 def test_ghosts_look_as_ever():
-    return stick_figures.stick_figure(wave(60), [0, 25, 50])[0].dot.figure
+    motion = wave(60)
+    points = joint_positions(motion)[[0, 25, 50]]
+    ax, way = stick_figures.ground_around(points), motion.root_positions * [1, 0, 1]
+    ax.plot(*stick_figures.to_picture(way).T, color=PATH, linewidth=1.5, zorder=1)
+    for alpha, pose in zip((0.15, 0.15 + 0.35 / 3, 1.0), points, strict=True):
+        stick_figures.StickFigure(motion.skeleton, ax, alpha).pose(pose)
+    return ax.figure
 
 
 @alike()

@@ -61,7 +61,8 @@ def test_a_stick_figure_has_every_bone_where_the_joints_are_in_the_colour_of_its
     names = ["hips", "lleg", "rleg", "lfoot", "rfoot", "head"]
     body = Skeleton(names, [-1, 0, 0, 1, 2, 0], [[0, 0, 0]] + [[x, -0.4, 0] for x in (0.1, -0.1, 0, 0.01, 0)])
     motion = replace(wave(5), skeleton=body, rotations=np.tile([1.0, 0, 0, 0], (5, 6, 1)), contacts={})
-    (figure,) = stick_figures.stick_figure(motion, 2)
+    figure = stick_figures.StickFigure(body, stick_figures.ground_axes())
+    figure.pose(joint_positions(motion)[2])
     at = to_picture(joint_positions(motion)[2])
     expected = {(*at[a], *at[b], s) for a, b, s in ((0, 1, "middle"), (0, 2, "middle"), (0, 5, "middle"))}
     expected |= {(*at[1], *at[3], "left"), (*at[2], *at[4], "right")}

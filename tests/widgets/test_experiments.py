@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from mocap.body.kinematics import joint_positions
-from mocap.plotting.stick_figures import ground_axes, stick_figure
+from mocap.plotting.stick_figures import StickFigure, ground_axes
 from mocap.widgets import experiments, live
 from mocap.widgets.experiments import explore
 from tests.refusals import refused
@@ -50,15 +50,11 @@ def test_a_pose_drawn_over_the_kept_ground_is_the_pose_drawn_whole():
     motion = wave(30)
     points = joint_positions(motion)
 
-    def body_at(ax):
-        (body,) = stick_figure(motion, 0, ax=ax)
-        return body
-
-    body = body_at(ground_axes((0, 0.3), 1.0))
+    body = StickFigure(motion.skeleton, ground_axes((0, 0.3), 1.0))
     experiment = explore(lambda frame: body.pose(points[frame]), alt="A pose.", frame=(0, 29))
     experiment.set(frame=17)
     ax = ground_axes((0, 0.3), 1.0)
-    body_at(ax).pose(points[17])
+    StickFigure(motion.skeleton, ax).pose(points[17])
     whole = experiments.BlittedFigure().png(ax.figure)
     assert np.abs(pixels(experiment.picture.value) - pixels(whole)).mean() < 0.1  # of 255
 
