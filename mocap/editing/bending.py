@@ -88,9 +88,9 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     """Lay a walk on a line, and clean up its feet [Gle01, 5].
 
     Its own path is taken off and the line put in its place [Gle01]. Ours is that it slows down and leans in
-    where the line bends more than its own path, as people do, and that the line is rounded where it would
-    still turn too fast. So a captured turn on its own way stays as it is. The walk starts where the line
-    starts.
+    where the line bends more than its own path, as people do, goes more slowly yet at corners, and that the
+    line is rounded where it would still turn too fast. So a captured turn on its own way stays as it is. The
+    walk starts where the line starts.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def bend(motion: Motion, path: GroundPath, *, limit: float = LIMIT, ride: Ride |
     motion = with_plants(motion)
     ride = ride or ride_of(motion)
     line = round_line(_reached(path, ride), ride, motion.fps, limit)
-    slowed, own, walked, angle = slow_down(motion, ride, line.path)
+    slowed, own, walked, angle = slow_down(motion, ride, line.path, limit)
     frames = max(2, int(np.searchsorted(walked, line.path.length + 1e-6)))
     slowed, own, walked, angle = slowed[:frames], own[:frames], walked[:frames], angle[:frames]
     way = moving_frames(line.path, walked)

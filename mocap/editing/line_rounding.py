@@ -12,7 +12,7 @@ from mocap._shared.arrays import Array, Indices, Points
 from mocap.body.ground_path import GroundPath
 from mocap.body.planar import from_ground, on_ground
 from mocap.editing.path_editing import CHORD, Ride, moving_frames
-from mocap.editing.turning import RADIUS, places_on
+from mocap.editing.turning import RADIUS, SLOWER, places_on
 
 SPACING = 0.05  # metres between the points of a rounded line
 SMOOTH = 0.1  # metres that smoothing reaches everywhere; it moves a circle of 1 m by 0.1 mm
@@ -29,6 +29,7 @@ CUT = 1.75  # times that radius: a line that is cut by more goes back on itself,
 SHORTER = 0.6  # of its length: so much stays at least of a line that is not cut by much more than it need be
 LOOP = 1.15  # times the radius: where a bend begins, a walk is faster than further on
 AHEAD = 0.6  # times the radius: how far ahead on a line a walk looks that is steered along it
+TIGHTEST = 0.2  # metres: no loop is tighter
 SLOWEST = 0.5  # of its own pace: at least so fast the point on the line moves on, or the walk might circle it
 SEEN = 0.01  # metres: a line that is moved by less is not called rounded
 JOINED = 0.5  # metres: rounded stretches nearer to each other count as one
@@ -83,8 +84,8 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     The line is the one nearest to the points p_k asked for, among those that bend little:
     min Σ |x_k - p_k|² + Σ λ_k |x_{k-1} - 2 x_k + x_{k+1}|², a linear system with five diagonals. λ_k = r_k⁴
     is small at first. Where a frame of the walk turns too fast, the reach r grows around it, and the line is
-    laid anew. The walk slows down in bends, as `turning` says, and may turn by the limit, and by as much more
-    as it turns there by itself to the same side; where it nowhere turns too fast, the line stays as it is.
+    laid anew. The walk slows down in bends, and more at corners, as `turning` says; it may turn by the limit,
+    and by as much more as it turns there by itself to the same side. Else the line stays as it is.
     Where all this is not enough, at one corner upon another, or cuts off too much, where the line comes back
     on itself, a walk is steered along the line, which turns as fast as it may and makes loops.
 
@@ -107,21 +108,19 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     """
     even = path.resampled(SPACING)
     asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)
-    straight = np.diff(ride.along).max(initial=0.0) * fps / limit  # v₀ / limit
+    straight = SLOWER * np.diff(ride.along).max(initial=0.0) * fps / limit  # v₀ / limit at its slowest
     # The radius r at which v₀ q(1/r) / r is the limit, in cells.
-    radius = np.sqrt((np.sqrt(RADIUS**4 + 4 * straight**4) - RADIUS**2) / 2) / spacing
+    radius = max(TIGHTEST, np.sqrt((np.sqrt(RADIUS**4 + 4 * straight**4) - RADIUS**2) / 2)) / spacing
     own = np.diff(moving_frames(ride.path, ride.along).angle) * fps
 
     def too_fast(line: GroundPath, metres: Array) -> Indices:
         """Find the points of a line where the walk would turn too fast."""
-        along, ratio = places_on(line, ride, fps)
+        along, ratio = places_on(line, ride, fps, limit)
         along = along[along <= metres[-1]]  # to round a line makes it shorter
         slower = np.sqrt(ratio[1 : len(along)])
         rate = np.diff(moving_frames(line, along).angle) * fps * slower
-        fast = np.abs(rate) > limit + np.maximum(
-            np.sign(rate) * own[: len(rate)] * slower, 0
-        )  # to the same side
-        return np.unique(np.searchsorted(metres, along[1:][fast]))
+        most = limit + np.maximum(np.sign(rate) * own[: len(rate)] * slower, 0)  # to the same side
+        return np.unique(np.searchsorted(metres, along[1:][np.abs(rate) > most]))
 
     if not len(too_fast(path, even.along)):
         return RoundedLine(path, even.along, even.along, np.zeros(len(asked)))

@@ -7,15 +7,16 @@ from the feet to the centre of mass, or would fall outwards. People lean little,
 
 In tight bends v² k then stays at v₀² / R, about a tenth of g for a walk. Half of it is shorter steps, half a
 slower clock: steps are √q times as long, and last 1/√q as long. The law and R are ours, from captured turns.
+At a corner, where v k is still more than a walk may turn, it goes more slowly yet, from a little before.
 """
 
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from mocap._shared.arrays import Array, Indices
+from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.ground_path import GroundPath
 from mocap.body.kinematics import forward_kinematics
@@ -29,20 +30,25 @@ RADIUS = 1.2  # metres; R above. People who run slow down more, R of about 2 m a
 GRAVITY = 9.81
 CELL, SOFT = 0.02, 0.2  # metres: a line's curvature is taken at such distances, and smoothed by so much
 SMOOTH = 0.3  # seconds by which speeds are smoothed
-STANDS, WALKS = (
-    0.2,
-    0.5,
-)  # metres per second: below the first a body stands, and its path curls; above it walks
+STANDS, WALKS = 0.2, 0.5  # metres per second: below the first a body stands, and its path curls
+# Of the speed that the law gives, and metres per second: so slowly a walk goes at least where it would turn
+# faster than it may. With 0.6 a brisk walk is up to 18 cm off at a corner of 135°, not 9. A walk keeps to
+# `WITHIN` of the limit, because its speed varies.
+SLOWER, LEAST, WITHIN = 0.45, 0.3, 0.95
 RATIOS = (0.3, 1.25)  # of speeds, after and before: a turn that is made straight speeds up a little
 PELVIS, TRUNK = 0.5, 0.25  # of the lean; the legs take the whole of it, and the feet none
 
 
 class Bends(NamedTuple):
-    """How a line bends at n places: metres `along` it, `curvature` k (radians per metre), `pace` q."""
+    """How a line bends at n places: metres `along` it, `curvature` k (radians per metre), `pace` q.
+
+    `sharpest` is the largest curvature nearby, unsmoothed.
+    """
 
     along: Array
     curvature: Array
     pace: Array
+    sharpest: Array
 
 
 class Places(NamedTuple):
@@ -78,37 +84,47 @@ def bends_of(path: GroundPath) -> Bends:
     np.float64(0.8)
     """
     along = np.arange(0.0, path.length + CELL, CELL)
-    curvature = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
-    curvature = gaussian_filter1d(curvature, SOFT / CELL, mode="nearest")
-    return Bends(along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25)
+    turning = np.gradient(np.asarray(moving_frames(path, along).angle), CELL)
+    curvature = gaussian_filter1d(turning, SOFT / CELL, mode="nearest")
+    sharpest = maximum_filter1d(abs(turning), 2 * round(SOFT / CELL) + 1)
+    sharpest = gaussian_filter1d(sharpest, SOFT / CELL / 2, mode="nearest", truncate=2.0)
+    return Bends(along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25, sharpest)
 
 
-def places_on(path: GroundPath, ride: Ride, fps: float) -> Places:
+def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -> Places:
     """Say where on a line a walk is, slowed by as much as the line bends more than the walk's own path.
 
     The speeds' ratio is r = q(k) / q(k₀), with k₀ of its own path: 1 for a captured turn on its own path.
-    Where a body stands, its path curls, and that says nothing: r = 1.
+    Where a body stands, its path curls, and that says nothing: r = 1. Where it would turn faster than the
+    limit, radians per second, and than by itself to the same side, r is smaller, down to `SLOWER` or `LEAST`.
     """
     line, own = bends_of(path), bends_of(ride.path)
+    heads = moving_frames(ride.path, ride.along).angle
+    speeds, turned = (np.gradient(some) * fps for some in (ride.along, heads))
     walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
     paces = own.pace[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own.pace) - 1)]
     here, ratio, last, (low, high) = 0.0, 1.0, len(line.pace) - 1, RATIOS
-    places, there = [], line.pace.tolist()
+    places, there = [], np.stack([line.pace, line.sharpest, np.sign(line.curvature)], axis=1).tolist()
     steps = np.diff(ride.along, prepend=ride.along[:1])
-    for step, pace, walk in np.stack([steps, paces, walks], axis=1).tolist():
+    for step, pace, walk, speed, turn in np.stack([steps, paces, walks, speeds, turned], axis=1).tolist():
         here += ratio**0.5 * step
-        ratio = min(max(there[min(round(here / CELL), last)] / pace, low), high) ** walk
+        q, k, side = there[min(round(here / CELL), last)]
+        ratio = min(max(q / pace, low), high) ** walk
+        more = k * speed - max(side * turn, 0.0)
+        if more * ratio > WITHIN * limit:
+            ratio = max(WITHIN * limit / more, SLOWER * ratio, min(LEAST / speed, ratio))
         places.append((here, ratio))
     return Places(*np.array(places).T)
 
 
-def slow_down(motion: Motion, ride: Ride, path: GroundPath) -> Slowed:
+def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.inf) -> Slowed:
     """Slow a walk for the bends of a line.
 
     Parameters
     ----------
     motion, ride : F frames, and where they are on their own path.
     path : the line, which the walk starts at its start.
+    limit : how fast it may be turned, radians per second.
 
     Returns
     -------
@@ -124,7 +140,7 @@ def slow_down(motion: Motion, ride: Ride, path: GroundPath) -> Slowed:
     >>> round(slow.motion.duration / walk.duration, 2), np.degrees(slow.lean[200]).round()
     (1.11, np.float64(4.0))
     """
-    places, numbers = places_on(path, ride, motion.fps), np.arange(len(motion))
+    places, numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
     clock = places.ratio**-0.5  # new frames per old frame
     times = np.concatenate([[0.0], np.cumsum((clock[1:] + clock[:-1]) / 2)])
     frames = np.interp(np.arange(int(times[-1] + 1e-6) + 1), times, numbers)
@@ -156,20 +172,18 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     height, ahead = motion.root_positions[:, 1], np.stack([np.sin(way), 0 * way, np.cos(way)], axis=-1)
     left = np.stack([np.cos(way), 0 * way, -np.sin(way)], axis=-1)
     outer = replace(motion, root_positions=motion.root_positions - (height * np.tan(angle))[:, None] * left)
-    parents, legs = motion.skeleton.parents, legs_of(motion.skeleton, None)
-    shares = {0: PELVIS, **dict.fromkeys(motion.skeleton.children(0), TRUNK)}
-    shares |= {_below_root(parents, leg.hip): PELVIS for leg in legs}
+    skeleton, legs = motion.skeleton, legs_of(motion.skeleton, None)
+    shares = {0: PELVIS, **dict.fromkeys(skeleton.children(0), TRUNK)}
+    shares |= {skeleton.path_to_root(leg.hip)[-2]: PELVIS for leg in legs}
     shares |= {leg.hip: 1.0 for leg in legs} | {leg.ankle: 0.0 for leg in legs}
     world, pose = forward_kinematics(motion).matrices, motion.rotations.copy()
     for joint, share in shares.items():
-        above = parents[joint]
-        while above >= 0 and above not in shares:
-            above = parents[above]
-        old = rotations.from_matrix(world[:, max(parents[joint], 0)]) if joint else np.array([1.0, 0, 0, 0])
+        above = skeleton.path_to_root(joint)[1:]
+        old = rotations.from_matrix(world[:, above[0]]) if joint else np.array([1.0, 0, 0, 0])
         # W' = T W, where T tilts about the way ahead: of this joint, and of the nearest one above it.
         tilted, before = (
             rotations.multiply(rotations.from_rotvec(-ahead * (part * angle)[:, None]), old)
-            for part in (share, shares.get(above, 0.0))
+            for part in (share, next((shares[other] for other in above if other in shares), 0.0))
         )
         pose[:, joint] = rotations.multiply(
             rotations.inverse(before), rotations.multiply(tilted, motion.rotations[:, joint])
@@ -177,13 +191,6 @@ def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Ar
     pins = plant_pins(outer)
     held = np.where(np.isfinite(pins.low), pins.low, np.nan)
     return replace(motion, rotations=pose), {joint: held[:, n] for n, joint in enumerate(pins.joints)}
-
-
-def _below_root(parents: Indices, joint: int) -> int:
-    """Find the child of the root from which a joint hangs."""
-    while parents[joint] > 0:
-        joint = int(parents[joint])
-    return joint
 
 
 def _speed(along: Array, fps: float) -> Array:

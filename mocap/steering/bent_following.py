@@ -162,7 +162,7 @@ def plan_bending(
     further = FURTHER[0] + (1 + FURTHER[1]) * max(path.length, line.path.length) - line.path.length
     longer = GroundPath(np.vstack([points, points[-1] + further * way / np.hypot(*way)]))
     route = _in_own_metres(
-        make_route(graph, longer, wishes), longer, places_on(longer, pace, graph.fps), steady
+        make_route(graph, longer, wishes), longer, places_on(longer, pace, graph.fps, limit), steady
     )
     return replace(route, own=own), partial(_lay, graph, path, wishes, limit)
 

@@ -17,7 +17,7 @@ from tests.editing.test_path_editing import acc99, off, slide
 from tests.refusals import refused
 
 CLIPS = ("walk_straight", "walk_circle", "sneak", "jog")
-CORNER = GroundPath([[0, 0], [0, 4], [4, 4]])
+CORNER = GroundPath([[0, 0], [0, 4], [2, 0.6]])  # of 150°
 
 
 @cache
@@ -64,9 +64,9 @@ def test_it_says_where_the_line_was_rounded():
     assert bent.rounded[(bent.along > where.start) & (bent.along < where.end)].all()
     assert bent.off.max() < 0.11
     assert straight_parts(bent).max() < 0.05
-    zigzag = GroundPath([[4 * (n % 2), 2 * n] for n in range(8)])
+    zigzag = GroundPath([[4 * (n % 2), n] for n in range(8)])
     assert " more; turned by" in bend(clip("walk_straight"), zigzag).report()
-    saw = bend(clip("walk_straight"), GroundPath([[0.7 * (n % 2), 0.7 * n] for n in range(9)]))
+    saw = bend(clip("walk_straight"), GroundPath([[0.7 * (n % 2), 0.2 * n] for n in range(9)]))
     assert saw.rounded.mean() > 0.9
 
 
@@ -111,9 +111,8 @@ def test_captured_walks_keep_to_any_line(real_data, name):
     for path in (arcs((0, 0), 0, [(2, 1.5), (2, -1.5)]), circle(1.5)):
         bent = bend(motion, path)
         assert straight_parts(bent).mean() <= 0.025
-        sway = off(
-            motion, bent.ride.path
-        ).max()  # 16_17 lurches by 6 cm where it stops; to reach its plants takes 4 more
+        # 16_17 lurches by 6 cm where it stops; to reach its plants takes 4 more.
+        sway = off(motion, bent.ride.path).max()
         assert straight_parts(bent).max() <= max(0.08, sway + 0.04)
         assert slide(bent.motion) <= 1e-6
         assert plants_kept(bent.motion, bent.laid) >= 0.93  # 16_17 lurches at its end

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from asked_lines import heart
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
@@ -14,7 +15,7 @@ from mocap.editing.turning import places_on
 from tests.strategies import planar
 
 LIMIT, FPS, SPEED = np.radians(100), 30.0, 1.2
-RADIUS = 0.37  # metres: on this arc a walk of this speed, slowed, turns by the limit
+RADIUS = 0.2  # metres: on about this arc a walk of this speed, at its slowest, turns by the limit
 
 
 def straight(metres=60.0, fps=FPS):
@@ -28,15 +29,9 @@ def corner(degrees, leg=6.0):
     return GroundPath([[0, 0], [0, leg], [leg * np.sin(turn), leg + leg * np.cos(turn)]])
 
 
-def heart(size=0.28):
-    t = np.linspace(0.15, 2 * np.pi - 0.15, 240)
-    z = 13 * np.cos(t) - 5 * np.cos(2 * t) - 2 * np.cos(3 * t) - np.cos(4 * t)
-    return GroundPath(size * np.stack([16 * np.sin(t) ** 3, z], axis=1))
-
-
-def fastest(path, ride=None, fps=FPS):
+def fastest(path, limit=LIMIT, fps=FPS):
     """How fast a walk turns on a path, radians per second."""
-    along, ratio = places_on(path, ride or straight(), fps)
+    along, ratio = places_on(path, straight(), fps, limit)
     rates = np.diff(moving_frames(path, along).angle) * fps * np.sqrt(ratio[1:])
     return np.abs(rates[along[1:] < path.length]).max()
 
@@ -50,7 +45,15 @@ def test_the_line_is_the_least_squares_one():
     assert (_smoothed(points[:2], weight[:2]) == points[:2]).all()
 
 
-@pytest.mark.parametrize("degrees", [70, 90, 120])
+@pytest.mark.parametrize("degrees", [70, 90])
+def test_a_walk_slows_down_for_a_corner_and_does_not_cut_it(degrees):
+    asked = corner(degrees)
+    assert fastest(asked, np.inf) > 1.2 * LIMIT
+    assert 0.85 * LIMIT < fastest(asked) <= 1.02 * LIMIT
+    assert round_line(asked, straight(), FPS, LIMIT).moved.max() < 0.06
+
+
+@pytest.mark.parametrize("degrees", [140, 150])
 def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
     asked = corner(degrees)
     line = round_line(asked, straight(), FPS, LIMIT)
@@ -62,14 +65,14 @@ def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
     (where,) = line.roundings
     assert where.start < 6 < where.end
     assert where.worst == line.moved.max()
-    assert where.end - where.start < 9 * RADIUS
+    assert where.end - where.start < 2.5
     far = np.abs(line.asked - 6) > 4.5
     assert line.moved[far].max() < 0.01
 
 
 def test_a_cusp_is_rounded_and_the_rest_stays():
     line = round_line(heart(), straight(), FPS, LIMIT)
-    assert fastest(heart()) > 4 * LIMIT
+    assert fastest(heart(), np.inf) > 4 * LIMIT
     assert fastest(line.path) <= LIMIT
     (where,) = line.roundings
     assert where.end - where.start < 7
@@ -85,20 +88,20 @@ def test_what_is_slow_enough_stays_as_it_is(path):
     assert line.path.length == pytest.approx(path.length, rel=0.001)
 
 
-@pytest.mark.parametrize("degrees", [140, 160, 180])
+@pytest.mark.parametrize("degrees", [160, 170, 180])
 def test_a_line_that_comes_back_on_itself_gets_a_loop(degrees):
     """A smoother line alone would come back on itself as well, or be much shorter."""
     back = corner(degrees)
     line = round_line(back, straight(), FPS, LIMIT)
-    assert fastest(back) > 2 * LIMIT
+    assert fastest(back, np.inf) > 2 * LIMIT
     assert fastest(line.path) <= 1.05 * LIMIT
-    assert line.path.length > back.length if degrees > 150 else line.path.length > 0.7 * back.length
+    assert line.path.length > back.length
     assert line.moved.max() < 2.5 * RADIUS
 
 
 def test_the_walk_may_turn_faster_where_it_turns_by_itself():
     """A walk that turns where the corner is needs less rounding than one that goes straight on."""
-    asked = corner(90)
+    asked = corner(140)
     own = round_line(asked, straight(), FPS, LIMIT).path  # a walk along the rounded line itself
     along = np.arange(0, own.length, SPEED / FPS)
     line = round_line(asked, Ride(own, along), FPS, LIMIT)
@@ -106,7 +109,7 @@ def test_the_walk_may_turn_faster_where_it_turns_by_itself():
 
 
 @settings(max_examples=8)
-@given(planar, st.floats(30, 115))
+@given(planar, st.floats(30, 145))
 def test_it_goes_where_the_line_goes(place, degrees):
     asked = corner(degrees)
     moved = GroundPath(from_ground(place.turn * on_ground(asked.points) + place.move))
@@ -143,4 +146,4 @@ def test_a_short_line_is_no_harm():
     for path in (GroundPath([[0, 0], [0, 0.02]]), GroundPath([[0, 0], [0.1, 0.1], [0, 0]])):
         line = round_line(path, straight(), FPS, LIMIT)
         assert np.isfinite(line.path.points).all()
-    assert not round_line(corner(90), straight(), FPS, np.inf).moved.max() > 0.06
+    assert not round_line(corner(150), straight(), FPS, np.inf).moved.max() > 0.06

@@ -1,5 +1,7 @@
 """The solver is as good as SciPy, its banded step as the plain one; each frame alone jolts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -59,7 +61,7 @@ def test_a_rail_and_a_free_joint_give_rows_of_zeros():
 def test_the_banded_step_is_the_plain_one(seed, frames, knots, calm, damping):
     random = np.random.default_rng(seed)
     price = random.uniform(1, 9, 3)
-    curve = Curve(Basis(knots, calm, weight=30.0), Clip(frames), price)
+    curve = Curve(Basis(knots, calm, weight=30.0), replace(walk()[:frames], fps=1.0), price)
     c = random.normal(size=(curve.basis.shape[1], 3))
     now = Linear(random.normal(size=(frames, 6)), random.normal(size=(frames, 6, 3)))
     if c.shape[0] > frames:
@@ -68,18 +70,6 @@ def test_the_banded_step_is_the_plain_one(seed, frames, knots, calm, damping):
     np.testing.assert_allclose(curve.step(c, now, np.array([[damping]])), plain, atol=1e-6)
     cost = curve.cost(c, now.gap)
     assert cost.shape == ((frames, 1) if curve.alone else (1, 1))
-
-
-class Clip:
-    """So many frames at one a second."""
-
-    fps = 1.0
-
-    def __init__(self, frames):
-        self.frames = frames
-
-    def __len__(self):
-        return self.frames
 
 
 def by_scipy(clip, pins, body, basis, weight):
