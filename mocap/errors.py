@@ -73,6 +73,18 @@ class NoWalk(MocapError):
     """The graph has no walk of the kind that was asked for."""
 
 
+def missing(what: str, extra: str) -> MocapError:
+    """Say what is not installed, and how to install it: by its name on the index, or from a checkout.
+
+    Examples
+    --------
+    >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace("'.[", "'motion-graphs["))
+    Films need imageio-ffmpeg: pip install 'motion-graphs[video]'.
+    """
+    checkout = Path(__file__).parents[1].joinpath("pyproject.toml").exists()
+    return MocapError(f"{what}: pip install '{'.' if checkout else 'motion-graphs'}[{extra}]'.")
+
+
 class MocapWarning(UserWarning):
     """Something that was asked for is possible only in part; the message says how much of it."""
 

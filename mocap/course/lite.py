@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mocap._shared.atomic import write_text
 from mocap.course.notebooks import read
-from mocap.errors import MocapError, shortened
+from mocap.errors import MocapError, missing, shortened
 
 WIDGETS = ["anywidget", "ipywidgets"]  # that the browser's Python does not have
 
@@ -39,7 +39,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
     MocapError : if JupyterLite is not installed, there is no checkout, or the build fails.
     """
     if not found():
-        raise MocapError("The site needs JupyterLite, which is not installed: pip install 'mocap[lite]'.")
+        raise missing("The site needs JupyterLite, which is not installed", "lite")
     checkout = notebooks.parent
     if not (checkout / "pyproject.toml").exists():
         raise MocapError("A JupyterLite site is built from a checkout; this is an installed package.")
@@ -58,7 +58,7 @@ def _copy(notebooks: Path, contents: Path) -> None:
     import nbformat
 
     contents.mkdir()
-    install = f"%pip install -q mocap {' '.join(WIDGETS)}"
+    install = f"%pip install -q motion-graphs {' '.join(WIDGETS)}"
     for file in sorted(notebooks.glob("*.ipynb")):
         notebook = read(file)
         notebook.cells.insert(1, nbformat.v4.new_code_cell(install, id="install"))

@@ -23,7 +23,7 @@ from typing import Any
 
 from mocap._shared.atomic import write_text
 from mocap.course import marked_values
-from mocap.errors import MocapError
+from mocap.errors import MocapError, missing
 
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 MOVING = re.compile(r'<div class="mocap-(?:player|inspector)">(<img[^>]*>).*</script>\n?', re.DOTALL)
@@ -36,7 +36,7 @@ def library() -> Any:  # noqa: ANN401
         import nbclient  # noqa: F401 - it runs what nbformat reads
         import nbformat
     except ImportError as error:
-        raise MocapError("Notebooks need nbformat and nbclient: pip install 'mocap[notebooks]'.") from error
+        raise missing("Notebooks need nbformat and nbclient", "notebooks") from error
     return nbformat
 
 

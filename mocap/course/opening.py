@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from mocap.errors import MocapError
+from mocap.errors import MocapError, missing
 
 PACKAGE = Path(__file__).parents[1]
 FIRST = "00-quickstart.ipynb"
@@ -66,7 +66,7 @@ def open_course(copy: Path, options: Sequence[str] = ()) -> int:
     MocapError : if JupyterLab is not installed.
     """
     if importlib.util.find_spec("jupyterlab") is None:
-        raise MocapError("The course runs in JupyterLab, which is missing: pip install 'mocap[notebooks]'.")
+        raise missing("The course runs in JupyterLab, which is missing", "notebooks")
     root = ["--allow-root"] if getattr(os, "geteuid", lambda: 1)() == 0 else []
     first = str(course_folder(copy) / FIRST)
     started = subprocess.Popen([sys.executable, "-m", "jupyterlab", first, *root, *options])

@@ -20,7 +20,7 @@ from mocap._shared.progress import Progress
 from mocap.body.motion import resample
 from mocap.course.notebooks import execute, library, notebooks_in, read
 from mocap.datasets.samples import SAMPLES, sample
-from mocap.errors import MocapError
+from mocap.errors import MocapError, missing
 from mocap.widgets.walking_page import walk_page
 
 HERE = Path(__file__).parent
@@ -94,7 +94,7 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
     """
     nbformat, files = library(), notebooks_in(notebooks)
     if not all(map(find_spec, ("furo", "myst_nb", "sphinx"))):
-        raise MocapError("The site needs Sphinx, MyST-NB and Furo: pip install 'mocap[site]'.")
+        raise missing("The site needs Sphinx, MyST-NB and Furo", "site")
     make_folder(out)
     with tempfile.TemporaryDirectory() as folder:
         titles = []

@@ -25,7 +25,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from PIL import Image
 
-from mocap.errors import MocapError
+from mocap.errors import MocapError, missing
 from mocap.plotting.picture import Picture, figure_of, tiled
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.pointing import Handles, Pointer, pointer
@@ -70,7 +70,7 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     Notebook: 00-quickstart
     """
     if importlib.util.find_spec("ipywidgets") is None:
-        raise MocapError("Experiments need ipywidgets, which is not here: pip install 'mocap[notebooks]'.")
+        raise missing("Experiments need ipywidgets, which is not here", "notebooks")
     defaults = {name: parameter.default for name, parameter in inspect.signature(draw).parameters.items()}
     made = {}
     for name, control in controls.items():

@@ -19,7 +19,7 @@ from scipy.ndimage import gaussian_filter1d
 from mocap._shared.atomic import replacing
 from mocap._shared.progress import Progress
 from mocap.body import Motion, joint_positions, resample
-from mocap.errors import MocapError
+from mocap.errors import MocapError, missing
 from mocap.plotting.stick_figures import StickFigure, filled, ground_axes, look_at, rims, to_picture
 from mocap.plotting.style import PATH, QUIET, own_colour
 from mocap.widgets.player import play
@@ -158,4 +158,4 @@ def require_ffmpeg() -> None:
     try:
         import imageio_ffmpeg  # noqa: F401
     except ImportError as error:
-        raise MocapError("An .mp4, but no .gif, needs imageio-ffmpeg: pip install 'mocap[video]'.") from error
+        raise missing("An .mp4, but no .gif, needs imageio-ffmpeg", "video") from error

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
 
-from mocap.errors import MocapError
+from mocap.errors import missing
 from mocap.widgets.embedding import joined
 
 WIDGET = "application/vnd.jupyter.widget-view+json"  # the name of a model that ends with its kernel
@@ -42,7 +42,7 @@ def widget(kind: type[Live]) -> type[Any]:
         import traitlets
         from ipywidgets import ValueWidget
     except ImportError as error:
-        raise MocapError(f"{kind.needs} anywidget: pip install 'mocap[notebooks]'.") from error
+        raise missing(f"{kind.needs} anywidget", "notebooks") from error
     parts: dict[str, Any] = {name: traitlets.Any(value).tag(sync=True) for name, value in kind.shared.items()}
     for name in kind.shared:
         if check := getattr(kind, f"check_{name}", None):

@@ -124,7 +124,7 @@ def page(browser, artefacts, request):
 @pytest.fixture(scope="package")
 def lab(tmp_path_factory):
     """Start JupyterLab on a free port with folders of its own; yield its address, and the notebooks'."""
-    pytest.importorskip("jupyterlab", reason="pip install 'mocap[notebooks]'")
+    pytest.importorskip("jupyterlab", reason="pip install '.[notebooks]'")
     home = tmp_path_factory.mktemp("lab")
     notebooks = home / "notebooks"
     notebooks.mkdir()

@@ -50,5 +50,5 @@ def test_without_the_notebooks_libraries_one_sentence_says_what_to_install(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setitem(sys.modules, "nbformat", None)
     assert main(["course", *command]) != 0
-    assert "pip install 'mocap[notebooks]'" in capsys.readouterr().err
+    assert "pip install '.[notebooks]'" in capsys.readouterr().err
     assert not list(tmp_path.glob("out/*"))

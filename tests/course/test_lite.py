@@ -11,21 +11,21 @@ from mocap.errors import MocapError
 
 @pytest.mark.sweep
 def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
-    pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install 'mocap[lite]'")
+    pytest.importorskip("jupyterlite_pyodide_kernel", reason="pip install '.[lite]'")
     assert main(["course", "lite", "-o", str(tmp_path / "lite")]) == 0
     assert (tmp_path / "lite" / "lab" / "index.html").exists()
     assert not (stored().parent / ".jupyterlite.doit.db").exists()
-    (wheel,) = (tmp_path / "lite" / "pypi").glob("mocap-*.whl")
+    (wheel,) = (tmp_path / "lite" / "pypi").glob("motion_graphs-*.whl")
     assert wheel.stat().st_size > 1e5
     first = nbformat.read(tmp_path / "lite" / "files" / "00-quickstart.ipynb", 4)
-    assert first.cells[1].source.startswith("%pip install -q mocap")
+    assert first.cells[1].source.startswith("%pip install -q motion-graphs")
 
 
 def test_without_jupyterlite_or_a_checkout_one_sentence_says_what_to_do(tmp_path, monkeypatch):
-    with pytest.raises(MocapError, match="checkout" if lite.found() else "mocap\\[lite\\]"):
+    with pytest.raises(MocapError, match="checkout" if lite.found() else "\\.\\[lite\\]"):
         lite.build_lite(tmp_path / "notebooks", tmp_path / "out")
     monkeypatch.setattr(lite, "found", lambda: False)
-    with pytest.raises(MocapError, match="mocap\\[lite\\]"):
+    with pytest.raises(MocapError, match="\\.\\[lite\\]"):
         lite.build_lite(tmp_path, tmp_path / "out")
 
 

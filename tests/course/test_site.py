@@ -180,5 +180,5 @@ def test_a_notebook_that_does_not_run_is_not_recorded(tmp_path):
 
 def test_without_sphinx_a_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr("mocap.course.site.find_spec", lambda name: None)
-    refused(r"pip install 'mocap\[site\]'", build_site, stored(), tmp_path / "out")
+    refused(r"pip install '\.\[site\]'", build_site, stored(), tmp_path / "out")
     assert not (tmp_path / "out").exists()

@@ -105,7 +105,7 @@ def test_senseless_controls_are_refused():
 
 def test_without_ipywidgets_one_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "ipywidgets", None)
-    refused(r"pip install 'mocap\[notebooks\]'", explore, fresh, alt="A line.", frame=(0, 9))
+    refused(r"pip install '\.\[notebooks\]'", explore, fresh, alt="A line.", frame=(0, 9))
 
 
 def test_without_anywidget_an_experiment_has_no_names_but_works(monkeypatch):

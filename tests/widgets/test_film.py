@@ -32,7 +32,7 @@ def test_a_film_has_one_frame_per_time_step(tmp_path):
 @pytest.mark.parametrize("ending", ["gif", "mp4"])
 def test_nothing_is_written_and_no_figure_left_when_drawing_is_interrupted(tmp_path, ending):
     if ending == "mp4":
-        pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+        pytest.importorskip("imageio_ffmpeg", reason="pip install '.[video]'")
 
     def interrupted(items):
         yield items[0]
@@ -46,7 +46,7 @@ def test_nothing_is_written_and_no_figure_left_when_drawing_is_interrupted(tmp_p
 
 
 def test_a_film_is_read_back_as_mp4(tmp_path):
-    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install '.[video]'")
     path = film.save_animation(wave(31), tmp_path / "wave.mp4", fps=20)
     frames, seconds = ffmpeg.count_frames_and_secs(str(path))
     assert frames == 21
@@ -55,7 +55,7 @@ def test_a_film_is_read_back_as_mp4(tmp_path):
 
 def test_without_imageio_ffmpeg_one_sentence_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    refused(r"pip install 'mocap\[video\]'", film.save_animation, wave(9), tmp_path / "wave.mp4")
+    refused(r"pip install '\.\[video\]'", film.save_animation, wave(9), tmp_path / "wave.mp4")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -78,7 +78,7 @@ def test_another_ending_and_nobody_are_refused(tmp_path):
 
 @pytest.mark.parametrize("reads", [True, False])
 def test_what_ffmpeg_complains_of_is_the_error_and_the_old_film_stays(tmp_path, monkeypatch, reads):
-    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install 'mocap[video]'")
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="pip install '.[video]'")
     fake = tmp_path / "ffmpeg"
     rest = "cat > /dev/null\n" if reads else ""
     fake.write_text(

@@ -49,6 +49,6 @@ def test_a_cell_shows_what_stays_with_its_sentence_and_then_the_live_widget(kind
 def test_without_anywidget_one_sentence_says_what_to_install(kind, monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     live.widget.cache_clear()
-    with pytest.raises(live.MocapError, match=r"needs? anywidget: pip install 'mocap\[notebooks\]'"):
+    with pytest.raises(live.MocapError, match=r"needs? anywidget: pip install '\.\[notebooks\]'"):
         NEEDY[kind]()
     live.widget.cache_clear()

@@ -22,7 +22,7 @@ from mocap.course.formulas import to_mathml
 from mocap.course.notebooks import notebooks_in
 from mocap.course.site import MOVING, prepared
 from mocap.course.teaching.deck import Slide, deck_of
-from mocap.errors import MocapError
+from mocap.errors import missing
 
 PAGE, LIST = (Path(__file__).with_name(name) for name in ("slides.html", "decks.html"))
 NEEDED = ("LICENSE", "dist/reveal.css", "dist/reveal.js", "plugin/notes/notes.js")  # of reveal.js
@@ -36,7 +36,7 @@ def _copy_reveal(out: Path) -> None:
     found = find_spec("sphinx_revealjs")
     folder = Path(found.origin).parent / "_static" / "revealjs" if found and found.origin else Path()
     if not all((folder / name).is_file() for name in NEEDED):
-        raise MocapError("Slides need reveal.js, which sphinx-revealjs ships: pip install 'mocap[slides]'.")
+        raise missing("Slides need reveal.js, which sphinx-revealjs ships", "slides")
     for name in NEEDED:
         make_folder((out / "reveal" / name).parent)
         shutil.copyfile(folder / name, out / "reveal" / name)

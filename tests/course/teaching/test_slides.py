@@ -71,7 +71,7 @@ def test_the_speaker_reads_what_the_slide_leaves_out(decks):
 def test_what_is_missing_is_one_sentence(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(slides, "find_spec", lambda name: None)
     assert main(["course", "slides", "-o", str(tmp_path / "out")]) == 2
-    assert "pip install 'mocap[slides]'" in capsys.readouterr().err
+    assert "pip install '.[slides]'" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
