@@ -61,10 +61,14 @@ def turning(
     """
     figure = Figure(figsize=(8.6, 4.2), layout="constrained")
     ground, curve = figure.subplots(1, 2)
-    laid(first, second, lambda points: move(points, np.radians(degrees)), ax=ground)
+
+    def turned(angle: float) -> Callable[[Array], Array]:
+        return lambda points: move(points, np.radians(angle))
+
+    laid(first, second, turned(degrees), ax=ground)
     ground.set_title(f"{degrees:g}°: {ground.get_title()}".replace("-", "−"), fontsize=11)
     angles = np.arange(-180, 181, 6)
-    lefts = [_apart(first, second, lambda points, t=t: move(points, np.radians(t))) for t in angles]
+    lefts = [_apart(first, second, turned(angle)) for angle in angles]
     curve.plot(angles, lefts, color=CURVES[0])
     curve.plot([degrees], [np.interp(degrees, angles, lefts)], "o", color=PATH, markersize=9)
     curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
