@@ -54,12 +54,6 @@ def carry(points: Array, old: Array, new: Array) -> Array:
     return as_rows(np.exp(1j * new[:, 0]) * on_cart + as_complex(new))
 
 
-def draw_carry(rng: np.random.Generator) -> tuple[Array, Array, Array]:
-    count = int(rng.integers(3, 9))
-    carts = [rng.normal(size=(count, 3)) * [1.0, 2.0, 2.0] for _ in range(2)]
-    return rng.normal(size=(count, 2)), carts[0], carts[1]
-
-
 def draw_plant_place(rng: np.random.Generator) -> tuple[Array, Mask]:
     count, start = int(rng.integers(12, 24)), int(rng.integers(2, 5))
     planted = (np.arange(count) >= start) & (np.arange(count) < start + rng.integers(4, 7))
@@ -131,13 +125,6 @@ def fit(weights: Array, data: Array) -> Array:
 Box = tuple[Array, Array]
 
 
-def draw_mixed_way(rng: np.random.Generator) -> tuple[Points, Array, Array, float]:
-    """Draw three walks that turn to different sides, seen from their bodies, and weights."""
-    speeds = rng.uniform(0.5, 1.5, (3, 12)) + 1j * rng.uniform(-0.2, 0.2, (3, 12))
-    turnings = rng.uniform(0.5, 2, (3, 12)) * np.array([[-1.0], [1.0], [0.3]])
-    return speeds, turnings, rng.dirichlet(np.ones(3)), 0.1
-
-
 def integrated(speed: Points, turning: Array, dt: float) -> Points:
     heading = np.concatenate([[0], np.cumsum(turning * dt)])
     return np.concatenate([[0], np.cumsum(speed * np.exp(1j * heading[:-1]) * dt)])
@@ -165,12 +152,6 @@ def shrunk(good: Array, bad: Array, scale: Array, eps: float) -> Box:
             else:
                 high[axis] = sample[axis] - room[axis]
     return low, high
-
-
-def draw_box_at(rng: np.random.Generator) -> tuple[float, Array, Array, Array, int]:
-    at = np.sort(rng.uniform(-75, 75, 9))
-    low, high = at - rng.uniform(20, 60, 9), at + rng.uniform(20, 60, 9)
-    return float(rng.uniform(-60, 60)), at, low, high, int(rng.integers(3, 6))
 
 
 def weighed(asked: float, at: Array, low: Array, high: Array, k: int) -> tuple[float, float]:

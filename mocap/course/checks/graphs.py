@@ -121,14 +121,6 @@ def on_cycle(successors: Successors, node: int) -> bool:
     return any(node in after(successors, end) | {end} for end in successors[node])
 
 
-def stripped(successors: Successors) -> set[int]:
-    """Remove nodes without a successor until none are left."""
-    left = digraph(successors)
-    while poor := [n for n in left if not left.out_degree(n)]:
-        left.remove_nodes_from(poor)
-    return set(successors) - set(left)
-
-
 # ---- Notebook 06b
 
 

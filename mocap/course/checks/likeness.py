@@ -74,12 +74,6 @@ def same_places(given: Any, wanted: set[tuple[int, int]]) -> bool:  # noqa: ANN4
 # ---- Notebook 02c
 
 
-def draw_turn_free(rng: np.random.Generator) -> tuple[Array]:
-    """Make a window of random points, turned and moved at random."""
-    points = rng.normal(size=(*rng.integers(3, 7, 2), 3)) * [0.5, 0.5, 1.0] + [0, 1.5, 0]
-    return (PlanarTransform(*rng.uniform(-3, 3, 3)).apply_points(points),)
-
-
 def joined_numbers(points: Array) -> Array:
     """Join heights and distances from the window's middle, over the root of the number of points."""
     heights, ground = points[..., 1], points[..., [0, 2]]

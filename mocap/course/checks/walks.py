@@ -104,12 +104,6 @@ def step_lengths(track: Array) -> Array:
     return np.asarray(np.hypot(*np.diff(track, axis=0).T))
 
 
-def draw_edge_cost(rng: np.random.Generator) -> tuple[Array, Line, float, float]:
-    line = GroundPath(draw_polyline(rng))
-    track = rng.normal(scale=0.05, size=(rng.integers(4, 12), 2)).cumsum(axis=0)
-    return track, line.at, float(rng.uniform(0, line.length)), float(rng.uniform(0.02, 0.06))
-
-
 def survivors(stand: Indices, costs: Array, width: int) -> Indices:
     order = np.argsort(costs)
     _, first = np.unique(stand[order], axis=0, return_index=True)

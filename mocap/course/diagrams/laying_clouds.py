@@ -68,7 +68,7 @@ def turning(
     laid(first, second, turned(degrees), ax=ground)
     ground.set_title(f"{degrees:g}°: {ground.get_title()}".replace("-", "−"), fontsize=11)
     angles = np.arange(-180, 181, 6)
-    lefts = [_apart(first, second, turned(angle)) for angle in angles]
+    lefts = [_apart(first, second, turned(angle)) for angle in angles.tolist()]
     curve.plot(angles, lefts, color=CURVES[0])
     curve.plot([degrees], [np.interp(degrees, angles, lefts)], "o", color=PATH, markersize=9)
     curve.set(xlabel="θ (degrees)", xlim=(-190, 190), xticks=range(-180, 181, 90))
