@@ -115,6 +115,11 @@ def test_a_function_that_never_ends_is_stopped_and_counts_the_inputs_that_were_d
     assert str(check.verdict(forever)) == said
 
 
+def test_items_in_another_form_are_not_judged_by_their_shape():
+    given = checks.inner_minima.verdict(lambda grid, below: np.zeros((7, 2))).message
+    assert "some are missing or wrong" in given and "shape" not in given
+
+
 def test_a_wrong_number_is_told_beside_the_right_one():
     table = {"asks": "x", "start": "", "takes": "x", "draw": "(2.0,)", "right": "x", "wrong": {}, "trials": 1}
     check = Check("f", table, {})
