@@ -14,7 +14,7 @@ from mocap.files import load_save
 from mocap.graphs.motion_graph import build, from_transitions
 from mocap.graphs.pruning import prune
 from mocap.graphs.thresholds import smallest_threshold
-from mocap.matching.transitions import Transition
+from mocap.matching.transitions import Transition, find_transitions
 from tests.strategies import random_motion, wave
 
 CLIPS = [wave(90, name="a"), wave(70, phase=1.0, name="b", seed=1)]
@@ -69,6 +69,7 @@ def test_building_finds_transitions_below_the_threshold():
     costs = [cost for _, _, cost in strict.graph.edges(data="cost") if cost is not None]
     assert 0 < strict.count("transition") < loose.count("transition")
     assert max(costs) < 0.02
+    assert loose.count("transition") == len(find_transitions(CLIPS, window=WINDOW, below=0.08))
 
 
 def test_below_the_smallest_threshold_there_is_no_walk():

@@ -16,11 +16,12 @@ GRAPH = walking()
 
 @pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
 def test_layers_keep_to_the_path_where_depth_first_does_not():
+    """It counts squares of distances at equal arc length [KGP02, Eq. 9]."""
     ours = follow_path(GRAPH, s_curve(10))
     theirs = follow_as_2002(GRAPH, s_curve(10), Wishes(start=ours.walk[0][0]), budget=Budget(nodes=300))
     assert theirs.progress == 1.0
     assert theirs.found.expanded > 300
-    assert theirs.found.cut > 0
+    assert theirs.found.cut > 0 and theirs.found.cost == pytest.approx((theirs.off_at_length**2).sum())
     assert "out of nodes: the best so far" in theirs.report()
     assert ours.off.mean() < theirs.off.mean()
 

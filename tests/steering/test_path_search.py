@@ -36,7 +36,7 @@ def at_nodes(graph, nodes, heading=0.0):
 def test_without_cuts_and_prices_it_finds_what_branch_and_bound_finds():
     """The paper's search is the oracle; sliding along the path, which it does not know, is turned off.
 
-    As in [KGP02, 5.1; Eq. 9].
+    As in [KGP02, 5.1].
     """
     path = GroundPath([[0, 0], [0.1, 0.45], [0.3, 0.75]])
     wishes, exact = Wishes(slide=0.0), Settings(**FREE, width=10**6, alike=1e-6, rescue=0.0)

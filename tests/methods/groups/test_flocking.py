@@ -13,6 +13,7 @@ from tests.refusals import refused
 
 
 def test_a_flock_keeps_its_pace_and_its_distance():
+    """As in [LCF05, simulation]."""
     for count in (6, 12, 24):
         places, velocities = flock(count)
         speeds = np.abs(velocities)
