@@ -35,7 +35,7 @@ import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["checks", "diagrams", "homework_slips", "lab", "marking", "teaching"],
+    submodules=["checks", "diagrams", "homework_slips", "lab", "marking", "seam_trials", "teaching"],
     submod_attrs={
         "real_clips": ["collections", "people"],
         "notebooks": ["read", "run"],

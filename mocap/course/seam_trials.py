@@ -14,7 +14,6 @@ from mocap.blending.weights import cubic_weights
 from mocap.body.motion import Motion
 from mocap.matching.point_clouds import point_cloud
 from mocap.matching.transitions import Transition, Transitions
-from mocap.quality.seam_measures import BlendJolts, blend_jolts
 from mocap.quality.standing_feet import ground_slides
 
 MATCHED = 10  # frames of a window in which matches were found; blends are centred at its middle
@@ -43,11 +42,11 @@ def walk_costs(odds: Array, costs: Array, *, walks: int = 40, steps: int = 60, s
     """
     rng, rows = np.random.default_rng(seed), np.full((walks, steps), np.nan)
     for row in rows:
-        at = rng.integers(len(odds))
+        at = int(rng.integers(len(odds)))
         for step in range(steps):
             if not odds[at].any():
                 break
-            before, at = at, rng.choice(len(odds), p=odds[at] / odds[at].sum())
+            before, at = at, int(rng.choice(len(odds), p=odds[at] / odds[at].sum()))
             row[step] = costs[before, at]
     return rows
 
@@ -114,8 +113,30 @@ def choose_matches(
     return [found[number] for number in numbers[:count]]
 
 
+class Jolts(NamedTuple):
+    """Jolts from the frame before a blend's window to the one after it, m/s: the RMS over the points.
+
+    A jolt is |x_{f+1} - 2 x_f + x_{f-1}| · fps. `added` is |ẍ_result - (α ẍ_first + (1 - α) ẍ_second)| / fps,
+    with the weights α: what the blend itself adds.
+    """
+
+    result: Array
+    first: Array
+    second: Array
+    added: Array
+
+    @property
+    def stands_out(self) -> bool:
+        """Whether the result has a larger jolt than both clips have at these frames."""
+        return bool(self.result.max() > max(self.first.max(), self.second.max()))
+
+
 class Passage(NamedTuple):
-    """A blend and its two clips on one clock, the second one aligned, as `quality.blend_jolts` takes them."""
+    """A blend and its two clips on one clock: frame f of the result is made of frame f of both.
+
+    `second` is aligned with `first`; `weights` are those of the first clip in the window, which begins at
+    `start`. Before it they are 1, after it 0.
+    """
 
     result: Motion
     first: Motion
@@ -140,9 +161,13 @@ class Passage(NamedTuple):
         return np.asarray(np.sqrt((points**2).sum(axis=-1).mean(axis=-1)) * self.first.fps)
 
     @property
-    def jolts(self) -> BlendJolts:
+    def jolts(self) -> Jolts:
         """The jolts of the result and of both clips, and what the blend adds."""
-        return blend_jolts(*self)
+        frames = slice(max(self.start - 2, 0), self.start + len(self.weights) + 2)
+        result, first, second = (np.diff(point_cloud(motion[frames]), 2, axis=0) for motion in self[:3])
+        share = self.alpha[frames][1:-1, None, None]
+        added = result - share * first - (1 - share) * second
+        return Jolts(*(self.size(change) for change in (result, first, second, added)))
 
     @property
     def slide(self) -> float:

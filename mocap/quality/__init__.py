@@ -8,7 +8,7 @@ Reading order (notebooks 01, 04, 09 to 11)
 ----------------------------------------
 1. `clip_flaws`: a clip's length, its path and its flaws
 2. `standing_feet`: how far planted feet slide
-3. `seam_measures`: how a seam jolts, what the blend itself adds, turning knees
+3. `seam_measures`: how a seam jolts, turning knees
 4. `falling`: the centre of mass, and the gravity that a flight shows
 5. `joint_limits`: joints that bend beyond what people's do
 6. `motion_measures`: a table of what can be wrong with a motion
@@ -29,6 +29,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "falling": ["centre_of_mass", "gravity"],
         "judging": ["judge", "judgement_table"],
         "standing_feet": ["ground_slides", "plant_slides"],
-        "seam_measures": ["Spread", "blend_jolts", "jumps", "knee_turns", "seam_quality", "spread"],
+        "seam_measures": ["Spread", "jumps", "knee_turns", "seam_quality", "spread"],
     },
 )

@@ -1,9 +1,8 @@
-"""How good is a seam? Measure it: jolts, sliding feet, and what the blend itself adds to its two clips.
+"""How good is a seam? Measure it: jolts, sliding feet, and knees that turn.
 
 A jolt is the change of velocity from one frame to the next, |x_{f+1} - 2 x_f + x_{f-1}| · fps in metres per
 second, the RMS over the joints. Clips have jolts of their own: a foot that touches the ground stops. So
-`seam_quality` compares those of a seam with what is usual in its clips, and `blend_jolts` each frame of a
-blend with the same frames of both clips.
+`seam_quality` compares those of a seam with what is usual in its clips.
 """
 
 from collections.abc import Sequence
@@ -11,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Array
 from mocap.body import rotations
@@ -171,85 +169,6 @@ def seam_quality(motion: Motion, seam: tuple[int, int], usual: Spread) -> SeamQu
     slides = plant_slides(motion, feet_of(find_legs(motion.skeleton)))
     touched = [slide for slide in slides if slide.start < seam[1] and seam[0] < slide.stop]
     return SeamQuality(float(found.max() / np.percentile(largest, USUAL)), mean_slide(touched))
-
-
-class BlendJolts(NamedTuple):
-    """Jolts at a seam, frame by frame from the one before the window to the one after it, m/s.
-
-    result : of the blend.
-    first, second : of the two clips at these frames.
-    added : |ẍ_result - (α ẍ_first + (1 - α) ẍ_second)| / fps, with the weights α: what the blend itself adds.
-
-    Examples
-    --------
-    >>> quiet = BlendJolts(*np.array([[0.1, 0.4], [0.3, 0.5], [0.2, 0.2], [0.0, 0.1]]))
-    >>> quiet.own, quiet.stands_out
-    (0.5, False)
-    """
-
-    result: Array
-    first: Array
-    second: Array
-    added: Array
-
-    @property
-    def own(self) -> float:
-        """The largest jolt that either clip has at these frames by itself."""
-        return float(max(self.first.max(), self.second.max()))
-
-    @property
-    def stands_out(self) -> bool:
-        """Whether the result has a larger jolt than both clips have at these frames."""
-        return bool(self.result.max() > self.own)
-
-
-def blend_jolts(result: Motion, first: Motion, second: Motion, start: int, weights: ArrayLike) -> BlendJolts:
-    """Compare the jolts of a blend with those of its two clips, all on one clock.
-
-    Parameters
-    ----------
-    result, first, second : F frames each; frame f of the result was made of frame f of both clips. The second
-        is aligned with the first, as `blending.lay_window_on` does.
-    start : the first frame of the window.
-    weights : those of the first clip in the window, shape (window,); before it they are 1, after it 0. For
-        `blending.inertialize`, which plays only the second clip from the first frame on, give zeros.
-
-    Returns
-    -------
-    Jolts at window + 2 frames; fewer where the window starts or ends with the motion.
-
-    Raises
-    ------
-    SkeletonMismatch, MocapError : for motions that do not go together, and a window that runs off them.
-
-    Examples
-    --------
-    >>> from mocap.blending import cubic_weights, join, lay_window_on
-    >>> from mocap.datasets.samples import sample
-    >>> walk = sample("walk_straight")
-    >>> for window in (10, 40):
-    ...     first, second = walk[490:560], lay_window_on(walk, 500, walk, 233, window)[223:293]
-    ...     result = join(walk, 500, walk, 233, window)[490:560]
-    ...     print(round(blend_jolts(result, first, second, 10, cubic_weights(window)).added.max(), 2))
-    0.28
-    0.03
-
-    Notebook: 09b-blend-window
-    """
-    inside = np.asarray(weights, float)
-    result, first, second = require_alike([result, first, second])
-    if not len(result) == len(first) == len(second):
-        lengths = f"{len(first)}, {len(second)} and {len(result)}"
-        raise MocapError(f"Two clips and their blend must have as many frames; these have {lengths}.")
-    if len(result) < 3 or len(inside) < 1 or start < 0 or start + len(inside) > len(result):
-        none = f"no window of {len(inside)} from frame {start}"
-        raise MocapError(f"'{result.name}' has {len(result)} frames, and {none}.")
-    alpha = np.concatenate([np.ones(start), inside, np.zeros(len(result) - start - len(inside))])
-    frames = slice(max(start - 2, 0), start + len(inside) + 2)
-    changes = [np.diff(point_cloud(motion[frames]), 2, axis=0) for motion in (result, first, second)]
-    share = alpha[frames][1:-1, None, None]
-    added = changes[0] - share * changes[1] - (1 - share) * changes[2]
-    return BlendJolts(*(_rms(change) * result.fps for change in (*changes, added)))
 
 
 def knee_turns(motion: Motion) -> Array:

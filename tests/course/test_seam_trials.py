@@ -3,13 +3,22 @@
 import numpy as np
 import pytest
 
-from mocap.blending import cubic_weights, join
-from mocap.body import resample
-from mocap.course.seam_trials import choose_matches, measure_blends, passage, visit, walk_costs
+from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
+from mocap.body import Motion, Skeleton, resample
+from mocap.course.seam_trials import (
+    Passage,
+    choose_matches,
+    measure_blends,
+    passage,
+    visit,
+    walk_costs,
+)
 from mocap.datasets.samples import sample
 from mocap.matching import find_transitions
+from mocap.quality import jumps
 
 CLIPS = [resample(sample(name), 30) for name in ("walk_straight", "stop_and_go")]
+WALK = sample("walk_straight")
 FOUND = find_transitions(CLIPS, window=10, below=0.12)
 
 
@@ -54,3 +63,59 @@ def test_blends_are_measured_one_by_one():
     assert measured.slide.tolist() == [[p.slide for p in row] for row in again]
     assert measured.leads.all()
     assert measured.stands_out.shape == (2, 3)
+
+
+def glide(path):
+    """Move a dot along a line at 30 Hz, to these metres."""
+    dot = Skeleton(["root"], [-1], [[0, 0, 0]])
+    return Motion(dot, path[:, None] * [1.0, 0, 0], np.tile([1.0, 0, 0, 0], (len(path), 1, 1)), 30.0)
+
+
+def walked(window, weights=cubic_weights):
+    """Blend two moments of a walk; the window starts at frame 10 of 100."""
+    second = lay_window_on(WALK, 500, WALK, 233, window)
+    joined = join(WALK, 500, WALK, 233, window, weights=weights)
+    return Passage(joined[490:590], WALK[490:590], second[223:323], 10, weights(window))
+
+
+def test_two_straight_lines_give_the_jolt_of_the_weights():
+    t, weights = np.arange(30) / 30, linear_weights(10)
+    result = glide(2.0 * t * (1 - np.concatenate([np.ones(10), weights, np.zeros(10)])))
+    seen = Passage(result, glide(0.0 * t), glide(2.0 * t), 10, weights).jolts
+    # the clips' own accelerations are 0: all that is there, the blend has added
+    assert max(seen.first.max(), seen.second.max()) == pytest.approx(0)
+    assert seen.added == pytest.approx(jumps(result)[0][9:21])
+    assert seen.stands_out
+
+
+def test_what_the_clips_do_themselves_is_not_added():
+    both = glide((np.arange(30) / 30) ** 3)
+    seen = Passage(both, both, both, 5, cubic_weights(20)).jolts
+    assert seen.added == pytest.approx(0)
+    assert seen.result == pytest.approx(jumps(both)[0][4:26])
+    assert not seen.stands_out
+
+
+def test_outside_the_window_and_a_frame_on_either_side_a_join_adds_nothing():
+    blended = walked(20)
+    seen = blended.jolts.added
+    assert len(seen) == 22
+    late = Passage(*(motion[10:] for motion in blended[:3]), 0, blended.weights)
+    assert len(late.jolts.added) == 20
+    wider = np.concatenate([np.ones(5), cubic_weights(20), np.zeros(5)])
+    added = blended._replace(start=5, weights=wider).jolts.added
+    assert added[[0, 1, 2, 3, -4, -3, -2, -1]] == pytest.approx(0, abs=1e-9)
+    assert added.max() == pytest.approx(seen.max())
+
+
+def test_longer_blends_add_less_and_linear_weights_add_more():
+    added = [walked(window).jolts.added.max() for window in (2, 4, 10, 20, 40)]
+    assert added == sorted(added, reverse=True)
+    assert walked(40, linear_weights).jolts.added.max() > 2 * added[-1]
+
+
+def test_inertialization_is_measured_against_the_second_clip():
+    first, second = walked(40)[1:3]
+    result = inertialize(WALK, 500, WALK, 233, 40)[490:590]
+    assert Passage(result, first, second, 10, np.zeros(40)).jolts.added.max() < 0.2
+    assert Passage(second, second, second, 10, np.zeros(40)).jolts.added == pytest.approx(0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from walking import generate
 
-from mocap.blending import cubic_weights, inertialize, join, lay_window_on, linear_weights
+from mocap.blending import join
 from mocap.body.motion import Motion, concatenate, resample
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
@@ -16,7 +16,7 @@ from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from mocap.matching.transitions import Transition, find_transitions
 from mocap.quality import Spread
-from mocap.quality.seam_measures import blend_jolts, jumps, knee_turns, seam_quality, spread
+from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread
 from tests.refusals import refused
 from tests.strategies import random_motion
 
@@ -93,67 +93,6 @@ def test_windows_are_compared_with_windows_as_long():
     assert len(many) == len(WALK) - 41
     assert np.median(many) > 1.5 * np.median(one)
     assert USUAL.within(10**6).tolist() == [one.max()]
-
-
-def passage(window: int, weights=cubic_weights) -> tuple[Motion, Motion, Motion]:
-    """Blend two moments of a walk; the window starts at frame 10 of 100."""
-    second = lay_window_on(WALK, 500, WALK, 233, window)
-    joined = join(WALK, 500, WALK, 233, window, weights=weights)
-    return joined[490:590], WALK[490:590], second[223:323]
-
-
-def most_added(window: int, weights=cubic_weights) -> float:
-    return blend_jolts(*passage(window, weights), 10, weights(window)).added.max()
-
-
-def test_two_straight_lines_give_the_jolt_of_the_weights():
-    t = np.arange(30) / 30
-    alpha = np.concatenate([np.ones(10), linear_weights(10), np.zeros(10)])
-    result = glide(2.0 * t * (1 - alpha))
-    seen = blend_jolts(result, glide(0.0 * t), glide(2.0 * t), 10, linear_weights(10))
-    # the clips' own accelerations are 0: all that is there, the blend has added
-    assert seen.own == pytest.approx(0)
-    assert seen.added == pytest.approx(jumps(result)[0][9:21])
-    assert seen.stands_out
-
-
-def test_what_the_clips_do_themselves_is_not_added():
-    both = glide((np.arange(30) / 30) ** 3)
-    seen = blend_jolts(both, both, both, 5, cubic_weights(20))
-    assert seen.added == pytest.approx(0)
-    assert seen.result == pytest.approx(jumps(both)[0][4:26])
-    assert not seen.stands_out
-
-
-def test_outside_the_window_and_a_frame_on_either_side_a_join_adds_nothing():
-    result, first, second = passage(20)
-    seen = blend_jolts(result, first, second, 10, cubic_weights(20)).added
-    assert len(seen) == 22
-    assert len(blend_jolts(result[10:], first[10:], second[10:], 0, cubic_weights(20)).added) == 20
-    wider = np.concatenate([np.ones(5), cubic_weights(20), np.zeros(5)])
-    added = blend_jolts(result, first, second, 5, wider).added
-    assert added[[0, 1, 2, 3, -4, -3, -2, -1]] == pytest.approx(0, abs=1e-9)
-    assert added.max() == pytest.approx(seen.max())
-
-
-def test_longer_blends_add_less_and_linear_weights_add_more():
-    added = [most_added(window) for window in (2, 4, 10, 20, 40)]
-    assert added == sorted(added, reverse=True)
-    assert most_added(40, linear_weights) > 2 * added[-1]
-
-
-def test_inertialization_is_measured_against_the_second_clip():
-    second = lay_window_on(WALK, 500, WALK, 233, 40)[223:323]
-    result = inertialize(WALK, 500, WALK, 233, 40)[490:590]
-    assert blend_jolts(result, WALK[490:590], second, 10, np.zeros(40)).added.max() < 0.2
-    assert blend_jolts(second, second, second, 10, np.zeros(40)).added == pytest.approx(0)
-
-
-@pytest.mark.parametrize(("start", "window"), [(-1, 10), (95, 10), (10, 0)])
-def test_a_window_that_runs_off_and_other_lengths_are_refused(start, window):
-    result, first, second = passage(10)
-    refused("no window", blend_jolts, result, first, second, start, np.zeros(window))
-    refused("as many frames", blend_jolts, result, first[1:], second, start, np.zeros(window))
 
 
 def test_a_knee_that_is_turned_by_hand_turns_as_far():

@@ -11,7 +11,6 @@ from mocap.course.seam_trials import Passage
 from mocap.datasets.samples import sample
 from mocap.matching.point_clouds import point_cloud
 from mocap.plotting import MARK, SOURCES
-from mocap.quality import blend_jolts
 
 ALPHA = 0.6
 
@@ -82,7 +81,6 @@ def test_what_a_blend_adds_is_drawn_as_measured_beside_the_terms_that_explain_it
     assert first.sum() / WALK.fps == pytest.approx(np.linalg.norm(ahead))
     (area,), (term,) = below.collections, below.lines
     assert np.allclose(area.get_facecolor()[0, :3], [int(MARK[n : n + 2], 16) / 255 for n in (1, 3, 5)])
-    added = blend_jolts(RESULT, FIRST, SECOND, 10, cubic_weights(12)).added
-    assert area.get_paths()[0].vertices[:, 1].max() == pytest.approx(added.max())
+    assert area.get_paths()[0].vertices[:, 1].max() == pytest.approx(blended.jolts.added.max())
     gaps = np.linalg.norm(point_cloud(FIRST) - point_cloud(SECOND), axis=-1)
     assert term.get_ydata() == pytest.approx(np.sqrt((gaps**2).mean(axis=1))[9:23] * WALK.fps)
