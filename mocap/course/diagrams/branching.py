@@ -219,7 +219,7 @@ def laid_in_turn(
     lays = [graph.edges[edge]["lay"] for edge in walk]
     rows = np.array([(0, 0, 0), *[(np.angle(turn), np.imag(move), np.real(move)) for turn, move in lays]])
     last = np.maximum.accumulate(np.arange(len(rows)) * rows.any(axis=1))[:-1]  # the last one that moves
-    states = {
+    states: dict[str, Any] = {
         "as captured": np.zeros((len(walk), 3)),
         "by the last transform": rows[last],
         "by the product": [product_of(rows[: n + 1]) for n in range(len(walk))],
