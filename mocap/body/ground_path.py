@@ -150,7 +150,7 @@ def circle(radius: float = 3.0) -> GroundPath:
     >>> circle(1.0)
     GroundPath(316 points, 6.3 m)
 
-    Notebook: 10-real-data
+    Notebook: 12-path-editing
     """
     return arcs((0, 0), 0.0, [(2 * np.pi * radius, 2 * np.pi)])
 

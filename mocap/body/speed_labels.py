@@ -31,8 +31,6 @@ def smooth_speed(motion: Motion, *, span: int) -> Array:
     >>> places = [[0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 0, 3]]
     >>> smooth_speed(Motion(dot, places, [[[1, 0, 0, 0]]] * 4, 10.0), span=3)
     array([10., 10., 10., 10.])
-
-    Notebook: 10-real-data
     """
     speeds = np.linalg.norm(velocities(motion.root_positions, motion.fps)[:, [0, 2]], axis=-1)
     half = span // 2

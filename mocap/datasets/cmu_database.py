@@ -65,8 +65,6 @@ def trials(subject: int | None = None, kind: str | None = None) -> list[Trial]:
     --------
     >>> [trial.name for trial in trials(subject=127, kind="walk")]
     ['127_04']
-
-    Notebook: 10-real-data
     """
     found = []
     for name, row in _registry().items():

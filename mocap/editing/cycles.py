@@ -70,8 +70,6 @@ def find_loop(motion: Motion, *, seconds: tuple[float, float] = (0.4, 3.0)) -> L
     >>> found = find_loop(sample("walk_straight"))
     >>> round((found.last - found.first) / 120, 1), found.seam < 0.02
     (1.2, True)
-
-    Notebook: 10-real-data
     """
     slow = resample(motion, COARSE) if motion.fps > COARSE else motion
     if not SEAM <= seconds[0] <= seconds[1] < np.inf:
@@ -168,8 +166,6 @@ def loop(
     >>> turn = heading(round_.rotations[[0, -1], 0])
     >>> bool(abs(turn[1] - turn[0]) < 1e-9)
     True
-
-    Notebook: 10-real-data
     """
     window = max(2, round(SEAM * motion.fps))
     if not 0 <= found.first < found.last < len(motion) - window or found.last - found.first < window:

@@ -142,8 +142,6 @@ def mirror(motion: Motion) -> Motion:
     >>> there, here = (heading(clip.rotations[600, 0]) for clip in (walk, mirror(walk)))
     >>> bool(abs(there + here) < 1e-9), mirror(walk).name
     (True, 'walk_curve_1_mirrored')
-
-    Notebook: 10-real-data
     """
     skeleton = motion.skeleton
     partners, across, turns = symmetry(skeleton)

@@ -115,8 +115,6 @@ def labels_between(motion: Motion, start: int, end: int) -> Labels:
     >>> from mocap import datasets
     >>> labels_between(datasets.sample("walk_circle"), 0, 10)
     frozenset({'walk'})
-
-    Notebook: 05-motion-graph
     """
     return frozenset(label for label, mark in motion.labels.items() if mark[start:end].any())
 

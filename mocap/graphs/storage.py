@@ -148,8 +148,6 @@ def read(path: str | Path) -> GraphFile:
     Raises
     ------
     FormatError, MocapError : as for `load`.
-
-    Notebook: 05b-choice-points
     """
     arrays = read_arrays(path, GRAPH)
     nodes = [(clip, frame) for clip, frame in arrays["nodes"].tolist()]

@@ -31,8 +31,6 @@ def smallest_threshold(clips: Sequence[Motion], *, window: int) -> float:
     >>> from mocap import body, datasets
     >>> bool(smallest_threshold([body.resample(datasets.sample("walk_curve_1"), 30)], window=10) < 0.04)
     True
-
-    Notebook: 05b-choice-points
     """
     found = find_transitions(clips, window=window, below=float("inf"))
     found = found[np.argsort(found.cost, kind="stable")]

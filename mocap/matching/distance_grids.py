@@ -69,8 +69,6 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
     level : shape (P,), metres: heights to measure from, the same for all clips to be compared.
     weights, taper : shapes (P,) and (k,), of the points and of the window's frames; each adds up to one.
     dtype : the precision of the result; the work is done in 64 bits.
-
-    Notebook: 02c-most-pairs
     """
     window = len(taper)
     root = np.sqrt(weights)

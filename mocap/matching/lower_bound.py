@@ -73,8 +73,6 @@ def window_numbers(cloud: Cloud, starts: NDArray[np.intp], weights: Weights) -> 
     >>> walk = cloud(np.array([[[0.0, 1, 0]], [[0, 1, 2]]]), np.zeros(1), *weights, np.float64)
     >>> window_numbers(walk, np.array([0]), weights) * np.sqrt(2)
     array([[1., 1., 1., 1.]])
-
-    Notebook: 02c-most-pairs
     """
     frames, root = starts[:, None] + np.arange(len(weights.taper)), np.sqrt(weights.taper)[:, None]
     heights = cloud.heights[frames] * root

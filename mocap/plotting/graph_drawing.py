@@ -143,7 +143,7 @@ def node_link(
     >>> plotting.show(discs, alt="1 and 2 lead to each other, 2 leads to 3.")
     Picture('1 and 2 lead to each other, 2 leads to 3.')
 
-    Notebook: 05b-choice-points
+    Notebook: 05-motion-graph
     """
     if not 0 < len(graph) <= MOST_NODES:
         nodes = f"1 to {MOST_NODES} nodes, this one has {len(graph)}"

@@ -92,8 +92,6 @@ def ground_slides(motion: Motion) -> Array:
     >>> walk = sample("walk_straight")
     >>> bool(ground_slides(walk).max() < 1e-6)  # in the bundled clips planted feet stand still
     True
-
-    Notebook: 09b-blend-window
     """
     feet = feet_of(find_legs(motion.skeleton))
     stands = np.stack(list(_plant_marks(motion, feet).values()), axis=-1)

@@ -77,8 +77,6 @@ def two_ways_round(start: float = 170.0, end: float = -170.0) -> Figure:
     --------
     >>> [ax.get_title() for ax in two_ways_round().axes]
     ['slerp: 20° to the left', 'mean of the angles: 340° to the right']
-
-    Notebook: 03b-angles
     """
     figure = Figure(figsize=(7, 3.7), layout="constrained")
     ways = {"slerp": (end - start + 180) % 360 - 180, "mean of the angles": end - start}

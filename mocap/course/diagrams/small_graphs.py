@@ -42,7 +42,7 @@ def nodes_and_edges(step: int = 5) -> Figure:
     >>> plotting.show(nodes_and_edges(step=2), alt="Two bars, and an arrow from a node to a node.")
     Picture('Two bars, and an arrow from a node to a node.')
 
-    Notebook: 05b-choice-points
+    Notebook: 05-motion-graph
     """
     figure, ax = plt.subplots(figsize=(7, 3), layout="constrained")
     leaps = LEAPS[: (0, 0, 1, 3, 3, 3)[step]]

@@ -103,8 +103,6 @@ def lead_group(
     >>> flock, plan = lead_group(graph, goal_behind)
     >>> plan is None, len(flock.places) / RATE < 0.7 * plan_group(graph, goal_behind).seconds
     (True, True)
-
-    Notebook: 19-group-graphs
     """
     at = start or Placed(0)
     try:
