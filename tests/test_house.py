@@ -159,7 +159,7 @@ def test_every_dependency_has_a_lower_bound():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     needs = [*project["dependencies"], *chain(*project["optional-dependencies"].values())]
     for need in map(Requirement, needs):
-        assert need.name == "mocap" or any(s.operator == ">=" for s in need.specifier), need
+        assert need.name == "motion-graphs" or any(s.operator == ">=" for s in need.specifier), need
 
 
 def run(*command: str) -> None:
