@@ -66,8 +66,7 @@ def test_a_corner_is_rounded_as_little_as_the_limit_allows(degrees):
     assert where.start < 6 < where.end
     assert where.worst == line.moved.max()
     assert where.end - where.start < 2.5
-    far = np.abs(line.asked - 6) > 4.5
-    assert line.moved[far].max() < 0.01
+    assert line.moved[np.abs(line.asked - 6) > 4.5].max() < 0.01
 
 
 def test_a_cusp_is_rounded_and_the_rest_stays():
