@@ -43,6 +43,8 @@ def forward_kinematics(motion: Motion) -> GlobalPoses:
     >>> turn = Motion(arm, [[0, 2, 0]], [[rotations.about_y(np.pi / 2), [1, 0, 0, 0]]], 30.0)
     >>> forward_kinematics(turn).positions[0, 1].round(6) + 0.0
     array([1., 2., 0.])
+
+    Notebook: 13-retargeting
     """
     skeleton = motion.skeleton
     positions = np.empty((len(skeleton), len(motion), 3))  # a joint's frames together
