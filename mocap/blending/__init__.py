@@ -33,7 +33,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "joining": ["blend", "inertialize", "join", "lay_window_on"],
         "matched_stretches": ["draw_stretches"],
         "timewarps": ["Curve", "fit_curve"],
-        "contact_matches": ["match_contacts", "plants_on_clock"],
+        "contact_matches": ["match_contacts"],
         "clocks": ["Registration", "clock_speed", "frame_times"],
         "mixing": ["Course", "crossfade", "ground_course", "mix"],
         "registering": ["Warp", "register"],

@@ -212,7 +212,7 @@ class Check:
 
 def _shape(value: Any) -> tuple[int, ...]:  # noqa: ANN401
     try:
-        return np.shape(np.asarray(value, float))
+        return np.shape(np.asarray(value, complex))
     except (TypeError, ValueError):
         return ()
 

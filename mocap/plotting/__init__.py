@@ -42,7 +42,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "box_chart",
             "joint_curve",
             "match_tree",
-            "plant_bars",
             "quartile_band",
             "seen_beside_measured",
             "space_image",

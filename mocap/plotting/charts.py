@@ -1,6 +1,6 @@
-"""Charts: curves over time, samples as bands, boxes of costs, plants as bars, matches as trees, spaces."""
+"""Charts: curves over time, samples as bands, boxes of costs, matches as trees, spaces."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import cycle, repeat
 from typing import Any
 
@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike
 
 from mocap.methods.match_webs.match_search import Match
 from mocap.plotting.style import ASKED, ASTRAY, COLOURS, CURVES, PATH, QUIET, source_colours
-
-HEIGHT = 0.36  # of a bar; a clip's row has one for the left foot above one for the right
 
 
 def joint_curve(
@@ -154,35 +152,6 @@ def box_chart(
         ax.axhline(limit, color=QUIET, linewidth=1, linestyle="dashed")
         ax.annotate(name, (1.0, limit), xycoords=("axes fraction", "data"), va="center", fontsize=8)
     ax.set(ylabel="cost (cm)")
-    return ax
-
-
-def plant_bars(plants: Mapping[str, Mapping[str, ArrayLike]], *, ax: Axes | None = None) -> Axes:
-    """Draw when feet stand: a row for each clip, a bar for each plant, left above right in their colours.
-
-    Parameters
-    ----------
-    plants : for each clip's name the plants of its sides, as {"left": (N, 2), "right": (N, 2)} seconds.
-    ax : axes; new ones by default.
-
-    Examples
-    --------
-    >>> ax = plant_bars({"slow": {"left": [(0.0, 0.7)], "right": [(0.6, 1.3), (1.9, 2.6)]}})
-    >>> [len(side.get_paths()) for side in ax.collections]
-    [1, 2]
-
-    Notebook: 15-registration
-    """
-    ax = ax or plt.figure(figsize=(7, 0.9 + 0.55 * len(plants)), layout="constrained").add_subplot()
-    for row, sides in enumerate(plants.values()):
-        for side, low in (("left", row - HEIGHT), ("right", row)):
-            bars = [(start, stop - start) for start, stop in np.reshape(sides[side], (-1, 2))]
-            look: dict[str, Any] = {"facecolor": COLOURS[side], "edgecolor": "#FFFFFF", "linewidth": 0.6}
-            ax.broken_barh(bars, (low, HEIGHT), **look)
-    ax.set_yticks(range(len(plants)), list(plants))
-    ax.set(xlabel="common clock (s)", ylim=(len(plants) - 0.5, -0.5))
-    ax.spines[["top", "right", "left"]].set_visible(False)
-    ax.tick_params(axis="y", length=0)
     return ax
 
 

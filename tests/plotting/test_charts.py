@@ -5,9 +5,9 @@ import pytest
 from matplotlib.colors import to_rgba
 
 from mocap.methods.match_webs import Match
-from mocap.plotting import joint_curve, match_tree, plant_bars, quartile_band, seen_beside_measured
+from mocap.plotting import joint_curve, match_tree, quartile_band, seen_beside_measured
 from mocap.plotting.charts import box_chart
-from mocap.plotting.style import ASTRAY, COLOURS, CURVES, QUIET, SOURCES
+from mocap.plotting.style import ASTRAY, CURVES, QUIET, SOURCES
 
 AT = np.arange(3.0)
 FOUND = [
@@ -64,23 +64,6 @@ def test_good_bad_and_other_targets_have_their_colours():
     np.testing.assert_allclose(dots.get_offsets(), [[-40, 2], [0, 3.5], [40, 9]])
     assert box.get_x() == -60 and box.get_width() == 70
     assert [text.get_text() for text in ax.texts] == ["T_GOOD", "T_BAD"]
-
-
-def test_bars_start_and_stop_with_the_plants():
-    plants = np.array([[0.0, 0.7], [1.2, 1.9]])
-    rows = {"slow": {"left": plants, "right": plants + 0.6}, "brisk": {"left": plants[:1], "right": plants}}
-    ax = plant_bars(rows)
-    drawn = iter(ax.collections)
-    for row, sides in enumerate(rows.values()):
-        for side, up in (("left", -1), ("right", 1)):
-            bars = next(drawn)
-            corners = np.array([path.vertices[:4] for path in bars.get_paths()])
-            assert corners[..., 0].min(axis=1) == pytest.approx(sides[side][:, 0])
-            assert corners[..., 0].max(axis=1) == pytest.approx(sides[side][:, 1])
-            assert (up * corners[..., 1]).min() == pytest.approx(up * row)  # left above right
-            assert colours_of(bars)[0] == to_rgba(COLOURS[side])
-    assert [label.get_text() for label in ax.get_yticklabels()] == ["slow", "brisk"]
-    assert ax.yaxis_inverted()
 
 
 def test_each_match_stands_at_its_step_linked_with_what_found_it():

@@ -126,33 +126,10 @@ def step(heading: float, place: complex, turns: Array, moves: Points, weights: A
     return after, complex(place + weights @ (np.exp(1j * angles) * moves))
 
 
-def pace(slopes: Array, weights: Array) -> float:
-    return float(weights @ slopes / weights.sum())
-
-
 # ---- Notebook 16
 
 
-Grid = NDArray[np.int64]
 Pairs = list[tuple[float, int]]
-
-
-def along_rows(grid: Grid, *, strict: bool = False) -> Mask:
-    """Mark what is no higher than both neighbours in its row; with `strict`, what is lower."""
-    wide = np.pad(grid.astype(float), ((0, 0), (1, 1)), constant_values=np.inf)
-    lower = np.less if strict else np.less_equal
-    return np.asarray(lower(grid, wide[:, :-2]) & lower(grid, wide[:, 2:]))
-
-
-def either(grid: Grid, *, strict: bool = False) -> Mask:
-    return np.asarray(along_rows(grid, strict=strict) | along_rows(grid.T, strict=strict).T)
-
-
-def all_eight(grid: Grid) -> Mask:
-    wide = np.pad(grid.astype(float), 1, constant_values=np.inf)
-    rows, columns = grid.shape
-    around = [wide[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
-    return np.asarray(grid <= np.min(around, axis=0))
 
 
 MOST = 400  # calls of `matches_of`, far more than a right answer needs
