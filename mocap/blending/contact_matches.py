@@ -68,7 +68,7 @@ def match_contacts(
         plants = [
             (start, stop, number)
             for number, (clip, curve) in enumerate(zip(clips, times, strict=True))
-            for start, stop in _within(plants_on_clock(clip, curve)[joint].tolist(), *span)
+            for start, stop in _within(_plants_on_clock(clip, curve)[joint].tolist(), *span)
         ]
         for group in _groups(sorted(plants)):
             of_clips = [[(a, b) for a, b, clip in group if clip == number] for number in range(len(clips))]
@@ -100,25 +100,6 @@ def _groups(plants: Sequence[tuple[float, float, int]]) -> list[list[tuple[float
     return groups
 
 
-def plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
-    """Give a clip's plants on the common clock, joint by joint.
-
-    Parameters
-    ----------
-    clip : its contacts are marked.
-    times : the curve from the common clock to the clip's seconds.
-
-    Returns
-    -------
-    For each joint the starts and stops, shape (N, 2), seconds.
-
-    Examples
-    --------
-    >>> from mocap.datasets.samples import sample
-    >>> walk, twice_as_fast = sample("walk_straight"), Curve(0.0, 1.0, np.array([-1.0, 1.0, 3.0]))
-    >>> plants_on_clock(walk, twice_as_fast)["lfoot"][0].round(2)
-    array([0.06, 0.2 ])
-
-    Notebook: 15-registration
-    """
+def _plants_on_clock(clip: Motion, times: Curve) -> dict[str, Array]:
+    """Give a clip's plants on the common clock, joint by joint."""
     return {joint: times.inverse(runs(marks) / clip.fps) for joint, marks in clip.contacts.items()}
