@@ -88,6 +88,8 @@ def place_frames(place: PlanarTransform, roots: Array, turns: Array) -> tuple[Ar
     >>> roots, turns = place_frames(PlanarTransform(0.0, 2.0, 0.0), np.zeros(3), np.array([[1.0, 0, 0, 0]]))
     >>> roots, turns
     (array([2., 0., 0.]), array([[1., 0., 0., 0.]]))
+
+    Notebook: 18-motion-matching
     """
     turned = turns.copy()
     turned[..., 0, :] = place.apply_orientations(turned[..., 0, :])

@@ -65,8 +65,6 @@ def build_kinds(
     >>> walks = [body.resample(datasets.sample(name), 30) for name in names]
     >>> print(build_kinds({"walk": walks}, sampling=Sampling(12, 60)).report())
     walk → walk: boxes of ...° of turn, from ... cm on
-
-    Notebook: 17-parametric-graphs
     """
     if not kinds:
         raise MocapError("A graph has one kind of strides or more, got none.")
