@@ -83,7 +83,7 @@ def to_rotvec(quaternions: ArrayLike) -> Array:
     >>> to_rotvec(about_y(-0.5)).round(6) + 0.0
     array([ 0. , -0.5,  0. ])
 
-    Notebook: 11-warping
+    Notebook: 15-registration
     """
     quaternions = np.asarray(quaternions, float)
     w, v = quaternions[..., :1], quaternions[..., 1:]

@@ -55,8 +55,6 @@ def bodies_along(
     >>> figure = bodies_along(datasets.sample("walk_straight"), seams=[300])
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['walked path', 'seam']
-
-    Notebook: 12-path-editing
     """
     asked = np.insert(np.reshape(np.asarray(path, float), (-1, 2)), 1, 0.0, axis=-1)
     clouds = places or [joint_positions(motion) for motion in motions]

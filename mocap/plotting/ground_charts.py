@@ -49,7 +49,7 @@ def path_from_above(
     >>> plotting.show(drawn, alt="A circle seen from above, with two seams.")
     Picture('A circle seen from above, with two seams.')
 
-    Notebook: 12-path-editing
+    Notebook: 08b-steering
     """
     ax = seen_from_above(ax)
     x, z = motion.root_positions[:, [0, 2]].T

@@ -68,7 +68,7 @@ class FootTurner:
     >>> alone - measure_delay(FootTurner(Controller(graph)), turns=10).mean > 0.3
     True
 
-    Notebook: 12-path-editing
+    Notebook: 18-motion-matching
     """
 
     def __init__(self, character: Controller, rate: float = np.radians(40)) -> None:
