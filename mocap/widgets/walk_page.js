@@ -38,10 +38,10 @@ class Page extends Hands {
 
   // ---- a line, and the walk along it ----
 
-  // Walk along points; from where the figure is, where the line begins near it.
+  // Walk along points; from where the figure is, where the line begins near it, and leads on.
   set(points, told = true) {
     if (points.length < 80) { this.say("Draw a longer line: a metre or more."); return; }
-    const old = this.walk, near = old?.frames && Math.hypot(points[0][0] - this.place()[0], points[0][1] - this.place()[1]) < 1.2;
+    const old = this.walk, near = old?.frames && Math.hypot(points[0][0] - this.place()[0], points[0][1] - this.place()[1]) < 1.2 && this.faces(points);
     if (near) points = smooth([this.place(8), ...even(points, 0.1).slice(4)], 0.14);
     this.points = points;
     this.line = arrays(points);
@@ -56,6 +56,11 @@ class Page extends Hands {
       history.replaceState(null, "", `#${this.about.labels[this.kind] ?? "any"}.${written(points)}`);
       document.body.classList.add("walking");
     }
+  }
+
+  faces(points) { // whether the figure is on its way to where the line leads, within 60 degrees
+    const [z, x] = this.place(-8), [az, ax] = this.place(), [bz, bx] = points[0], [cz, cx] = points[60], way = [az - z, ax - x], line = [cz - bz, cx - bx];
+    return way[0] * line[0] + way[1] * line[1] > 0.5 * Math.hypot(...way) * Math.hypot(...line);
   }
 
   fromAddress() {

@@ -126,9 +126,8 @@ def draw(page, points):
 def test_a_hand_draws_and_it_walks(page, file, tmp_path):
     page.goto(f"file://{file}")
     page.wait_for_function("window.page?.walk.frames")
-    page.evaluate(
-        "page.play(false); page.time = 0"
-    )  # the figure stands where it began, however slow the machine is
+    page.evaluate("page.play(false); page.time = 0; page.view(true); page.aim(0, true)")
+    # Figure and camera stand still, however slow the machine is.
     before = page.evaluate("page.line.z.length")
     draw(page, [(300, 700), (500, 560), (700, 640), (900, 520), (980, 600)])
     page.wait_for_function("page.growing === null && page.walk.frames > 0")
