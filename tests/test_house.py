@@ -33,7 +33,7 @@ MOST = {
     "functions": 1_784,  # 1 400
     "classes": 224,  # 170
     "public names": 401,  # 250
-    "lines of tests": 24_948,  # 20 000
+    "lines of tests": 24_949,  # 20 000
 }
 
 

@@ -278,10 +278,15 @@ def test_running_a_notebook_refreshes_its_code_and_settles_its_outputs(tmp_path,
     (shown,) = notebook.cells[2].outputs
     assert set(shown.data) == {"image/png", "text/html", "text/plain"}
     (still,) = notebook.cells[3].outputs
-    assert re.fullmatch(
-        "<img [^>]*>", still.data["text/html"]
-    )  # as of captured clips, which no notebook holds
+    assert re.fullmatch("<img [^>]*>", still.data["text/html"])
     assert notebook.cells[-1].source == "It is 7<!--= seven() -->."
+
+
+@every_notebook
+def test_no_captured_motion_is_stored(name):
+    for cell in read(name).cells:
+        if "real" in cell.metadata.get("tags", ()):
+            assert not any("application/json" in str(output) for output in cell.get("outputs", ())), cell.id
 
 
 @pytest.mark.parametrize("text", ["{", '{"cells": 1}', "[]", ""])
