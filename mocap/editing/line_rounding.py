@@ -101,10 +101,11 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     >>> from mocap.datasets import sample
     >>> from mocap.editing.path_editing import ride_of
     >>> walk = sample("walk_straight")
-    >>> corner = GroundPath([[0, 0], [0, 5], [5, 5]])
+    >>> corner = GroundPath([[0, 0], [0, 5], [6, -3]])
     >>> line = round_line(corner, ride_of(walk), walk.fps, np.radians(60))
-    >>> [(round(r.start), round(r.end), round(r.worst, 1)) for r in line.roundings]
-    [(3, 6, 0.3)]
+    >>> where = line.roundings[0]
+    >>> round(where.start), round(where.end), round(where.worst, 1)
+    (5, 6, 0.4)
     """
     even = path.resampled(SPACING)
     asked, spacing = on_ground(even.points), path.length / (len(even.points) - 1)

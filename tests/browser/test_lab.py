@@ -148,7 +148,7 @@ def test_a_choice_a_slider_of_choices_and_a_box_change_the_picture(notebook):
 
 def test_a_shown_picture_has_its_alt_text(notebook):
     _, cell = notebook
-    picture = cell("show").get_by_role("img", name="One pose of a walk.")
+    picture = cell("show").get_by_role("img", name="Two poses of a walk.")
     wait_until(picture.is_visible)
     assert picture.evaluate("img => img.naturalWidth") > 400
 

@@ -30,7 +30,7 @@ def made(tmp_path_factory):
     load_save.save(resample(sample("walk_circle"), 30)[:400], place / "circle.bvh")
     for name, speed in (("slow", 0.8), ("brisk", 1.4), ("middling", 1.1)):
         load_save.save(resample(walks()[speed, 0], 60.0), place / f"{name}.bvh")
-    (place / "line.csv").write_text("0,0\n0,3\n3,3\n3,9\n")
+    (place / "line.csv").write_text("0,0\n0,3\n1.8,0.6\n1.8,6.6\n")
     (place / "line.svg").write_text('<svg><path d="M0 0 C 0 -200 200 -200 200 -400"/></svg>')
     storage.save(bundled("walk_circle", "walk_curve_1"), place / "graph.npz")
     return place

@@ -8,6 +8,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from mocap.blending import register
+from mocap.errors import MocapError
 from mocap.plotting.grids import distance_image
 from mocap.widgets import Mixer, draw_path, explore, handles, live, steered
 from mocap.widgets.live import LIVE, STILL, WIDGET
@@ -49,6 +50,6 @@ def test_a_cell_shows_what_stays_with_its_sentence_and_then_the_live_widget(kind
 def test_without_anywidget_one_sentence_says_what_to_install(kind, monkeypatch):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     live.widget.cache_clear()
-    with pytest.raises(live.MocapError, match=r"needs? anywidget: pip install '\.\[notebooks\]'"):
+    with pytest.raises(MocapError, match=r"needs? anywidget: pip install '\.\[notebooks\]'"):
         NEEDY[kind]()
     live.widget.cache_clear()

@@ -136,7 +136,9 @@ def products(first: Motion, second: Motion) -> Figure:
     trace(ax, ways, color=CURVES[0], linestyle="", marker=".", markersize=4)
     arrow(ax, 0j, 1.1 * ways.sum() / abs(ways.sum()), PATH)
     ax.set(aspect="equal", xlim=(-1.3, 1.3), ylim=(-1.3, 1.3))
-    ax.set_title(f"the sum leads at {np.degrees(np.angle(each.sum())):.0f}°".replace("-", "−"), fontsize=11)
+    ax.set_title(
+        f"the sum leads at {round(np.degrees(np.angle(each.sum())))}°".replace("-", "−"), fontsize=11
+    )
     ax.set_axis_off()
     return ax.figure  # type: ignore[return-value]
 
