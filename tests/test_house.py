@@ -28,7 +28,7 @@ LISTED = dict(re.findall(r"^([a-z_]+)  +\w.*?(?:\(([\d, to]+)\))?$", mocap.__doc
 FACES = [room for room in ROOMS if room not in ("_shared", "cli", "methods")]
 BEHIND = (*STOREYS, "cli", "_shared")
 MOST = {
-    "lines of code": 20_394,  # the goal: 17 000
+    "lines of code": 20_396,  # the goal: 17 000
     "lines of code in the course's rooms": 11_339,  # 9 500
     "functions": 1_784,  # 1 400
     "classes": 224,  # 170
