@@ -32,6 +32,7 @@ def long_way(quaternion: Array) -> Array:
 
 
 def cardinal(at: Array, values: Array, tension: float) -> Array:
+    """Give the slopes of a cardinal spline: of each key those of its neighbours' chord, at the ends none."""
     slopes = np.zeros(len(at))
     slopes[1:-1] = (1 - tension) * (values[2:] - values[:-2]) / (at[2:] - at[:-2])
     return slopes
@@ -41,10 +42,12 @@ def cardinal(at: Array, values: Array, tension: float) -> Array:
 
 
 def as_complex(rows: Array) -> Array:
+    """Read places on the ground as complex numbers z + ix."""
     return np.asarray(rows[:, -1] + 1j * rows[:, -2])
 
 
 def as_rows(ground: Array) -> Array:
+    """Write complex numbers z + ix as rows (x, z)."""
     return np.stack([ground.imag, ground.real], axis=1)
 
 
@@ -55,6 +58,7 @@ def carry(points: Array, old: Array, new: Array) -> Array:
 
 
 def draw_plant_place(rng: np.random.Generator) -> tuple[Array, Mask]:
+    """Draw places of a joint that rises and falls by 10 cm, and the frames in which it stands."""
     count, start = int(rng.integers(12, 24)), int(rng.integers(2, 5))
     planted = (np.arange(count) >= start) & (np.arange(count) < start + rng.integers(4, 7))
     positions = rng.normal(size=(count, 3)).cumsum(axis=0) * 0.02
@@ -73,6 +77,7 @@ def scaled_way(hips: Array, ratio: float, heights: tuple[float, float], centre: 
 
 
 def product(*quaternions: Array) -> Array:
+    """Multiply quaternions from left to right."""
     return reduce(multiply, quaternions)
 
 
@@ -92,6 +97,7 @@ def draw_clip_gap(rng: np.random.Generator) -> tuple[Array, Array, Array]:
 
 
 def to_the_middle(p: Array, low: Array, high: Array) -> Array:
+    """Move to the middle of a box that is closed on both sides; elsewhere stay."""
     both = np.isfinite(low) & np.isfinite(high)
     return np.where(both, (np.where(both, low, 0) + np.where(both, high, 0)) / 2 - p, 0.0)
 
@@ -126,6 +132,7 @@ Box = tuple[Array, Array]
 
 
 def integrated(speed: Points, turning: Array, dt: float) -> Points:
+    """Add up steps of a speed, each along the heading that the turns before it give."""
     heading = np.concatenate([[0], np.cumsum(turning * dt)])
     return np.concatenate([[0], np.cumsum(speed * np.exp(1j * heading[:-1]) * dt)])
 
@@ -155,6 +162,7 @@ def shrunk(good: Array, bad: Array, scale: Array, eps: float) -> Box:
 
 
 def weighed(asked: float, at: Array, low: Array, high: Array, k: int) -> tuple[float, float]:
+    """Mix two values of the k nearest samples by 1 / d - 1 / d_k."""
     near = np.argsort(np.abs(at - asked))[:k]
     gaps = np.abs(at - asked)[near]
     weights = 1 / gaps - 1 / gaps[-1]
@@ -166,6 +174,7 @@ def weighed(asked: float, at: Array, low: Array, high: Array, k: int) -> tuple[f
 
 
 def standardised(values: Array, groups: Sequence[slice], weights: Sequence[float]) -> Array:
+    """Divide each group of columns by its mean spread, and weight it."""
     centred = values - values.mean(axis=0)
     scaled = centred.copy()
     for columns, weight in zip(groups, weights, strict=True):
@@ -185,12 +194,14 @@ def draw_standardise(rng: np.random.Generator) -> tuple[Array, list[slice], list
 
 
 def spring(x: float, v: float, goal: float, halflife: float, t: float) -> float:
+    """Bring x to a goal by a critically damped spring, after a time t."""
     pull = 2 * np.log(2) / halflife
     gap = x - goal
     return float(goal + (gap + (v + gap * pull) * t) * np.exp(-pull * t))
 
 
 def next_frame(costs: Array, usable: Mask, now: int, near: int, bonus: float) -> int:
+    """Go to the best usable frame that is not near, if it is better by more than the bonus."""
     frames = np.arange(len(costs))
     candidates = np.flatnonzero(usable & (np.abs(frames - now) >= near))
     best = int(candidates[costs[candidates].argmin()])

@@ -104,20 +104,24 @@ Successors = dict[int, list[int]]
 
 
 def draw_graph(rng: np.random.Generator) -> Successors:
+    """Draw a graph of three to eight nodes, with about one edge each."""
     count = int(rng.integers(3, 9))
     joined = rng.random((count, count)) < 1.2 / count
     return {node + 1: (np.flatnonzero(row) + 1).tolist() for node, row in enumerate(joined)}
 
 
 def digraph(successors: Mapping[int, Iterable[int]]) -> nx.DiGraph:
+    """Make a graph of lists of successors."""
     return nx.DiGraph({node: list(ends) for node, ends in successors.items()})
 
 
 def after(successors: Successors, start: int) -> set[int]:
+    """Find the nodes that a walk from a node reaches."""
     return {int(node) for node in nx.descendants(digraph(successors), start)}
 
 
 def on_cycle(successors: Successors, node: int) -> bool:
+    """Say whether a walk from a node comes back to it."""
     return any(node in after(successors, end) | {end} for end in successors[node])
 
 
@@ -138,6 +142,7 @@ def draw_component_to_keep(rng: np.random.Generator) -> tuple[list[set[int]], We
 
 
 def played(part: set[int], edges: Weighed) -> int:
+    """Count the frames of the edges within a set of nodes."""
     return sum(frames for start, end, frames in edges if start in part and end in part)
 
 
@@ -155,6 +160,7 @@ def draw_missing_ways(rng: np.random.Generator) -> tuple[nx.DiGraph, dict[str, s
 
 
 def without_way(graph: nx.Graph, kinds: Mapping[str, set[int]]) -> set[tuple[str, str]]:
+    """Find the pairs of kinds between which no walk leads."""
     return {(a, b) for a, b in permutations(kinds, 2) if not nx.has_path(graph, min(kinds[a]), min(kinds[b]))}
 
 
@@ -168,6 +174,7 @@ def draw_why_removed(rng: np.random.Generator) -> tuple[Successors, set[int]]:
 
 
 def reasons(successors: Successors, kept: set[int]) -> dict[int, str]:
+    """Say of each node outside the component why it goes."""
     found = {}
     for node in successors.keys() - kept:
         if not on_cycle(successors, node):
@@ -199,6 +206,7 @@ def counted(graph: Graph, node: int, edges: int) -> int:
 
 
 def end_nodes(graph: Graph, node: int, edges: int) -> int:
+    """Count the nodes at which walks of so many edges end."""
     ends = {node}
     for _ in range(edges):
         ends = {end for start in ends for end in graph[start]}

@@ -28,6 +28,7 @@ def clouds(rng: np.random.Generator) -> tuple[Array, Array]:
 
 
 def turned(points: Array, angle: float) -> Array:
+    """Turn points about the vertical."""
     return PlanarTransform(angle, 0.0, 0.0).apply_points(points)
 
 
@@ -43,6 +44,7 @@ def parts(points: Array, others: Array) -> tuple[float, float]:
 
 
 def centred(points: Array, others: Array) -> tuple[float, float]:
+    """Give the same sums of two clouds, each about its mean."""
     return parts(points - points.mean(0), others - others.mean(0))
 
 
@@ -56,6 +58,7 @@ def diagonal_sums(products: Array, window: int) -> Array:
 
 
 def along(grid: Array, average: Callable[[Array], Any] = np.mean) -> Array:
+    """Average a grid along its diagonals."""
     return np.array([average(grid.diagonal(n)) for n in range(len(grid))])
 
 
@@ -82,10 +85,12 @@ def joined_numbers(points: Array) -> Array:
 
 
 def pairs(near: NDArray[np.bool_]) -> set[tuple[int, int]]:
+    """List the places that are true."""
     return {(int(i), int(j)) for i, j in np.argwhere(near)}
 
 
 def within_reach(rows: Array, reach: float) -> NDArray[np.bool_]:
+    """Say which rows are at most so far apart."""
     return np.asarray(np.linalg.norm(rows[:, None] - rows, axis=-1) <= reach)
 
 
@@ -105,15 +110,18 @@ def draw_next_row(rng: np.random.Generator) -> tuple[Array, Array, Array]:
 
 
 def shifted(row: Array) -> Array:
+    """Move a row by one place, with infinity before it."""
     return np.append(np.inf, row[:-1])
 
 
 def row_after(diagonal: Array, best: Array, costs: Array) -> Array:
+    """Give what is known of the next row of a path's costs: its last step not diagonal, and any."""
     now = 2 * costs + shifted(best)
     return np.array([now, np.minimum(np.minimum(now, costs + diagonal), costs + shifted(now))])
 
 
 def draw_ground_step(rng: np.random.Generator) -> tuple[float, complex, Array, Points, Array]:
+    """Draw a heading and a place, the turns and moves of three clips over a step, and weights."""
     turns = rng.uniform(-3, 3, 3) + np.array([np.zeros(3), rng.normal(0, 0.4, 3)])
     moves = np.asarray(rng.normal(size=(3, 2)) @ [0.1, 0.1j], complex)
     place = complex(*rng.normal(size=2))
@@ -121,6 +129,7 @@ def draw_ground_step(rng: np.random.Generator) -> tuple[float, complex, Array, P
 
 
 def step(heading: float, place: complex, turns: Array, moves: Points, weights: Array) -> Stood:
+    """Go one step by the weighted turns; each move is turned by the mean of before and after."""
     after = heading - float(weights @ (turns[1] - turns[0]))
     angles = 0.5 * (turns[0] + heading) + 0.5 * (turns[1] + after)
     return after, complex(place + weights @ (np.exp(1j * angles) * moves))
@@ -153,6 +162,7 @@ class Matches:
 
 
 def same_frame(first: int, second: int) -> bool:
+    """Say whether two frames are at most four apart."""
     return abs(first - second) <= 4
 
 
@@ -170,6 +180,7 @@ def draw_spread(rng: np.random.Generator) -> tuple[int, Matches, Callable[[int, 
 
 
 def spread(query: int, matches_of: Callable[[int], Pairs], same: Callable[[int, int], bool]) -> list[int]:
+    """Ask what is like a query, then what is like each new find, the cheapest first, until nothing is new."""
     found, asking = [query], [query]
     while asking:
         new = sorted((pair for match in asking for pair in matches_of(match)), key=lambda pair: pair[0])
@@ -197,6 +208,7 @@ def same_or_nan(given: Any, wanted: Any) -> bool:  # noqa: ANN401
 
 
 def draw_neighbour_weights(rng: np.random.Generator) -> tuple[Array]:
+    """Draw sorted distances; now and then the first one is 0."""
     distances = np.sort(rng.uniform(0.1, 5, rng.integers(3, 7)))
     if rng.random() < 0.3:
         distances[0] = 0

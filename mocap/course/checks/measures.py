@@ -49,6 +49,7 @@ def added_terms(gap: Array, alpha: Array) -> tuple[Array, Array]:
 
 
 def track(rng: np.random.Generator) -> Array:
+    """Draw the way of a joint."""
     return np.asarray(rng.normal(size=(int(rng.integers(12, 40)), 3)).cumsum(axis=0))
 
 
@@ -70,6 +71,7 @@ def added(result: Array, first: Array, second: Array, alpha: Array) -> Array:
 
 
 def largest(vectors: Array) -> float:
+    """Give the length of the longest vector."""
     return float(np.linalg.norm(vectors, axis=1).max())
 
 
@@ -91,4 +93,5 @@ def draw_standing(rng: np.random.Generator) -> tuple[Array, float, float]:
 
 
 def share_kept(lengths: Indices, window: float, least: float = 0.0) -> float:
+    """Give the share of the frames that no window at either end of a clip takes."""
     return float(np.maximum(least, lengths - 2 * window).sum() / lengths.sum())

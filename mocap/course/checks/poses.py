@@ -27,6 +27,7 @@ def draw_hamilton(rng: np.random.Generator) -> tuple[Array, Array]:
 
 
 def draw_climb(rng: np.random.Generator) -> tuple[Skeleton, Array, int]:
+    """Draw a tree of joints, how they are turned, and its last joint."""
     count = int(rng.integers(4, 9))
     parents = np.array([-1, 0, *(rng.integers(joint - 2, joint) for joint in range(2, count))])
     skeleton = Skeleton([f"joint {n}" for n in range(count)], parents, rng.normal(size=(count, 3)))
@@ -48,6 +49,7 @@ def climb(skeleton: Skeleton, turns: Array, joint: int) -> Array:
 
 
 def strikes(contact: Mask) -> Indices:
+    """Find the frames in which a foot begins to stand."""
     return np.flatnonzero(contact[1:] & ~contact[:-1]) + 1
 
 
@@ -58,6 +60,7 @@ Placed = tuple[float, float, float]
 
 
 def turned_shift(angle: float, x: float, z: float) -> tuple[float, float]:
+    """Turn a place on the ground."""
     moved = PlanarTransform(angle, 0.0, 0.0).apply_points([x, 0, z])
     return float(moved[0]), float(moved[2])
 
@@ -70,6 +73,7 @@ def draw_lay_on(rng: np.random.Generator) -> tuple[Placed, Placed]:
 
 
 def lay_on(moving: Placed, target: Placed) -> Placed:
+    """Find the turn and the move that lay one placed body on another."""
     angle = target[0] - moving[0]
     x, z = turned_shift(angle, *moving[1:])
     return angle, target[1] - x, target[2] - z
@@ -83,6 +87,7 @@ Part = tuple[Array, int, int]
 
 
 def wrapped(angle: float) -> float:
+    """Bring an angle between -π and π."""
     return (angle + np.pi) % TURN - np.pi
 
 
@@ -104,6 +109,7 @@ def draw_nearest_twin(rng: np.random.Generator) -> tuple[Array, Array]:
 
 
 def twin(angles: ArrayLike) -> Array:
+    """Give the other three angles of the same rotation."""
     return np.asarray(angles) * [1, -1, 1] + np.pi
 
 
@@ -114,6 +120,7 @@ def near(before: ArrayLike, angles: ArrayLike) -> Array:
 
 
 def nearest_of(before: ArrayLike, *candidates: ArrayLike) -> Array:
+    """Choose the angles that are nearest to those before."""
     return np.asarray(min(candidates, key=lambda c: float(np.abs(np.subtract(c, before)).sum())))
 
 
@@ -141,6 +148,7 @@ def chained(parts: list[Part]) -> Array:
 
 
 def normalised(q: Array) -> Array:
+    """Divide quaternions by their lengths."""
     return np.asarray(q / np.linalg.norm(q, axis=-1, keepdims=True))
 
 
@@ -156,10 +164,12 @@ def draw_mix(rng: np.random.Generator) -> tuple[Motion, Motion, Array]:
 
 
 def mixed_roots(a: Motion, b: Motion, alpha: Array) -> Array:
+    """Mix root positions on lines."""
     return np.asarray(alpha[:, None] * a.root_positions + (1 - alpha[:, None]) * b.root_positions)
 
 
 def mixed_turns(a: Motion, b: Motion, alpha: Array) -> Array:
+    """Mix rotations by slerp."""
     return rotations.slerp(b.rotations, a.rotations, alpha[:, None])
 
 
@@ -171,5 +181,6 @@ def mixed_on_lines(a: Motion, b: Motion, alpha: Array, *, nearer: bool = False) 
 
 
 def blended(a: Motion, b: Motion, alpha: Array) -> tuple[Array, Array]:
+    """Mix two motions as the package does."""
     result = blend(a, b, alpha)
     return result.root_positions, result.rotations

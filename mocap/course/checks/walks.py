@@ -51,6 +51,7 @@ def ways_from(lengths: Lengths, longest: int, state: At) -> list[tuple[float, At
 
 
 def is_at(goal: int, state: At) -> bool:
+    """Say whether a walk is at its goal."""
     return state[0] == goal
 
 
@@ -92,19 +93,23 @@ Longer = list[tuple[int, complex, complex, float, float]]
 
 
 def draw_polyline(rng: np.random.Generator) -> Array:
+    """Draw four to eight corners of a line."""
     return np.asarray(rng.normal(size=(rng.integers(4, 9), 2)).cumsum(axis=0))
 
 
 def path_cost(track: Array, path: Line, along: float, steps: Array) -> tuple[float, float]:
+    """Add up Eq. 9 over the points of a track, and say how far along the path it has come."""
     reached = along + np.cumsum(steps)
     return float(np.sum((track[1:] - path(reached)) ** 2)), float(reached[-1])
 
 
 def step_lengths(track: Array) -> Array:
+    """Measure the steps of a track."""
     return np.asarray(np.hypot(*np.diff(track, axis=0).T))
 
 
 def survivors(stand: Indices, costs: Array, width: int) -> Indices:
+    """Keep the best of the walks that stand alike, and of these the cheapest."""
     order = np.argsort(costs)
     _, first = np.unique(stand[order], axis=0, return_index=True)
     return np.asarray(order[np.sort(first)[:width]])
@@ -123,6 +128,7 @@ def draw_look_ahead(rng: np.random.Generator) -> tuple[Walk, Points, Line, float
 
 
 def look_ahead(walk: Walk, ahead: Points, line: Line, most: float) -> float:
+    """Ask Eq. 9 about the coming frames; it gives no more than `most`."""
     turn, move, along, _ = walk
     s = np.asarray(along + np.cumsum(abs(np.diff(ahead))))
     off = abs(turn * ahead[1:] + move - line(s))
@@ -144,10 +150,12 @@ def draw_lengthen(rng: np.random.Generator) -> tuple[Walk, list[Edge], Line, flo
 
 
 def draw_turn(rng: np.random.Generator) -> complex:
+    """Draw a turn over the ground."""
     return complex(np.exp(1j * rng.uniform(-3, 3)))
 
 
 def lengthen(walk: Walk, edges: list[Edge], path: Line, least: float) -> Longer:
+    """Lengthen a walk by each edge: its end, transform, arc length and cost."""
     turn, move, along, cost = walk
     longer = []
     for end, track, edge_turn, edge_move, price in edges:
@@ -162,6 +170,7 @@ def lengthen(walk: Walk, edges: list[Edge], path: Line, least: float) -> Longer:
 
 
 def seconds_until(track: Array, heading: float, frame: int, back: int) -> float:
+    """Find the frame, counted from the command, in which a walk goes the new way; -1 if it never does."""
     moved = track[back:] - track[:-back]
     off = np.arctan2(moved[:, 0], moved[:, 1]) - heading
     off = np.abs((off + np.pi) % (2 * np.pi) - np.pi)
@@ -182,6 +191,7 @@ def draw_obeys_after(rng: np.random.Generator) -> tuple[Array, float, int, int]:
 
 
 def crowding(track: Array, other: Array, apart: float) -> float:
+    """Add up the squares of how much nearer than `apart` two walkers come."""
     there = other[np.minimum(np.arange(len(track)), len(other) - 1)]
     near = np.maximum(apart - np.hypot(*(track - there).T), 0.0)
     return float(np.sum(near**2))
@@ -197,6 +207,7 @@ def draw_crowding_cost(rng: np.random.Generator) -> tuple[Array, Array, float]:
 
 
 def nearest(turn: complex, velocities: list[complex], wanted: complex) -> int:
+    """Choose the velocity that, turned, is nearest to the one wanted."""
     return int(np.argmin([abs(turn * velocity - wanted) for velocity in velocities]))
 
 
@@ -222,10 +233,12 @@ def draw_next_edge(rng: np.random.Generator) -> tuple[complex, list[Points], flo
 
 
 def squared_distances(a: Points, b: Points) -> Array:
+    """Measure all pairs of points."""
     return np.abs(a[:, None] - b) ** 2
 
 
 def greedy(a: Points, b: Points) -> Indices:
+    """Assign the nearest pair first, then the nearest of those that are left."""
     squares, order = squared_distances(a, b), np.zeros(len(a), int)
     for _ in a:
         i, j = divmod(int(squares.argmin()), len(b))
@@ -235,6 +248,7 @@ def greedy(a: Points, b: Points) -> Indices:
 
 
 def laid(pa: Points, va: Points, pb: Points, vb: Points) -> tuple[complex, complex]:
+    """Lay one group on another, by places and velocities."""
     cross = ((pa - pa.mean()) * (pb - pb.mean()).conj()).sum() + 0.49 * (va * vb.conj()).sum()
     turn = complex(cross / abs(cross))
     return turn, complex(pa.mean() - turn * pb.mean())
@@ -251,6 +265,7 @@ def draw_lay_group(rng: np.random.Generator) -> tuple[Points, Points, Points, Po
 
 
 def slots_after(orders: Indices) -> Indices:
+    """Follow members through one order after the other."""
     slots = np.arange(orders.shape[1])
     for order in orders:
         slots = order[slots]

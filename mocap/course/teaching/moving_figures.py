@@ -104,6 +104,7 @@ class _Pen:
         return self.size / 2 + np.stack([right, -up], -1) * scale[:, None], scale
 
     def line(self, points: Array, colour: str, width: float) -> None:
+        """Draw a line; a width below one is in metres, and such a line has round ends."""
         pixels, scale = self._pixels(points)
         for start, end, metre in zip(pixels[:-1], pixels[1:], scale[:-1] + scale[1:], strict=True):
             if not np.isnan(metre):
@@ -113,6 +114,7 @@ class _Pen:
             self.dots(points, colour, width / 2)
 
     def dots(self, points: Array, colour: str, metres: float) -> None:
+        """Draw discs of so many metres."""
         for (x, y), metre in zip(*self._pixels(points), strict=True):
             if not np.isnan(metre):
                 reach = metres * metre
