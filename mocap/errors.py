@@ -81,8 +81,11 @@ def missing(what: str, extra: str) -> MocapError:
     >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace("'.[", "'motion-graphs["))
     Films need imageio-ffmpeg: pip install 'motion-graphs[video]'.
     """
-    checkout = Path(__file__).parents[1].joinpath("pyproject.toml").exists()
-    return MocapError(f"{what}: pip install '{'.' if checkout else 'motion-graphs'}[{extra}]'.")
+    from importlib.metadata import distributions  # only here: it takes a while
+
+    # What was installed from a folder says so.
+    local = all(found.read_text("direct_url.json") for found in distributions(name="motion-graphs"))
+    return MocapError(f"{what}: pip install '{'.' if local else 'motion-graphs'}[{extra}]'.")
 
 
 class MocapWarning(UserWarning):

@@ -90,8 +90,7 @@ def local_heights(weights: sparse.csr_array, data: Array) -> Array:
     squared = weights.power(2)
     above = (squared * weights).T @ (data / squared.sum(axis=1)[:, None])
     below = squared.sum(axis=0)[:, None]
-    heights = np.divide(above, below, out=np.zeros_like(above), where=below > 0)
-    return np.asarray(heights)
+    return np.asarray(np.divide(above, below, out=np.zeros_like(above), where=below > 0))
 
 
 def hierarchy(
