@@ -90,7 +90,7 @@ class Check:
         of them; and `wrong`, the hint for each of several: if several fit, the first one counts. There
         `right` stands for the right answer, and `A → B; C → D` for the answer of the function that `right`
         calls, if its lines say B instead of A, and D instead of C. Some tables have `same`, a function that
-        compares two answers, and a number of `trials`.
+        compares two answers, a number of `trials`, and the `minutes` that it takes, 8 if not said.
     known : what the expressions may use.
     notebook : the number of the notebook that asks for it, such as 04b.
 
@@ -122,6 +122,7 @@ class Check:
     def __init__(self, name: str, table: Table, known: Mapping[str, Any], notebook: str = "") -> None:
         self.name, self.notebook = name, notebook
         self.asks, self.start, self.trials = table["asks"], table["start"], table.get("trials", 40)
+        self.minutes = table.get("minutes", 8)
         self._table, self._known = table, {**globals(), **known}
         self.same = eval(table.get("same", "close"), self._known)
         called = re.findall(r"(?<![\w.)])[A-Za-z_][\w.]*(?=\()", table["right"])

@@ -2,6 +2,7 @@
 
 import re
 
+from mocap.course import checks
 from mocap.course.marked_values import marked
 from tests.course.stored_notebooks import FOLDER, NAMES, PAGES, every_notebook, markdown, read
 from tests.loops import for_each
@@ -85,19 +86,19 @@ def test_words_are_plain(page):
 def minutes(name):
     """Work out how long a notebook takes: 180 words and seven lines of code per minute, then the tasks.
 
-    A quiz counts half a minute; a bet is part of its experiment, as the prediction was.
+    An exercise takes what its table says. A bet is part of its experiment, as the prediction was.
     """
-    words = lines = exercises = experiments = quizzes = 0
+    total = 0
     for cell in read(name).cells:
         if cell.cell_type == "markdown":
-            words += len(re.sub(r"```.*?```|<!--.*?-->|<[^>]*>", "", cell.source, flags=re.DOTALL).split())
+            text = re.sub(r"```.*?```|<!--.*?-->|<[^>]*>", "", cell.source, flags=re.DOTALL)
+            total += len(text.split()) / 180
         else:
-            lines += sum(bool(line.strip()) for line in cell.source.splitlines())
-            quizzes += cell.source.count("lab.quiz(")
-            tags = cell.metadata.get("tags", ())
-            exercises += any(tag.startswith("exercise:") for tag in tags)
-            experiments += any(tag.startswith("experiment:") for tag in tags)
-    return words / 180 + lines * 8 / 60 + 8 * exercises + 4 * experiments + quizzes / 2
+            kinds = [tag.partition(":") for tag in cell.metadata.get("tags", ())]
+            total += sum(bool(line.strip()) for line in cell.source.splitlines()) * 8 / 60
+            total += cell.source.count("lab.quiz(") / 2 + 4 * any(kind == "experiment" for kind, *_ in kinds)
+            total += sum(checks.all_checks()[check].minutes for kind, _, check in kinds if kind == "exercise")
+    return total
 
 
 @every_notebook
