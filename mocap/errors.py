@@ -84,7 +84,8 @@ def missing(what: str, extra: str) -> MocapError:
     from importlib.metadata import distributions  # only here: it takes a while
 
     # What was installed from a folder says so.
-    local = all(found.read_text("direct_url.json") for found in distributions(name="motion-graphs"))
+    noted = [found.read_text("direct_url.json") or "" for found in distributions(name="motion-graphs")]
+    local = all("dir_info" in note for note in noted)
     return MocapError(f"{what}: pip install '{'.' if local else 'motion-graphs'}[{extra}]'.")
 
 

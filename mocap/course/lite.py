@@ -47,7 +47,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
         wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
         _copy(notebooks, contents)
-        (wheel,) = wheels.glob("mocap-*.whl")
+        (wheel,) = wheels.glob("*.whl")
         parts: list[str | Path] = ["--contents", contents, "--piplite-wheels", wheel]
         _call(folder, ["jupyterlite_core", "build", *parts, "--output-dir", out.resolve()])
     return out / "lab" / "index.html"

@@ -40,8 +40,8 @@ LIVE = {  # what needs no Python, by its class
     "moving": "the sliders show recorded positions",
 }
 RUN = (
-    "To run it live, in a checkout of the package: <code>pip install '.[notebooks]'</code>, "
-    "then <code>mocap lab</code>."
+    "To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
+    "<code>pip install '.[notebooks]'</code>, then <code>mocap lab</code>."
 )
 DARK = '<script>document.body.classList.add("mocap-page")</script>'  # players are dark where the page is
 INDEX = """# Motion graphs

@@ -1,0 +1,101 @@
+"""What is published: two archives, their numbers, and what they promise."""
+
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import mocap
+from mocap.cli.main import COMMANDS
+from tests.test_house import ROOT
+
+STABLE = (ROOT / "mocap" / "STABLE.md").read_text("utf-8")
+DEMO = """
+import os, sys, mocap
+from pathlib import Path
+from mocap.course.notebooks import execute, read
+from mocap.errors import missing
+
+assert mocap.__file__.startswith(sys.prefix)
+assert "'motion-graphs[video]'" in str(missing("Films need it", "video"))
+notebook = read(Path("course/00-quickstart.ipynb"))
+notebook.cells[2].source += "\\nimport sys\\nassert mocap.__file__.startswith(sys.prefix)"
+execute(notebook, Path("course/00-quickstart.ipynb").resolve())
+"""
+
+
+def test_one_version_and_one_date_stand_everywhere():
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    head, when = re.search(r"^## (\S+) \((.*)\)$", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.M).groups()
+    cited = re.search(r"^version: (.*)$", citation, re.M)[1]
+    built = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
+    assert head == cited == built == mocap.__version__
+    date = re.search(r"^date-released: (.*)$", citation, re.M)
+    assert when == (date[1] if date else "unreleased")
+
+
+def test_the_page_lists_what_is_stable():
+    named = set(re.findall(r"`mocap\.(\w+)`", STABLE.partition("**May change**")[0]))
+    assert named == {name for name in mocap.__all__ if not hasattr(getattr(mocap, name), "__path__")}
+    assert set(re.findall(r"`mocap ([a-z]+)`", STABLE)) == set(COMMANDS)
+    assert mocap.__version__.startswith("0.")
+    assert "twine upload dist/*" in STABLE
+
+
+def call(*command, folder, **environment):
+    kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTEST_ADDOPTS")}
+    done = subprocess.run(
+        [*map(str, command)], cwd=folder, env=kept | environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def archives(tmp_path_factory):
+    """Build the sdist from the checkout, and the wheel from the sdist."""
+    out = tmp_path_factory.mktemp("dist")
+    call(sys.executable, "-m", "build", "--no-isolation", "--outdir", out, ROOT, folder=out)
+    return next(out.glob("*.tar.gz")), next(out.glob("*.whl"))
+
+
+@pytest.mark.sweep
+def test_the_archives_hold_what_they_should_and_nothing_else(archives):
+    call(sys.executable, "-m", "twine", "check", "--strict", *archives, folder=ROOT)
+    with tarfile.open(archives[0]) as whole, zipfile.ZipFile(archives[1]) as wheel:
+        source = {name.partition("/")[2] for name in whole.getnames()}
+        held = set(wheel.namelist())
+    if (ROOT / ".git").exists():
+        assert source <= {*call("git", "ls-files", folder=ROOT).split("\n"), "PKG-INFO"}
+    assert not any(name.startswith((".ci", ".binder")) for name in source)
+    assert {"LICENSE", "README.md", "CITATION.cff", "tests/test_release.py", "pyproject.toml"} <= source
+    assert any(name.endswith("licenses/LICENSE") for name in held)
+    assert {name.removeprefix("mocap/") for name in held if name.endswith(".ipynb")} == {
+        name for name in source if name.endswith(".ipynb")
+    }
+    assert not any(name.startswith(("tests", "figures")) or "answers" in name for name in held)
+    assert not [name for name in source | held if Path(name).suffix.lower() in (".amc", ".asf", ".c3d")]
+
+
+@pytest.mark.sweep
+def test_the_wheel_alone_makes_a_walk_and_runs_a_notebook(archives, tmp_path):
+    """The libraries are those of this Python; of ours there is what the wheel brings."""
+    env, empty = tmp_path / "env", tmp_path / "empty"
+    empty.mkdir()
+    call(sys.executable, "-m", "venv", "--without-pip", env, folder=empty)
+    python = env / "bin" / "python"
+    install = ("install", "--quiet", "--no-deps", "--no-index", archives[1])
+    call(sys.executable, "-m", "pip", "--python", python, *install, folder=empty)
+    (site,) = env.glob("lib/*/site-packages")
+    libraries = [path for path in sys.path if path.endswith(("site-packages", "dist-packages"))]
+    (site / "libraries.pth").write_text("\n".join(libraries))
+    call(env / "bin" / "mocap", "demo", folder=empty)
+    assert {path.name for path in (empty / "mocap-demo").iterdir()} >= {"walk.bvh", "walk.gif"}
+    call(env / "bin" / "mocap", "course", "handout", "-o", "course", folder=empty)
+    call(python, "-c", DEMO, folder=empty)
