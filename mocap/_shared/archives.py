@@ -1,4 +1,4 @@
-"""Arrays in one `.npz` file that says what it holds: written whole, and read only where everything fits.
+"""Arrays in one `.npz` file: written whole, and unpacked only where it holds what it claims.
 
 Such a file holds no code: it is safe to read one from a stranger. What it claims, in the directory of the
 `.zip` and in the headers of its arrays, is compared with what it can hold before anything is unpacked.
@@ -8,22 +8,19 @@ import math
 import mmap
 import re
 import zipfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import NDArray
 
-from mocap._shared.atomic import replacing, require_npz
+from mocap._shared.atomic import replacing
 from mocap.errors import FormatError, MocapError
 
 Arrays = dict[str, NDArray[Any]]
-Layout = Mapping[str, tuple[str, tuple[int | str, ...]]]
-TYPES: dict[str, DTypeLike] = {"U": str, "i": int, "f": float, "c": complex, "b": bool}
-FIRST = {"mocap motion graph": "mocap: a motion graph"}  # how the first files say what they hold
 RATIO, ROOM = 8, 2**20  # bytes of arrays: at most ROOM, and RATIO for each byte of the file; ours have three
 MOST, START, CHUNK = 2**14, 1024, 2**20  # members; bytes that hold a header, and that are unpacked at once
 LAST = {"U": 0x10FFFF, "b": 1}  # the largest codes of letters and of truths
@@ -87,67 +84,6 @@ class Member:
         return array
 
 
-def _no_rules(_: Arrays) -> Iterable[tuple[str, ArrayLike]]:
-    return ()
-
-
-class Kind(NamedTuple):
-    """What a file holds.
-
-    name : as in "a match web".
-    version : of its arrays; a newer one is refused.
-    arrays : for each array the letter of its kind in NumPy, and its shape. Sizes of one letter are the same.
-        "grid_of_*K" stands for K arrays, numbered from 0 on; a size with a star is the own one of each.
-    rules : yields what the numbers must keep, as sentences with booleans; each may need those before it.
-    """
-
-    name: str
-    version: int
-    arrays: Layout
-    rules: Callable[[Arrays], Iterable[tuple[str, ArrayLike]]] = _no_rules
-
-    def parts(self, found: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:
-        """Yield the name and the letter of each array, and whether the one that was found has its shape."""
-        sizes: dict[str, int] = {}
-        for key, (letter, shape) in self.arrays.items():
-            stem, star, count = key.partition("*")
-            for number in map(str, range(sizes[count])) if star else ("",):
-                have = getattr(found.get(stem + number), "shape", None)
-                fits = have is not None and len(shape) == len(have)
-                for size, name in zip(have or (), shape, strict=False):
-                    if isinstance(name, str):
-                        name = sizes.setdefault(name.replace("*", number), size)
-                    fits &= size == name
-                yield stem + number, letter, fits
-
-
-def write_arrays(path: str | Path, kind: Kind, arrays: Mapping[str, Any]) -> None:
-    """Write arrays to an `.npz` file; an old file is replaced when the new one is complete.
-
-    Parameters
-    ----------
-    path : the file.
-    kind : what it holds.
-    arrays : one for each name of the kind; lists become arrays of that kind.
-
-    Raises
-    ------
-    MocapError : for another suffix, and where the file cannot be written.
-
-    Examples
-    --------
-    >>> write_arrays("web.txt", Kind("a match web", 1, {}), {})
-    Traceback (most recent call last):
-    mocap.errors.MocapError: This is written as .npz, got 'web.txt'.
-    """
-    require_npz(path)
-    whole: Arrays = {"format": np.array(f"mocap: {kind.name}"), "version": np.array(kind.version)}
-    given = {key: np.asarray(array) for key, array in arrays.items()}
-    for key, letter, _ in kind.parts(given):
-        whole[key] = given[key] if given[key].dtype.kind == letter else given[key].astype(TYPES[letter])
-    pack(path, whole)
-
-
 def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
     """Write an `.npz` file, whole or not at all: packed, unless so much would come out that it is refused."""
     with replacing(path) as beside:
@@ -159,46 +95,6 @@ def pack(path: str | Path, arrays: Mapping[str, Any]) -> None:
                 < RATIO * beside.stat().st_size + ROOM
             ):
                 break
-
-
-def read_arrays(path: str | Path, kind: Kind) -> Arrays:
-    """Read what `write_arrays` wrote.
-
-    Parameters
-    ----------
-    path : the file.
-    kind : what it should hold.
-
-    Raises
-    ------
-    MocapError : where the file cannot be read.
-    FormatError : for files of another kind, of a newer version, and damaged ones.
-
-    Examples
-    --------
-    >>> read_arrays("no.npz", Kind("a match web", 1, {}))
-    Traceback (most recent call last):
-    mocap.errors.MocapError: Cannot read no.npz: No such file or directory.
-    """
-    ours = f"{kind.name} saved by mocap, version {kind.version}"
-    with open_archive(path, ours) as members:
-        name, version = str(members["format"].read()), int(members["version"].read())
-        if FIRST.get(name, name) != f"mocap: {kind.name}":
-            raise FormatError(path, None, ours, "an .npz of another kind")
-        if version > kind.version:
-            raise FormatError(path, None, ours, f"version {version}, which a newer mocap wrote")
-        found = []
-        for key, letter, fits in kind.parts(members):
-            if key not in members:
-                raise FormatError(path, None, ours, f"one without {key}")
-            if not fits or members[key].dtype.kind != letter:
-                raise FormatError(path, None, f"'{key}' to fit the other arrays", str(members[key]))
-            found.append(key)
-        arrays = {key: members[key].read() for key in found}
-        for what, holds in kind.rules(arrays):
-            if not np.all(holds):
-                raise FormatError(path, None, f"that {what}", "a damaged file")
-    return arrays
 
 
 @contextmanager

@@ -13,7 +13,8 @@ import networkx as nx
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocap._shared.archives import Arrays, Kind, Layout, read_arrays, write_arrays
+from mocap._shared.archives import Arrays, open_archive, pack
+from mocap._shared.atomic import require_npz
 from mocap._shared.progress import Progress
 from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike
@@ -21,26 +22,27 @@ from mocap.body.planar import PlanarTransform
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, is_bundled, sample
 from mocap.editing.mirroring import mirror
-from mocap.errors import MocapError, shortened
+from mocap.errors import FormatError, MocapError, shortened
 from mocap.files.folders import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 
+KIND, OURS = "mocap: a motion graph", "a motion graph saved by mocap, version 1"
 # The arrays of the file, with C clips, O origins, N nodes, E edges, T transitions and L labels.
-ARRAYS: Layout = {
-    "fps": ("f", ()),
-    "window": ("i", ()),
-    "names": ("U", ("C",)),
-    "frames": ("i", ("C",)),  # of each clip
-    "fingerprints": ("U", ("C",)),
-    "origins": ("U", ("O",)),
-    "nodes": ("i", ("N", 2)),  # clip, frame
-    "edges": ("i", ("E", 4)),  # start and end, as rows of nodes; key; frames
-    "is_transition": ("b", ("E",)),
-    "costs": ("f", ("T",)),
-    "transforms": ("f", ("T", 3)),
-    "labels": ("U", ("L",)),
-    "labelled": ("b", ("E", "L")),
+ARRAYS: dict[str, tuple[type, tuple[int | str, ...]]] = {
+    "fps": (float, ()),
+    "window": (int, ()),
+    "names": (str, ("C",)),
+    "frames": (int, ("C",)),  # of each clip
+    "fingerprints": (str, ("C",)),
+    "origins": (str, ("O",)),
+    "nodes": (int, ("N", 2)),  # clip, frame
+    "edges": (int, ("E", 4)),  # start and end, as rows of nodes; key; frames
+    "is_transition": (bool, ("E",)),
+    "costs": (float, ("T",)),
+    "transforms": (float, ("T", 3)),
+    "labels": (str, ("L",)),
+    "labelled": (bool, ("E", "L")),
 }
 
 
@@ -82,6 +84,7 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
 
     Notebook: 05b-choice-points
     """
+    require_npz(path)
     clips, graph = motion_graph.clips, motion_graph.graph
     number = {node: row for row, node in enumerate(graph)}
     edges = list(graph.edges(keys=True, data=True))
@@ -89,7 +92,7 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
     labels = sorted({label for *_, edge in edges for label in edge["labels"]})
     rows = [(number[a], number[b], key, edge["frames"]) for a, b, key, edge in edges]
     labelled = [label in edge["labels"] for *_, edge in edges for label in labels]
-    arrays = {
+    arrays: dict[str, Any] = {
         "fps": motion_graph.fps,
         "window": motion_graph.window,
         "names": [clip.name for clip in clips],
@@ -104,7 +107,8 @@ def save(motion_graph: MotionGraph, path: str | Path, origins: Sequence[Origin] 
         "labels": labels,
         "labelled": np.reshape(labelled, (len(edges), len(labels))),
     }
-    write_arrays(path, GRAPH, arrays)
+    whole: Arrays = {key: np.asarray(arrays[key], kind) for key, (kind, _) in ARRAYS.items()}
+    pack(path, {"format": np.array(KIND), "version": np.array(1), **whole})
 
 
 def load(path: str | Path, clips: Sequence[Motion]) -> MotionGraph:
@@ -149,7 +153,7 @@ def read(path: str | Path) -> GraphFile:
     ------
     FormatError, MocapError : as for `load`.
     """
-    arrays = read_arrays(path, GRAPH)
+    arrays = _unpack(path)
     nodes = [(clip, frame) for clip, frame in arrays["nodes"].tolist()]
     labels = np.array(arrays["labels"], object)
     ways = zip(arrays["costs"].tolist(), arrays["transforms"].tolist(), strict=True)
@@ -166,6 +170,30 @@ def read(path: str | Path) -> GraphFile:
     names, frames, known = (tuple(arrays[key].tolist()) for key in ("names", "frames", "fingerprints"))
     fps, window, origins = (arrays[key].tolist() for key in ("fps", "window", "origins"))
     return GraphFile(fps, window, names, frames, known, graph, tuple(origins))
+
+
+def _unpack(path: str | Path) -> Arrays:
+    """Unpack the arrays of a file, where they are those of a graph, and fit each other."""
+    with open_archive(path, OURS) as members:
+        if str(members["format"].read()) not in (KIND, "mocap motion graph"):  # as the first files say
+            raise FormatError(path, None, OURS, "an .npz of another kind")
+        if (version := int(members["version"].read())) > 1:
+            raise FormatError(path, None, OURS, f"version {version}, which a newer mocap wrote")
+        sizes: dict[int | str, int] = {2: 2, 3: 3, 4: 4}
+        for key, (kind, shape) in ARRAYS.items():
+            if key not in members:
+                raise FormatError(path, None, OURS, f"one without {key}")
+            own = members[key]
+            fits = len(own.shape) == len(shape) and own.dtype.kind == np.dtype(kind).kind
+            if not fits or any(
+                sizes.setdefault(n, size) != size for n, size in zip(shape, own.shape, strict=True)
+            ):
+                raise FormatError(path, None, f"'{key}' to fit the other arrays", str(own))
+        arrays = {key: members[key].read() for key in ARRAYS}
+        for what, holds in _rules(arrays):
+            if not np.all(holds):
+                raise FormatError(path, None, f"that {what}", "a damaged file")
+    return arrays
 
 
 def find_clips(path: str | Path, *, skeleton: Path | None = None, progress: Progress = iter) -> list[Motion]:
@@ -226,6 +254,3 @@ def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
     yield "each transition has a cost", is_transition.sum() == len(arrays["costs"])
     yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
     yield "transforms are finite", np.isfinite(arrays["transforms"])
-
-
-GRAPH = Kind("a motion graph", 1, ARRAYS, _rules)

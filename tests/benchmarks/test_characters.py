@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 
 from mocap import graphs
-from mocap.body import resample
-from mocap.datasets import sample
 from mocap.methods import groups
 from mocap.methods.motion_matching import MotionMatcher, tabulate
-from mocap.methods.parametric_graphs import ParametricController, build_kinds
+from mocap.methods.parametric_graphs import ParametricController
 from mocap.steering import Controller, FootTurner, measure_delay
 from tests.benchmarks.timing import fastest
 from tests.bundled import bundled
@@ -88,21 +86,6 @@ def test_to_prepare_matching_is_cheap_beside_a_graph():
     )
     print(f"\nto tabulate takes {tabled / built:.2f} of building the graph")
     assert tabled <= 0.8 * built
-
-
-def test_nine_kinds_and_fifteen_edges_are_built_in_the_time_of_some_motion_graphs():
-    """In seconds, where a motion graph of the same clips takes one; the paper's took minutes."""
-    sneak, jog = ([resample(sample(name), 30)] for name in ("sneak", "jog"))
-    clip_sets = {"walk": clips(), "sneak": sneak, "jog": jog}
-    whole, kinds = fastest(
-        lambda: graphs.compile_graph(
-            graphs.prune(graphs.build([*clips(), *sneak, *jog], window=10, threshold=0.04))
-        ),
-        lambda: build_kinds(clip_sets),
-        turns=2,
-    )
-    print(f"\nnine kinds take {kinds:.1f} s, {kinds / whole:.1f} × a motion graph of the same clips")
-    assert kinds <= 5 * whole
 
 
 @pytest.mark.filterwarnings("ignore:6 nodes are within")  # of 24 members

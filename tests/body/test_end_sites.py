@@ -11,7 +11,7 @@ from mocap.body.skeleton import Skeleton
 from mocap.errors import SkeletonMismatch
 from mocap.graphs import build, storage
 from mocap.matching import find_transitions, rms_distance
-from mocap.methods.match_webs import build_web, load_web, save_web
+from mocap.methods.match_webs import build_web
 from tests.strategies import wave
 
 PLAIN = wave(160, name="plain")
@@ -73,12 +73,9 @@ def test_what_is_made_of_them_is_what_one_rig_gives(work):
     assert len(some) and np.array_equal(some, wanted)
 
 
-def test_graphs_and_webs_are_loaded_with_the_clips_as_they_were(tmp_path):
-    graph, web = build(laboratory(), window=10, threshold=0.05), build_web(laboratory(), below=0.05)
-    storage.save(graph, tmp_path / "graph.npz")
-    save_web(web, tmp_path / "web.npz")
+def test_graphs_are_loaded_with_the_clips_as_they_were(tmp_path):
+    storage.save(build(laboratory(), window=10, threshold=0.05), tmp_path / "graph.npz")
     assert storage.load(tmp_path / "graph.npz", laboratory()).clips[2].skeleton.names[-1] == "side_end"
-    assert load_web(tmp_path / "web.npz", laboratory()).clips[2].skeleton.names[-1] == "side_end"
 
 
 @pytest.mark.parametrize(

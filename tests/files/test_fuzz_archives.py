@@ -8,7 +8,6 @@ import struct
 import tracemalloc
 import zipfile
 
-import networkx as nx
 import numpy as np
 import pytest
 from numpy.lib.format import write_array, write_array_header_1_0
@@ -19,11 +18,6 @@ from mocap.files import amass
 from mocap.graphs import storage
 from mocap.graphs.graph_summary import summary
 from mocap.graphs.motion_graph import build
-from mocap.methods.match_webs import MotionSpace, webs
-from mocap.methods.parametric_graphs import Examples, parametric_files
-from mocap.methods.parametric_graphs.parametric_control import ParametricController
-from mocap.methods.parametric_graphs.parametric_edges import ParametricEdge
-from mocap.methods.parametric_graphs.parametric_motion_graphs import ParametricGraph
 from tests.conftest import SWEEP
 from tests.files.test_fuzz import short
 from tests.strategies import random_motion, wave
@@ -39,30 +33,6 @@ def save_graph(path, size=1):
     storage.save(graph, path)
 
 
-def save_web(path, size=1):
-    cells = np.tile(np.stack([np.arange(20), np.arange(100, 120)], axis=1), (9000 * size - 8999, 1))
-    offsets = np.arange(0, len(cells) + 1, 20)
-    web = webs.MatchWeb(tuple(CLIPS), [0, 90, 160], 5, 0.1, cells, np.full(len(cells), 0.1), offsets)
-    webs.save_web(web, path)
-
-
-def save_parametric(path, size=1):
-    body, grid, count = CLIPS[0].skeleton, np.arange(-5, 26) / 20, 4 + 500 * (size - 1)
-    phases = np.ones((count, len(grid)))
-    poses = np.tile([1.0, 0, 0, 0], (*phases.shape, len(body), 1))
-    examples = Examples(
-        body, 30.0, grid, phases * grid, 1j * phases, 0.1 * phases, phases, poses,
-        np.ones((*phases.shape, 1), bool), body.names[-1:], np.ones((count, 2)),
-    )  # fmt: skip
-    values = np.linspace(-1, 1, 6)[:, None]
-    space = MotionSpace(examples, np.full((6, count), 1 / count), values, np.ones(1), ("turn",))
-    edge = ParametricEdge(values, values - 1, values + 1, np.ones(6), np.zeros(6), np.ones(1), 0.02)
-    graph = nx.DiGraph()
-    graph.add_node("walk", space=space)
-    graph.add_edge("walk", "walk", edge=edge)
-    parametric_files.save_parametric(ParametricGraph(graph), path)
-
-
 def save_amass(path, size=1):
     amass.write(concatenate([random_motion(1, skeleton=amass.SKELETON)] * (1 + 400 * (size - 1))), path)
 
@@ -71,25 +41,12 @@ def use_graph(path):
     assert summary(storage.load(path, CLIPS).graph, fps=30).table()
 
 
-def use_web(path):
-    web = webs.load_web(path, CLIPS)
-    cells, _ = web.path(0)
-    assert all(web.own_frame(web.clip_at(n), n) >= 0 for n in cells[0])
-
-
-def use_parametric(path):
-    character = ParametricController(parametric_files.load_parametric(path))
-    assert np.isfinite([character.step(0.1, 1.0).root_position for _ in range(30)]).all()
-
-
 def use_amass(path):
     assert isinstance(amass.read(path), Motion)
 
 
 KINDS = {
     "graph": (save_graph, use_graph),
-    "web": (save_web, use_web),
-    "parametric": (save_parametric, use_parametric),
     "amass": (save_amass, use_amass),
 }
 
@@ -248,6 +205,3 @@ def test_what_claims_more_than_there_is_takes_no_memory(tmp_path, kind):
             for part in (zeros, zeros[:128] + members[name][128:]):  # it does, and it does not hold them
                 path.write_bytes(packed([*(members | {name: part}).items()]))
                 assert peak(use, path, name) < 4 * honest, name
-    many = {"sources.npy": npy(np.zeros(3_000_000, int)), "targets.npy": npy(np.zeros(3_000_000, int))}
-    path.write_bytes(packed([*(members | many).items()]))
-    assert kind != "parametric" or peak(use, path) < 4 * honest

@@ -10,7 +10,7 @@ Reading order (notebooks 16)
 ----------------------------
 1. `local_alignment`: valleys of a grid, and paths through it that begin and end anywhere
 2. `grid_pieces`: the same in a grid that is too large to hold
-3. `webs`: `MatchWeb`, all paths of a set of clips, found, saved and loaded
+3. `webs`: `MatchWeb`, all paths of a set of clips, found once
 4. `match_search`: what is like the query, and what is like that
 5. `measures`: what a motion does, in a number or a few
 6. `motion_spaces`: blends of examples, drawn at random and measured
@@ -35,7 +35,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "local_alignment": ["apart", "local_paths", "minima_1d"],
-        "webs": ["build_web", "load_web", "save_web"],
+        "webs": ["build_web"],
         "match_search": ["Match", "cut_out", "search"],
         "measures": ["hand_target", "mean_speed", "turn"],
         "motion_spaces": ["MotionSpace", "blend_of", "random_weights", "sample_space"],

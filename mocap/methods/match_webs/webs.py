@@ -1,27 +1,19 @@
-"""The match web of a set of clips: all long paths of frames that are alike, found once, kept, and saved.
-
-A file holds the paths as flat arrays in an `.npz`, and the clips by name and fingerprint.
-"""
+"""The match web of a set of clips: all long paths of frames that are alike, found once and kept."""
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocap._shared.archives import Arrays, Kind, read_arrays, write_arrays
 from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
-from mocap.body.fingerprints import fingerprint
 from mocap.body.motion import Motion, require_alike, resample
-from mocap.datasets.samples import is_bundled
-from mocap.errors import FormatError, MocapError, MocapWarning, shortened
+from mocap.errors import MocapError, MocapWarning
 from mocap.matching.distance_grids import check_window
 from mocap.matching.lower_bound import Weights
 from mocap.matching.point_clouds import distinct_joints, unit_weights
@@ -152,100 +144,3 @@ def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:
         said = f"Too short to hold a path of {frames / MatchWeb.rate:.2g} s, and left out: {names}."
         warnings.warn(said, MocapWarning, stacklevel=3)
     return long
-
-
-# The arrays of the file, with C clips, N cells and P paths (and so P + 1 offsets, X), and what is in them.
-ARRAYS: dict[str, tuple[str, tuple[int | str, ...], Callable[[MatchWeb], object]]] = {
-    "names": ("U", ("C",), lambda web: [clip.name for clip in web.clips]),
-    "fingerprints": ("U", ("C",), lambda web: [fingerprint(clip) for clip in web.clips]),
-    "lengths": ("i", ("C",), lambda web: np.diff(web.starts)),  # in frames of the web; 0 if too short
-    "numbers": ("f", (2,), lambda web: [web.rate, web.below]),
-    "window": ("i", (), lambda web: web.window),
-    "cells": ("i", ("N", 2), lambda web: web.cells),
-    "costs": ("f", ("N",), lambda web: web.costs),
-    "offsets": ("i", ("X",), lambda web: web.offsets),
-}
-
-
-def save_web(web: MatchWeb, path: str | Path) -> None:
-    """Write a match web to an `.npz` file, without the frames of its clips.
-
-    Parameters
-    ----------
-    web : as from `build_web`.
-    path : the file; an old one is replaced when the new one is complete.
-
-    Raises
-    ------
-    MocapError : for another suffix, and where the file cannot be written.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from mocap.datasets.samples import sample
-    >>> from mocap.methods.match_webs.webs import build_web
-    >>> walk = sample("walk_straight")
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     save_web(build_web([walk], below=0.05), f"{folder}/web.npz")
-    ...     load_web(f"{folder}/web.npz", [walk])
-    MatchWeb(1 clips, 8 paths, below 5 cm)
-    """
-    write_arrays(path, WEB, {key: take(web) for key, (_, _, take) in ARRAYS.items()})
-
-
-def load_web(path: str | Path, clips: Sequence[Motion]) -> MatchWeb:
-    """Read a match web, and join it with its clips; `save_web` shows an example.
-
-    Parameters
-    ----------
-    path : a file from `save_web`.
-    clips : the motions that it was built of, in their order.
-
-    Returns
-    -------
-    The same web, bit for bit.
-
-    Raises
-    ------
-    FormatError : for a file that is no match web, is damaged, or has a newer version.
-    MocapError : for other clips than those that the web was built of.
-    """
-    arrays = read_arrays(path, WEB)
-    names = arrays["names"].tolist()
-    if len(names) != len(clips):
-        raise MocapError(f"{path} was built of {len(names)} clips, got {len(clips)}.")
-    with suppress(MocapError):  # what does not go together is named below
-        clips = require_alike(clips)
-    for name, known, clip in zip(names, arrays["fingerprints"].tolist(), clips, strict=True):
-        if fingerprint(clip) != known and not (clip.name == name and is_bundled(clip)):
-            built, given = shortened(name, 50), shortened(clip.name, 50)
-            raise MocapError(f"{path} was built of '{built}', not this '{given}': take that, or build anew.")
-    at_rate = [int(clip.duration * MatchWeb.rate + 1e-9) + 1 for clip in clips]  # as `resample` counts
-    if not np.all((arrays["lengths"] == at_rate) | (arrays["lengths"] == 0)):
-        raise FormatError(path, None, f"clips of {shortened(str(at_rate), 60)} frames", "a damaged file")
-    starts, below = np.cumsum([0, *arrays["lengths"]]), float(arrays["numbers"][1])
-    parts = (arrays[key] for key in ("cells", "costs", "offsets"))
-    return MatchWeb(tuple(clips), starts, int(arrays["window"]), below, *parts)
-
-
-def _rules(arrays: Arrays) -> Iterator[tuple[str, ArrayLike]]:
-    """Yield what must hold; each rule needs those before it."""
-    cells, offsets, lengths = arrays["cells"], arrays["offsets"], arrays["lengths"]
-    rate, below = arrays["numbers"]
-    yield "its frames are 30 a second, its distances above 0", rate == MatchWeb.rate and 0 < below < np.inf
-    yield "the window has frames", arrays["window"] > 0
-    yield "clips have lengths", (lengths >= 0) & (lengths < 2**31)
-    yield "paths begin at the first cell", len(offsets) > 0 and offsets[0] == 0
-    yield "paths end at the last cell", offsets[-1] == len(cells)
-    yield "no path is empty", np.diff(offsets) > 0
-    yield "cells lie in clips", (cells >= 0) & (cells < lengths.sum())
-    steps, inner = np.diff(cells, axis=0), np.ones(max(len(cells) - 1, 0), bool)
-    inner[offsets[1:-1] - 1] = False
-    yield "time never runs backwards", steps[inner] >= 0
-    starts = np.cumsum([0, *lengths])
-    clip = np.searchsorted(starts, cells, side="right")
-    yield "a path stays in its two clips", (np.diff(clip, axis=0)[inner] == 0)
-    yield "costs are distances", (arrays["costs"] >= 0) & (arrays["costs"] < np.inf)
-
-
-WEB = Kind("a match web", 1, {key: row[:2] for key, row in ARRAYS.items()}, _rules)

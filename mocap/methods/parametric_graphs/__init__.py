@@ -13,9 +13,7 @@ Reading order (notebook 17)
 4. `made_motions`: motions made out of mixes, and where to leave one and enter another
 5. `parametric_edges`: boxes of targets that may follow
 6. `parametric_motion_graphs`: spaces and edges, under names
-7. `kinds_of_strides`: from clips to a graph in one call, with changes from kind to kind
-8. `parametric_files`: save and load a graph
-9. `parametric_control`: a character that decides once per stride
+7. `parametric_control`: a character that decides once per stride
 
 References
 ----------
@@ -38,8 +36,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "made_motions": ["make_motion", "optimal_transitions"],
         "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
         "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
-        "kinds_of_strides": ["build_kinds", "changing_strides"],
-        "parametric_files": ["load_parametric", "save_parametric"],
         "parametric_control": ["ParametricController"],
     },
 )

@@ -11,7 +11,6 @@ from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, random_weights, sample_space, weights_for
 from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
-from mocap.methods.parametric_graphs.kinds_of_strides import build_kinds, changing_strides
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
@@ -39,7 +38,9 @@ def jogs():
 
 @cache
 def walk_and_jog():
-    return build_kinds({"walk": clips(), "jog": jogs()}, sampling=SMALL)
+    """Two kinds that follow each other at any price: what counts is which of them is chosen."""
+    jogging = make_space(jogs(), np.radians(14), *np.percentile(jogs().values[:, 0], [4, 96]))
+    return build_parametric({"walk": space(), "jog": jogging}, good=0.5, sampling=SMALL)
 
 
 @cache
@@ -146,8 +147,6 @@ def punches():
 
 
 HAND = partial(hand_target, at=0.5)
-EDGES = ["walk walk", "walk reach", "reach walk", "walk to_guard", "to_guard punch"]
-EDGES += ["punch punch", "punch from_guard", "from_guard walk"]
 
 
 @cache
@@ -159,13 +158,10 @@ def of_hands():
 
 @cache
 def acting():
-    """Walk, reach and punch in one graph, with the ways between."""
-    straightest = strides().take(np.abs(strides().values[:, 0]) < np.radians(1))
-    to = changing_strides(strides(), punches(), stands="second")
-    back = changing_strides(punches(), straightest, stands="first")
-    spaces = {"walk": space(), **of_hands(), "to_guard": make_space(to, np.radians(14), -1.0, 1.0)}
-    spaces["from_guard"] = sample_space(back, HAND, parameters=TARGET)
-    return build_parametric(spaces, [tuple(edge.split()) for edge in EDGES], good=0.08, sampling=SMALL)
+    """Walk and reach in one graph."""
+    spaces = {"walk": space(), "reach": of_hands()["reach"]}
+    edges = [("walk", "walk"), ("walk", "reach"), ("reach", "walk")]
+    return build_parametric(spaces, edges, good=0.08, sampling=SMALL)
 
 
 class Acted(NamedTuple):
