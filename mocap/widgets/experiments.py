@@ -67,7 +67,7 @@ def explore(draw: Callable[..., Drawn], *, alt: str, **controls: Any) -> Experim
     >>> explore(draw, alt="A line that rises as its slope does.", slope=(-1.0, 1.0))
     Experiment(draw, slope=1.0)
 
-    Notebook: 00-quickstart
+    Notebook: 01-skeletons-and-clips
     """
     if importlib.util.find_spec("ipywidgets") is None:
         raise missing("Experiments need ipywidgets, which is not here", "notebooks")

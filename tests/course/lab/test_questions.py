@@ -176,8 +176,8 @@ def test_what_is_not_there_is_said(call, said):
 
 def test_names_are_those_of_the_caller():
     space = {}
-    exec("from mocap.course import lab\nminima = range(42)", space)
-    assert "Of the 42 minima, those left at 6 cm" in eval("lab.bet('00-left-at-6')", space).text
+    exec("import numpy as np\nfrom mocap.course import lab\nf = np.empty((0, 42))", space)
+    assert "those that need a look with all 42 numbers" in eval("lab.bet('02c-all-numbers')", space).text
     assert eval("lab.bet('09-die-at-185')", space).text == "Share of the walks that die at 185: ______ %"
 
 
