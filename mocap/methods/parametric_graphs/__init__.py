@@ -13,7 +13,8 @@ Reading order (notebook 17)
 4. `made_motions`: motions made out of mixes, and where to leave one and enter another
 5. `parametric_edges`: boxes of targets that may follow
 6. `parametric_motion_graphs`: spaces and edges, under names
-7. `parametric_control`: a character that decides once per stride
+7. `changes`: from one kind of motion into another, over a stride
+8. `parametric_control`: a character that decides once per stride
 
 References
 ----------

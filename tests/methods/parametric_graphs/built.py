@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache, partial
+from itertools import permutations
 from typing import NamedTuple
 
 import numpy as np
@@ -11,8 +12,10 @@ from mocap.body.motion import Motion, resample
 from mocap.datasets import samples
 from mocap.methods.match_webs import hand_target, random_weights, sample_space, weights_for
 from mocap.methods.parametric_graphs import Sampling, build_parametric, cut_actions, cut_strides, make_space
+from mocap.methods.parametric_graphs.changes import changing_strides
 from mocap.methods.parametric_graphs.made_motions import optimal_transitions
 from mocap.methods.parametric_graphs.parametric_control import TARGET, ParametricController
+from mocap.methods.parametric_graphs.parametric_edges import smallest_good
 from mocap.methods.parametric_graphs.stride_spaces import draw_parameters, measure_mixes
 
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
@@ -38,9 +41,16 @@ def jogs():
 
 @cache
 def walk_and_jog():
-    """Two kinds that follow each other at any price: what counts is which of them is chosen."""
-    jogging = make_space(jogs(), np.radians(14), *np.percentile(jogs().values[:, 0], [4, 96]))
-    return build_parametric({"walk": space(), "jog": jogging}, good=0.5, sampling=SMALL)
+    """Two kinds and both changes, as spaces by turn."""
+    kinds = {"walk": strides(), "jog": jogs()}
+    edges = [(kind, kind) for kind in kinds]
+    for one, other in permutations(("walk", "jog")):
+        kinds[name := f"{one} to {other}"] = changing_strides(kinds[one], kinds[other])
+        edges += [(one, name), (name, other)]
+    ends = {name: np.percentile(some.values[:, 0], [4, 96]) for name, some in kinds.items()}
+    spaces = {name: make_space(some, np.radians(14), *ends[name]) for name, some in kinds.items()}
+    least = max(smallest_good(spaces[a], spaces[b], SMALL) for a, b in edges)
+    return build_parametric(spaces, edges, good=max(0.04, 1.05 * least), sampling=SMALL)
 
 
 @cache
@@ -147,6 +157,8 @@ def punches():
 
 
 HAND = partial(hand_target, at=0.5)
+EDGES = ["walk walk", "walk reach", "reach walk", "walk to_guard", "to_guard punch"]
+EDGES += ["punch punch", "punch from_guard", "from_guard walk"]
 
 
 @cache
@@ -158,10 +170,13 @@ def of_hands():
 
 @cache
 def acting():
-    """Walk and reach in one graph."""
-    spaces = {"walk": space(), "reach": of_hands()["reach"]}
-    edges = [("walk", "walk"), ("walk", "reach"), ("reach", "walk")]
-    return build_parametric(spaces, edges, good=0.08, sampling=SMALL)
+    """Walk, reach and punch in one graph, with the ways between."""
+    straightest = strides().take(np.abs(strides().values[:, 0]) < np.radians(1))
+    to = changing_strides(strides(), punches(), stands="second")
+    back = changing_strides(punches(), straightest, stands="first")
+    spaces = {"walk": space(), **of_hands(), "to_guard": make_space(to, np.radians(14), -1.0, 1.0)}
+    spaces["from_guard"] = sample_space(back, HAND, parameters=TARGET)
+    return build_parametric(spaces, [tuple(edge.split()) for edge in EDGES], good=0.08, sampling=SMALL)
 
 
 class Acted(NamedTuple):

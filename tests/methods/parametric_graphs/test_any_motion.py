@@ -1,4 +1,4 @@
-"""Reaches are nodes beside walks, and punches are spaces too: places of the world are met."""
+"""Reaches and punches are nodes beside walks: places of the world are met, and planted feet rest."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -12,15 +12,17 @@ from mocap.methods.match_webs import random_weights, weights_for
 from mocap.methods.parametric_graphs import cut_actions, smallest_good
 from mocap.methods.parametric_graphs.parametric_control import ParametricController
 from mocap.quality import plant_slides
-from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, clips, of_hands, space
+from tests.methods.parametric_graphs.built import HAND, SMALL, act, acting, clips, of_hands
 
 
-def test_a_place_of_the_world_is_met_and_planted_feet_rest():
+@pytest.mark.parametrize("node", ["reach", "punch"])
+def test_a_place_of_the_world_is_met_and_planted_feet_rest_in_the_changes_too(node):
     """As in [HG07, 5], with a place of the world for the wish."""
-    done = act(acting(), "reach", 12)
+    done = act(acting(), node, 12)
     off = done.missed(done.motion)
     assert np.median(off) <= 0.015 and np.percentile(off, 90) <= 0.05
-    assert {chosen.node for chosen in done.chosen} == {"walk", "reach"}
+    ways = {"reach": {"walk", "reach"}, "punch": {"walk", "to_guard", "punch", "from_guard"}}
+    assert {chosen.node for chosen in done.chosen} == ways[node]
     clean = clean_up(done.motion)
     kept, asked = (sum(m.sum() for m in one.contacts.values()) for one in (clean, done.motion))
     assert kept >= 0.97 * asked and max(plant.far for plant in plant_slides(clean)) < 1e-3
@@ -54,17 +56,18 @@ def test_what_blends_do_is_got_when_it_is_asked(node):
 
 
 def test_walks_do_not_turn_into_punches_by_themselves():
-    direct = smallest_good(space(), of_hands()["punch"], SMALL)
-    assert direct > 0.14 > 0.05 > smallest_good(space(), space(), SMALL)
+    spaces = {name: acting().space(name) for name in ("walk", "punch", "to_guard")}
+    direct = smallest_good(spaces["walk"], spaces["punch"], SMALL)
+    assert direct > 0.14 > 0.05 > smallest_good(spaces["walk"], spaces["to_guard"], SMALL)
 
 
-def test_without_a_label_one_who_reached_walks_on():
-    character = ParametricController(acting(), start="reach")
-    while len(character.chosen) < 5:
-        character.step(0.5, 0.8, "reach" if len(character.chosen) == 1 else "")
+def test_without_a_label_one_who_punched_walks_on():
+    character = ParametricController(acting(), start="punch")
+    for _ in range(200):
+        character.step(0.5, 0.8)
     seen = [chosen.node for chosen in character.chosen]
-    assert seen[:3] == ["walk", "reach", "walk"] and set(seen[2:]) == {"walk"}
-    assert np.isnan(character.chosen[1].wished).all()  # nobody aimed: the middle of the box
+    assert seen[:2] == ["from_guard", "walk"] and set(seen[1:]) == {"walk"}
+    assert np.isnan(character.chosen[0].wished).all()  # nobody aimed: the middle of the box
 
 
 def test_actions_are_registered_and_their_margins_run_at_their_own_pace():
