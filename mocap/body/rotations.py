@@ -64,7 +64,7 @@ def from_rotvec(vectors: ArrayLike) -> Array:
     >>> from_rotvec([0, 0, np.pi]).round(6) + 0.0
     array([0., 0., 0., 1.])
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 03b-angles
     """
     vectors = np.asarray(vectors, float)
     half = np.linalg.norm(vectors, axis=-1, keepdims=True) / 2

@@ -53,7 +53,7 @@ def ground_axes(
     >>> np.concatenate([ax.get_ylim(), ax.get_xlim()]).tolist()  # matplotlib's y is our x, its x our z
     [-2.0, 2.0, 3.0, 7.0]
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 03b-angles
     """
     ax = ax or filled(plt.figure(figsize=(5, 5)))
     ax.set_axis_off()
@@ -137,7 +137,7 @@ class StickFigure:
     >>> len(moved)  # the bones, and the head
     2
 
-    Notebook: 01-skeletons-and-clips
+    Notebook: 03b-angles
     """
 
     def __init__(self, skeleton: Skeleton, ax: Axes3D, alpha: float = 1.0, colour: str | None = None) -> None:
