@@ -265,7 +265,10 @@ def draw_path() -> Figure:
     path = SHAPES["figure of eight"]()
     walk = steering.follow_path(_graph(), path).motion()
     plotting.asked_and_walked(path.points, walk)
-    plotting.footprints(feet.find_footprints(walk), ax=plt.gca())
+    for step in feet.find_footprints(walk):
+        size = 12 + 40 * (1 - np.exp(-(step.end - step.start) / 60))
+        look = {"facecolors": COLOURS[step.side], "alpha": 0.6, "linewidths": 0, "zorder": 3}
+        plt.scatter(step.x, step.z, s=size, **look)
     return plt.gcf()
 
 
@@ -335,11 +338,6 @@ def draw_match() -> Figure:
             plotting.StickFigure(first.skeleton, ax, 0.8, colour).pose(pose)
         ax.set_title(("as the clips are", "aligned")[panel])
     return figure
-
-
-def draw_angles() -> Figure:
-    """Draw the short turn between two headings, and the turn by the means of their angles."""
-    return diagrams.two_ways_round()
 
 
 def draw_dying_walks() -> Figure:
@@ -698,7 +696,6 @@ PICTURES: dict[str, Callable[[], Figure]] = {
     "seam": draw_seam,
     "feet": draw_feet,
     "match": draw_match,
-    "angles": draw_angles,
     "retargeted": draw_retargeted,
     "dying_walks": draw_dying_walks,
     "added": draw_added,

@@ -10,7 +10,7 @@ Reading order (notebooks 00 to 19)
 3. `stick_figures`: bodies on 3D axes with a ground
 4. `bodies_on_path`: a whole walk in one picture
 5. `grids`: distances and costs as images
-6. `ground_charts`: paths, footprints and ways from above
+6. `ground_charts`: paths and ways from above
 7. `charts`: curves, bands, bars and trees
 8. `graph_drawing`: motion graphs as timelines and as nodes with arrows
 10. `storyboards`: a transition in panels
@@ -34,7 +34,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "ground_charts": [
             "asked_and_walked",
             "draw_group_plan",
-            "footprints",
             "ground_tracks",
             "path_from_above",
         ],

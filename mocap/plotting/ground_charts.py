@@ -1,11 +1,11 @@
-"""What lies on the ground, seen from above: paths, seams, footprints, ways and plans."""
+"""What lies on the ground, seen from above: paths, ways and plans."""
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
@@ -13,9 +13,8 @@ from numpy.typing import ArrayLike
 
 from mocap._shared.arrays import Points
 from mocap.body import Motion, heading
-from mocap.feet.footplants import Footprint
 from mocap.plotting.picture import figure_of
-from mocap.plotting.style import ASKED, COLOURS, FLOOR, MARK, PATH, QUIET, SOURCES
+from mocap.plotting.style import ASKED, COLOURS, FLOOR, PATH, QUIET, SOURCES
 
 
 def seen_from_above(ax: Axes | None = None) -> Axes:
@@ -26,64 +25,32 @@ def seen_from_above(ax: Axes | None = None) -> Axes:
     return ax
 
 
-def path_from_above(
-    motion: Motion, *, seams: ArrayLike = (), colour: str = PATH, ax: Axes | None = None
-) -> list[Line2D]:
+def path_from_above(motion: Motion, *, colour: str = PATH, ax: Axes | None = None) -> list[Line2D]:
     """Draw the root's path on the ground, seen from above: z upwards, x to the left, as seen from behind.
 
     Parameters
     ----------
     motion : the motion.
-    seams : frames to mark.
     colour : of the path.
     ax : axes; new ones by default.
 
     Returns
     -------
-    The path, the start, and the seams.
+    The path, and the start.
 
     Examples
     --------
     >>> from mocap import datasets, plotting
-    >>> drawn = path_from_above(datasets.sample("walk_circle"), seams=[300, 600])
-    >>> plotting.show(drawn, alt="A circle seen from above, with two seams.")
-    Picture('A circle seen from above, with two seams.')
+    >>> drawn = path_from_above(datasets.sample("walk_circle"))
+    >>> plotting.show(drawn, alt="A circle seen from above.")
+    Picture('A circle seen from above.')
 
     Notebook: 08b-steering
     """
     ax = seen_from_above(ax)
     x, z = motion.root_positions[:, [0, 2]].T
-    at = np.asarray(seams, int)
-    lines = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
-    lines += ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
-    lines += ax.plot(x[at], z[at], "D", color=MARK, markersize=5, label="seams" if len(at) else None)
-    return lines
-
-
-def footprints(prints: Sequence[Footprint], *, ax: Axes | None = None) -> PathCollection:
-    """Draw where feet stood, seen from above: left and right in their colours, longer stands larger.
-
-    Parameters
-    ----------
-    prints : as from `feet.find_footprints`.
-    ax : axes, as from `path_from_above`; new ones by default.
-
-    Returns
-    -------
-    The discs, one per footprint.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> steps = [Footprint("lfoot", "left", 0, 20, 0.1, 0.0), Footprint("rfoot", "right", 18, 40, -0.1, 0.6)]
-    >>> footprints(steps, ax=Figure().add_subplot()).get_offsets().tolist()  # (x, z)
-    [[0.1, 0.0], [-0.1, 0.6]]
-    """
-    ax = seen_from_above(ax)
-    at = np.array([(step.x, step.z) for step in prints]).reshape(-1, 2)
-    sizes = [12 + 40 * (1 - np.exp(-(step.end - step.start) / 60)) for step in prints]
-    colours = [COLOURS[step.side] for step in prints]
-    return ax.scatter(at[:, 0], at[:, 1], s=sizes, facecolors=colours, alpha=0.6, linewidths=0, zorder=3)
+    way = ax.plot(x, z, color=colour, linewidth=2, label=motion.name)
+    return way + ax.plot(x[:1], z[:1], "o", color=COLOURS["middle"], markersize=6)
 
 
 def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None) -> list[Line2D]:
@@ -115,7 +82,7 @@ def asked_and_walked(path: ArrayLike, motion: Motion, *, ax: Axes | None = None)
     walked = path_from_above(motion, ax=ax)
     walked[0].set_label("walked")
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
-    return [*asked, *walked[:2]]
+    return [*asked, *walked]
 
 
 def ground_tracks(

@@ -24,36 +24,17 @@ from mocap.body.planar import on_ground
 from mocap.editing.displacements import spline_basis
 from mocap.editing.retiming import at_frames
 
+# By how much a walk may be changed to arrive: radians per second that are added to its own turning, and times
+# which its steps are longer or shorter, and which it is played faster or slower.
+MOST_TURN, MOST_STEPS, MOST_PACE = float(np.radians(60)), 1.25, 1.25
 # What changes cost: times the squared radians per second of the turning that is added, and times the squared
 # logarithm by which steps are lengthened or time is stretched; times seconds each.
 TURN, STRETCH = 0.5, 8.0
 WITHIN = 0.98  # of the limit of turning, because it is held at some frames only
 ROUNDS = 30  # of the solver; 5 to 15 are enough where there is a way
 KNOTS = 0.3  # seconds between the knots of φ and ln σ
-FEWEST, MOST = 10, 40  # spans between knots; three at each end are held level
+FEWEST, SPANS = 10, 40  # spans between knots; three at each end are held level
 RISE = 0.15  # the share of a walk over which its time comes to the new pace, at each end
-
-
-class Limits(NamedTuple):
-    """By how much a walk may be changed to arrive.
-
-    Parameters
-    ----------
-    turn : radians per second that are added to its own turning.
-    pose : metres by which joints are moved where its ends fade into the poses, the root mean square.
-    steps : times which its steps are longer, or shorter; 1.25 allows 0.8 to 1.25.
-    pace : times which it is played faster, or slower.
-
-    Examples
-    --------
-    >>> Limits(pace=1.1).pace
-    1.1
-    """
-
-    turn: float = float(np.radians(60))
-    pose: float = 0.1
-    steps: float = 1.25
-    pace: float = 1.25
 
 
 class Arrived(NamedTuple):
@@ -86,8 +67,10 @@ def level_rise(count: int) -> Array:
     return np.concatenate([[0.0], np.cumsum(rate) / rate.sum()])
 
 
-def bend_to(motion: Motion, frames: int, end: complex, apart: float, limits: Limits) -> Arrived:
+def bend_to(motion: Motion, frames: int, end: complex, apart: float) -> Arrived:
     """Play a walk in another number of frames, and bend it so that its root ends at a ground point, turned.
+
+    Where `MOST_TURN` and `MOST_STEPS` leave no way, the end is missed, or the turning is faster.
 
     Parameters
     ----------
@@ -95,14 +78,12 @@ def bend_to(motion: Motion, frames: int, end: complex, apart: float, limits: Lim
     frames : of the new motion, 2 or more.
     end : where its last root shall be, z + ix.
     apart : radians by which its last frame is turned.
-    limits : for its turning and its steps. Where they leave no way, the end is missed, or the turning is
-        faster.
 
     Examples
     --------
     >>> from mocap.datasets import sample
     >>> walk = sample("walk_straight")[:481:4]
-    >>> bent = bend_to(walk, 130, on_ground(walk.root_positions[-1]) + 0.5j, 0.3, Limits())
+    >>> bent = bend_to(walk, 130, on_ground(walk.root_positions[-1]) + 0.5j, 0.3)
     >>> bool(bent.lack < 1e-4), bool(np.degrees(abs(bent.turned).max()) < 30), len(bent.motion)
     (True, True, 130)
     """
@@ -110,9 +91,9 @@ def bend_to(motion: Motion, frames: int, end: complex, apart: float, limits: Lim
     pace = np.diff(moments)
     motion = motion if len(motion) == frames else at_frames(motion, moments)
     way = _Way(on_ground(motion.root_positions), apart, motion.fps)
-    best = way.solve(end, limits, held=False)
-    if np.abs(way.turned(best)).max() > limits.turn:
-        best = way.solve(end, limits, held=True)
+    best = way.solve(end, held=False)
+    if np.abs(way.turned(best)).max() > MOST_TURN:
+        best = way.solve(end, held=True)
     phi, sigma, moved = way.points(best)
     roots, turns = motion.root_positions.copy(), motion.rotations.copy()
     roots[:, 2], roots[:, 0] = moved.real, moved.imag
@@ -128,18 +109,18 @@ class _Way:
 
     def __init__(self, ground: Points, apart: float, fps: float) -> None:
         self.ground, self.fps, frames = ground, fps, len(ground)
-        spans = int(np.clip(round((frames - 1) / fps / KNOTS), FEWEST, MOST))
+        spans = int(np.clip(round((frames - 1) / fps / KNOTS), FEWEST, SPANS))
         self.basis = spline_basis(frames, (frames - 1) / spans).toarray()[:, 3:-3]  # (F, K)
         self.middle = (self.basis[1:] + self.basis[:-1]) / 2
         self.rate, self.even = np.diff(self.basis, axis=0), apart * level_rise(frames)
         self.count = self.basis.shape[1]
         self.some = slice(None, None, max(1, (frames - 1) // (4 * spans)))  # four between two knots
 
-    def solve(self, end: complex, limits: Limits, *, held: bool) -> Array:
+    def solve(self, end: complex, *, held: bool) -> Array:
         """Find x by sequential quadratic programming; `held` says whether the turning has its limit."""
-        most, rate = np.log(limits.steps), self.rate[self.some] * self.fps
+        most, rate = np.log(MOST_STEPS), self.rate[self.some] * self.fps
         slope, own = np.block([[-rate, 0 * rate], [rate, 0 * rate]]), self.turned(np.zeros(2 * self.count))
-        room = WITHIN * limits.turn - np.concatenate([own[self.some], -own[self.some]])
+        room = WITHIN * MOST_TURN - np.concatenate([own[self.some], -own[self.some]])
         arrive = {"type": "eq", "fun": lambda x: self.miss(x, end), "jac": self.miss_slopes}
         turn = {"type": "ineq", "fun": lambda x: room + slope @ x, "jac": lambda _: slope}
         found = minimize(

@@ -14,7 +14,7 @@ from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs.compiled_graph import CompiledGraph, compile_graph
 from mocap.graphs.edge_tables import Edge
 from mocap.graphs.motion_graph import MotionGraph
-from mocap.steering.end_bending import Arrived, Limits, bend_to
+from mocap.steering.end_bending import MOST_PACE, MOST_TURN, Arrived, bend_to
 from mocap.steering.held_ends import meet_poses, stand
 from mocap.steering.moments import Moment, choices
 from mocap.steering.two_sided_search import Joined, TwoSided
@@ -22,6 +22,7 @@ from mocap.synthesis.walk_to_motion import to_motion, with_plants
 
 TRIED = 24  # walks that are bent, of all that were found
 LONGEST = 120.0  # seconds
+POSE = 0.1  # metres by which joints may be moved where ends fade into the poses, the root mean square
 
 # Times that feet are cleaned up and ends brought to the poses. The clean-up may let go what it should hold at
 # the ends, by up to 1° of a joint; feet then slide by up to 0.3 mm. After the second round they do not.
@@ -76,8 +77,6 @@ def in_between(
     start: Moment,
     end: Moment,
     seconds: float,
-    *,
-    limits: Limits | None = None,
 ) -> InBetween:
     """Find a motion from one pose to another, each at its place, in a given time.
 
@@ -91,7 +90,6 @@ def in_between(
     graph : pruned.
     start, end : poses of the graph's skeleton, at their places. Frames of its own clips are met best.
     seconds : from the first frame to the last, rounded to whole frames.
-    limits : by how much the walk may be changed.
 
     Returns
     -------
@@ -99,9 +97,9 @@ def in_between(
 
     Raises
     ------
-    NoWalk : where no walk arrives within the limits; the sentence says what would help.
-    MocapError : for a time that is too short or too long to be one, legs that cannot be found, and limits
-        and moments that make no sense.
+    NoWalk : where no walk arrives though its pace and its steps change by up to a quarter, its turning by up
+        to 60° per second and the poses at its ends by up to 10 cm; the sentence says what would help.
+    MocapError : for a time that is too short or too long to be one, and legs that cannot be found.
     SkeletonMismatch : for a pose of another skeleton.
 
     Warns
@@ -118,20 +116,18 @@ def in_between(
     >>> len(found.motion), found.motion.root_positions[-1, [0, 2]].round(4)
     (121, array([1., 3.]))
     """
-    graph, limits = compile_graph(graph), limits or Limits()
+    graph = compile_graph(graph)
     if not (np.isfinite(seconds) and 2 / graph.fps <= seconds <= LONGEST):
         raise MocapError(f"A motion lasts from {2 / graph.fps:.2f} to {LONGEST:g} s, got {seconds} s.")
-    if not (np.isfinite(limits).all() and min(limits[:2]) > 0 and min(limits[2:]) >= 1):
-        raise MocapError(f"A turn and a pose have limits above 0, steps and a pace from 1 on, got {limits}.")
     frames = round(seconds * graph.fps)
-    near = (choices(graph, moment, way=way, limit=limits.pose) for moment, way in ((start, 1), (end, -1)))
-    search = TwoSided(graph, (next(near), next(near)), frames, limits)
+    near = (choices(graph, moment, way=way, limit=POSE) for moment, way in ((start, 1), (end, -1)))
+    search = TwoSided(graph, (next(near), next(near)), frames)
     source, found = with_plants(graph.source), []
     for joined in search.best(TRIED):
         walk = [graph.edges[edge] for edge in joined.edges]
         played = to_motion(source, walk, place=joined.place)[joined.first : joined.first + joined.frames + 1]
-        found.append((joined, bend_to(played, frames + 1, joined.end, joined.apart, limits)))
-    joined, arrived = _least(found, limits, search)
+        found.append((joined, bend_to(played, frames + 1, joined.end, joined.apart)))
+    joined, arrived = _least(found, search)
     laid, faded = meet_poses(replace(arrived.motion, name="in between"), start, end)
     motion = laid
     for _ in range(ROUNDS):
@@ -148,20 +144,20 @@ def in_between(
     return between
 
 
-def _least(found: list[tuple[Joined, Arrived]], limits: Limits, search: TwoSided) -> tuple[Joined, Arrived]:
-    """Take the walk within the limits that is changed least, or say why there is none."""
+def _least(found: list[tuple[Joined, Arrived]], search: TwoSided) -> tuple[Joined, Arrived]:
+    """Take the walk that arrives and is changed least, or say why there is none."""
     turned = [float(np.abs(arrived.turned).max()) for _, arrived in found]
-    arriving = [n for n, (_, arrived) in enumerate(found) if arrived.lack <= limits.pose / 2]
-    if good := [found[n] for n in arriving if turned[n] <= limits.turn]:
+    arriving = [n for n, (_, arrived) in enumerate(found) if arrived.lack <= POSE / 2]
+    if good := [found[n] for n in arriving if turned[n] <= MOST_TURN]:
         return min(good, key=lambda pair: pair[0].cost + pair[1].price)
     seconds, apart = search.frames / search.graph.fps, abs(search.there - search.here)
     if not found:
         raise NoWalk(
-            f"No walk leads from one pose to the other in {seconds:.1f} s at {limits.pace:g} times its pace: "
+            f"No walk leads from one pose to the other in {seconds:.1f} s at {MOST_PACE:g} times its pace: "
             "give another time, other poses, or a graph with a higher threshold."
         )
     if arriving:
-        turn, most = np.degrees([min(turned[n] for n in arriving), limits.turn])
+        turn, most = np.degrees([min(turned[n] for n in arriving), MOST_TURN])
         raise NoWalk(
             f"To arrive in {seconds:.1f} s, walks must be turned by {turn:.0f}° per second; the limit is "
             f"{most:.0f}°: give about {seconds * turn / most:.1f} s, or let the end face another way."

@@ -21,7 +21,7 @@ import numpy as np
 from mocap._shared.arrays import Array, Indices, Mask, ranges
 from mocap.body.planar import PlanarTransform
 from mocap.graphs.compiled_graph import CompiledGraph
-from mocap.steering.end_bending import RISE, STRETCH, TURN, Limits
+from mocap.steering.end_bending import MOST_PACE, MOST_STEPS, MOST_TURN, RISE, STRETCH, TURN
 from mocap.steering.layered_search import LayeredSearch, States, standing, start_states
 from mocap.steering.moments import Choices
 
@@ -66,13 +66,10 @@ class TwoSided:
     graph : the compiled graph.
     near : the frames that look like the start, and those that look like the end.
     frames : from the start to the end.
-    limits : by how much walks may be changed.
     """
 
-    def __init__(
-        self, graph: CompiledGraph, near: tuple[Choices, Choices], frames: int, limits: Limits
-    ) -> None:
-        self.graph, self.frames, self.limits = graph, frames, limits
+    def __init__(self, graph: CompiledGraph, near: tuple[Choices, Choices], frames: int) -> None:
+        self.graph, self.frames = graph, frames
         self.starts, self.ends = starts, ends = near
         self.steps = steps_between(graph, starts, ends)
         # Where the root is at each point, in the coordinates of its clip.
@@ -86,7 +83,7 @@ class TwoSided:
 
     def best(self, most: int) -> list[Joined]:
         """Join the walks of both sides, and give the cheapest ones; none where no two of them meet."""
-        half, rest = self.frames / 2, (self.limits.pace - 0.5) * self.frames
+        half, rest = self.frames / 2, (MOST_PACE - 0.5) * self.frames
         turn = self.steps.turn.conj()  # of the same steps, walked from where they enter to where they leave
         backwards = self.steps._replace(
             node=self.steps.trail, trail=self.steps.node, turn=turn, move=-turn * self.steps.move
@@ -121,7 +118,7 @@ class TwoSided:
         a bend of ∫ φ̇² = 24 r / T, as the chord of an arc of θ is shorter than the arc by θ² / 24. Only longer
         steps lead further than the metres walked.
         """
-        seconds, limits = self.frames / self.graph.fps, self.limits
+        seconds = self.frames / self.graph.fps
         turn = other.turn * one.turn.conj()
         end = turn.conj() * (self.there - other.move) + one.move
         apart, metres = np.angle(turn), np.maximum(one.along + other.along, 0.1)
@@ -134,9 +131,9 @@ class TwoSided:
         price += TURN / seconds * (apart**2 + 12 * across**2)
         price += np.minimum(STRETCH * seconds * along**2, TURN / seconds * 24 * along)
         turning = PEAK * (np.abs(apart) + 6 * across) / seconds
-        price += BEYOND * np.maximum(turning - limits.turn, 0.0)
-        price += BEYOND * np.maximum(PEAK * further - np.log(limits.steps), 0.0)
-        return np.where(np.abs(pace) <= (1 - RISE) * np.log(limits.pace), price, np.inf)
+        price += BEYOND * np.maximum(turning - MOST_TURN, 0.0)
+        price += BEYOND * np.maximum(PEAK * further - np.log(MOST_STEPS), 0.0)
+        return np.where(np.abs(pace) <= (1 - RISE) * np.log(MOST_PACE), price, np.inf)
 
     def join(self, there: States, back: States) -> Joined:
         """List the edges of two walks that meet."""

@@ -9,7 +9,6 @@ walk itself, or sums over it.
 """
 
 import math
-import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -52,22 +51,9 @@ class Problem:
 
 @dataclass(frozen=True)
 class Budget:
-    """The largest number of walks to expand, and the largest number of seconds to search.
-
-    Examples
-    --------
-    >>> Budget(nodes=100).spent(100, time.monotonic())
-    'out of nodes'
-    """
+    """The largest number of walks to expand."""
 
     nodes: float = math.inf
-    seconds: float = math.inf
-
-    def spent(self, nodes: int, begun: float) -> str:
-        """Give the reason to stop after this many nodes, or ""; `begun` is the start by `time.monotonic`."""
-        if nodes >= self.nodes:
-            return "out of nodes"
-        return "out of time" if time.monotonic() > begun + self.seconds else ""
 
 
 class SearchResult(NamedTuple):
@@ -155,7 +141,7 @@ def branch_and_bound(
     """
     if node not in problem.graph:
         raise NoWalk(f"The graph has no node {node}.")
-    stack, best, budget, begun = [Branch(0.0, node, state)], None, budget or Budget(), time.monotonic()
+    stack, best, most = [Branch(0.0, node, state)], None, (budget or Budget()).nodes
     furthest, expanded, cut, stopped = stack[0], 0, 0, ""
     try:
         while stack and not stopped:
@@ -165,7 +151,9 @@ def branch_and_bound(
                 cut += 1
             elif problem.done(branch.state) or branch.frames >= horizon:
                 best = branch
-            elif not (stopped := budget.spent(expanded, begun)):
+            elif expanded >= most:
+                stopped = "out of nodes"
+            else:
                 expanded += 1
                 stack += children(problem, branch)  # the cheapest last, to be popped first
     except KeyboardInterrupt:

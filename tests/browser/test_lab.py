@@ -29,7 +29,9 @@ CELLS = {
     "choose": """
         def steps(side="left", count=60, seam=False):
             colour = plotting.COLOURS[side]
-            return plotting.path_from_above(walk[:count], seams=[30] if seam else [], colour=colour)
+            drawn = plotting.path_from_above(walk[:count], colour=colour)
+            drawn[0].set_linestyle(":" if seam else "-")
+            return drawn
         count = ipywidgets.SelectionSlider(options=[60, 120, 240], value=60)
         explore(steps, alt="A path from above.", side=["left", "right"], count=count, seam=False)""",
     "show": 'show(plotting.laid_over(walk[40:41], walk[50:51]), alt="Two poses of a walk.")',

@@ -5,28 +5,19 @@ import pytest
 from matplotlib.patches import Circle
 
 from mocap.datasets import sample
-from mocap.feet.footplants import find_footprints
-from mocap.plotting import asked_and_walked, draw_group_plan, footprints, ground_tracks, path_from_above
+from mocap.plotting import asked_and_walked, draw_group_plan, ground_tracks, path_from_above
 from mocap.plotting.style import SOURCES
 from tests.strategies import wave
 
 
 def test_a_path_from_above_is_not_mirrored():
     motion = wave(30)
-    path, start, seams = path_from_above(motion, seams=[4, 9])
+    path, start = path_from_above(motion)
     assert np.transpose(path.get_data()) == pytest.approx(motion.root_positions[:, [0, 2]])
-    assert np.transpose(seams.get_data()) == pytest.approx(motion.root_positions[[4, 9]][:, [0, 2]])
     assert path.axes.xaxis_inverted()
     path_from_above(motion, ax=path.axes)
     assert path.axes.xaxis_inverted()
     assert start.get_xdata() == pytest.approx(motion.root_positions[0, 0])
-
-
-def test_footprints_stand_where_feet_did():
-    prints = find_footprints(wave(80))
-    drawn = footprints(prints)
-    assert drawn.get_offsets().tolist() == [[step.x, step.z] for step in prints]
-    assert drawn.axes.xaxis_inverted()
 
 
 def test_the_path_asked_for_lies_under_the_path_walked():

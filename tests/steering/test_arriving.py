@@ -19,8 +19,8 @@ from mocap.errors import MocapError, MocapWarning, NoWalk, SkeletonMismatch
 from mocap.graphs.compiled_graph import compile_graph
 from mocap.graphs.motion_graph import from_transitions
 from mocap.matching.transitions import Transition
-from mocap.steering import in_betweens, moments
-from mocap.steering.end_bending import Limits, bend_to
+from mocap.steering import end_bending, in_betweens, moments, two_sided_search
+from mocap.steering.end_bending import bend_to
 from mocap.steering.held_ends import meet_poses
 from mocap.steering.in_betweens import in_between
 from mocap.steering.moments import Moment, choices
@@ -181,11 +181,14 @@ def test_too_little_time_is_refused_with_what_would_help(place, direction, secon
         require_met(quietly(walking(), start, end, more), more)
 
 
-def test_turns_beyond_the_limit_are_refused_with_what_would_help():
+def test_turns_beyond_the_limit_are_refused_with_what_would_help(monkeypatch):
     graph = walking()
     start, end, seconds = asked_anywhere(graph, 6)
+    for module in (end_bending, in_betweens, two_sided_search):
+        monkeypatch.setattr(module, "MOST_TURN", 0.02)
+    monkeypatch.setattr(in_betweens, "POSE", 1.0)
     with pytest.raises(NoWalk, match=r"turned by \d+° per second; the limit is \d+°: give about"):
-        in_between(graph, start, end, seconds, limits=Limits(turn=0.02, pose=1.0))
+        in_between(graph, start, end, seconds)
 
 
 def test_a_pose_unlike_all_clips_is_refused():
@@ -220,13 +223,6 @@ def test_moments_that_make_no_sense_are_refused():
     with pytest.raises(SkeletonMismatch):
         in_between(walking(), Moment(dot), Moment(clip, 90), 3.0)
     assert Moment(clip, -1).frame == len(clip) - 1
-
-
-@pytest.mark.parametrize(("name", "value"), [("turn", 0.0), ("steps", 0.9), ("pace", np.inf), ("pose", -1.0)])
-def test_limits_that_make_no_sense_are_refused(name, value):
-    clip = walking().source.clips[0]
-    with pytest.raises(MocapError, match="A turn and a pose have limits above 0, steps and a pace from 1 on"):
-        in_between(walking(), Moment(clip, 3), Moment(clip, 90), 3.0, limits=Limits(**{name: value}))
 
 
 # ---------------------------------------------------------------------------------------------- parts
@@ -272,7 +268,7 @@ def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(m
     clip = graph.source.clips[0]
     monkeypatch.setattr(moments, "MOST", 1)
     near = tuple(choices(graph, Moment(clip, at), way=way, limit=np.inf) for at, way in ((20, 1), (160, -1)))
-    found = TwoSided(graph, near, frames, Limits()).best(1000)
+    found = TwoSided(graph, near, frames).best(1000)
     most = 1.25**0.85
     lengths = {tuple(edges): n for edges, n in every_walk(frames) if 1 / most <= n / frames <= most}
     walks = [tuple(joined.edges.tolist()) for joined in found]
@@ -289,7 +285,7 @@ def test_the_search_finds_an_end_for_every_first_half_that_a_full_search_finds(m
 @example(x=0.0, z=0.0, turn=0.0)
 def test_a_walk_is_bent_to_any_end_near_its_own(x, z, turn):
     walk = samples.sample("walk_straight")[:481:4]
-    bent = bend_to(walk, len(walk), on_ground(walk.root_positions[-1]) + z + 1j * x, turn, Limits())
+    bent = bend_to(walk, len(walk), on_ground(walk.root_positions[-1]) + z + 1j * x, turn)
     assert bent.lack < 1e-4 and (bent.pace == 1).all()
     assert abs(bent.turned.sum() / walk.fps - turn) < 1e-6
     assert np.abs(bent.turned[[0, -1]]).max() < 0.05  # radians per second: level at both ends
@@ -299,19 +295,21 @@ def test_a_walk_is_bent_to_any_end_near_its_own(x, z, turn):
         np.testing.assert_allclose(bent.motion.root_positions, walk.root_positions, atol=1e-6)
 
 
-def test_turning_is_held_to_its_limit_where_there_is_a_way():
+def test_turning_is_held_to_its_limit_where_there_is_a_way(monkeypatch):
     walk = samples.sample("walk_straight")[:481:4]
     end = on_ground(walk.root_positions[-1]) + 1.2j
-    free = bend_to(walk, len(walk), end, 0.0, Limits(turn=10.0))
+    monkeypatch.setattr(end_bending, "MOST_TURN", 10.0)
+    free = bend_to(walk, len(walk), end, 0.0)
     limit = 0.9 * np.abs(free.turned).max()
-    held = bend_to(walk, len(walk), end, 0.0, Limits(turn=limit))
+    monkeypatch.setattr(end_bending, "MOST_TURN", limit)
+    held = bend_to(walk, len(walk), end, 0.0)
     assert held.lack < 1e-3
     assert np.abs(held.turned).max() <= limit
 
 
 def test_a_walk_that_is_played_slower_keeps_its_pace_at_both_ends():
     walk = samples.sample("walk_straight")[:101]
-    slower = bend_to(walk, 111, on_ground(walk.root_positions[-1]), 0.0, Limits())
+    slower = bend_to(walk, 111, on_ground(walk.root_positions[-1]), 0.0)
     assert len(slower.motion) == 111 and 0.87 < slower.pace.min() < 0.91
     assert slower.pace[[0, -1]] == pytest.approx([1, 1], abs=0.01)
 

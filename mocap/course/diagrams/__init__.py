@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "trees": ["down_the_tree"],
         "laying_clouds": ["laid", "laying_on", "products", "turning"],
         "windows": ["diagonal_sums", "radius_gaps", "window_cloud"],
-        "ground": ["alignment", "compass", "two_ways_round"],
+        "ground": ["alignment", "compass"],
         "seams": ["added_by_blend", "blended_seam", "knee_triangle", "turning_paths"],
         "eight_nodes": ["EIGHT_PLACES", "eight_node_graph", "tarjan_states", "tarjan_step"],
         "branching": ["edge_lengths", "from_above", "laid_in_turn", "search_events", "search_steps"],

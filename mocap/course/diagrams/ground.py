@@ -66,28 +66,6 @@ def alignment(
     return figure
 
 
-def two_ways_round(start: float = 170.0, end: float = -170.0) -> Figure:
-    """Draw two ways from one heading to another, seen from above: the short turn, and means of the numbers.
-
-    Parameters
-    ----------
-    start, end : headings, degrees in [-180, 180].
-
-    Examples
-    --------
-    >>> [ax.get_title() for ax in two_ways_round().axes]
-    ['slerp: 20° to the left', 'mean of the angles: 340° to the right']
-    """
-    figure = Figure(figsize=(7, 3.7), layout="constrained")
-    ways = {"slerp": (end - start + 180) % 360 - 180, "mean of the angles": end - start}
-    for (name, turn), ax, colour in zip(ways.items(), figure.subplots(1, 2), CURVES, strict=False):
-        for share in np.linspace(0, 1, 11):
-            _draw_heading(ax, np.radians(start + share * turn), INK if share in (0, 1) else colour)
-        _draw_compass(ax)
-        ax.set_title(f"{name}: {abs(turn):.0f}° to the {'left' if turn >= 0 else 'right'}", fontsize=11)
-    return figure
-
-
 def compass(headings: Mapping[str, float], ax: Axes) -> None:
     """Draw headings as arrows, seen from above, with their values.
 

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from mocap.body import PlanarTransform
-from mocap.course.diagrams import alignment, compass, two_ways_round
+from mocap.course.diagrams import alignment, compass
 from mocap.datasets.samples import sample
 
 CLIP = sample("walk_circle")
@@ -46,16 +46,3 @@ def test_a_heading_points_up_the_page_at_0_and_to_the_left_at_90():
     compass({"ahead": 0.0, "left": np.pi / 2}, ax)
     assert arrows(ax) == [pytest.approx((0, 1), abs=1e-12), pytest.approx((-1, 0), abs=1e-12)]
     assert [text.get_text() for text in ax.texts if ":" in text.get_text()] == ["ahead: 0°", "left: 90°"]
-
-
-@pytest.mark.parametrize(
-    ("start", "end", "short", "long"),
-    [(170, -170, "20° to the left", "340° to the right"), (40, -20, "60° to the right", "60° to the right")],
-)
-def test_the_means_of_the_angles_may_go_the_long_way(start, end, short, long):
-    left, right = two_ways_round(start, end).axes
-    assert left.get_title() == f"slerp: {short}"
-    assert right.get_title() == f"mean of the angles: {long}"
-    ends = [[-np.sin(np.radians(a)), np.cos(np.radians(a))] for a in (start, end)]
-    for ax in (left, right):
-        assert [arrows(ax)[k] for k in (0, -1)] == [pytest.approx(e, abs=1e-9) for e in ends]
