@@ -19,6 +19,7 @@ from mocap._shared.arrays import Array
 from mocap.body import SHAPES, GroundPath, heading, on_ground
 from mocap.errors import MocapError, MocapWarning
 from mocap.methods import motion_matching, parametric_graphs
+from mocap.quality.seam_measures import Spread
 
 FOLDER = Path(__file__).parent
 WALKS = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight")
@@ -190,7 +191,7 @@ def lead(character: steering.Character, path: GroundPath, speed: float) -> tuple
     return np.array(off), min(1.0, (now + 0.1) / path.length)
 
 
-def _judged(make: Callable[[], steering.Character], usual: quality.Spread, speed: float) -> str:
+def _judged(make: Callable[[], steering.Character], usual: Spread, speed: float) -> str:
     """Write the cells of a character: means of four runs, and of the times the least."""
     reports = [steering.judge_control(make, usual, speed=speed, seed=seed) for seed in SEEDS]
     delays = [report.delay for report in reports]

@@ -52,6 +52,7 @@ from mocap.body import SHAPES, arcs, joint_positions, planar, rotations, spline,
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
+from mocap.matching import lower_bound
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
 from mocap.plotting import ASKED, COLOURS, CURVES, MARK, SOURCES
 
@@ -222,9 +223,9 @@ def draw_most_pairs() -> Figure:
     """Draw the lower bound of pairs of windows against their RMS distance, and the few below 4 cm."""
     clips = [resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2")]
     points = [matching.point_cloud(clip) for clip in clips]
-    weights = matching.Weights(np.full(31, 1 / 31), np.full(WINDOW, 1 / WINDOW))
+    weights = lower_bound.Weights(np.full(31, 1 / 31), np.full(WINDOW, 1 / WINDOW))
     ready = [matching.cloud(each, np.zeros(31), *weights, np.float64) for each in points]
-    rows = [matching.window_numbers(each, matching.whole_windows(each)[::8], weights) for each in ready]
+    rows = [lower_bound.window_numbers(each, lower_bound.whole_windows(each)[::8], weights) for each in ready]
     bound = 100 * np.linalg.norm(rows[0][:, None] - rows[1], axis=-1)
     rms = 100 * np.sqrt(matching.distance_grid(*points, window=WINDOW)[::8, ::8])
     figure = plt.figure(figsize=(6, 4), layout="constrained")

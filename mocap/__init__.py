@@ -42,7 +42,7 @@ Below them are `mocap.errors`, all errors that the package raises on purpose, an
 
 Where something new goes
 ------------------------
-- A metric: a function with the signature of `matching.Metric`, in a file of `matching`.
+- A metric: a function with the signature of `matching.other_metrics.Metric`, in a file of `matching`.
 - A file format: a reader and a writer in a file of `files`; `files.load_save` chooses them by the suffix.
 - A way of steering: a file of `steering`; most of them give `follow_path` a path and some wishes. One that
   reacts frame by frame: a class that fits `steering.Character`, in a file of `steering`.

@@ -418,6 +418,7 @@ def main(given: Sequence[str] | None = None) -> int:
     """Read clips and a line, and write a walk along it."""
     from mocap import MocapError, Motion, files, resample, save  # files and their checks are the package's
     from mocap.body.motion import require_alike
+    from mocap.files.conversion import find_files
 
     parser = argparse.ArgumentParser(prog="python -m mocap.plain", description=main.__doc__)
     parser.add_argument("clips", nargs="+", type=Path, help="motion files, or folders of them")
@@ -426,7 +427,7 @@ def main(given: Sequence[str] | None = None) -> int:
     asked = parser.parse_args(given)
     try:
         line = points_along(files.load_path(asked.path).points)
-        loaded = files.load_all(asked.clips, skeleton=None, scale=None, progress=iter)
+        loaded = [files.load(path) for path in find_files(asked.clips)]
         long = [clip for clip in (resample(clip, FPS) for clip in loaded) if len(clip) > K]
         if not long:
             raise MocapError(f"A window takes {K} frames, and no clip is longer.")

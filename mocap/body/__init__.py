@@ -43,6 +43,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "limbs": ["find_legs"],
         "two_bone_ik": ["two_bone"],
-        "speed_labels": ["label_by_speed", "smooth_speed"],
+        "speed_labels": ["label_by_speed"],
     },
 )

@@ -4,46 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from mocap._shared.arrays import Array
 from mocap.body.kinematics import velocities
 from mocap.body.motion import Motion
-
-
-def smooth_speed(motion: Motion, *, span: int) -> Array:
-    """Average the root's speed over the ground, over the `span` frames around each frame.
-
-    A body speeds up and slows down within each step, so a single frame says little about its gait. At the
-    ends of the clip there are fewer frames to average.
-
-    Parameters
-    ----------
-    motion : at least two frames.
-    span : an odd number of frames, about a stride.
-
-    Returns
-    -------
-    Shape (F,), metres per second.
-
-    Examples
-    --------
-    >>> from mocap.body.skeleton import Skeleton
-    >>> dot = Skeleton(["root"], [-1], [[0, 0, 0]])
-    >>> places = [[0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 0, 3]]
-    >>> smooth_speed(Motion(dot, places, [[[1, 0, 0, 0]]] * 4, 10.0), span=3)
-    array([10., 10., 10., 10.])
-    """
-    speeds = np.linalg.norm(velocities(motion.root_positions, motion.fps)[:, [0, 2]], axis=-1)
-    half = span // 2
-    sums = np.cumsum(np.concatenate([[0.0], speeds]))
-    frames = np.arange(len(speeds))
-    first, last = np.maximum(frames - half, 0), np.minimum(frames + half + 1, len(speeds))
-    return np.asarray((sums[last] - sums[first]) / (last - first))
 
 
 def label_by_speed(
     motion: Motion, *, above: float, span: int, names: tuple[str, str] = ("walk", "run")
 ) -> Motion:
-    """Label each frame by its `smooth_speed`: the second name where it is above a speed, else the first.
+    """Label each frame by the root's mean speed over the ground: the second name where it is above.
+
+    A body speeds up and slows down within each step, so a single frame says little about its gait. The mean
+    is over the `span` frames around each frame; at the ends of the clip there are fewer.
 
     Parameters
     ----------
@@ -67,6 +38,8 @@ def label_by_speed(
 
     Notebook: 10-real-data
     """
-    slow, fast = names
-    quick = smooth_speed(motion, span=span) > above
-    return replace(motion, labels={**motion.labels, slow: ~quick, fast: quick})
+    speeds = np.linalg.norm(velocities(motion.root_positions, motion.fps)[:, [0, 2]], axis=-1)
+    sums, frames = np.cumsum([0.0, *speeds]), np.arange(len(speeds))
+    first, last = np.maximum(frames - span // 2, 0), np.minimum(frames + span // 2 + 1, len(speeds))
+    quick = sums[last] - sums[first] > above * (last - first)
+    return replace(motion, labels={**motion.labels, names[0]: ~quick, names[1]: quick})

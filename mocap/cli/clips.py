@@ -16,6 +16,8 @@ from mocap._shared.atomic import make_folder, require_folder, require_writable
 from mocap.cli.options import CM, Reading, Sources, Unit, as_options, bar, number, tell, tell_of_failures
 from mocap.cli.typed_commands import Group
 from mocap.errors import MocapError, printable
+from mocap.files import conversion
+from mocap.files.conversion import find_files
 from mocap.methods import match_webs
 
 # A path of the web ends where frames are no longer as near as asked, although on average they still are.
@@ -87,13 +89,15 @@ def judge(
     -----
     Example: mocap judge made.bvh --against clips/ --path line.csv
     """
-    clips = [files.load(clip, **asdict(reading)) for clip in files.find_files(against)]
+    from mocap.files.load_save import bone_stretch  # the help needs no NumPy
+
+    clips = [files.load(clip, **asdict(reading)) for clip in find_files(against)]
     line = files.load_path(path, scale=unit) if path else None
     judged, problems = [], []
-    for file in bar("judging")(files.find_files(made, deep=True)):
+    for file in bar("judging")(find_files(made, deep=True)):
         try:
             motion = files.load(file, stretch=math.inf, **asdict(reading))
-            stretch = files.bone_stretch(file, scale=reading.scale)
+            stretch = bone_stretch(file, scale=reading.scale)
             judged.append(quality.judge(motion, against=clips, path=line, stretch=stretch))
         except MocapError as error:
             problems.append(str(error))
@@ -106,18 +110,11 @@ def judge(
     return 2 if problems else 0
 
 
-def convert(
-    source: Path,
-    target: Path,
-    *,
-    reading: Reading,
-    to: Literal["amc", "bvh", "glb"] = "bvh",
-    widen: bool = False,
-) -> int:
-    """Convert clips between .amc, .bvh and AMASS .npz, or to .glb; whole folders of them.
+def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", "glb"] = "bvh") -> int:
+    """Convert clips from .amc, .bvh and AMASS .npz to .bvh or .glb; whole folders of them.
 
     Convert a clip, or all clips in a folder and the folders inside it. For one clip, the suffix of OUT is the
-    format. An .amc gets an .asf of its name. Lengths in a .bvh are centimetres. A .glb is for engines and
+    format; it may be .npz for a body of SMPL. Lengths in a .bvh are centimetres. A .glb is for engines and
     viewers, and shows a body of capsules.
 
     Parameters
@@ -125,14 +122,13 @@ def convert(
     source (IN) : an .amc, .bvh or .npz file, or a folder.
     target (OUT) : the new file, or folder.
     to : format for the clips of a folder.
-    widen : write an .asf in which all bones turn about three axes.
 
     Notes
     -----
     Example: mocap convert clips/ out/ --to glb
     """
-    pairs = files.plan(source, target, f".{to}")
-    done = files.convert(pairs, asdict(reading), widen=widen, progress=bar("converting"))
+    pairs = conversion.plan(source, target, f".{to}")
+    done = conversion.convert(pairs, asdict(reading), progress=bar("converting"))
     return tell_of_failures("converted", len(pairs), list(filter(None, done)))
 
 
@@ -141,7 +137,6 @@ def find(
     clips: Sequence[Path],
     *,
     out: Path | None = None,
-    to: Literal["amc", "bvh"] = "bvh",
     below: Annotated[float, CM] = 6.0,
     steps: Annotated[int | None, number(1, 10_000, int)] = None,
     any_length: bool = False,
@@ -157,7 +152,6 @@ def find(
     query (QUERY[:FROM-TO]) : a clip and its frames, as in walk.amc:120-250 (the last one not included).
     clips : .amc, .bvh or AMASS .npz files, or folders of them.
     out : folder to write the matches into, as files (default: write none).
-    to : format of these files.
     below : largest distance of a match, cm.
     steps : how often to search (default: until nothing new turns up).
     any_length : matches may last half as long as the query, or twice.
@@ -169,7 +163,7 @@ def find(
     if out:
         require_folder(out)
     example, frames = _query(query)
-    found = files.find_files(clips)
+    found = find_files(clips)
     places = [*(path.resolve() for path in found), example.resolve()]
     asked = places.index(example.resolve())  # the example comes last, where it is not among the clips
     motions = sources.load(found if asked < len(found) else [*found, example])
@@ -186,7 +180,7 @@ def find(
     if out:
         make_folder(out)
         for one in bar("writing")(shown):
-            name = f"{motions[one.clip].name}_{one.start}-{one.stop}.{to}"
+            name = f"{motions[one.clip].name}_{one.start}-{one.stop}.bvh"
             files.save(match_webs.cut_out(web, one), out / name)
         tell(wrote=f"{len(shown)} files to {out}")
 

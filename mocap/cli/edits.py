@@ -4,15 +4,19 @@ import math
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from mocap import blending, body, editing, feet, files, quality
 from mocap._shared.atomic import make_folder, require_folder
 from mocap.cli import options
-from mocap.cli.options import TURN, Clean, Reading, Unit, Widen, bar, check_out, number, tell, write_out
+from mocap.cli.options import TURN, Clean, Reading, Unit, bar, check_out, number, tell, write_out
 from mocap.errors import MocapError, MocapWarning
+from mocap.files.conversion import find_files, require_apart, with_file
 
-FORMATS = (".bvh", ".glb", ".amc")
+if TYPE_CHECKING:
+    from mocap.editing.stances import Stance
+
+FORMATS = (".bvh", ".glb")
 LASTS = number(0.2, 600)  # seconds; no shorter than the seam
 POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
 LITTLE = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
@@ -25,7 +29,6 @@ def warp(
     out: Path,
     window: Annotated[float, number(0.01, 60)] = 0.5,
     loose_feet: bool = False,
-    widen: Widen = False,
     reading: Reading,
 ) -> None:
     """Change a few poses and moments of a clip; all its frames follow.
@@ -37,7 +40,7 @@ def warp(
     ----------
     source (IN) : an .amc or .bvh file.
     keys (FILE) : a text file of keys, described below.
-    out (OUT) : the new .bvh, .glb or .amc file.
+    out (OUT) : the new .bvh or .glb file.
     window : seconds, see below.
     loose_feet : let feet slide; needed for bodies without legs.
 
@@ -57,7 +60,9 @@ def warp(
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
     check_out("warped clip", out, FORMATS, [source])
-    plan, motion = editing.load_plan(keys), reading.load(source)
+    from mocap.editing.warp_plans import load_plan  # the help needs no NumPy
+
+    plan, motion = load_plan(keys), reading.load(source)
     if not loose_feet:
         try:
             body.find_legs(motion.skeleton)
@@ -66,7 +71,7 @@ def warp(
         motion = feet.mark_plants(motion)
     warped = editing.warp(motion, plan, window=window, feet=not loose_feet)
     tell(keys=f"{len(plan.wishes)} of poses, {len(plan.times)} of time")
-    write_out(warped, out, widen=widen, about=f": {len(warped)} frames, {warped.duration:.2f} s")
+    write_out(warped, out, about=f": {len(warped)} frames, {warped.duration:.2f} s")
 
 
 def bend(
@@ -76,7 +81,6 @@ def bend(
     out: Path,
     limit: Annotated[float, TURN] = 100.0,
     unit: Unit = None,
-    widen: Widen = False,
     reading: Reading,
 ) -> None:
     """Lay a walk on a line.
@@ -89,7 +93,7 @@ def bend(
     ----------
     source (IN) : an .amc or .bvh file of a walk.
     along (LINE) : the line: .csv with points x, z in metres, or an .svg picture.
-    out (OUT) : the new .bvh, .glb or .amc file.
+    out (OUT) : the new .bvh or .glb file.
     limit (DEGREES) : the fastest that the walk is turned, degrees per second; faster only where it turns by
         itself.
 
@@ -101,7 +105,7 @@ def bend(
     line = files.load_path(along, scale=unit)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     tell(bent=bent.report())
-    write_out(bent.motion, out, widen=widen)
+    write_out(bent.motion, out)
 
 
 def loop(
@@ -119,7 +123,7 @@ def loop(
     """Cut the best cycle out of a clip and close it.
 
     Find the stretch of a clip that makes the best cycle: its ends are alike, and it holds most of what the
-    clip does. Close it, and write it as .bvh, .glb, .amc or .npz. Its last frame is its first one, farther on
+    clip does. Close it, and write it as .bvh, .glb or .npz. Its last frame is its first one, farther on
     over the ground.
 
     Parameters
@@ -136,7 +140,7 @@ def loop(
     -----
     Example: mocap loop walk.bvh --straight --clean -o loop.bvh
     """
-    check_out("cycle", out, (".bvh", ".glb", ".amc", ".npz"), [clip])
+    check_out("cycle", out, (".bvh", ".glb", ".npz"), [clip])
     motion = reading.load(clip)
     found = editing.find_loop(motion, seconds=(shortest, longest))
     seam, missed = (f"{100 * metres:.0f} cm" for metres in (found.seam, found.missed))
@@ -155,7 +159,7 @@ def loop(
     tell(seam=f"{100 * found.seam:.1f} cm RMS")
     tell(misses=f"{100 * found.missed:.1f} cm of the clip's other poses, on average")
     tell(**{"a round": f"{step:.2f} m, turns {side} by {abs(math.degrees(turn)):.0f}°"})
-    write_out(editing.repeated(cycle, times), out, widen=True)
+    write_out(editing.repeated(cycle, times), out)
 
 
 def blend(
@@ -188,7 +192,7 @@ def blend(
     -----
     Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
     """
-    check_out("blend", out, (".bvh", ".amc", ".glb", ".npz"), clips)
+    check_out("blend", out, (".bvh", ".glb", ".npz"), clips)
     if len(clips) < 2:
         raise MocapError("A blend needs two clips or more.")
     if weights and len(weights) != len(clips):
@@ -217,10 +221,9 @@ def retarget(
     *,
     to: Path,
     out: Path,
-    format: Literal["bvh", "amc", "glb"] = "bvh",
+    format: Literal["bvh", "glb"] = "bvh",
     steps: Annotated[float, number(0.1, 10)] = 1.0,
     to_scale: Annotated[float | None, options.LENGTH] = None,
-    widen: Widen = False,
     reading: Reading,
 ) -> int:
     """Let one body wear the clips of others.
@@ -243,35 +246,38 @@ def retarget(
     Example: mocap retarget clips/ --to hero.bvh -o worn/
     """
     require_folder(out)
-    pairs = [(source, out / f"{source.stem}.{format}") for source in files.find_files(clips)]
-    from mocap.files.conversion import require_apart, with_file  # the help needs no NumPy
+    from mocap.editing.retargeting import standing_like  # the help needs no NumPy
 
+    pairs = [(source, out / f"{source.stem}.{format}") for source in find_files(clips)]
     require_apart(pairs, [to])
     (stance, skeleton), failed = _body(to, to_scale), []
     for source, target in bar("retargeting")(pairs):
         try:
             motion = reading.load(source)
             stands = editing.stance_of(motion)
-            onto = stance or editing.standing_like(skeleton, stands)
+            onto = stance or standing_like(skeleton, stands)
             worn = editing.retarget(motion, onto, stands, scale=steps * onto.leg / stands.leg)
             make_folder(out)
-            files.save(worn, target, widen=widen)
+            files.save(worn, target)
         except MocapError as error:
             failed.append(with_file(error, source, target))
     return options.tell_of_failures("retargeted", len(pairs), failed, f", in {out}")
 
 
-def _body(path: Path, scale: float | None) -> "tuple[editing.Stance | None, body.Skeleton]":
+def _body(path: Path, scale: float | None) -> "tuple[Stance | None, body.Skeleton]":
     """Read whose body it is, and how it stands, which a skeleton alone does not say."""
+    from mocap.editing.stances import stance_of_zero
+    from mocap.files.load_save import load_skeleton
+
     if path.suffix.lower() == ".asf":
         if scale:
             raise MocapError(f"--to-scale is for clips; {path} says its unit of length itself.")
-        return None, files.load_skeleton(path)
+        return None, load_skeleton(path)
     clip = Reading(scale=scale).load(path)
     try:
         return editing.stance_of(clip), clip.skeleton
     except MocapError as error:
         try:  # nobody stands in it, but its rest pose alone may do
-            return None, editing.stance_of_zero(clip.skeleton, 0.0).skeleton
+            return None, stance_of_zero(clip.skeleton, 0.0).skeleton
         except MocapError:
             raise MocapError(f"{path}: {error}") from None

@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
-from mocap import body, datasets, editing, files, graphs, quality, synthesis, widgets
+from mocap import body, datasets, editing, graphs, quality, synthesis, widgets
 from mocap._shared.atomic import make_folder, require_folder, require_npz, require_writable
 from mocap.cli.options import Building, Seed, bar, check_out, number, require_other, tell, write_out
 from mocap.cli.typed_commands import Group
 from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.files.conversion import find_files
 
 SHOWN = 7  # names of clips
 
@@ -35,7 +36,7 @@ def demo(
     seconds : duration of the new walk.
     """
     require_folder(out)
-    require_other(out / "walk.bvh", files.find_files(clips) if clips else ())
+    require_other(out / "walk.bvh", find_files(clips) if clips else ())
     motions = building.load(clips) if clips else [datasets.sample(name) for name in datasets.SAMPLES]
     whole = building.build(motions, bar("comparing"))
     try:
@@ -99,7 +100,7 @@ def build(
         check_out("graph for other tools", graphml, [".graphml"])
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
-    found = files.find_files(clips)
+    found = find_files(clips)
     require_other(out, found)
     motions = building.load(found)
     origins = [datasets.Origin(file, building.skeleton, building.scale) for file in found]

@@ -10,10 +10,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from mocap import body, files, graphs, quality
+from mocap import body, files, graphs
 from mocap._shared.atomic import require_writable
 from mocap._shared.progress import Progress
 from mocap.errors import MocapError, printable
+from mocap.files.conversion import find_files
 
 if TYPE_CHECKING:
     from mocap.body.motion import Motion
@@ -48,7 +49,6 @@ def number(low: float, high: float, kind: Callable[[str], float] = float) -> Cal
 LENGTH, CM, RATE, TURN = number(1e-6, 1e6), number(0.001, 1000), number(1, 1000), number(1, 3600)
 Skeleton = Annotated[Path | None, "the .asf file of .amc clips (default: the one beside them that fits)"]
 Unit = Annotated[float | None, LENGTH, "metres per unit of length in the path (default: 1; for .svg 0.01)"]
-Widen = Annotated[bool, "for .amc, write an .asf whose bones turn about three axes"]
 Clean = Annotated[bool, "clean up footskate: planted feet stand still"]
 Seed = Annotated[int, number(0, 2**32 - 1, int), "seed of what is drawn at random"]
 
@@ -70,7 +70,7 @@ class Reading:
     def load(self, path: Path) -> "Motion":
         """Read a clip, and warn of a body of another size than people's."""
         motion = self.read(path)
-        quality.warn_of_size([motion])
+        warn_of_size([motion])
         return motion
 
 
@@ -83,8 +83,9 @@ class Sources:
 
     def load(self, paths: Iterable[Path]) -> "list[Motion]":
         """Read clips, and folders of them, and warn of bodies of other sizes than people's."""
-        clips = files.load_all(paths, skeleton=self.skeleton, scale=self.scale, progress=bar("reading"))
-        quality.warn_of_size(clips)
+        found = bar("reading")(find_files(paths))
+        clips = [files.load(path, skeleton=self.skeleton, scale=self.scale) for path in found]
+        warn_of_size(clips)
         return clips
 
 
@@ -128,6 +129,13 @@ def bar(what: str) -> Progress:
     return partial(tqdm, desc=what, delay=1.0, leave=False, disable=None)
 
 
+def warn_of_size(clips: "Sequence[Motion]") -> None:
+    """Warn of bodies of another size than people's."""
+    from mocap.quality.clip_flaws import warn_of_size as warn  # the help needs no NumPy
+
+    warn(clips)
+
+
 def tell(**rows: object) -> None:
     """Print what was done, a line for each.
 
@@ -168,9 +176,9 @@ def require_other(out: Path, read: Iterable[Path]) -> None:
         raise MocapError(f"{out} is one of the files to read: choose another name with -o.")
 
 
-def write_out(motion: "Motion", out: Path, *, widen: bool = False, about: str = "") -> None:
+def write_out(motion: "Motion", out: Path, *, about: str = "") -> None:
     """Write a motion, and say so."""
-    files.save(motion, out, widen=widen)
+    files.save(motion, out)
     tell(wrote=f"{out}{about}")
 
 
@@ -187,7 +195,7 @@ def as_options(message: str) -> str:
 
     Examples
     --------
-    >>> as_options("choose another name, or set skeleton= to it; widen=True also writes one")
-    'choose another name, or set --skeleton to it; --widen also writes one'
+    >>> as_options("no rate: give fps=")
+    'no rate: give --fps'
     """
-    return re.sub(r"\b(skeleton|scale|fps|widen|clips)=(True)?(?=\W|$)", r"--\1", message)
+    return re.sub(r"\b(skeleton|scale|fps|clips)=(?=\W|$)", r"--\1", message)

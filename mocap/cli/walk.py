@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from mocap import datasets, editing, files, graphs, plotting, steering, synthesis, widgets
 from mocap._shared.atomic import make_folder, replacing, require_folder
@@ -16,6 +16,7 @@ from mocap.cli import options
 from mocap.cli.options import TURN, Building, Clean, Seed, Skeleton, Sources, Unit, bar, number, tell
 from mocap.datasets.clip_origins import find_again
 from mocap.errors import MocapError, MocapWarning, NoWalk
+from mocap.files.conversion import find_files
 from mocap.methods import groups
 
 UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
@@ -139,14 +140,16 @@ def _label(text: str) -> tuple[float, str]:
 def _graph(path: Path, clips: Sequence[Path], sources: Sources, out: Path) -> "graphs.MotionGraph":
     """Read the graph, and the clips that it was built of: those given, or those that it remembers."""
     found = graphs.read(path)
-    options.require_other(out, files.find_files(clips) if clips else _remembered(path, out.suffix))
+    options.require_other(out, find_files(clips) if clips else _remembered(path, out.suffix))
     with warnings.catch_warnings():
         lopsided = ".* so its mirror image does not"  # `mocap graph` has said so
         warnings.filterwarnings("ignore", lopsided, MocapWarning)
         if not clips:
             return options.load_graph(path, sources.skeleton)
+        from mocap.editing.mirroring import mirrored_name  # the help needs no NumPy
+
         given = sources.load(clips)
-        given += [editing.mirror(c) for c in given if editing.mirrored_name(c.name) in found.names]
+        given += [editing.mirror(c) for c in given if mirrored_name(c.name) in found.names]
     return options.load_graph(path, None, given)
 
 
@@ -192,8 +195,10 @@ def crowd(
     Example: mocap crowd --members 12 --through points.csv --around discs.csv -o crowd/
     """
     require_folder(out)
-    points = files.load_rows(through)
-    discs = files.load_rows(around, ("x", "z", "radius")) if around else []
+    from mocap.files.number_tables import load_rows
+
+    points = load_rows(through)
+    discs: Any = load_rows(around, ("x", "z", "radius")) if around else []
     scene = groups.Scene(
         tuple(complex(z, x) for x, z in points),
         tuple((complex(z, x), float(radius)) for x, z, radius in discs),

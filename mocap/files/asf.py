@@ -7,7 +7,7 @@ XYZ is R = Rz Ry Rx.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,7 +20,6 @@ from mocap.errors import FormatError, MocapError
 from mocap.files.text import lines, read_text, to_numbers
 
 Line = tuple[int, list[str]]  # its number, from 1, and its words
-Fields = dict[str, Line]  # lines by their first words
 
 INCH, SHORTEST = 0.0254, 1e-6  # metres; the smallest `:units length`
 TURNS, MOVES = ("rx", "ry", "rz"), ("tx", "ty", "tz")
@@ -59,10 +58,6 @@ class AcclaimSkeleton(NamedTuple):
         """List the bones that every frame must have numbers for, in the skeleton's order."""
         return [name for name in self.skeleton.names if name in self.bones and self.bones[name].dofs]
 
-    def dofs(self) -> dict[str, tuple[str, ...]]:
-        """List every bone's degrees of freedom."""
-        return {name: bone.dofs for name, bone in self.bones.items()}
-
 
 def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSkeleton:
     """Read an ASF file.
@@ -84,32 +79,28 @@ def read_skeleton(path: str | Path, *, scale: float | None = None) -> AcclaimSke
     for key in (":root", ":bonedata", ":hierarchy"):
         if key not in sections:
             raise FormatError(path, None, f"a {key} section", f"only {' '.join(sections)}")
-    unit, degrees = _units(path, _fields(sections.get(":units", [])))
-    unit = scale or unit
-    bones = {"root": _root(path, _fields(sections[":root"]), unit, degrees)}
+    units = _Fields(path, sections.get(":units", []))
+    length = units.numbers("length", 1, "1")[0]
+    if length < SHORTEST:
+        raise FormatError(path, units.line("length")[0], f"a length of {SHORTEST:g} or more", f"{length:g}")
+    line, words = units.line("angle", "deg")
+    if (angle := " ".join(words).lower()) not in ("deg", "degrees", "rad", "radians"):
+        raise FormatError(path, line, "angle deg or rad", f"'{angle}'")
+    unit, degrees = scale or INCH / length, angle.startswith("deg")
+    radians = np.radians(1.0) if degrees else 1.0  # of an angle
+    bones = {"root": _root(_Fields(path, sections[":root"]), unit, radians)}
     for block in _blocks(path, sections[":bonedata"]):
-        line, words = _field(path, block, "name")
+        line, words = block.line("name")
         if len(words) != 1 or words[0] in bones:
             raise FormatError(path, line, "a new bone's name, one word", f"'{' '.join(words)}'")
-        bones[words[0]] = _bone(path, block, unit, degrees)
+        bones[words[0]] = _bone(block, unit, radians)
     children = _hierarchy(path, sections[":hierarchy"], bones)
     try:
-        skeleton = grown(children, bones)
+        skeleton = _grown(children, bones)
     except MocapError:
         expected, got = "bones whose ends have new names", "a bone called '<another bone>_end'"
         raise FormatError(path, None, expected, got) from None
     return AcclaimSkeleton(skeleton, bones, unit, degrees)
-
-
-def _units(path: str | Path, fields: Fields) -> tuple[float, bool]:
-    """Read the unit of length, in metres, and whether angles are degrees."""
-    length = _vector(path, fields, "length", 1)[0] if "length" in fields else 1.0
-    if length < SHORTEST:
-        raise FormatError(path, fields["length"][0], f"a length of {SHORTEST:g} or more", f"{length:g}")
-    line, words = fields.get("angle", (0, ["deg"]))
-    if (angle := " ".join(words).lower()) not in ("deg", "degrees", "rad", "radians"):
-        raise FormatError(path, line, "angle deg or rad", f"'{angle}'")
-    return INCH / length, angle.startswith("deg")
 
 
 def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
@@ -128,11 +119,41 @@ def _sections(path: str | Path, text: str) -> dict[str, list[Line]]:
     return sections
 
 
-def _fields(lines: Iterable[Line]) -> Fields:
-    return {key.lower(): (number, words) for number, (key, *words) in lines}
+class _Fields:
+    """Lines by their first words; where a default is given, it stands for a line that is missing."""
+
+    def __init__(self, path: str | Path, lines: list[Line]) -> None:
+        self.path, self.lines = path, {key.lower(): (number, words) for number, (key, *words) in lines}
+
+    def line(self, key: str, *default: str) -> Line:
+        if key not in self.lines and not default:
+            begin, known = self.lines.get("begin", (None,))[0], ", ".join(self.lines)
+            raise FormatError(self.path, begin, f"a '{key}' line", f"only {known or 'nothing'}")
+        return self.lines.get(key, (0, [*default]))
+
+    def numbers(self, key: str, count: int, *default: str) -> Array:
+        line, words = self.line(key, *default)
+        expected = f"{count} number{'s' * (count > 1)} for '{key}'"
+        return to_numbers(self.path, line, words[:count], expected, count)
+
+    def turn(self, order: list[str], angles: Array) -> Array:
+        """Turn radians about x, y and z into a quaternion; `order` says which turn comes first."""
+        axes = "".join(order).lower()
+        if sorted(axes) != ["x", "y", "z"]:
+            line = self.line("axis", "XYZ")[0]
+            raise FormatError(self.path, line, "an order of axes, such as XYZ", f"'{''.join(order)}'")
+        return euler.from_euler(axes, angles[["xyz".index(letter) for letter in axes]])
+
+    def dofs(self, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
+        line, words = self.line(key)
+        dofs = tuple(word.lower() for word in words)
+        if not dofs or set(dofs) - set(known) or len(set(dofs)) < len(dofs):
+            got = f"'{' '.join(words)}'"
+            raise FormatError(self.path, line, f"some of {' '.join(known)}, each once", got)
+        return dofs
 
 
-def _blocks(path: str | Path, lines: list[Line]) -> Iterator[Fields]:
+def _blocks(path: str | Path, lines: list[Line]) -> Iterator[_Fields]:
     """Cut lines at `begin` and `end`."""
     block: list[Line] = []
     for number, words in lines:
@@ -141,54 +162,22 @@ def _blocks(path: str | Path, lines: list[Line]) -> Iterator[Fields]:
             raise FormatError(path, number, "'end' first" if block else "'begin'", f"'{words[0]}'")
         block.append((number, words))
         if word == "end":
-            yield _fields(block[:-1])
+            yield _Fields(path, block[:-1])
             block = []
     if block:
         raise FormatError(path, block[0][0], "'end' to this 'begin'", "the end of the section")
 
 
-def _field(path: str | Path, fields: Fields, key: str) -> Line:
-    if key not in fields:
-        line = fields["begin"][0] if "begin" in fields else None
-        raise FormatError(path, line, f"a '{key}' line", f"only {', '.join(fields) or 'nothing'}")
-    return fields[key]
+def _root(fields: _Fields, unit: float, radians: float) -> Bone:
+    position, angles = (fields.numbers(key, 3, "0", "0", "0") for key in ("position", "orientation"))
+    axis = fields.turn(fields.line("axis", "XYZ")[1], angles * radians)
+    return Bone(position * unit, axis, fields.dofs("order", MOVES + TURNS))
 
 
-def _vector(path: str | Path, fields: Fields, key: str, count: int) -> Array:
-    line, words = _field(path, fields, key)
-    return to_numbers(path, line, words[:count], f"{count} number{'s' * (count > 1)} for '{key}'", count)
-
-
-def _axis(path: str | Path, line: int, order: str, angles: Array, degrees: bool) -> Array:
-    """Turn the angles about x, y and z into a quaternion; `order` says which turn comes first."""
-    if sorted(order.lower()) != ["x", "y", "z"]:
-        raise FormatError(path, line, "an order of axes, such as XYZ", f"'{order}'")
-    radians = np.radians(angles) if degrees else angles
-    return euler.from_euler(order.lower(), radians[["xyz".index(letter) for letter in order.lower()]])
-
-
-def _dofs(path: str | Path, line: int, words: list[str], known: tuple[str, ...]) -> tuple[str, ...]:
-    dofs = tuple(word.lower() for word in words)
-    if not dofs or set(dofs) - set(known) or len(set(dofs)) < len(dofs):
-        raise FormatError(path, line, f"some of {' '.join(known)}, each once", f"'{' '.join(words)}'")
-    return dofs
-
-
-def _root(path: str | Path, fields: Fields, unit: float, degrees: bool) -> Bone:
-    line, words = _field(path, fields, "order")
-    dofs = _dofs(path, line, words, MOVES + TURNS)
-    line, order = fields.get("axis", (0, ["XYZ"]))
-    position = _vector(path, fields, "position", 3) if "position" in fields else np.zeros(3)
-    angles = _vector(path, fields, "orientation", 3) if "orientation" in fields else np.zeros(3)
-    return Bone(position * unit, _axis(path, line, "".join(order), angles, degrees), dofs)
-
-
-def _bone(path: str | Path, fields: Fields, unit: float, degrees: bool) -> Bone:
-    vector = _vector(path, fields, "direction", 3) * _vector(path, fields, "length", 1) * unit
-    line, words = _field(path, fields, "axis")
-    axis = _axis(path, line, "".join(words[3:]), _vector(path, fields, "axis", 3), degrees)
-    dofs = _dofs(path, *fields["dof"], (*TURNS, *MOVES, "l")) if "dof" in fields else ()
-    return Bone(vector, axis, dofs)
+def _bone(fields: _Fields, unit: float, radians: float) -> Bone:
+    vector = fields.numbers("direction", 3) * fields.numbers("length", 1) * unit
+    axis = fields.turn(fields.line("axis")[1][3:], fields.numbers("axis", 3) * radians)
+    return Bone(vector, axis, fields.dofs("dof", (*TURNS, *MOVES, "l")) if "dof" in fields.lines else ())
 
 
 def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -> dict[str, list[str]]:
@@ -208,7 +197,7 @@ def _hierarchy(path: str | Path, lines: list[Line], bones: Mapping[str, Bone]) -
     return children
 
 
-def grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
+def _grown(children: Mapping[str, list[str]], bones: Mapping[str, Bone]) -> Skeleton:
     """Follow the hierarchy from the root, depth first; bones that it does not reach are left out.
 
     A bone without children gets a joint at its end, unless it has no length.

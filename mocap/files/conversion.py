@@ -1,4 +1,4 @@
-"""Convert motion files, whole folders too, several at a time."""
+"""Which motion files there are, in folders too, and all of them converted, several at a time."""
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -7,12 +7,57 @@ from itertools import repeat
 from pathlib import Path
 from typing import Any
 
-from mocap._shared.atomic import make_folder
+from mocap import files
+from mocap._shared.atomic import UNFINISHED, make_folder
 from mocap._shared.progress import Progress
-from mocap._shared.tasks import serve
 from mocap.errors import MocapError
-from mocap.files.folders import find_files
-from mocap.files.load_save import load, save
+
+FORMATS = (".amc", ".bvh", ".npz")  # suffixes of the motion files that are found in folders
+
+
+def is_clip(path: Path) -> bool:
+    """Check whether a file holds a motion, by its suffix; an `.npz` may hold a graph or anything else.
+
+    Examples
+    --------
+    >>> is_clip(Path("walk.BVH")), is_clip(Path("walk.asf")), is_clip(Path("graph.npz"))
+    (True, False, False)
+    """
+    from mocap.files.amass import is_amass  # the help of the command needs no NumPy
+
+    suffix = path.suffix.lower()
+    return suffix in FORMATS and (suffix != ".npz" or is_amass(path))
+
+
+def find_files(paths: Iterable[Path], *, deep: bool = False) -> list[Path]:
+    """List files, and every motion file of folders.
+
+    Parameters
+    ----------
+    paths : files and folders.
+    deep : whether to look into the folders inside the folders, too.
+
+    Raises
+    ------
+    MocapError : for a folder without such files, or one that cannot be read.
+
+    Examples
+    --------
+    >>> find_files([Path("walk.amc"), Path("run.bvh")]) == [Path("walk.amc"), Path("run.bvh")]
+    True
+    """
+    found: list[Path] = []
+    for path in paths:
+        try:
+            within = path.rglob("*") if deep else path.iterdir()
+            clips = (p for p in within if UNFINISHED not in str(p) and p.is_file() and is_clip(p))
+            inside = sorted(clips) if path.is_dir() else [path]
+        except OSError as error:
+            raise MocapError(f"Cannot read {path}: {error.strerror}.") from error
+        if not inside:
+            raise MocapError(f"The folder {path} holds no .amc, .bvh or AMASS .npz file.")
+        found += inside
+    return found
 
 
 def plan(source: str | Path, target: str | Path, suffix: str = ".bvh") -> list[tuple[Path, Path]]:
@@ -65,7 +110,6 @@ def convert(
     pairs: Sequence[tuple[Path, Path]],
     reading: Mapping[str, Any] | None = None,
     *,
-    widen: bool = False,
     progress: Progress = iter,
 ) -> list[str]:
     """Convert files, as many at a time as there are processors; a file that fails does not stop the others.
@@ -74,7 +118,6 @@ def convert(
     ----------
     pairs : files to read and files to write, from `plan`.
     reading : options of `files.load`.
-    widen : as for `files.save`.
     progress : wraps the pairs while they are converted.
 
     Returns
@@ -83,15 +126,16 @@ def convert(
 
     Examples
     --------
-    >>> convert([(Path("gone.bvh"), Path("walk.amc"))])
-    ['Cannot read gone.bvh: No such file or directory.']
+    >>> convert([(Path("gone.amc"), Path("walk.bvh"))])
+    ['Cannot read gone.amc: No such file or directory.']
     """
     if len(pairs) == 1:
-        return [_convert(*pairs[0], reading or {}, widen)]
-    how = repeat(reading or {}), repeat(widen)
+        return [_convert(*pairs[0], reading or {})]
+    from mocap._shared.tasks import serve
+
     workers = min(len(pairs), os.cpu_count() or 1)
     with ProcessPoolExecutor(workers, initializer=serve) as pool:
-        outcomes = pool.map(_convert, *zip(*pairs, strict=True), *how)
+        outcomes = pool.map(_convert, *zip(*pairs, strict=True), repeat(reading or {}))
         try:
             return [next(outcomes) for _ in progress(pairs)]
         except BrokenExecutor as error:
@@ -100,11 +144,11 @@ def convert(
             pool.shutdown(cancel_futures=True)
 
 
-def _convert(source: Path, target: Path, reading: Mapping[str, Any], widen: bool) -> str:
+def _convert(source: Path, target: Path, reading: Mapping[str, Any]) -> str:
     try:
-        motion = load(source, **reading)
+        motion = files.load(source, **reading)
         make_folder(target.parent)
-        save(motion, target, widen=widen)
+        files.save(motion, target)
     except MocapError as error:
         return with_file(error, source, target)
     return ""

@@ -5,17 +5,15 @@ from contextlib import suppress
 from pathlib import Path
 
 from mocap._shared.arrays import Array
-from mocap._shared.atomic import replacing, write_text
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError, MocapError
-from mocap.files import acclaim, amass, amc, bvh, gltf
-from mocap.files.acclaim_writer import UNIT, to_acclaim, to_amc, to_asf, widened
-from mocap.files.asf import AcclaimSkeleton, read_skeleton
+from mocap.files import acclaim, amass, bvh, gltf
+from mocap.files.asf import read_skeleton
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.text import read_text
 
-READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".amc (with .asf), .bvh, .glb and AMASS .npz"
+READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".bvh, .glb and AMASS .npz"
 
 
 def load(
@@ -33,8 +31,8 @@ def load(
     path : the file; capital letters in its suffix are fine.
     skeleton : for `.amc`, the `.asf` file of its skeleton. By default one in the same folder that fits: that
         of the same name, else of the name up to the first `_` (`16.asf` for `16_15.amc`), else the only one.
-    fps : frames per second, which replace those of the file. An `.amc` file has none unless `save` wrote it;
-        by default it has 120, as most of the CMU database.
+    fps : frames per second, which replace those of the file. An `.amc` file has none but in a comment
+        such as `# fps 30`; by default it has 120, as most of the CMU database.
     scale : metres in one unit of the file; by default 0.01 for `.bvh`, and that of the skeleton for `.amc`.
         An `.npz` is in metres.
     stretch : metres by which bones of a `.bvh` file may change their lengths, by default 0.02. Up to this
@@ -160,15 +158,7 @@ def bone_stretch(path: str | Path, *, scale: float | None = None) -> dict[str, f
     return bvh.bone_stretch(path, scale=scale or 0.01) if Path(path).suffix.lower() == ".bvh" else {}
 
 
-def save(  # noqa: PLR0913 (what, where, and how numbers are written)
-    motion: Motion,
-    path: str | Path,
-    *,
-    skeleton: str | Path | None = None,
-    widen: bool = False,
-    scale: float | None = None,
-    precision: int = 6,
-) -> None:
+def save(motion: Motion, path: str | Path, *, scale: float | None = None, precision: int = 6) -> None:
     """Write a motion to a file; an old file is replaced when the new one is whole.
 
     These formats cannot hold marks (labels and contacts), so they are left out.
@@ -176,20 +166,15 @@ def save(  # noqa: PLR0913 (what, where, and how numbers are written)
     Parameters
     ----------
     motion : F frames.
-    path : the file, `.amc`, `.bvh`, `.glb`, or AMASS `.npz`, which holds the 22 joints of SMPL only. A
+    path : the file, `.bvh`, `.glb`, or AMASS `.npz`, which holds the 22 joints of SMPL only. A
         `.glb` is for engines and viewers: it holds a body of capsules as well, and is not read.
-    skeleton : for `.amc`, the `.asf` file that it must fit; by default one of the same name is written into
-        the same folder.
-    widen : for `.amc`, let the bones of that new skeleton turn about all three axes; blended motions need it.
-    scale : metres in one unit of the file; by default 0.01 for `.bvh`; for `.amc` that of the skeleton, or
-        0.0564 as in the CMU database. The others are in metres.
-    precision : for `.amc` and `.bvh`, digits after the point, by default 6, which keep joints to 1e-7 m; 9
-        keep them to 1e-10 m.
+    scale : for `.bvh`, metres in one unit of the file, by default 0.01. The others are in metres.
+    precision : for `.bvh`, digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to
+        1e-10 m.
 
     Raises
     ------
-    MocapError : for another format, a missing folder, or a motion that the format cannot hold, with the bone
-        that would lose most, how much, and in which frame.
+    MocapError : for another format, a missing folder, or a motion that the format cannot hold.
 
     Examples
     --------
@@ -208,15 +193,6 @@ def save(  # noqa: PLR0913 (what, where, and how numbers are written)
     if not 0 <= precision <= 15:
         raise MocapError(f"precision must be 0 to 15 digits, got {precision}.")
     match path.suffix.lower():
-        case ".amc" if skeleton is None:
-            asf = to_acclaim(widened(motion) if widen else motion.skeleton, scale=scale or UNIT)
-            _save_with_skeleton(path, asf, to_amc(motion, asf, precision=precision))
-        case ".amc" if widen:
-            raise MocapError("widen=True writes a new skeleton: leave skeleton= out, or widen.")
-        case ".amc":
-            asf = read_skeleton(Path(skeleton or ""), scale=scale)
-            asf.skeleton.require_same(motion.skeleton)
-            write_text(path, to_amc(motion, asf, precision=precision))
         case ".bvh":
             bvh.write(motion, path, scale=scale or 0.01, precision=precision)
         case ".glb" | ".npz" as suffix:
@@ -224,18 +200,6 @@ def save(  # noqa: PLR0913 (what, where, and how numbers are written)
             (gltf if suffix == ".glb" else amass).write(motion, path)
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
-
-
-def _save_with_skeleton(path: Path, asf: AcclaimSkeleton, amc: str) -> None:
-    beside, text = path.with_suffix(".asf"), to_asf(asf, " ".join(path.stem.split()))
-    if beside.exists() and read_text(beside) != text:  # other clips may need the old one
-        raise MocapError(
-            f"{beside} holds another skeleton: choose another name for {path.name}, or delete that file, "
-            f"or set skeleton= to it if the motion fits."
-        )
-    with replacing(beside) as skeleton:  # both files or none
-        skeleton.write_text(text, encoding="utf-8", newline="\n")
-        write_text(path, amc)
 
 
 def _check(name: str, value: float | None) -> None:
@@ -250,13 +214,12 @@ def _require_metres(suffix: str, scale: float | None) -> None:
 
 def _skeleton_for(path: Path) -> Path:
     """Choose among the `.asf` files beside an AMC file."""
-    counts = amc.first_frame(path)
+    counts = acclaim.first_frame(read_text(path, most=100_000))
     beside = sorted(file for file in path.parent.iterdir() if file.suffix.lower() == ".asf")
     fitting = []
     for file in beside:
         with suppress(MocapError):
-            asf = read_skeleton(file)
-            fitting += [file] if amc.fits(counts, asf.dofs(), asf.needed()) else []
+            fitting += [file] if acclaim.fits(counts, read_skeleton(file)) else []
     stems = [path.stem.lower(), path.stem.lower().split("_")[0]]
     named = [file for stem in stems for file in fitting if file.stem.lower() == stem]
     if named or len(fitting) == 1:

@@ -23,7 +23,7 @@ from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.datasets.samples import SAMPLES, is_bundled, sample
 from mocap.editing.mirroring import mirror
 from mocap.errors import FormatError, MocapError, shortened
-from mocap.files.folders import is_clip
+from mocap.files.conversion import is_clip
 from mocap.files.load_save import load as load_motion
 from mocap.graphs.motion_graph import MotionGraph
 

@@ -25,10 +25,10 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "clip_flaws": ["inspect", "warn_of_size"],
+        "clip_flaws": ["inspect"],
         "falling": ["centre_of_mass", "gravity"],
         "judging": ["judge", "judgement_table"],
-        "standing_feet": ["ground_slides", "plant_slides"],
-        "seam_measures": ["Spread", "jumps", "knee_turns", "seam_quality", "spread"],
+        "standing_feet": ["plant_slides"],
+        "seam_measures": ["jumps", "knee_turns", "seam_quality", "spread"],
     },
 )

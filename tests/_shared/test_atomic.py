@@ -13,7 +13,7 @@ import pytest
 from mocap._shared import atomic
 from mocap._shared.atomic import UNFINISHED, replacing, require_writable
 from mocap.errors import MocapError
-from mocap.files import find_files
+from mocap.files.conversion import find_files
 
 
 @pytest.mark.parametrize("trouble", [KeyboardInterrupt, ZeroDivisionError, SystemExit, None])

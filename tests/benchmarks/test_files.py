@@ -61,9 +61,8 @@ def test_reading_bvh(benchmark, motion, tmp_path):
     hold(benchmark, lambda: load_save.load(tmp_path / "a.bvh"), lambda: np.array(numbers.split(), float))
 
 
-@pytest.mark.parametrize("suffix", ["amc", "bvh"])
-def test_writing(benchmark, motion, tmp_path, suffix):
-    path = tmp_path / f"a.{suffix}"
+def test_writing(benchmark, motion, tmp_path):
+    path = tmp_path / "a.bvh"
     load_save.save(motion, path)
     values = np.array(numbers_of(path).split(), float)
     hold(

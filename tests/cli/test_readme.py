@@ -12,6 +12,7 @@ from mocap.body.motion import resample
 from mocap.cli.main import main
 from mocap.datasets import samples
 from mocap.files import load_save
+from tests.files.acclaim_clips import write_acclaim
 
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
 SLOW = ("pytest", "pip", "demo", "lab", "data", "course")  # tested elsewhere, or not a command of ours
@@ -39,7 +40,7 @@ def newcomer(tmp_path, monkeypatch):
     walk, *others = (resample(samples.sample(f"walk_{n}"), 30) for n in ("curve_1", "curve_2", "circle"))
     for name, clip in zip("ab", others, strict=True):
         load_save.save(clip[:240], tmp_path / "my-clips" / f"{name}.bvh")
-    load_save.save(walk[:200], tmp_path / "walk.amc")
+    write_acclaim(walk[:200], tmp_path / "walk.amc")
     for name, speed in (("slow", 0.8), ("brisk", 1.2)):
         straight = generate_walk([[0, 0], [0, 5]], speed=speed)
         load_save.save(resample(straight, 30), tmp_path / f"{name}.bvh")

@@ -18,6 +18,7 @@ from mocap.graphs.motion_graph import build
 from mocap.graphs.pruning import prune
 from tests.bundled import bundled
 from tests.editing.bodies import adult, along_x, child, rested, walk
+from tests.files.acclaim_clips import write_acclaim
 from tests.strategies import wave
 
 HOSTILE = ["", " ", "-1", "0", "1", "3", "nan", "inf", "-inf", "1e999", "1e-300", "0x10", "é°", "a" * 5000]
@@ -48,7 +49,7 @@ def folder(tmp_path_factory):
     (place / "in").mkdir()
     for name, clip in {"a": wave(60, name="a"), **clips}.items():
         load_save.save(clip, place / f"{name}.bvh")
-    load_save.save(copied(walk(), adult(), child())[:1], place / "child.amc", widen=True)
+    write_acclaim(copied(walk(), adult(), child())[:1], place / "child.amc")
     clip = load_save.load(place / "a.bvh")
     storage.save(prune(build([clip], window=10, threshold=0.05)), place / "g.npz")
     storage.save(bundled("walk_circle", "walk_curve_1"), place / "walks.npz")
@@ -111,7 +112,7 @@ REFUSED = [
     ("blend a.bvh a.bvh a.bvh --fade 1", "got 3 clips"),
     ("blend a.bvh a.bvh --fade 99", "does not lie within"),
     ("blend a.bvh a.bvh -o a.bvh", "is one of the files to read"),
-    ("blend a.bvh a.bvh -o x.fbx", "as .bvh, .amc, .glb or .npz"),
+    ("blend a.bvh a.bvh -o x.fbx", "as .bvh, .glb or .npz"),
     ("blend a.bvh gone.bvh", "Cannot read"),
     ("blend walk.bvh a.bvh", "skeletons differ"),
     ("bend walk.bvh --along bad.csv -o x.bvh", "bad.csv, line 2"),
@@ -119,11 +120,11 @@ REFUSED = [
     ("bend gone.bvh --along l.csv -o x.bvh", "gone.bvh"),
     ("bend stands.bvh --along l.csv -o x.bvh", "it stands; there is no path to edit"),
     ("bend a.bvh --along l.csv -o x.bvh", "legs"),
-    ("bend walk.bvh --along l.csv -o x.mp4", "is written as .bvh, .glb or .amc"),
+    ("bend walk.bvh --along l.csv -o x.mp4", "is written as .bvh or .glb"),
     ("bend walk.bvh --along l.csv -o x.bvh --limit 0", "'0' is not a number"),
     ("bend walk.bvh --along l.csv -o x.bvh --skeleton a.asf", ".amc clips"),
     ("bend walk.bvh -o x.bvh", "--along"),
-    ("warp walk.bvh --keys k.txt -o new.txt", "is written as .bvh, .glb or .amc, got"),
+    ("warp walk.bvh --keys k.txt -o new.txt", "is written as .bvh or .glb, got"),
     ("warp walk.bvh --keys k.txt -o walk.bvh", "is one of the files to read"),
     ("warp a.bvh --keys k.txt -o x.bvh", "give --loose-feet."),
     ("loop walk.bvh --shortest 60 --longest 60", "a cycle takes 60.2"),
@@ -192,7 +193,7 @@ COMMANDS = dict(subcommands(_parser()))
 FILES = {
     "graph info": "g.npz",
     "walk": "g.npz --random 1s",
-    "convert": "a.bvh c.amc",
+    "convert": "a.bvh c.glb",
     "bend": "a.bvh --along l.csv -o w.bvh",
     "blend": "a.bvh a.bvh",
     "retarget": "a.bvh --to a.bvh -o r",

@@ -180,17 +180,3 @@ def test_any_words_are_a_plan_or_one_sentence(tmp_path_factory, text):
     except MocapError as error:
         assert "\n" not in str(error)
         assert len(str(error)) <= 200 + len(str(path))
-
-
-def test_a_clip_of_a_file_that_holds_hinges_only_says_how_it_can_be_written(
-    folder, real_data, monkeypatch, capsys
-):
-    monkeypatch.chdir(folder)
-    (folder / "k.txt").write_text("at 200 lhand 0.05 0.1 0")
-    clip = str(real_data / "cmu" / "16" / "16_15.amc")
-    words = ["warp", clip, "--keys", "k.txt", "-o", "w.amc"]
-    status = main(words)
-    said = capsys.readouterr().err
-    assert status == 0 or "--widen" in said
-    assert main([*words, "--widen"]) == 0
-    assert (folder / "w.amc").exists()

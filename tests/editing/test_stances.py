@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from mocap import load
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
-from mocap.editing import Stance
 from mocap.editing.body_roles import FEET, roles
-from mocap.editing.stances import proportioned, stance_of, stance_of_zero, standing_heights
+from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from tests.editing.bodies import adult, along_x, rested, walk, without

@@ -1,6 +1,7 @@
 """BVH files: small ones worked out by hand, round trips, and files that others wrote."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,8 +13,9 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.errors import FormatError
-from mocap.files import bvh
+from mocap.files import bvh, load_save
 from tests.refusals import refused
+from tests.strategies import wave
 
 BVH = """HIERARCHY
 ROOT hips
@@ -306,6 +308,13 @@ NAMES_REFUSED = [(name, 30.0, "cannot hold a joint called") for name in ("a{b", 
 def test_names_and_rates_that_would_not_read_back_are_refused(tmp_path, name, fps, message):
     motion = Motion(Skeleton([name], [-1], np.zeros((1, 3))), np.zeros((1, 3)), [[[1, 0, 0, 0]]], fps)
     refused(message, bvh.write, motion, tmp_path / "a.bvh")
+    assert not list(tmp_path.iterdir())
+
+
+def test_numbers_that_no_file_holds_are_refused(tmp_path):
+    far = replace(wave(4), root_positions=np.full((4, 3), 1e12))
+    refused(r"goes 1e.09 units far", load_save.save, far, tmp_path / "a.bvh")
+    refused("precision must be 0 to 15 digits", load_save.save, far, tmp_path / "a.bvh", precision=99)
     assert not list(tmp_path.iterdir())
 
 

@@ -15,8 +15,7 @@ from mocap.feet.footplants import mark_plants
 from mocap.feet.footskate import clean_up
 from mocap.files.load_save import load
 from mocap.matching.transitions import Transition, find_transitions
-from mocap.quality import Spread
-from mocap.quality.seam_measures import jumps, knee_turns, seam_quality, spread
+from mocap.quality.seam_measures import Spread, jumps, knee_turns, seam_quality, spread
 from tests.refusals import refused
 from tests.strategies import random_motion
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from mocap.body.motion import Motion
-from mocap.files import amass, conversion, folders, load_save
+from mocap.files import amass, conversion, load_save
 from tests.refusals import refused
 from tests.strategies import wave
 
@@ -17,15 +17,13 @@ def test_graphs_and_other_archives_in_a_folder_are_no_clips(tmp_path):
     np.savez(tmp_path / "graph.npz", nodes=np.zeros(3))
     (tmp_path / "broken.npz").write_bytes(b"PK")
     (tmp_path / "notes.txt").write_text("")
-    assert [path.name for path in folders.find_files([tmp_path])] == ["b.bvh", "c.npz"]
+    assert [path.name for path in conversion.find_files([tmp_path])] == ["b.bvh", "c.npz"]
     assert [path.name for path, _ in conversion.plan(tmp_path, tmp_path / "out")] == ["b.bvh", "c.npz"]
-    clips = folders.load_all([tmp_path, tmp_path / "b.bvh"], skeleton=None, scale=None, progress=iter)
-    assert [clip.name for clip in clips] == ["b", "c", "b"]
 
 
 def test_an_empty_folder_is_refused(tmp_path):
-    refused(r"holds no \.amc, \.bvh or AMASS \.npz file\.", folders.find_files, [tmp_path])
+    refused(r"holds no \.amc, \.bvh or AMASS \.npz file\.", conversion.find_files, [tmp_path])
 
 
 def test_a_name_without_end_is_refused_in_a_sentence():
-    refused(r"Cannot read a+: File name too long", folders.find_files, [Path("a" * 5000)])
+    refused(r"Cannot read a+: File name too long", conversion.find_files, [Path("a" * 5000)])
