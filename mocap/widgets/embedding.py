@@ -3,6 +3,7 @@
 import base64
 import html
 import json
+import re
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -11,6 +12,7 @@ from mocap.plotting.picture import Picture
 # Scripts of the player that others use as well.
 PARTS = ("scene", "picture", "page", "hand")
 SHARED = SCENE, PICTURE, PAGE, HAND = [Path(__file__).with_name(f"player_{part}.js") for part in PARTS]
+SHADED = [Path(__file__).with_name(f"{part}.js") for part in ("bodies", "player_body")]
 TOUCH = Path(__file__).with_name("touch.js")
 _STYLE = """<style>
 :root { color-scheme: light dark; }
@@ -24,7 +26,8 @@ h1 { margin: 0.25rem 0; font: 600 1.1rem system-ui, sans-serif; }
 
 def joined(*files: Path) -> str:
     """Join scripts to the one module that a page and a widget run."""
-    return "\n".join(file.read_text("utf-8") for file in files)
+    texts = "\n".join(file.read_text("utf-8") for file in files)
+    return re.sub(r"^import .*\n|^export (?!default)", "", texts, flags=re.M)
 
 
 class Embedded(Protocol):

@@ -14,6 +14,7 @@ from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.plotting.bodies import bones, head_joints
 from mocap.plotting.style import ASTRAY, COLOURS, MARK
+from mocap.widgets.walk_figure import posed
 
 SIDES = ("middle", "left", "right")  # the scripts know a side by its number
 LOOK = {"sides": [COLOURS[side] for side in SIDES], "marks": {"seam": MARK, "astray": ASTRAY}}
@@ -100,6 +101,7 @@ def packed_character(
     steps = np.full(3, step) if step else np.maximum(high - low, 1e-6) / 65535
     about = {
         **{"name": motion.name, "fps": motion.fps / stride, "frames": len(points), "joints": len(joints)},
+        **posed(motion.skeleton, joints),
         **{"low": low.tolist(), "step": steps.tolist(), "bones": lines, "head": head},
         **{"colour": colour, "path_colour": colour, "sources": [], "seams": [], "astray": [], "prints": []},
     }

@@ -11,7 +11,7 @@ const FOLLOWED = 15; // metres of ground around a character that the camera foll
 class Player {
   constructor(root, scene, model) {
     this.root = root; this.model = model; this.camera = new Camera();
-    this.time = 0; this.speed = 1; this.playing = false; this.visible = true; this.pictures = 0;
+    this.time = 0; this.speed = 1; this.range = []; this.panned = [0, 0]; this.playing = false; this.visible = true; this.pictures = 0;
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.build();
     this.picture = new Picture(this.canvas, this.camera);
@@ -27,7 +27,7 @@ class Player {
     this.root.innerHTML = PARTS;
     const find = (what) => this.root.querySelector(what);
     this.canvas = find("canvas"); this.play = find(".play"); this.scrub = find(".scrub input"); this.strip = find(".scrub div");
-    this.clock = find(".clock"); this.select = find("select"); this.follow = find(".follow"); this.ghosts = find(".ghosts");
+    this.clock = find(".clock"); this.select = find("select"); this.part = find(".scrub b"); this.aside = find(".aside input"); this.follow = find(".follow"); this.ghosts = find(".ghosts");
     this.drawButton = find(".draw"); this.legend = find(".legend"); this.message = find(".message");
     // JupyterLab takes keys away from whatever does not say this.
     for (const part of this.root.querySelectorAll("canvas, button, input, select")) part.dataset.lmSuppressShortcuts = "true";
@@ -49,6 +49,8 @@ class Player {
     this.canvas.setAttribute("aria-label", `${scene.alt} ${KEYS}${scene.drawable ? " P takes the pen to draw a path." : ""}`);
     this.scrub.max = scene.frames - 1;
     this.drawButton.hidden = !scene.drawable;
+    this.aside.parentElement.hidden = scene.characters.length < 2;
+    this.range = []; this.showRange();
     this.hand.drawn = []; this.hand.pen = false;
     this.say(this.model?.get("message") ?? "");
     this.showSources();
@@ -85,6 +87,7 @@ class Player {
   // Look at all characters' paths and the path asked for, from so far away that figures and paths are in the picture.
   frameAll() {
     this.camera.reset(this.scene.drawable ? 0.9 : 0.25);
+    this.panned = [0, 0];
     const places = [...this.characters.flatMap((c) => c.path.map(([, x, z]) => [x, z])), ...this.scene.asked];
     const span = (i) => places.reduce(([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])], [Infinity, -Infinity]);
     const [[x0, x1], [z0, z1]] = [span(0), span(1)];
@@ -105,6 +108,7 @@ class Player {
     this.scrub.oninput = () => { this.toggle(false); this.seek(Number(this.scrub.value) / this.scene.fps); };
     this.select.onchange = () => { this.speed = Number(this.select.value); };
     this.follow.onchange = this.ghosts.onchange = () => this.update();
+    this.aside.onchange = () => this.beside();
     this.drawButton.onclick = () => { this.drawing = !this.drawing; this.update(); };
     this.resized = new ResizeObserver(() => this.update());
     this.resized.observe(this.canvas);
@@ -155,6 +159,27 @@ class Player {
     this.update();
   }
 
+  // The first call marks where what is played begins, the second where it ends, the third takes both back.
+  mark() {
+    this.range = this.range.length === 2 ? [] : [...this.range, this.time].sort((a, b) => a - b);
+    if (this.range.length === 2 && this.range[1] - this.range[0] < 0.1) this.range = [];
+    this.showRange();
+    this.say(["Plays all.", "Begins here. Press L where it shall end.", "Plays this part. L plays all."][this.range.length]);
+  }
+
+  showRange() {
+    const percent = (time) => `${(100 * time) / this.seconds}%`, [begin = 0, end = begin] = this.range;
+    Object.assign(this.part.style, { left: percent(begin), width: percent(end - begin) });
+    this.part.hidden = !this.range.length;
+  }
+
+  // Put the characters beside each other, seen from here, or back where they walk.
+  beside() {
+    const { right } = this.camera, gap = this.aside.checked ? 1.1 : 0, middle = (this.characters.length - 1) / 2;
+    this.characters.forEach((character, k) => character.move(gap * (k - middle) * right[0], gap * (k - middle) * right[2], this.scene.marks));
+    this.update();
+  }
+
   toggle(playing = !this.playing) {
     this.playing = playing;
     this.last = null;
@@ -170,7 +195,8 @@ class Player {
     if (!this.root.isConnected || !this.visible) { this.last = null; return; }
     if (this.playing) {
       if (this.last !== null) this.time += Math.min(0.25, (now - this.last) / 1000) * this.speed;
-      if (this.time > this.seconds) this.time = this.seconds > 0 ? this.time % this.seconds : 0;
+      const [begin, end] = this.range.length === 2 ? this.range : [0, this.seconds];
+      if (this.time > end) this.time = end > begin ? begin + ((this.time - begin) % (end - begin)) : begin;
       this.last = now;
       this.report();
       this.update();
@@ -182,23 +208,33 @@ class Player {
 
   draw() {
     const { characters, time, reach, hand } = this, { asked, obstacles, sides, marks } = this.scene, target = this.target();
-    const distance = this.follow.checked ? 4.2 : reach, ghosts = this.ghosts.checked, dark = isDark();
+    const distance = this.follow.checked ? 4.2 + 1.6 * this.spread() : reach, ghosts = this.ghosts.checked, dark = isDark();
     this.root.classList.toggle("dark", dark);
     const palette = dark ? DARK : LIGHT, drawn = hand.drawn, pen = hand.pen ? drawn.at(-1) : null;
     const ground = this.follow.checked ? Math.min(reach, FOLLOWED) : reach;
-    this.picture.draw({ characters, time, asked, drawn, pen, obstacles, sides, marks, palette, ghosts, target, distance, reach: ground });
+    this.picture.draw({ characters, time, asked, drawn, pen, obstacles, sides, marks, palette, ghosts, target, distance, reach: ground, light: LOOKS[dark ? "dark" : "light"] });
     this.showState();
   }
 
-  // Above the ground under the first character, averaged over a second so that the view does not rock with each step.
+  // Above the ground amid the characters, averaged over a second so that the view does not rock with each step.
   target() {
-    if (!this.follow.checked) return this.centre;
-    const mean = [0, 0.85, 0];
-    for (let i = -4; i <= 4; i++) {
-      const pose = this.characters[0].pose(this.time + i / 8);
-      mean[0] += pose[0] / 9; mean[2] += pose[2] / 9;
+    const { panned: [x, z] } = this;
+    if (!this.follow.checked) return [this.centre[0] + x, this.centre[1], this.centre[2] + z];
+    const mean = [x, 0.85, z], share = 1 / (9 * this.characters.length);
+    for (const character of this.characters) {
+      for (let i = -4; i <= 4; i++) {
+        const pose = character.pose(this.time + i / 8);
+        mean[0] += share * pose[0]; mean[2] += share * pose[2];
+      }
     }
     return mean;
+  }
+
+  // How far the characters are from the middle between them, at most, in metres.
+  spread() {
+    const places = this.characters.map((character) => character.pose(this.time)), mean = (k) => places.reduce((sum, place) => sum + place[k] / places.length, 0);
+    const [x, z] = [mean(0), mean(2)];
+    return Math.max(...places.map((place) => Math.hypot(place[0] - x, place[2] - z)));
   }
 
   showState() {

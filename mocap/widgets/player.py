@@ -26,7 +26,7 @@ from mocap.plotting.picture import small_png
 from mocap.plotting.stick_figures import film_strip
 from mocap.plotting.style import COLOURS, PATH, own_colour, source_colours
 from mocap.synthesis.walk_to_motion import Seam
-from mocap.widgets.embedding import SHARED, Embedded
+from mocap.widgets.embedding import SHADED, SHARED, Embedded
 from mocap.widgets.packing import LOOK, SIDES, packed_character, with_contacts
 
 Sources = Sequence[tuple[int, str]]
@@ -117,7 +117,7 @@ class Player(Embedded):
     places: Sequence[Array]
     follow: bool
     said: str
-    scripts = (*SHARED, Path(__file__).with_name("player.js"))
+    scripts = (*SHADED, *SHARED, Path(__file__).with_name("player.js"))
 
     @property
     def alt(self) -> str:

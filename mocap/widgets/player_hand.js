@@ -10,6 +10,7 @@ class Hand {
     for (const kind of ["pointerdown", "pointermove", "pointerup", "pointercancel"]) {
       canvas.addEventListener(kind, (event) => this[kind](event));
     }
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     player.root.addEventListener("keydown", (event) => this.key(event));
   }
@@ -23,6 +24,13 @@ class Hand {
   }
 
   zoomBy(factor) { this.camera.zoom = Math.min(12, Math.max(0.2, this.camera.zoom * factor)); this.player.update(); }
+
+  // Move what is looked at over the ground, in pixels.
+  pan(across, down) {
+    const { right, ahead, focus } = this.camera, metres = this.player.reach / (this.camera.zoom * focus), level = Math.hypot(ahead[0], ahead[2]) || 1;
+    [0, 2].forEach((k, i) => { this.player.panned[i] += metres * (down * ahead[k] / level - across * right[k]); });
+    this.player.update();
+  }
 
   // ---- mouse and fingers ----
 
@@ -41,16 +49,20 @@ class Hand {
     if (this.stroke !== null) this.drawn = [];
   }
 
-  // One finger or the mouse turns the view, two fingers zoom; in drawing mode, one finger or the left button draws.
+  // One finger or the mouse turns the view; two fingers zoom and move it, as shift or the right button do. In drawing mode, one finger or the left button draws.
   pointermove(event) {
     const before = this.pointers.get(event.pointerId);
     if (!before) return;
     const others = [...this.pointers.values()].filter((other) => other.pointerId !== event.pointerId);
     const from = (p, q) => Math.hypot(p.offsetX - q.offsetX, p.offsetY - q.offsetY);
     this.pointers.set(event.pointerId, event);
-    if (others.length) this.zoomBy(from(event, others[0]) / Math.max(1, from(before, others[0])));
+    const [across, down] = [event.offsetX - before.offsetX, event.offsetY - before.offsetY];
+    if (others.length) {
+      this.zoomBy(from(event, others[0]) / Math.max(1, from(before, others[0])));
+      this.pan(across / 2, down / 2);
+    } else if (event.shiftKey || event.buttons === 2) this.pan(across, down);
     else if (this.stroke === event.pointerId) this.draw(this.camera.ground(event.offsetX, event.offsetY));
-    else this.orbit((before.offsetX - event.offsetX) / 150, (event.offsetY - before.offsetY) / 150);
+    else this.orbit(-across / 150, down / 150);
   }
 
   pointerup(event) {
@@ -98,8 +110,10 @@ class Hand {
     else if (event.key === " " && (onCanvas || event.target === player.scrub)) player.toggle();
     else if (onCanvas && player.drawing && event.key === "p") this.takePen();
     else if (onCanvas && turn && event.shiftKey) this.orbit(...turn);
+    else if (onCanvas && turn && event.altKey) this.pan(300 * turn[0], 300 * turn[1]);
     else if (onCanvas && turn && turn[0]) { player.toggle(false); player.seek((player.frame() + Math.sign(turn[0])) / player.scene.fps); }
     else if (onCanvas && (event.key === "+" || event.key === "-")) this.zoomBy(event.key === "+" ? 1.15 : 1 / 1.15);
+    else if (onCanvas && event.key === "l") player.mark();
     else if (onCanvas && event.key === "Home") player.seek(0);
     else if (onCanvas && event.key === "End") player.seek(player.seconds);
     else return;

@@ -1,6 +1,6 @@
 // The page around the canvas: its parts, their style, and colours for light and dark surroundings.
 
-const KEYS = "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom.";
+const KEYS = "Space plays, arrows step, shift and arrows turn the view, plus and minus zoom, alt and arrows move it, L marks a part to play.";
 const PEN_KEYS = "Arrows draw, Backspace takes back, Enter walks the path, Escape puts the pen away.";
 
 const STYLE = `
@@ -21,6 +21,8 @@ const STYLE = `
 .mocap-player .scrub { flex: 1 1 200px; position: relative; }
 .mocap-player .scrub input { width: 100%; margin: 0; }
 .mocap-player .scrub div { height: 5px; border-radius: 2px; position: relative; }
+.mocap-player .scrub b { position: absolute; bottom: -4px; min-width: 2px; height: 4px; background: #0072B2; }
+.mocap-player [hidden] { display: none !important; }
 .mocap-player .scrub i { position: absolute; top: -2px; width: 2px; height: 9px; }
 .mocap-player .clock { font-variant-numeric: tabular-nums; min-width: 11em; }
 .mocap-player .legend span { display: inline-block; width: 10px; height: 10px; margin: 0 4px 0 10px; }
@@ -38,16 +40,17 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2].map((speed) => `<option value="${speed}">$
 
 const PARTS = `<style>${STYLE}</style><canvas tabindex="0" role="application" aria-roledescription="player"></canvas>
   <div class="bar"><button class="play" aria-label="play"></button>
-    <div class="scrub"><input type="range" min="0" step="1" aria-label="frame"><div></div></div><span class="clock"></span></div>
+    <div class="scrub"><input type="range" min="0" step="1" aria-label="frame"><div></div><b hidden></b></div><span class="clock"></span></div>
   <div class="bar"><label>speed <select aria-label="speed">${SPEEDS}</select></label>
     <label><input type="checkbox" class="follow"> follow</label>
     <label><input type="checkbox" class="ghosts"> ghosts</label>
+    <label class="aside"><input type="checkbox"> side by side</label>
     <button class="reset">reset view</button><button class="full">full screen</button>
     <button class="draw" aria-pressed="false">draw a path</button>
     <span class="legend"></span></div><div class="message" role="status"></div>`;
 
-const LIGHT = { ink: "#333333", asked: "#000000", line: "#bbbbbb", shadow: "#000000" };
-const DARK = { ink: "#dddddd", asked: "#ffffff", line: "#555555", shadow: "#ffffff" };
+const LIGHT = { ink: "#333333", asked: "#000000", line: "#bfb7a8", shadow: "#000000" };
+const DARK = { ink: "#dddddd", asked: "#ffffff", line: "#41465a", shadow: "#ffffff" };
 
 // Whether the page around the player is dark: JupyterLab says so itself, a page of its own goes with the reader's system.
 function isDark() {

@@ -3,6 +3,7 @@
 const NEAR = 0.1; // metres before the camera, from where on something is drawn
 const APART = 3; // pixels between points of a line; nearer ones would cost time, and nobody would see them
 const GAPS = [1, 2, 5, 10, 20, 50]; // metres between lines of the ground
+const TRAIL = [[Infinity, 0.25], [2, 0.3], [1.5, 0.3], [1, 0.3], [0.5, 0.3]]; // seconds from now, how strong a line is drawn again
 const GHOSTS = 6, GHOST_GAP = 0.25; // how many earlier poses, and the seconds between them
 
 class Picture {
@@ -10,9 +11,9 @@ class Picture {
 
   // Draw the characters at a time, seen from `distance` metres away from `target`. `asked` and `drawn` are paths on
   // the ground, `pen` is a place on it, `obstacles` are discs on it (x, z, radius), `sides` are the colours of a body's
-  // sides, and the ground reaches at least `reach` metres.
-  draw({ characters, time, asked, drawn, pen, obstacles = [], sides, marks, palette, ghosts, target, distance, reach }) {
-    Object.assign(this, { characters, time, sides, marks, palette });
+  // sides, the ground reaches at least `reach` metres, and in a `light` of `bodies.js` bodies are shaded.
+  draw({ characters, time, asked, drawn, pen, obstacles = [], sides, marks, palette, ghosts, target, distance, reach, light = null }) {
+    Object.assign(this, { characters, time, sides, marks, palette, light });
     const [wide, high] = this.clear();
     this.camera.place(target, distance, wide, high);
     this.drawGround(target, reach);
@@ -34,8 +35,17 @@ class Picture {
     this.pen = canvas.getContext("2d");
     this.pen.setTransform(sharp, 0, 0, sharp, 0, 0);
     this.pen.clearRect(0, 0, ...size);
+    if (this.light) this.paper(this.light, size);
     this.pen.lineCap = this.pen.lineJoin = "round";
     return size;
+  }
+
+  // What lies around the body: the sky, and a ground that gets brighter towards it.
+  paper({ ground, sky }, [wide, high]) {
+    const fill = this.pen.createLinearGradient(0, 0, 0, high);
+    fill.addColorStop(0.25, sky); fill.addColorStop(1, ground);
+    this.pen.fillStyle = fill;
+    this.pen.fillRect(0, 0, wide, high);
   }
 
   // Lines which stay where they are in the world and fade with distance, one metre apart. Where so many would be grey
@@ -72,7 +82,10 @@ class Picture {
 
   // The root's path, its seams, and footprints: strong while the foot stands, pale afterwards.
   drawTrail(character) {
-    for (const { colour, line } of character.trail) this.stroke([line], colour, 2.5);
+    for (const [seconds, alpha] of TRAIL) { // strong around the body, pale two seconds from it
+      const near = (point) => !(Math.abs(point[3] - this.time) > seconds);
+      for (const { colour, line } of character.trail) this.stroke([line.filter(near)], colour, 2.5, alpha);
+    }
     this.discs(character.diamonds, 0.07, this.marks.seam, 1, true);
     const strong = this.sides.map(() => []), pale = this.sides.map(() => []);
     for (const [start, end, x, z, side] of character.prints) {
@@ -100,9 +113,25 @@ class Picture {
   // for all bones of a side: with a stroke for each bone, twelve bodies would take three times as long.
   drawBodies() {
     const { camera } = this, bodies = this.characters.map((character) => ({ character, pose: character.pose(this.time) }));
+    if (this.shade(bodies)) return;
     for (const { character, pose } of bodies) this.strokeBones(pose, character.bones, this.palette.shadow, 0.05, 0.15, true);
     for (const body of bodies) { camera.project(body.pose[0], body.pose[1], body.pose[2]); body.far = camera.far; }
     for (const { character, pose } of bodies.sort((a, b) => b.far - a.far)) this.drawBody(character, pose);
+  }
+
+  // Shaded bodies, where there is a light and the browser has WebGL 2.
+  shade(bodies) {
+    const { light } = this, most = bodies.reduce((sum, { character }) => sum + character.pieces.length, 0);
+    const shading = light && Shading.of(most);
+    if (!shading) return false;
+    const { canvas } = this, several = bodies.length > 1, [, left, right] = this.sides, grey = light.body;
+    const figures = bodies.map(({ character, pose }) => {
+      const own = character.colourAt(this.time), middle = own === "#333333" ? grey : own;
+      const colours = several ? { middle, near: blend(own, "#ffffff", 0.2), far: blend(own, "#000000", 0.2) } : { middle, near: blend(left, grey, 0.25), far: blend(right, grey, 0.25) };
+      return { figure: character, pose, colours };
+    });
+    shading.draw(this.pen, this.camera, figures, light, [canvas.clientWidth, canvas.clientHeight]);
+    return true;
   }
 
   drawBody(character, pose) {
@@ -200,6 +229,11 @@ class Picture {
     pen.fill();
     pen.globalAlpha = 1;
   }
+}
+
+function blend(colour, other, share) {
+  const [a, b] = [rgb(colour), rgb(other)];
+  return `#${a.map((value, k) => Math.round(255 * (value + share * (b[k] - value))).toString(16).padStart(2, "0")).join("")}`;
 }
 
 function placeOf(pose, joint) { return [pose[3 * joint], pose[3 * joint + 1], pose[3 * joint + 2]]; }

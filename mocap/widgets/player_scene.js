@@ -71,6 +71,14 @@ class Character {
     Object.assign(this, packed);
     this.numbers = summed(new Uint16Array(bytes, packed.offset, packed.frames * packed.joints * 3), packed.frames);
     this.seconds = (packed.frames - 1) / packed.fps;
+    this.stands = packed.prints;
+    this.move(0, 0, marks);
+  }
+
+  // Walk so many metres beside its own place.
+  move(x, z, marks) {
+    this.away = [x, 0, z];
+    this.prints = this.stands.map(([start, end, px, pz, side]) => [start, end, px + x, pz + z, side]);
     this.path = this.pathOnGround();
     this.trail = this.colouredPath(marks);
     this.diamonds = this.seams.map((time) => { const root = this.pose(time); return [root[0], 0, root[2]]; });
@@ -86,7 +94,7 @@ class Character {
   }
 
   place(coordinate, frame) {
-    return this.low[coordinate % 3] + this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame];
+    return this.away[coordinate % 3] + this.low[coordinate % 3] + this.step[coordinate % 3] * this.numbers[coordinate * this.frames + frame];
   }
 
   // [time, x, z] of the root, at fewer than 2000 times.
@@ -102,8 +110,8 @@ class Character {
     const colourOf = (time) => (this.astray.some(([start, end]) => start <= time && time < end) ? marks.astray : own(time));
     for (const [time, x, z] of this.path) {
       const colour = colourOf(time), last = lines.at(-1);
-      if (last) last.line.push([x, 0, z]);
-      if (last?.colour !== colour) lines.push({ colour, line: [[x, 0, z]] });
+      if (last) last.line.push([x, 0, z, time]);
+      if (last?.colour !== colour) lines.push({ colour, line: [[x, 0, z, time]] });
     }
     return lines;
   }

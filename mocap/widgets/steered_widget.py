@@ -17,7 +17,7 @@ from mocap.errors import MocapError, shortened
 from mocap.plotting.style import COLOURS, own_colour
 from mocap.steering.characters import Character, as_motion
 from mocap.widgets.company import Company, Order
-from mocap.widgets.embedding import PAGE, PICTURE, SCENE, TOUCH
+from mocap.widgets.embedding import PAGE, PICTURE, SCENE, SHADED, TOUCH
 from mocap.widgets.live import Live, display_live, widget
 from mocap.widgets.packing import LOOK
 from mocap.widgets.player import play
@@ -31,7 +31,7 @@ MOST = 1.0  # seconds of one answer
 class Steered(Live):
     """Pictures of characters, and a `command` that the reader and Python may set."""
 
-    scripts = (SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
+    scripts = (*SHADED, SCENE, PICTURE, PAGE, TOUCH, *map(Path(__file__).with_name, OWN))
     shared: ClassVar = {"scene": {}, "command": [0.0, 1.1, ""]}
     needs = "To steer in a page needs"
     company: Company

@@ -233,7 +233,7 @@ class Steering {
       Object.assign(camera, this.shared);
       walker.trail = walker.trailUntil(time, marks.seam);
       const target = walker.target(time, seconds), asked = this.arrow(target);
-      picture.draw({ characters: [walker], time, asked, drawn: [], pen: null, sides, marks, palette, ghosts: false, target, distance: 4.2, reach: 3 });
+      picture.draw({ characters: [walker], time, asked, drawn: [], pen: null, sides, marks, palette, ghosts: false, target, distance: 4.2, reach: 3, light: LOOKS[dark ? "dark" : "light"] });
     }
     this.pictures++;
     if (this.pictures % 6 === 1 || !this.playing) this.showState();

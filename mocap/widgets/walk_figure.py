@@ -1,4 +1,4 @@
-"""The figure of the walking page: tapered capsules around the parts of a body, whatever they are called."""
+"""The figure of the walking page and of players: tapered capsules around a body, whatever names it has."""
 
 from __future__ import annotations
 
@@ -7,14 +7,31 @@ from typing import Any
 
 import numpy as np
 
-from mocap._shared.arrays import Array
+from mocap._shared.arrays import Array, Indices
 from mocap.body.skeleton import Skeleton
 from mocap.editing.body_roles import roles
 from mocap.errors import MocapError
 from mocap.files.gltf_capsules import THICK, reaches, rest
 
 LEG = 0.86  # metres from hip to ankle of the person whose radii stand below
+LEVEL = ("pelvis", "chest")
 TRUNK = ("pelvis", "chest", "neck", "head", "left shoulder", "left elbow", "left wrist")
+
+HIPS, SHOULDERS = ("left hip", "right hip"), ("left shoulder", "right shoulder")
+AXES = {  # of a part: what it is along, and its left
+    "pelvis": ("pelvis", "chest", *HIPS),
+    "waist": ("waist", "chest", *SHOULDERS),
+    "chest": ("pelvis", "neck", *SHOULDERS),
+    "neck": ("neck", "head", *SHOULDERS),
+    "head": ("neck", "head", *SHOULDERS),
+    "hip": ("hip", "knee", *HIPS),
+    "knee": ("knee", "ankle", *HIPS),
+    "ankle": ("ankle", "ball", *HIPS),
+    "ball": ("ankle", "ball", *HIPS),
+    "shoulder": ("shoulder", "elbow", *SHOULDERS),
+    "elbow": ("elbow", "wrist", *SHOULDERS),
+    "wrist": ("elbow", "wrist", *SHOULDERS),
+}
 
 Piece = tuple[str, Array, float, Array, float, float, int]
 """The joint's role; one end, its radius, the other end, its radius; flatness; side: 1 left, -1 right."""
@@ -28,7 +45,7 @@ def figure(skeleton: Skeleton) -> list[list[Any]]:
     """
     who = known(skeleton)
     if not set(TRUNK) <= set(who):
-        return _bones(skeleton)
+        return list(_bones(skeleton).values())
     places = rest(skeleton)
     at = {role: places[joint] for role, joint in who.items()}
     leg = np.linalg.norm(np.diff([at[f"left {part}"] for part in ("hip", "knee", "ankle")], axis=0), axis=1)
@@ -38,6 +55,62 @@ def figure(skeleton: Skeleton) -> list[list[Any]]:
         [who[role], *_end(a - at[role], ra * size), *_end(b - at[role], rb * size), flat, side]
         for role, a, ra, b, rb, flat, side in pieces
     ]
+
+
+def posed(skeleton: Skeleton, drawn: Indices) -> dict[str, list[list[Any]]]:
+    """Give the capsules of a body for a player, which knows where the drawn joints are, but no turns.
+
+    Returns
+    -------
+    `parts` of the body, each [origin, from, to, left, right, level], which count the drawn joints. The axes
+    of a part point to its left, along it, and ahead; it keeps its left where `level` is 1, else what it is
+    along.
+    `pieces` as in `figure`, seen from the axes of a part, whose number comes first.
+    """
+    places, who = rest(skeleton), known(skeleton)
+    if set(TRUNK) <= set(who):
+        pieces = [(row[0], row) for row in figure(skeleton)]
+        axes = {joint: (joint, *_along(who, role)) for role, joint in who.items() if role.split()[-1] in AXES}
+    else:
+        pieces = list(_bones(skeleton).items())
+        axes = {child: (row[0], row[0], child, row[0], row[0], False) for child, row in pieces}
+    parts = {joint: axes[joint] for joint, _ in pieces}
+
+    def number(joint: int) -> int:  # what starts where its parent ends is drawn there
+        return int(np.searchsorted(drawn, joint)) if joint in drawn else number(int(skeleton.parents[joint]))
+
+    def seen(joint: int, end: list[float]) -> list[float]:
+        return [round(value, 4) for value in (_axes(places, parts[joint]) @ end).tolist()]
+
+    return {
+        "parts": [[*map(number, row[:5]), int(row[5])] for row in parts.values()],
+        "pieces": [
+            [list(parts).index(joint), seen(joint, a), ra, seen(joint, b), rb, flat, side]
+            for joint, (_, a, ra, b, rb, flat, side) in pieces
+        ],
+    }
+
+
+def _along(who: Mapping[str, int], role: str) -> list[int]:
+    """Give the joints that span the axes of a role, and whether it keeps its left."""
+    *side, part = role.split()
+    return [*(who[name if name in who else " ".join([*side, name])] for name in AXES[part]), part in LEVEL]
+
+
+def _axes(places: Array, part: tuple[int, ...]) -> Array:
+    """Give the axes of a part at rest, in rows, as `axesOf` in `player_body.js` does."""
+    _, start, end, left, right, level = part
+    along, across = places[end] - places[start], places[left] - places[right]
+    x = across / np.linalg.norm(across) if level else _beside(across, along / np.linalg.norm(along))
+    y = _beside(along, x) if level else along / np.linalg.norm(along)
+    return np.array([x, y, np.cross(x, y)])
+
+
+def _beside(a: Array, b: Array) -> Array:
+    """Give the unit vector of a at right angles to the unit vector b."""
+    v = a - a @ b * b
+    length = float(np.linalg.norm(v))
+    return v / length if length > 1e-6 else _beside(np.roll(b, -1), b)
 
 
 def known(skeleton: Skeleton) -> Mapping[str, int]:
@@ -100,13 +173,14 @@ def _limbs(at: Mapping[str, Array], size: float, side: str, sign: int) -> list[P
     return [(f"{side} {part}", *row, sign) for part, *row in rows]  # type: ignore[misc]
 
 
-def _bones(skeleton: Skeleton) -> list[list[Any]]:
+def _bones(skeleton: Skeleton) -> dict[int, list[Any]]:
     behind, lengths = reaches(skeleton), np.linalg.norm(skeleton.offsets, axis=-1)
-    longest, pieces = behind[0], []
+    longest, pieces = behind[0], {}
     for joint in range(1, len(skeleton)):
         if lengths[joint] > 1e-3 * longest:
             further = np.array([lengths[joint], 0.05 * longest]) + behind[joint]
             start, end = THICK * np.sqrt(longest * further)
             parent = int(skeleton.parents[joint])
-            pieces.append([parent, *_end(np.zeros(3), start), *_end(skeleton.offsets[joint], end), 1, 0])
+            side = {"left": 1, "right": -1}.get(skeleton.side(parent), 0)
+            pieces[joint] = [parent, *_end(np.zeros(3), start), *_end(skeleton.offsets[joint], end), 1, side]
     return pieces

@@ -5,7 +5,8 @@ import { bodyAt, edgeAt, footprints } from "./walk_body.js";
 import { arrays, even, firstLine, read, smooth, written } from "./walk_line.js";
 import { Camera } from "./walk_camera.js";
 import { Hands } from "./walk_hands.js";
-import { COLOURS, LOOKS, rgb, Scene } from "./walk_scene.js";
+import { LOOKS, rgb } from "./bodies.js";
+import { COLOURS, Scene } from "./walk_scene.js";
 import { drawSmall } from "./walk_small.js";
 import { bvh, download, gif } from "./walk_saving.js";
 

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from mocap import plain
 from mocap.body import rotations
 from mocap.graphs.motion_graph import MotionGraph
+from mocap.widgets.embedding import joined
 from mocap.widgets.walk_figure import feet, figure
 
 HERE = Path(__file__).parent
@@ -25,7 +26,8 @@ Node = tuple[int, int]
 STEPS = {"metres": 0.0005, "parts": 1 / 2048, "turn": 2 * np.pi / 65536, "move": 0.0001}
 # What each uses comes before it.
 SETTINGS = ("WIDTH", "LAYER", "LOOK", "RESCUE", "SEAM")  # of the search in `mocap.plain`
-PARTS = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
+WALKING = ("search", "body", "line", "camera", "scene", "saving", "small", "hands", "page")
+PARTS = ("bodies", *(f"walk_{part}" for part in WALKING))
 
 
 def numbers(values: ArrayLike, order: int = 0) -> bytes:
@@ -109,11 +111,10 @@ def walk_page(graph: MotionGraph) -> str:
     about, data = pack_graph(graph)
     squeeze = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = base64.b64encode(squeeze.compress(data) + squeeze.flush()).decode()
-    scripts = [(HERE / f"walk_{part}.js").read_text("utf-8") for part in PARTS]
     filled = {
         "ABOUT": json.dumps(about, separators=(",", ":")).replace("</", "<\\/"),
         "GRAPH": packed,
-        "SCRIPT": re.sub(r"^import .*\n|^export ", "", "\n".join(scripts), flags=re.M),
+        "SCRIPT": joined(*(HERE / f"{part}.js" for part in PARTS)),
     }
     html = (HERE / "walk.html").read_text("utf-8")
     return re.sub("ABOUT|GRAPH|SCRIPT", lambda found: filled[found[0]], html)
