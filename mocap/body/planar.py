@@ -161,7 +161,7 @@ def lay_on(motion: Motion, target: Motion, frame: int = 0) -> PlanarTransform:
     >>> lay_on(here, there).apply_motion(here).root_positions.round(6)
     array([[2., 1., 3.]])
 
-    Notebook: 03-transforms
+    Notebook: 03b-angles
     """
     angle = float(heading(target.rotations[frame, 0]) - heading(motion.rotations[0, 0]))
     x, _, z = target.root_positions[frame] - PlanarTransform(angle, 0.0, 0.0).apply_points(

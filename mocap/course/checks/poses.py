@@ -56,27 +56,10 @@ def strikes(contact: Mask) -> Indices:
 # ---- Notebook 03
 
 
-Placed = tuple[float, float, float]
-
-
 def turned_shift(angle: float, x: float, z: float) -> tuple[float, float]:
     """Turn a place on the ground."""
     moved = PlanarTransform(angle, 0.0, 0.0).apply_points([x, 0, z])
     return float(moved[0]), float(moved[2])
-
-
-def draw_lay_on(rng: np.random.Generator) -> tuple[Placed, Placed]:
-    """Draw two placed bodies; now and then the same heading, the opposite one, or the same place."""
-    first, second = (tuple(rng.uniform(-3, 3, 3).tolist()) for _ in range(2))
-    special = [(first[0], *second[1:]), (first[0] + np.pi, *second[1:]), first]
-    return first, (*special, *[second] * 9)[int(rng.integers(12))]
-
-
-def lay_on(moving: Placed, target: Placed) -> Placed:
-    """Find the turn and the move that lay one placed body on another."""
-    angle = target[0] - moving[0]
-    x, z = turned_shift(angle, *moving[1:])
-    return angle, target[1] - x, target[2] - z
 
 
 # ---- Notebook 03b

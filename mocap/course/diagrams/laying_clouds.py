@@ -91,7 +91,7 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
     >>> from mocap import datasets
     >>> walk = datasets.sample("walk_straight")[:10]
     >>> laying_on(walk, PlanarTransform(1.0, 2.0, 0.0).apply_motion(walk), step=4).axes[0].get_title()
-    '4. shifted back: 0.0 cm RMS'
+    'shifted back: 0.0 cm RMS'
 
     Notebook: 03-transforms
     """
@@ -105,7 +105,7 @@ def laying_on(first: Motion, second: Motion, *, step: int = 4) -> Figure:
         second = (back @ turn @ centred[1]).apply_motion(second)
     figure = laid(first, second, lambda points: points)
     (ax,) = figure.axes
-    ax.set_title(f"{step}. {STEPS[step - 1]}: {ax.get_title()}", fontsize=11)
+    ax.set_title(f"{STEPS[step - 1]}: {ax.get_title()}", fontsize=11)
     return figure
 
 

@@ -23,11 +23,11 @@ from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
 from mocap.course.checks import all_checks
 from mocap.course.lab.adopting import slots
-from mocap.plain import Found, Ground, Lay
+from mocap.plain import Found, Lay
 
 NAMES = (
     *("climb", "window_sums", "inner_minima", "best_angle", "best_shift", "undo", "choice_points"),
-    *("successors_of", "tarjan", "component_to_keep", "lay_on", "edge_cost", "lengthen", "look_ahead"),
+    *("successors_of", "tarjan", "component_to_keep", "edge_cost", "lengthen", "look_ahead"),
     *("survivors", "product_of", "hamilton", "move_points", "quintic", "mix", "next_edge"),
 )
 """The exercises in the order in which a motion graph needs them."""
@@ -155,11 +155,6 @@ class Places:
         clips = [edge for edge in graph.edges(data="kind") if edge[2] == "clip"]
         played = [(start, end, end[1] - start[1]) for start, end, _ in clips]
         return graph.subgraph(self._by.component_to_keep(self.components(graph), played)).copy()
-
-    def lay_on(self, track: Ground, line: Ground) -> Lay:
-        """Lay the start of a track on the start of a line."""
-        placed = [(float(np.angle(way[-1] - way[0])), way[0].imag, way[0].real) for way in (track, line)]
-        return _to_lay(*self._by.lay_on(*placed))
 
 
 def squared_distances(a: Array, b: Array, window: int, window_sums: Callable[[Array, int], Array]) -> Array:
