@@ -521,7 +521,10 @@ def draw_parametric_graph() -> Figure:
     ways = [edge.look_up(turn) for turn in turns]
     boxes = np.degrees([(way.low[0], way.high[0]) for way in ways])
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 3.9), layout="constrained")
-    plotting.boxes_image(costs, (-75, 75), boxes, ax=left)
+    look = {"cmap": "cividis", "interpolation": "nearest", "aspect": "auto", "origin": "lower"}
+    image = left.imshow(costs.T, extent=(-75, 75, -75, 75), **look)
+    left.plot(np.degrees(turns), boxes, color=MARK, linewidth=2)
+    figure.colorbar(image, ax=left, label="cost (cm)", shrink=0.9)
     left.set(xlabel="turn of a stride (degrees)", ylabel="turn of the next one (degrees)")
     straight = edge.look_up(np.zeros(1))
     first, last = strides.ends

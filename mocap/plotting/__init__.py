@@ -30,7 +30,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "bodies": ["bones", "flat_bodies", "target_poses"],
         "stick_figures": ["StickFigure", "ground_axes", "laid_over", "to_picture"],
         "bodies_on_path": ["bodies_along"],
-        "grids": ["boxes_image", "distance_image", "walk_rows", "warp_image", "web_image"],
+        "grids": ["distance_image", "walk_rows", "warp_image", "web_image"],
         "ground_charts": [
             "asked_and_walked",
             "draw_group_plan",

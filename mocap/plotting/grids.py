@@ -13,7 +13,7 @@ from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
 from mocap.blending import Curve, Warp
-from mocap.plotting.style import MARK, PATH, QUIET
+from mocap.plotting.style import PATH, QUIET
 
 Grid = NDArray[np.floating[Any]]
 SEAMS = LinearSegmentedColormap.from_list("seams", ["#F2D3E4", "#CC79A7", "#5B1F45"])
@@ -125,34 +125,6 @@ def warp_image(grid: Grid, path: ArrayLike, *, curve: Curve | None = None, ax: A
         (line,) = ax.plot(curve(times), times, color="#FFFFFF", linewidth=2)
         line.set_path_effects([Stroke(linewidth=4, foreground="#000000"), Normal()])
     ax.set(xlabel="other clip (s)", ylabel="reference (s)")
-    return ax
-
-
-def boxes_image(
-    costs: ArrayLike, ends: tuple[float, float], boxes: ArrayLike, *, ax: Axes | None = None
-) -> Axes:
-    """Draw what it costs that a target follows a source, for all pairs, with each source's box.
-
-    Parameters
-    ----------
-    costs : shape (S, T), centimetres, of S sources and T targets evenly spaced between the ends.
-    ends : of sources and targets, such as degrees of turn.
-    boxes : shape (S, 2), the low and the high end of each source's box.
-    ax : axes; new ones by default.
-
-    Examples
-    --------
-    >>> ax = boxes_image(np.eye(3), (-60, 60), [[-60, -30], [-20, 20], [30, 60]])
-    >>> ax.lines[1].get_ydata().tolist()
-    [-30, 20, 60]
-
-    Notebook: 17-parametric-graphs
-    """
-    ax = ax or plt.figure(figsize=(5.4, 4.2), layout="constrained").add_subplot()
-    look: dict[str, Any] = {"cmap": "cividis", "interpolation": "nearest", "aspect": "auto"}
-    image = ax.imshow(np.transpose(costs), extent=(*ends, *ends), origin="lower", **look)
-    ax.plot(np.linspace(*ends, len(np.asarray(boxes))), boxes, color=MARK, linewidth=2)
-    ax.figure.colorbar(image, ax=ax, label="cost (cm)", shrink=0.9)
     return ax
 
 

@@ -116,7 +116,7 @@ def steered(
     >>> page, [len(seconds) for seconds in page.delays.values()]
     (Steered(matching), [2])
 
-    Notebook: 17-parametric-graphs
+    Notebook: 18-motion-matching
     """
     low, high = (float(speed) for speed in speeds)
     if not 0 <= low < high < math.inf:

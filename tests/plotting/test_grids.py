@@ -6,7 +6,7 @@ import pytest
 from mocap.blending import Curve
 from mocap.matching import distance_grid
 from mocap.methods.match_webs import minima_1d
-from mocap.plotting import boxes_image, distance_image, walk_rows, warp_image, web_image
+from mocap.plotting import distance_image, walk_rows, warp_image, web_image
 from tests.strategies import wave
 
 
@@ -42,13 +42,6 @@ def test_the_curve_lies_on_the_cells_of_the_path():
     assert (left, top) == pytest.approx((1.5 / 30, 1.5 / 30))
     assert (right, bottom) == pytest.approx(((grid.shape[1] + 1.5) / 30, (grid.shape[0] + 1.5) / 30))
     assert ax.images[0].get_array().max() == pytest.approx(100 * grid.max())
-
-
-def test_boxes_lie_over_the_costs_of_all_pairs():
-    costs = np.arange(12.0).reshape(3, 4)
-    ax = boxes_image(costs, (-60, 60), [[-60, -10], [-30, 30], [5, 60]])
-    np.testing.assert_array_equal(ax.images[0].get_array(), costs.T)
-    assert ax.lines[0].get_xydata().tolist() == [[-60, -60], [0, -30], [60, 5]]
 
 
 def test_rows_show_transitions_by_cost_and_nothing_after_the_end():
