@@ -74,21 +74,9 @@ def scattered_fit(basis: sparse.csr_array, data: Array, at: Indices) -> Array:
 
     Notebook: 14-levels
     """
-    return local_heights(basis[at], np.asarray(data, float))
-
-
-def local_heights(weights: sparse.csr_array, data: Array) -> Array:
-    """Give the control points c (K, n) of `scattered_fit`, from w (N, K) and u (N, n).
-
-    Examples
-    --------
-    >>> local_heights(sparse.csr_array([[0.0, 0.5, 0.5]]), np.array([[1.0]])).T
-    array([[0., 1., 1.]])
-
-    Notebook: 14-levels
-    """
+    weights = basis[at]
     squared = weights.power(2)
-    above = (squared * weights).T @ (data / squared.sum(axis=1)[:, None])
+    above = (squared * weights).T @ (np.asarray(data, float) / squared.sum(axis=1)[:, None])
     below = squared.sum(axis=0)[:, None]
     return np.asarray(np.divide(above, below, out=np.zeros_like(above), where=below > 0))
 

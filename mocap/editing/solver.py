@@ -66,7 +66,7 @@ def solve(base: Motion, pins: Pins, bases: Sequence[Basis], body: Body | None = 
 
     In the paper: [Gle98, objective; finer knots], [LS99, inverse kinematics].
 
-    Steps of Levenberg and Marquardt, `plain_step`, on the control points c of x = B c. The time grows with
+    Steps of Levenberg and Marquardt, `Curve.step`, on the control points c of x = B c. The time grows with
     the frames.
 
     Parameters

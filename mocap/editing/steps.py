@@ -1,13 +1,10 @@
-"""One step of the solver: how pinned joints move when a body turns a little, and the change that closes gaps.
-
-`plain_step` is the page to read; `Curve.step` finds the same from a banded system.
-"""
+"""One step of the solver: how joints move when a body turns a little, and the change that closes gaps."""
 
 from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg import block_diag, solveh_banded
+from scipy.linalg import solveh_banded
 
 from mocap._shared.arrays import Array
 from mocap.body.kinematics import forward_kinematics
@@ -107,38 +104,6 @@ def linear(base: Motion, body: Body, x: Array, pins: Pins) -> Linear:
     return Linear(np.concatenate(gaps, axis=1), np.concatenate(rows, axis=1))
 
 
-def plain_step(curve: "Curve", c: Array, now: Linear, damping: float) -> Array:
-    """Take one step of Levenberg and Marquardt: the next control points c (K, n).
-
-    With the slopes J by c, and the price P of c, the sum ‖c'‖²_P + w² ‖gap - J (c' - c)‖² + λ ‖c' - c‖²_P is
-    least where
-
-        (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (gap + J c) + λ P c.
-
-    `Curve.step` finds the same, without the zeros of these large matrices.
-
-    Parameters
-    ----------
-    curve : says how x = B c may run, and what it costs.
-    c : shape (K, n).
-    now : gaps and slopes at x = B c.
-    damping : λ.
-
-    Notebook: 14-levels
-    """
-    n = c.shape[1]
-    B, bends = (np.kron(matrix.toarray(), np.eye(n)) for matrix in (curve.basis, curve.bends))
-    M = np.diag(np.tile(curve.price, len(now.gap)))
-    bent = np.diag(np.tile(curve.price, curve.bends.shape[0]))
-    P = B.T @ M @ B + bends.T @ bent @ bends
-    J = curve.weight * block_diag(*now.slopes) @ B
-    gap = curve.weight * now.gap.ravel()
-    found = np.linalg.solve(
-        J.T @ J + (1 + damping) * P, J.T @ (gap + J @ c.ravel()) + damping * P @ c.ravel()
-    )
-    return np.asarray(found.reshape(-1, n))
-
-
 class Curve:
     """How a change x = B c may run over F frames, and the least squares of its control points c (K, n).
 
@@ -163,7 +128,15 @@ class Curve:
         self.bent = [pair.sum(axis=1) for pair in bent]
 
     def step(self, c: Array, now: Linear, damping: Array) -> Array:
-        """Find the next control points c (K, n), as `plain_step` does; λ is (1, 1), or (F, 1) by frame."""
+        """Take one step of Levenberg and Marquardt: the next control points c (K, n).
+
+        With the slopes J by c, and the price P of c, ‖c'‖²_P + w² ‖gap - J (c' - c)‖² + λ ‖c' - c‖²_P is
+        least where
+
+            (w² JᵀJ + (1 + λ) P) c' = w² Jᵀ (gap + J c) + λ P c;
+
+        λ is (1, 1), or (F, 1) by frame. These large matrices are banded.
+        """
         (knots, n), diagonal = c.shape, np.arange(c.shape[1])
         x, upward = self.basis @ c, self.weight**2 * np.swapaxes(now.slopes, 1, 2)
         matrix = upward @ now.slopes

@@ -85,12 +85,14 @@ def product(*quaternions: Array) -> Array:
 
 
 def draw_clip_gap(rng: np.random.Generator) -> tuple[Array, Array, Array]:
-    """Draw places (N, 3), and boxes of every kind around, above and below them: held, free, half open."""
+    """Draw places (N, 3), and boxes above, below and around them: held, free, half open, and wide."""
     places = rng.normal(size=(8, 3))
     low = places + rng.choice([-1.0, 1.0], (8, 3)) * rng.uniform(0.1, 1, (8, 3))
     high = low + rng.choice([0.0, 0.05], (8, 3))
-    kind = rng.integers(0, 4, (8, 3))
-    kind[0] = [1, 2, 3]  # each kind at least once
+    kind = rng.integers(0, 5, (8, 3))
+    kind[0], kind[1, 0] = [1, 2, 3], 4  # each kind at least once
+    high = np.where(kind == 4, np.maximum(low, places) + 0.2, high)
+    low = np.where(kind == 4, np.minimum(low, places - 0.2), low)
     low = np.where((kind == 1) | (kind == 3), -np.inf, low)
     high = np.where((kind == 2) | (kind == 3), np.inf, high)
     return places, low, high
@@ -103,10 +105,11 @@ def to_the_middle(p: Array, low: Array, high: Array) -> Array:
 
 
 def draw_position_slope(rng: np.random.Generator) -> tuple[Array, Array, Array, Array]:
-    """Draw a joint, an end below it, an axis in the joint's own frame, and how the joint is turned."""
-    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    """Draw F places of a joint and of an end below it, an axis in its own frame, and how it is turned."""
+    turn, _ = np.linalg.qr(rng.normal(size=(5, 3, 3)))
     axis = rng.normal(size=3)
-    return rng.normal(size=3), rng.normal(size=3), axis / np.linalg.norm(axis), turn * np.linalg.det(turn)
+    turn *= np.linalg.det(turn)[:, None, None]
+    return *rng.normal(size=(2, 5, 3)), axis / np.linalg.norm(axis), turn
 
 
 def draw_local_fit(rng: np.random.Generator) -> tuple[Array, Array]:
