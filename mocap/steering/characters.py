@@ -138,10 +138,6 @@ def steer(character: Character, headings: Sequence[float], speed: float = 1.1) -
     headings : shape (F,), radians; 0 is +z, π/2 is +x.
     speed : metres per second.
 
-    Raises
-    ------
-    MocapError : for no headings.
-
     Examples
     --------
     Two seconds ahead, then to the left:
@@ -156,8 +152,6 @@ def steer(character: Character, headings: Sequence[float], speed: float = 1.1) -
 
     Notebook: 08b-steering
     """
-    if not len(headings):
-        raise MocapError("To steer takes one heading per frame, got none.")
     poses, left = [], []
     for heading in headings:
         left.append(character.frames_left)
@@ -220,10 +214,6 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
     speed : metres per second.
     seed : of the random turns.
 
-    Raises
-    ------
-    MocapError : for less than one turn.
-
     Examples
     --------
     >>> from mocap import body, datasets, graphs
@@ -235,8 +225,6 @@ def measure_delay(character: Character, *, turns: int = 60, speed: float = 1.1, 
 
     Notebook: 08b-steering
     """
-    if turns < 1:
-        raise MocapError(f"A delay is measured on one turn or more, got turns={turns}.")
     random, fps = np.random.default_rng(seed), character.fps
     heading, back = 0.0, round(fps / 3)
     track, costs, delays, never = [0j] * back, [], [], 0

@@ -18,6 +18,7 @@ from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.graphs.motion_graph import Node
 
 SPACING = 0.02  # metres between the points of a route, at most
+LEAST = 0.3  # metres per second: standing counts as this, so that no walk stands for ever; γ in [KGP02, 5.1]
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,6 @@ class Wishes:
         [(0, "walk"), (6, "sneak"), (9, "")]; "" is any kind.
     times : (metres, seconds): when to pass a place on the path; between two places the pace is steady.
     start : the node to start at; by default the best one.
-    least : the least progress in metres per second; standing counts as this, so that no walk stands for ever.
     slide : the share of the distance to the point of the path abreast of the body by which s moves after each
         hop; 0 keeps s the arc length, as in [KGP02, Eq. 9].
     others : tracks of others on the ground, shape (T, 2) each, one row per frame; each stays at its end.
@@ -49,7 +49,6 @@ class Wishes:
     labels: Sequence[tuple[float, str]] = ()
     times: Sequence[tuple[float, float]] = ()
     start: Node | None = None
-    least: float = 0.3
     slide: float = 0.5
     others: Sequence[Array] = ()
     apart: float = 0.8
@@ -130,7 +129,7 @@ class Route:
     spacing : metres of path from point to point.
     label : shape (n,), the number of the label asked for, -1 for any.
     clock : shape (n,), the time to be there, seconds; nan for any time.
-    wishes : the wishes; `least` is γ in [KGP02, 5.1].
+    wishes : the wishes.
     others : shape (K, T), where K others are in each frame.
     own : where walks are laid on the path, how they turn by themselves.
     curvature : shape (n,), there, how the path bends at each point, radians per metre.
@@ -203,10 +202,6 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
             f"The path is {path.length:.0f} m long, more than these clips walk in an hour "
             f"({3600 * fastest:.0f} m, at {fastest:.2f} m/s): is it in metres?"
         )
-    if not (np.isfinite(wishes.least) and wishes.least > 0):
-        raise MocapError(f"The least progress must be above 0 m/s, got {wishes.least} m/s.")
-    if not 0 <= wishes.slide <= 1:
-        raise MocapError(f"The arc length slides by a share from 0 to 1, got {wishes.slide}.")
     for where, what in (*wishes.labels, *wishes.times):
         if not 0 <= where <= path.length:
             raise MocapError(f"'{what}' is asked for {where} m along a path of {path.length:.1f} m.")
@@ -224,7 +219,7 @@ def make_route(graph: CompiledGraph, path: GroundPath, wishes: Wishes) -> Route:
 
 def least_progress(graph: CompiledGraph, route: Route) -> Array:
     """Give the progress of each frame of all edges, shape (T,): its step, or γ where the step is less."""
-    return np.maximum(graph.tracks.step, route.wishes.least / graph.fps)
+    return np.maximum(graph.tracks.step, LEAST / graph.fps)
 
 
 def _clock(along: Array, wishes: Wishes) -> Array:

@@ -16,7 +16,7 @@ from mocap.body.planar import on_ground
 from mocap.errors import NoWalk
 from mocap.graphs.compiled_graph import AHEAD, CompiledGraph
 from mocap.steering.layered_search import LayeredSearch, States, standing
-from mocap.steering.path_objective import Route, Settings, least_progress
+from mocap.steering.path_objective import LEAST, Route, Settings, least_progress
 
 LAYER = 0.15  # metres of path
 IDLE = 0.1  # m²: the price of a frame of a bent walk that moves on by less than the least progress
@@ -135,7 +135,7 @@ class PathSearch(LayeredSearch):
         if own := route.own:  # radians that a frame is turned beyond what it turns itself
             turned = route.curvature[route.point(along)] * own.step[row] - own.turn[row]
             off = prices.bend * (turned * graph.fps) ** 2
-            off += IDLE * (own.step[row] < route.wishes.least / graph.fps)
+            off += IDLE * (own.step[row] < LEAST / graph.fps)
         else:
             off = _square(body - route.at(along))
             off += prices.stray * off**2

@@ -147,7 +147,7 @@ def walk_crowd(
 
     Raises
     ------
-    NoWalk, MocapError : as for `steering.follow_path`, and for a distance that is not above 0.
+    NoWalk, MocapError : as for `steering.follow_path`.
 
     Warns
     -----
@@ -166,8 +166,6 @@ def walk_crowd(
 
     Notebook: 08b-steering
     """
-    if not (np.isfinite(apart) and apart > 0):
-        raise MocapError(f"Characters must be kept more than 0 m apart, got {apart} m.")
     compiled, settings = compile_graph(graph), settings or Settings(width=100)
     walks = [follow_path(compiled, path, settings=settings) for path in paths]
     waits, tracks = [0.0] * len(walks), [walk.track for walk in walks]

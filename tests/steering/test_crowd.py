@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocap.body.ground_path import GroundPath
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapWarning
 from mocap.steering.path_following import follow_path
 from mocap.steering.path_objective import Settings
 from mocap.steering.waypoints_and_crowds import walk_crowd
@@ -65,8 +65,3 @@ def test_who_is_far_apart_walks_as_if_alone():
     ]
     assert crowd.waits == [0.0, 0.0]
     assert walk_crowd(GRAPH, paths[:1]).nearest.tolist() == [[np.inf]]
-
-
-def test_no_distance_is_told():
-    with pytest.raises(MocapError, match="more than 0 m apart"):
-        walk_crowd(GRAPH, CROSSING, apart=0.0)

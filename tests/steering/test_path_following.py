@@ -14,7 +14,7 @@ from mocap.steering import followed as following
 from mocap.steering import path_following
 from mocap.steering.followed import account
 from mocap.steering.path_following import follow_path
-from mocap.steering.path_objective import Settings, Wishes
+from mocap.steering.path_objective import LEAST, Settings, Wishes
 from mocap.steering.path_search import find_walk
 from tests.bundled import captured, sneaking, walking
 
@@ -62,7 +62,7 @@ def test_distance_at_equal_arc_length_is_that_of_eq_9():
     path = s_curve()
     followed = follow_path(GRAPH, path)
     steps = np.hypot(*np.diff(followed.track, axis=0).T)
-    s = np.cumsum(np.maximum(steps, Wishes.least / GRAPH.fps))
+    s = np.cumsum(np.maximum(steps, LEAST / GRAPH.fps))
     expected = np.hypot(*(followed.track[1:] - path.at(s)).T)
     # Where a blend begins, the root's step is measured in the clip, which is off by millimetres.
     assert followed.off_at_length[1:] == pytest.approx(expected, abs=0.06)
@@ -173,8 +173,6 @@ def test_a_corner_that_no_clip_can_turn_is_cut_and_told():
         (STRAIGHT, Wishes(labels=[(0, "fly")]), NoWalk, "bears the label 'fly'; there are: walk"),
         (STRAIGHT, Wishes(labels=[(99, "walk")]), MocapError, "'walk' is asked for 99 m along"),
         (STRAIGHT, Wishes(start=(0, 99999)), NoWalk, r"no node \(0, 99999\); the nearest"),
-        (STRAIGHT, Wishes(least=0.0), MocapError, "above 0 m/s"),
-        (STRAIGHT, Wishes(slide=1.5), MocapError, "a share from 0 to 1, got 1.5"),
         (STRAIGHT, Wishes(times=[(4, 3), (8, 2)]), MocapError, "must grow along the path"),
         (STRAIGHT, Wishes(times=[(4, 3), (4, 5)]), MocapError, "in one place"),
         (GroundPath([[0, 0], [0, 8000]]), Wishes(), MocapError, "in an hour .*: is it in metres?"),

@@ -7,7 +7,6 @@ from mocap.datasets.samples import SKELETON
 from mocap.steering.characters import Pose, measure_delay, steer
 from mocap.steering.graph_control import Controller
 from tests.bundled import walking
-from tests.refusals import refused
 
 GRAPH = walking()
 
@@ -73,8 +72,3 @@ def test_a_turn_that_never_comes_counts_as_eight_seconds():
     delay = measure_delay(Deaf(), turns=1)
     assert delay.mean == 8 and delay.never == 1
     assert measure_delay(Turner(), turns=3).never == 0
-
-
-def test_no_headings_and_no_turns_are_refused():
-    refused("one heading per frame, got none", steer, Controller(GRAPH), [])
-    refused("one turn or more, got turns=0", measure_delay, Turner(), turns=0)

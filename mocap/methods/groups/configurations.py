@@ -86,7 +86,7 @@ def compare(
 
     Raises
     ------
-    MocapError : for groups of different sizes, and numbers that are not finite.
+    MocapError : for groups of different sizes.
 
     Examples
     --------
@@ -104,8 +104,6 @@ def compare(
     if sizes[0] != sizes[1]:
         raise MocapError(f"Groups of {sizes[0]} and {sizes[1]} members cannot be matched.")
     parts = np.broadcast_arrays(*first, *second)
-    if not all(np.isfinite(part).all() for part in parts):
-        raise MocapError("A configuration has places and velocities that are not finite.")
     rows = [part.reshape(-1, sizes[0]) for part in parts]
     one, other = Configuration(*rows[:2]), Configuration(*rows[2:])
     tried = [_by_turns(one, other, start, rounds) for start in starts]
@@ -175,7 +173,7 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clust
 
     Raises
     ------
-    MocapError : for no frames, less than one node, a reach not above 0, and a group that stands.
+    MocapError : for a group that stands.
 
     Warns
     -----
@@ -190,10 +188,6 @@ def cluster(flock: Trajectories, *, nodes: int = 8, reach: float = 0.5) -> Clust
 
     Notebook: 19-group-graphs
     """
-    if not len(flock.places):
-        raise MocapError("There is no frame to take nodes from.")
-    if not (nodes >= 1 and reach > 0):
-        raise MocapError(f"Clusters take a node or more and a reach above 0; got {nodes}, {reach} m.")
     step = round(EVERY * RATE)
     seen, _, _ = seen_from_itself(Configuration(*(part[::step] for part in flock)))
     rows = list(map(Configuration, *seen))

@@ -53,12 +53,6 @@ class Flock(NamedTuple):
     accelerate: float = 1.5
     whim: float = 0.5
 
-    def check(self) -> None:
-        """Raise MocapError for figures below 0 or not finite, and for no space."""
-        for name, figure in self._asdict().items():
-            if not 0 <= figure < np.inf or (name == "space" and not figure):
-                raise MocapError(f"The figures of a flock are finite and not below 0; {name} is {figure}.")
-
 
 class Configuration(NamedTuple):
     """Where N members are and how they move: `places` and `velocities`, (..., N) complex each.
@@ -183,8 +177,7 @@ def simulate(
 
     Raises
     ------
-    MocapError : for fewer than two members, a time that is not above 0, a corridor in which nobody can walk,
-        and figures below 0.
+    MocapError : for fewer than two members, and a corridor in which nobody can walk.
 
     Examples
     --------
@@ -199,12 +192,9 @@ def simulate(
     """
     if not (2 <= count < np.inf and count == int(count)):
         raise MocapError(f"A group has two members or more, got {count}.")
-    if not 0.5 / RATE < seconds < np.inf:
-        raise MocapError(f"A flock is simulated for more than 0 seconds, got {seconds}.")
     if not corridor > 2 * BODY + APART:
         raise MocapError(f"A corridor is wider than {2 * BODY + APART:g} m, got {corridor} m.")
     count, rules, random = int(count), rules or Flock(), np.random.default_rng(seed)
-    rules.check()
     start = random.normal(0, 1.5, (2, count))
     now = Trajectories(start[0] + 1j * start[1], np.ones(count, complex))
     wishes, heading, bend, frames = whims((count,), rules, random), 0.0, 0.0, []

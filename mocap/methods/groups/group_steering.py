@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocap._shared.arrays import Array, Points
-from mocap.errors import MocapError, NoWalk
+from mocap.errors import NoWalk
 from mocap.methods.groups.flocking import (
     APART,
     RATE,
@@ -57,9 +57,6 @@ def steer_group(
     """
     scene.check(complex(start.places.mean()))
     rules = rules or Flock()
-    rules.check()
-    if not 0 < limit < np.inf:  # in a pocket it would steer for ever
-        raise MocapError(f"A flock is steered for more than 0 seconds and not for ever, got {limit}.")
     wishes, frames = whims(start.places.shape, rules, np.random.default_rng(seed)), [start]
     goal = 0
     while goal < len(scene.points) and len(frames) <= limit * RATE:

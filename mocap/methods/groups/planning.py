@@ -179,8 +179,6 @@ def plan_group(
     """
     begin = start or Placed(0)
     _check_start(graph, begin, scene)
-    if not 0 <= weight < np.inf:
-        raise MocapError(f"A plan weighs what is left by 0 or more, got {weight}.")
     obstacles, points = Obstacles(scene), len(scene.points)
     exits = {node: Exits.of(graph, node) for node in {clip.start for clip in graph.clips}}
     waiting, count, farthest = [(0.0, 0, _State(begin, 0, 0, 0.0, ()))], 0, 0
@@ -214,7 +212,6 @@ def _why(graph: GroupGraph, scene: Scene, most: int) -> str:
 
 def _check_start(graph: GroupGraph, start: Placed, scene: Scene) -> None:
     """Raise MocapError for a start or a scene that makes no sense, NoWalk for a member too near to a disc."""
-    graph.check(start)
     scene.check(start.move)
     places = start.turn * graph.nodes[start.node].places + start.move
     for centre, radius in scene.discs:

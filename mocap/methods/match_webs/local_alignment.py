@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mocap._shared.arrays import Indices, Mask
-from mocap.errors import MocapError
 from mocap.matching.time_paths import PathSums, origins, path_sums, trace
 
 
@@ -35,10 +34,6 @@ def minima_1d(grid: ArrayLike) -> Mask:
     -------
     Shape (n, m), booleans.
 
-    Raises
-    ------
-    MocapError : for a grid that is not of two dimensions or holds NaN.
-
     Examples
     --------
     >>> minima_1d([[0, 2, 3, 4], [2, 1, 2, 3], [3, 2, 2, 4]]).astype(int)
@@ -48,7 +43,7 @@ def minima_1d(grid: ArrayLike) -> Mask:
 
     Notebook: 16-match-webs
     """
-    cells = _checked(grid)
+    cells = np.asarray(grid)
     marks = np.zeros(cells.shape, bool)
     for values, found in ((cells, marks), (cells.T, marks.T)):
         low = np.ones(values.shape, bool)
@@ -56,13 +51,6 @@ def minima_1d(grid: ArrayLike) -> Mask:
         low[:, :-1] &= values[:, :-1] <= values[:, 1:]
         found |= low
     return np.asarray(marks & (cells < np.inf))
-
-
-def _checked(grid: ArrayLike) -> NDArray[Any]:
-    cells = np.asarray(grid)
-    if cells.ndim != 2 or np.isnan(cells).any():
-        raise MocapError(f"A grid has two dimensions and no NaN, got shape {cells.shape}.")
-    return cells
 
 
 def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator[Indices]:
@@ -83,10 +71,6 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
     Paths of cells, shape (N, 2), lowest sum first; of those that begin in one cell, only the best. They may
     run side by side: `apart` keeps those that say something new.
 
-    Raises
-    ------
-    MocapError : for a grid that is not of two dimensions or holds NaN.
-
     Examples
     --------
     >>> costs = np.ones((4, 5))
@@ -96,7 +80,7 @@ def local_paths(costs: ArrayLike, *, slope: int = 2, least: int = 1) -> Iterator
 
     Notebook: 16-match-webs
     """
-    grid = _checked(costs)
+    grid = np.asarray(costs)
     sums = path_sums(grid, np.ones(grid.shape, bool), slope=slope)
     for end in _ends(sums, least):
         yield trace(sums, divmod(int(end), grid.shape[1]))

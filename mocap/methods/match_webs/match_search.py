@@ -83,8 +83,7 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
 
     Raises
     ------
-    MocapError : for a clip that is not there, a query beyond its clip or shorter than the web's paths, a
-        `below` that is not above 0 or over the web's own, lengths that leave out the query's, and no steps.
+    MocapError : for a query beyond its clip or shorter than the web's paths, and a `below` over the web's.
 
     Warns
     -----
@@ -104,10 +103,11 @@ def search(  # noqa: PLR0913 (a web, a query, and its limits)
     """
     query = _query(web, clip, frames)
     limit = web.below if below is None else below
-    _check(web, limit, lengths, steps)
+    if limit > web.below:
+        held, asked = 100 * web.below, 100 * limit
+        raise MocapError(f"This web holds paths up to {held:g} cm: build another for {asked:g} cm.")
     shortest, longest = (share * (query.stop - query.start) for share in lengths)
-    found, asking, left_out = [query], [0], 0
-    places = np.array([query[1:3]])
+    found, asking, left_out, places = [query], [0], 0, np.array([query[1:3]])
     while asking and (steps is None or found[-1].generation < steps):
         moving = [number for number in asking if _spread(web, found[number]) >= still]
         left_out += len(asking) - len(moving)
@@ -143,8 +143,6 @@ def _is_new(match: Match, places: Indices) -> bool:
 
 def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
     """Count the query, as all matches while they are searched for, in the numbering of all frames."""
-    if not 0 <= clip < len(web.clips):
-        raise MocapError(f"This web has clips 0 to {len(web.clips) - 1}, got {clip}.")
     motion = web.clips[clip]
     first, last = frames.start or 0, len(motion) if frames.stop is None else frames.stop
     if not 0 <= first < last <= len(motion):
@@ -156,18 +154,6 @@ def _query(web: MatchWeb, clip: int, frames: slice) -> Match:
         raise MocapError(f"A query must last {LEAST / web.rate:g} s or more, as paths do; {given}.")
     rows = np.arange(start, stop, dtype=float)
     return Match(clip, start, stop, 0.0, -1, 0, rows, rows)
-
-
-def _check(web: MatchWeb, below: float, lengths: tuple[float, float], steps: int | None) -> None:
-    if not below > 0:
-        raise MocapError(f"A match needs a distance above 0 m, got below={below}.")
-    if below > web.below:
-        held, asked = f"{100 * web.below:g} cm", f"{100 * below:g} cm"
-        raise MocapError(f"This web holds paths up to {held}: build another for {asked}.")
-    if not 0 < lengths[0] <= 1 <= lengths[1]:
-        raise MocapError(f"Lengths are shares from up to 1 to 1 or more of the query's, got {lengths}.")
-    if steps is not None and steps < 1:
-        raise MocapError(f"A search takes 1 step or more, got {steps}.")
 
 
 def _spread(web: MatchWeb, found: Match) -> float:

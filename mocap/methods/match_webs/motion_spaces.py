@@ -63,7 +63,7 @@ def random_weights(
 
     Raises
     ------
-    MocapError : for fewer than d + 1 examples, values that are not finite, and a spread below 0.
+    MocapError : for fewer than d + 1 examples, and values that are not finite.
 
     Examples
     --------
@@ -79,8 +79,6 @@ def random_weights(
     examples, numbers = measured.shape
     if examples < numbers + 1:
         raise MocapError(f"A measure of {numbers} numbers needs {numbers + 1} examples, got {examples}.")
-    if not 0 <= spread < np.inf:
-        raise MocapError(f"Weights spread by 0 or more beyond 0 and 1, got {spread}.")
     rng = np.random.default_rng(seed)
     width = measured.std(axis=0)
     scaled = measured / np.where(width > 0, width, 1)
@@ -160,8 +158,7 @@ def sample_space(
 
     Raises
     ------
-    MocapError : for fewer than d + 1 examples, a measure that gives NaN, or now more and now fewer numbers,
-        a count below 0, and a scale that is not d numbers above 0.
+    MocapError : for fewer than d + 1 examples, and a measure that gives NaN, or more numbers now than then.
 
     Examples
     --------
@@ -174,16 +171,12 @@ def sample_space(
 
     Notebook: 16-match-webs
     """
-    if count < 0:
-        raise MocapError(f"Take 0 samples or more, got {count}.")
     alone = np.eye(len(examples.clips if isinstance(examples, Registration) else examples))
     known = _measured(examples, measure, alone)
     weights = random_weights(known, count)
     values = np.concatenate([known, _measured(examples, measure, weights, known.shape[1])])
     width = np.ptp(values, axis=0) / 2
     given = np.where(width > 0, width, 1.0) if scale is None else np.asarray(scale, float)
-    if given.shape != width.shape or not (np.isfinite(given).all() and (given > 0).all()):
-        raise MocapError(f"A scale is {len(width)} numbers above 0, got {shortened(str(given.tolist()))}.")
     return MotionSpace(examples, np.concatenate([alone, weights]), values, given, parameters)
 
 

@@ -14,11 +14,12 @@ from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, MocapWarning
-from mocap.matching.distance_grids import check_window
 from mocap.matching.lower_bound import Weights
 from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.grid_pieces import LEAST, find_paths
+
+WINDOW = 5  # frames in a window, at the web's rate
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,7 +30,7 @@ class MatchWeb:
     ----------
     clips : the motions, each at its own rate.
     starts : shape (C + 1,): where each clip's frames begin, at the web's rate, in the numbering of all.
-    window, below : how it was built, as for `build_web`.
+    below : how it was built, as for `build_web`.
     cells : shape (N, 2): pairs of frames in the numbering of all, path after path, the earlier frame first.
         A pair is the middle of two windows.
     costs : shape (N,), the RMS distance of each pair of windows, metres.
@@ -38,7 +39,6 @@ class MatchWeb:
 
     clips: tuple[Motion, ...]
     starts: Indices
-    window: int
     below: float
     cells: NDArray[np.integer[Any]]
     costs: NDArray[np.floating[Any]]
@@ -74,9 +74,7 @@ class MatchWeb:
         return np.asarray((np.asarray(number) - self.starts[clip]) * (self.clips[clip].fps / self.rate))
 
 
-def build_web(
-    clips: Sequence[Motion], *, below: float = 0.12, window: int = 5, progress: Progress = iter
-) -> MatchWeb:
+def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progress = iter) -> MatchWeb:
     """Find all long paths of frames that are alike in a set of clips [KG04, match web].
 
     The distance is that of `find_transitions`. How paths are found, see `local_paths`: a cell that is no
@@ -88,7 +86,6 @@ def build_web(
     ----------
     clips : motions of one skeleton and one frame rate.
     below : the mean RMS distance that a path may have, metres. A search can ask for less, but not for more.
-    window : frames in a window, two or more, at the web's rate of 30 Hz.
     progress : wraps the pairs of pieces as they are worked through, to show a bar.
 
     Returns
@@ -98,8 +95,7 @@ def build_web(
 
     Raises
     ------
-    SkeletonMismatch, MocapError : for no clips, different skeletons or rates, clips that are all too short,
-        a `below` that is not above 0, and a window of fewer than two frames.
+    SkeletonMismatch, MocapError : for no clips, other skeletons or rates, and clips that are all too short.
 
     Warns
     -----
@@ -117,20 +113,15 @@ def build_web(
     if not clips:
         raise MocapError("A web needs clips, got none.")
     clips = require_alike(clips)
-    if not (np.isfinite(below) and below > 0):
-        raise MocapError(f"A web needs a distance above 0 m, got below={below}.")
-    if window == 1:
-        raise MocapError("A web needs windows of two frames or more: they keep clips apart, got window=1.")
     low = [resample(clip, MatchWeb.rate) for clip in clips]
-    check_window(window, max(map(len, low)), "the longest clip")
-    long = _long_enough(low, window + LEAST)
-    weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, window))
+    long = _long_enough(low, WINDOW + LEAST)
+    weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, WINDOW))
     ready = join_clouds([clip for clip, use in zip(low, long, strict=True) if use], weights, 0, np.float32)
     starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
     paths = find_paths(ready, np.unique(starts), weights.taper, below, progress)
     cells = np.concatenate([np.empty((0, 3)), *paths])
     offsets = np.cumsum([0, *map(len, paths)])
-    return MatchWeb(clips, starts, window, float(below), cells[:, :2] + window // 2, cells[:, 2], offsets)
+    return MatchWeb(clips, starts, float(below), cells[:, :2] + WINDOW // 2, cells[:, 2], offsets)
 
 
 def _long_enough(clips: Sequence[Motion], frames: int) -> Mask:

@@ -40,7 +40,7 @@ def weights_for(
 
     Raises
     ------
-    MocapError : for a wish that is not d finite numbers, a k below 1 and another method.
+    MocapError : for a wish that is not d finite numbers, and another method.
 
     Examples
     --------
@@ -77,8 +77,6 @@ def shares_for(
     if asked.ndim != 2 or asked.shape[1] != numbers or not np.isfinite(asked).all():
         got = shortened(str((asked[0] if len(asked) == 1 else asked).tolist()))
         raise MocapError(f"This space is asked for {numbers} finite numbers, got {got}.")
-    if k is not None and k < 1:
-        raise MocapError(f"Take 1 nearest sample or more, got {k}.")
     if method not in ("convex", "neighbours"):
         raise MocapError(f'A method is "convex" or "neighbours", got {method!r}.')
     count = min(k or (CONVEX if method == "convex" else numbers + 2), samples)

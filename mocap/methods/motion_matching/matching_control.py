@@ -8,7 +8,7 @@ from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.body.skeleton import Skeleton
-from mocap.errors import MocapError, MocapWarning
+from mocap.errors import MocapWarning
 from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, PoseDatabase
 from mocap.methods.motion_matching.springs import fade
@@ -30,10 +30,6 @@ class MotionMatcher:
     wants : how it searches, and how a cut fades.
     start : the frame it starts with; by default the first usable one.
 
-    Raises
-    ------
-    MocapError : for wants that make no sense, and a start that is no frame.
-
     Examples
     --------
     >>> from mocap import body, datasets
@@ -48,10 +44,7 @@ class MotionMatcher:
 
     def __init__(self, database: PoseDatabase, wants: Wants = USUAL, *, start: int | None = None) -> None:
         self.database, self.wants = database, wants
-        self.wants.check()
         self.frame = int(np.argmax(database.usable)) if start is None else start
-        if not 0 <= self.frame < len(database):
-            raise MocapError(f"The start is a frame from 0 to {len(database) - 1}, got {start}.")
         self._searches: dict[str, FrameSearch] = {}  # by label
         turn = complex(np.exp(-1j * database.heading[self.frame]))
         self.place = PlanarTransform.from_complex(turn, -turn * complex(database.ground[self.frame]))

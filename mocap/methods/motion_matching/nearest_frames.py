@@ -34,13 +34,6 @@ class Wants(NamedTuple):
     bonus: float = 0.0
     near: float = 0.2
 
-    def check(self) -> None:
-        """Raise MocapError for what makes no sense."""
-        for name, value in self._asdict().items():
-            least = "above 0" if name in ("every", "halflife", "fade") else "from 0 on"
-            if not (0 <= value < np.inf and (value or least == "from 0 on")):
-                raise MocapError(f"'{name}' is a number {least}, got {value}.")
-
 
 class FrameSearch:
     """A search among the usable frames of a database, by one product.

@@ -51,7 +51,6 @@ def build_parametric(
     edges: Sequence[tuple[str, str]] | None = None,
     *,
     good: float,
-    bad: float | None = None,
     sampling: Sampling | None = None,
 ) -> ParametricGraph:
     """Build a parametric motion graph [HG07, graph]: an author names the spaces, and which may follow which.
@@ -61,8 +60,7 @@ def build_parametric(
     spaces : by name, of one skeleton and rate.
     edges : pairs of names. By default all pairs that can be had: where some source has no good target, there
         is no edge.
-    good, bad : T_GOOD and T_BAD, metres, as for `build_edge`.
-    sampling : as for `build_edge`.
+    good, sampling : as for `build_edge`.
 
     Returns
     -------
@@ -71,7 +69,7 @@ def build_parametric(
     Raises
     ------
     NoWalk : for a named edge that cannot be had, with what would help, and a node that nothing leaves.
-    MocapError : as `build_edge`, for no spaces and unknown names.
+    MocapError : as `build_edge`, and for unknown names.
 
     Examples
     --------
@@ -88,8 +86,6 @@ def build_parametric(
 
     Notebook: 17-parametric-graphs
     """
-    if not spaces:
-        raise MocapError("A parametric graph has one space or more, got none.")
     asked = [(a, b) for a in spaces for b in spaces] if edges is None else list(edges)
     if unknown := [name for pair in asked for name in pair if name not in spaces]:
         raise MocapError(f"There is no space '{unknown[0]}'; there are: {', '.join(spaces)}.")
@@ -99,7 +95,7 @@ def build_parametric(
     graph.add_nodes_from((name, {"space": space}) for name, space in spaces.items())
     for name, other in asked:
         try:
-            edge = build_edge(spaces[name], spaces[other], good=good, bad=bad, sampling=sampling)
+            edge = build_edge(spaces[name], spaces[other], good=good, sampling=sampling)
             graph.add_edge(name, other, edge=edge)
         except NoWalk as error:
             if edges is not None:

@@ -18,8 +18,7 @@ from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
 from mocap.methods.parametric_graphs.examples import FINE, MARGIN, Examples, mixed_way, on_one_clock, tabled
 
-STRIDE, LEFT_STEP, RIGHT_STEP = "lrl", "lr", "rl"
-WIDEST = 0.5  # of a stride: the most that a margin may be
+STRIDE = "lrl"
 STEP_LASTS = (0.23, 1.0)  # seconds, from strike to strike; others are no steps of a walk or run
 STRAIGHT, GOES = np.radians(20), 0.3  # a stride that turns by less, and goes faster, m/s
 
@@ -41,7 +40,7 @@ def cut_strides(
     by : "strikes" makes time even between strikes [ours]; "curves" registers all examples with the one of
         median turn by registration curves [KG03], as the paper does.
     label : keep examples of which every frame has this label; "" for all.
-    margin : of a stride, kept at both ends for the windows of transitions; quick strides need 0.5, the most.
+    margin : of a stride, kept at both ends for the windows of transitions; quick strides need 0.5.
 
     Returns
     -------
@@ -58,12 +57,8 @@ def cut_strides(
     >>> len(strides) > 10, np.degrees(np.abs(strides.values[:, 0])).max().round() < 90
     (True, np.True_)
     """
-    if feet not in (STRIDE, LEFT_STEP, RIGHT_STEP):
-        raise MocapError(f"Examples run over the strikes 'lrl', 'lr' or 'rl', got '{feet}'.")
     if by not in ("strikes", "curves"):
         raise MocapError(f"Examples are put on one clock by 'strikes' or by 'curves', got '{by}'.")
-    if not 0 < margin <= WIDEST:
-        raise MocapError(f"A margin is above 0 and at most {WIDEST} of a stride, got {margin}.")
     if not clips:
         raise MocapError("Examples are cut out of one clip or more, got none.")
     clips = require_alike(clips)

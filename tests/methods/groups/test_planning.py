@@ -173,26 +173,6 @@ def test_what_a_refusal_advises_helps():
     assert plan_group(graph(3), gap(1.6, 16 + 0j), most=300)
 
 
-@pytest.mark.parametrize("limit", [np.nan, 0.0, np.inf])
-def test_steering_takes_some_time_and_ends(limit):
-    with pytest.raises(MocapError, match=f"more than 0 seconds and not for ever, got {limit}"):
-        steer_group(graph().nodes[0], Scene((9 + 0j,)), limit=limit)
-
-
-@pytest.mark.parametrize(
-    ("wrong", "sentence"),
-    [
-        ({"start": Placed(99)}, "There is no node 99"),
-        ({"start": Placed(0, 1 + 0j, complex(np.nan))}, "starts at a finite place"),
-        ({"start": Placed(0, 2j)}, "a turn of length 1"),
-        ({"weight": np.nan}, "weighs what is left by 0 or more, got nan"),
-    ],
-)
-def test_starts_and_weights_that_make_no_sense_are_refused(wrong, sentence):
-    with pytest.raises(MocapError, match=sentence):
-        plan_group(graph(), Scene((9 + 0j,)), **wrong)
-
-
 def test_a_member_that_starts_on_a_disc_is_named():
     spot = complex(graph().nodes[0].places[3])
     with pytest.raises(NoWalk, match=r"Member 4 starts -0.20 m from the rim .*: 0.3 m is the least"):

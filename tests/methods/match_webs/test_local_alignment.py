@@ -8,7 +8,6 @@ from hypothesis.extra.numpy import array_shapes, arrays
 
 from mocap.matching import local_minima
 from mocap.methods.match_webs import apart, local_paths, minima_1d
-from tests.refusals import refused
 
 
 def path_sum(costs, path):
@@ -113,9 +112,3 @@ def test_a_valley_has_a_floor_of_minima_in_one_dimension_and_few_in_two():
 
 def test_infinite_cells_are_no_minima():
     assert not minima_1d(np.full((3, 3), np.inf)).any()
-
-
-@pytest.mark.parametrize("grid", [np.zeros(4), np.array([[0, np.nan]])])
-def test_hostile_grids_are_refused(grid):
-    for use in (minima_1d, lambda costs: next(local_paths(costs))):
-        refused("A grid has two dimensions and no NaN, got shape", use, grid)

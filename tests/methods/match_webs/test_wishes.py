@@ -109,7 +109,6 @@ def test_asked_without_an_example_the_others_turn_as_it_does():
     [
         ([1.0], {}, r"This space is asked for 2 finite numbers, got \[1.0\]"),
         ([1.0, np.nan], {}, "asked for 2 finite numbers"),
-        ([1.0, 2.0], {"k": 0}, "Take 1 nearest sample or more, got 0"),
         ([1.0, 2.0], {"method": "rbf"}, 'A method is "convex" or "neighbours", got \'rbf\''),
     ],
 )

@@ -75,8 +75,6 @@ def test_at_the_end_of_a_clip_it_must_cut():
 def test_what_makes_no_sense_is_refused():
     for heading, speed in ((np.nan, 1.0), (0.0, np.inf), (0.0, -1.0)):
         refused("A command is a finite heading", MotionMatcher(walks()).step, heading, speed)
-    for start in (-1, 10**6):
-        refused("The start is a frame from 0 to", MotionMatcher, walks(), start=start)
 
 
 def test_a_speed_that_no_clip_has_is_warned_of_once():

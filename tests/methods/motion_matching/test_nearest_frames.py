@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocap.methods.motion_matching.nearest_frames import FrameSearch, Wants, foresee
+from mocap.methods.motion_matching.nearest_frames import FrameSearch, foresee
 from mocap.methods.motion_matching.pose_database import FUTURE, features
 from tests.methods.motion_matching.matched import walks
 from tests.refusals import refused
@@ -55,15 +55,6 @@ def test_told_to_stop_it_keeps_facing_as_it_does():
     table = walks()
     ahead = foresee(table, 100, 0j, 0.27) * table.scale[FUTURE] + table.mean[FUTURE]
     assert np.hypot(*ahead[4:6]) < 0.4 and ahead[11] > 0.9
-
-
-def test_wants_that_make_no_sense_are_refused():
-    for name in ("every", "halflife", "fade"):
-        for value in (0.0, -1.0, np.nan):
-            refused(f"'{name}' is a number above 0", Wants(**{name: value}).check)
-    for name in ("future", "bonus", "near"):
-        Wants(**{name: 0.0}).check()
-        refused(f"'{name}' is a number from 0 on, got -1", Wants(**{name: -1}).check)
 
 
 def test_a_search_among_no_frames_is_refused():

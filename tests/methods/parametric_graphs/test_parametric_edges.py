@@ -87,18 +87,9 @@ def test_good_targets_with_bad_ones_all_around_leave_a_box_of_one():
     assert (tight.low <= tight.high + 1e-9).all()
 
 
-@pytest.mark.parametrize(
-    ("settings", "sentence"),
-    [
-        ({"good": 0.0}, "0 < T_GOOD <= T_BAD"),
-        ({"good": 0.04, "bad": 0.03}, "0 < T_GOOD <= T_BAD"),
-        ({"good": np.nan}, "0 < T_GOOD <= T_BAD"),
-        ({"good": 0.04, "sampling": Sampling(sources=2)}, "An edge takes 3 sources and a target or more"),
-        ({"good": 0.04, "sampling": Sampling(targets=0)}, "An edge takes 3 sources"),
-    ],
-)
-def test_what_makes_no_sense_is_refused(settings, sentence):
-    refused(sentence, build_edge, space(), space(), **settings)
+@pytest.mark.parametrize("settings", [{"good": 0.04, "bad": 0.03}, {"good": np.nan}])
+def test_what_makes_no_sense_is_refused(settings):
+    refused("T_GOOD <= T_BAD", build_edge, space(), space(), **settings)
 
 
 def test_spaces_of_other_rates_marks_and_bodies_are_refused():
@@ -111,4 +102,3 @@ def test_spaces_of_other_rates_marks_and_bodies_are_refused():
     ):
         with pytest.raises(error, match=sentence or None):
             build_edge(source, replace(source, examples=replace(own, **changed)), good=0.04)
-    refused("one good target or more", shrink_box, np.empty((0, 1)), np.empty((0, 1)), np.ones(1))

@@ -34,7 +34,6 @@ def test_the_report_names_each_edge_and_its_boxes():
 @pytest.mark.parametrize(
     ("spaces", "edges", "good", "error", "sentence"),
     [
-        ([], None, 0.03, MocapError, "one space or more, got none"),
         (["walk"], [("walk", "run")], 0.03, MocapError, "There is no space 'run'; there are: walk"),
         (
             ["walk"],

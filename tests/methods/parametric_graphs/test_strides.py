@@ -114,9 +114,8 @@ def test_feet_that_are_not_marked_are_marked():
     [
         (lambda c: cut_strides([]), "one clip or more, got none"),
         (lambda c: cut_strides([sample("walk_curve_1"), c]), "resample"),
-        (lambda c: cut_strides([c], feet="ll"), "'lrl', 'lr' or 'rl', got 'll'"),
+        (lambda c: cut_strides([c], feet="ll"), "No example of 'll' in 1 clips"),
         (lambda c: cut_strides([c], by="ear"), "by 'strikes' or by 'curves', got 'ear'"),
-        (lambda c: cut_strides([c], margin=0.7), "above 0 and at most 0.5 of a stride, got 0.7"),
         (lambda c: cut_strides([c], label="jog"), "No example of 'lrl' labelled 'jog' in 1 clips; 0 were"),
         (lambda c: cut_strides([c[:40]]), r"No example of 'lrl' in 1 clips; \d were left out"),
         (
