@@ -18,7 +18,7 @@ from mocap._shared.arrays import Array
 from mocap.body.ground_path import GroundPath
 from mocap.body.motion import Motion, require_alike
 from mocap.course.lab.adopting import whose
-from mocap.course.lab.places import NAMES, Tools, packages, pages_of
+from mocap.course.lab.places import NAMES, Tools, pages_of
 from mocap.course.lab.places import tools as tools
 from mocap.errors import MocapError, MocapWarning, NoWalk
 from mocap.graphs import build, prune
@@ -135,11 +135,16 @@ def follow_own(graph: OwnGraph, path: ArrayLike, by: Tools) -> OwnWalk:
     line = GroundPath(np.asarray(path, float))
     search = _search(graph, line, by)
     _place_exercises(search, graph, line, by)
-    *_, (_, best) = search.layers()
-    if best is None:
-        raise NoWalk(f"No walk of this graph reaches the end of a path of {line.length:.1f} m.")
-    edges, walk = [], best
-    while walk.before:
+    return _best(search)
+
+
+def _best(search: Any) -> OwnWalk:  # noqa: ANN401 (of copied pages)
+    """Run a search, and trace its best walk back to its start."""
+    *_, (_, walk) = search.layers()
+    if walk is None:
+        raise NoWalk(f"No walk of this graph reaches the end of a path of {search.end:.1f} m.")
+    edges = []
+    while walk.before and walk.edge:
         edges.append(walk.edge)
         walk = walk.before
     return OwnWalk(edges[::-1], walk.turn, walk.move)
@@ -176,7 +181,7 @@ def steer_own(
     return OwnWalk(edges)
 
 
-def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools) -> Motion:
+def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools | None) -> Motion:
     """Play a walk, shape (F, ...): copy stretches of clip, blend transitions [KGP02, Eqs. 5 and 6].
 
     Notebook: 08b-steering
@@ -187,21 +192,18 @@ def play_own(graph: OwnGraph, walk: OwnWalk, by: Tools) -> Motion:
 
 @dataclass(frozen=True)
 class Beside(Picture):
-    """A picture of two walks along one path: one's own, and that of `steering.follow_path`.
+    """A picture of three walks along one path: one's own, that of `mocap.plain`, and the package's.
 
     Parameters
     ----------
     motion : the walk of the functions in their places; `mocap.save` writes it as BVH.
-    apart : the largest distance of its root from that of the same steps by the package's functions, metres;
-        infinite where these do not play the same number of frames.
     """
 
     motion: Motion
-    apart: float
 
 
 def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
-    """Walk along a path by the functions of the exercises, and by the package: windows of 10 frames, 5 cm.
+    """Walk along a path by the functions of the exercises, by `mocap.plain`, and by the package.
 
     Parameters
     ----------
@@ -210,7 +212,7 @@ def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
 
     Returns
     -------
-    Both walks, which the last line of a cell shows; whose functions ran, and how near the walks are, is
+    The walks, which the last line of a cell shows; whose functions ran, and how near the walks are, is
     printed.
 
     Raises
@@ -220,30 +222,41 @@ def walk_beside(clips: Sequence[Motion], path: ArrayLike) -> Beside:
     Notebook: 08-path-synthesis
     """
     line, ours = GroundPath(np.asarray(path, float)), tools()
-    motion, at = _own_walk(clips, line, ours)
-    mine = any(slot.yours for slot in vars(ours).values())
-    same = _own_walk(clips, line, packages())[0] if mine else motion
-    apart = np.inf
-    if len(motion) == len(same):
-        apart = float(np.linalg.norm(motion.root_positions - same.root_positions, axis=1).max())
+    own = build_own(clips, WINDOW, BELOW, ours)
+    walk = follow_own(own, line.points, ours)
+    pages = pages_of(None, WINDOW, BELOW)
+    plainly = pages.prune(pages.cut_and_join(clips, pages.find_transitions(clips)))
+    best = _best(pages.Search(clips, plainly, pages.points_along(line.points)))
     graph = prune(build(clips, window=WINDOW, threshold=BELOW))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MocapWarning)  # what is printed says how far it is off
         followed = follow_path(graph, line)
-    theirs = followed.motion(), [seam.frame for seam in seams(graph, followed.walk)]
+    walks = {
+        "my walk": (play_own(own, walk, ours), _seams(own.graph, walk)),
+        "plain's walk": (
+            play_own(OwnGraph(tuple(clips), WINDOW, plainly), best, None),
+            _seams(plainly, best),
+        ),
+        "the package's walk": (followed.motion(), [seam.frame for seam in seams(graph, followed.walk)]),
+    }
     print(f"{whose(*NAMES[:-1])}.")
     figures = []
-    for name, (walked, marks) in {"my walk": (motion, at), "the package's walk": theirs}.items():
+    for name, (walked, marks) in walks.items():
         ground = walked.root_positions[:, None, [0, 2]]
         off = 100 * np.linalg.norm(ground - line.resampled(0.02).points, axis=-1).min(axis=1)
         print(f"{name + ':':19} {len(walked) / walked.fps:.1f} s long, {len(marks)} seams, ", end="")
         print(f"{off.mean():.1f} cm off on average, {off.max():.0f} cm at worst")
         figures.append(bodies_along(walked, seams=marks, path=line.points))
         figures[-1].suptitle(name, fontsize=11)
-    far = f"{100 * apart:.1f} cm" if np.isfinite(apart) else "another walk"
-    print(f"My walk, and the same steps by the package's functions alone: {far} apart at most.")
-    alt = "Bodies walk along a black path, above in my walk, below in the package's."
-    return Beside(stack(figures, alt).picture, alt, motion, apart)
+    alt = "Bodies walk along a black path: in my walk, in plain's, and in the package's."
+    return Beside(stack(figures, alt).picture, alt, walks["my walk"][0])
+
+
+def _seams(graph: nx.MultiDiGraph, walk: OwnWalk) -> list[int]:
+    """Give the frames at which a walk's transitions begin."""
+    edges = [graph.edges[edge] for edge in walk.edges]
+    starts = np.cumsum([0, *(edge["frames"] for edge in edges)])
+    return [int(at) for at, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
 
 
 def main(file: str) -> int:
@@ -260,13 +273,3 @@ def main(file: str) -> int:
     pages.follow = follow
     print(f"{whose(*NAMES[:-1])}.")
     return int(pages.main())
-
-
-def _own_walk(clips: Sequence[Motion], path: GroundPath, by: Tools) -> tuple[Motion, list[int]]:
-    """Walk by some functions; give the motion, and the frames of its seams."""
-    graph = build_own(clips, WINDOW, BELOW, by)
-    walk = follow_own(graph, path.points, by)
-    edges = [graph.graph.edges[edge] for edge in walk.edges]
-    starts = np.cumsum([0, *(edge["frames"] for edge in edges)])
-    at = [int(start) for start, edge in zip(starts, edges, strict=False) if edge["kind"] == "transition"]
-    return play_own(graph, walk, by), at

@@ -54,8 +54,8 @@ def packages() -> Tools:
     return Tools(**{name: all_checks()[name].truth for name in NAMES})
 
 
-def pages_of(by: Tools, window: int, below: float = 0.0) -> Any:  # noqa: ANN401 (a module)
-    """Copy `mocap.plain`, with functions of exercises in the places of its own.
+def pages_of(by: Tools | None, window: int, below: float = 0.0) -> Any:  # noqa: ANN401 (a module)
+    """Copy `mocap.plain`, with functions of exercises in the places of its own, if any are given.
 
     Notebook: 04-blending
     """
@@ -63,9 +63,10 @@ def pages_of(by: Tools, window: int, below: float = 0.0) -> Any:  # noqa: ANN401
     assert spec is not None and spec.loader is not None
     pages = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(pages)
-    places = Places(by, window)
-    own = {name: getattr(places, name) for name in vars(Places) if name[0] != "_"}
-    vars(pages).update(own, K=window, BELOW=below)
+    if by:
+        places = Places(by, window)
+        vars(pages).update({name: getattr(places, name) for name in vars(Places) if name[0] != "_"})
+    vars(pages).update(K=window, BELOW=below)
     return pages
 
 
