@@ -8,6 +8,7 @@ import html
 import io
 import json
 import pkgutil
+import re
 import tempfile
 from importlib.util import find_spec
 from pathlib import Path
@@ -39,6 +40,8 @@ LIVE = {  # what needs no Python, by its class
     "mocap-blind": "the blind test can be taken",
     "moving": "the sliders show recorded positions",
 }
+SCRIPT = re.compile(r'<script type="module">.*?</script>', re.DOTALL)
+AGAIN = re.compile(r"<p><small>Run this cell[^<]*</small></p>")
 RUN = (
     "To run it live: <code>pip install 'motion-graphs[notebooks]'</code>, in a checkout "
     "<code>pip install '.[notebooks]'</code>, then <code>mocap lab</code>."
@@ -137,15 +140,23 @@ def recorded_of(file: Path, notebook: Any) -> dict[str, Any]:  # noqa: ANN401
 
 def fill_in(notebook: Any, recorded: dict[str, Any]) -> None:  # noqa: ANN401
     """Put recordings in the place of experiments, and a sentence above what stays still."""
-    opening = f'<div class="{STILL}">'
+    opening, scripts = f'<div class="{STILL}">', set[str]()
     for cell in notebook.cells:
+        address = next(
+            (f"{tag.replace(':', '-')}" for tag in cell.metadata.get("tags", ()) if ":" in tag), ""
+        )
         for output in cell.get("outputs", ()):
-            data = output.get("data", {})
-            if opening in data.get("text/html", ""):
-                note = NOTE.format(STILL_NOTES["mocap-player" in data["text/html"]])
-                data["text/html"] = data["text/html"].replace(opening, opening + note, 1)
+            page = output.get("data", {}).get("text/html", "")
+            for script in SCRIPT.findall(page):  # it starts all that there is on the page, so one is enough
+                page = page if script not in scripts else page.replace(script, "")
+                scripts.add(script)
+            if opening in page:
+                note = NOTE.format(STILL_NOTES["mocap-player" in page])
+                page = AGAIN.sub("", page).replace(opening, f'<div class="{STILL}" id="{address}">{note}', 1)
                 if cell.source in recorded:
-                    data["text/html"] = _moving(recorded[cell.source])
+                    page = f'<div id="{address}">{_moving(recorded[cell.source])}</div>'
+            if page:
+                output["data"]["text/html"] = page
 
 
 def _moving(recorded: dict[str, Any]) -> str:

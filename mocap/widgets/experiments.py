@@ -205,7 +205,7 @@ class Experiment:
         return Picture(row, self.alt)._repr_mimebundle_()
 
     def _ipython_display_(self) -> None:
-        display_live(self.still(), self.box)
+        display_live(self.still(), self.box, "slider")
 
 
 class Naming(Live):

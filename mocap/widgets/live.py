@@ -53,19 +53,21 @@ def widget(kind: type[Live]) -> type[Any]:
     return type(kind.__name__, bases, {"_esm": joined(*kind.scripts), **parts})
 
 
-def display_live(still: tuple[dict[str, str], dict[str, Any]], widget: Any) -> None:  # noqa: ANN401
+def display_live(still: tuple[dict[str, str], dict[str, Any]], widget: Any, what: str = "controls") -> None:  # noqa: ANN401
     """Show a picture and a widget as two outputs of a cell, of which the reader sees one.
 
     Parameters
     ----------
     still : the data and the metadata of a picture, as `Picture` and `Player` give them.
     widget : the widget.
+    what : the reader gets by running the cell again.
     """
     from IPython.display import display
 
     data, metadata = still
     widget.add_class(LIVE)
-    page = f'<div class="{STILL}">{data["text/html"]}</div>{_RULE}'  # where the rule finds the picture
+    again = f"<p><small>Run this cell to get its {what}.</small></p>"
+    page = f'<div class="{STILL}">{data["text/html"]}{again}</div>{_RULE}'  # where the rule finds the picture
     display(data | {"text/html": page}, metadata=metadata, raw=True)  # type: ignore[no-untyped-call]
     live = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
     display({WIDGET: live}, raw=True)  # type: ignore[no-untyped-call]

@@ -52,6 +52,23 @@ def test_the_search_answers(page, site):
     wait_until(lambda: "search.html" not in page.url)
 
 
+def test_the_search_knows_words_near_what_was_typed(page, site):
+    page.goto(f"{site.parent.as_uri()}/search.html?q=footskete")
+    wait_until(lambda: page.locator("#search-results .note").count())
+    assert page.locator("#search-results .note").inner_text().startswith("No page has “footskete”. These")
+    assert "(footskat…)" in page.locator("#search-results").inner_text()
+
+
+def test_code_can_be_hidden_and_stays_hidden(page, site):
+    page.goto(site.as_uri())
+    page.get_by_role("button", name="hide code").click()
+    assert page.locator(".cell_input").first.is_hidden()
+    page.reload()
+    assert page.locator(".cell_input").first.is_hidden()
+    page.get_by_role("button", name="show code").click()
+    assert page.locator(".cell_input").first.is_visible()
+
+
 def test_the_menu_folds_on_a_phone(page, site):
     page.set_viewport_size({"width": 390, "height": 844})
     page.goto(site.as_uri())
@@ -81,11 +98,15 @@ explore(draw, alt="A white picture, as wide as the slider says.", steps_taken=(0
 
 def test_a_recorded_experiment_moves(page, tmp_path):
     still = new_output("display_data", {"text/html": '<div class="mocap-still"></div>'})
-    cells = [new_markdown_cell("# One"), new_code_cell(EXPERIMENT, outputs=[still])]
+    cells = [
+        new_markdown_cell("# One"),
+        new_code_cell(EXPERIMENT, outputs=[still], metadata={"tags": ["experiment:steps"]}),
+    ]
     nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
     for name in PAGES:
         (tmp_path / f"{name}.md").write_text("# A page\n")
-    page.goto(build_site(tmp_path, tmp_path / "out", moving=True).as_uri())
+    address = build_site(tmp_path, tmp_path / "out", moving=True).as_uri()
+    page.goto(address)
     slider, picture = page.get_by_label("steps taken"), page.locator(".moving img")
     wide = picture.bounding_box()["width"]
     slider.press("ArrowRight")
@@ -95,6 +116,10 @@ def test_a_recorded_experiment_moves(page, tmp_path):
     slider.press("Home")
     wait_until(lambda: picture.bounding_box()["width"] < wide)
     assert slider.bounding_box()["height"] >= 44
+    assert page.url == f"{address}#experiment-steps=0"
+    page.goto("about:blank")
+    page.goto(f"{address}#experiment-steps=3")
+    wait_until(lambda: page.locator(".moving output").inner_text() == "3")
 
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
