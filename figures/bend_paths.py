@@ -28,7 +28,8 @@ from mocap.editing import LIMIT
 from mocap.editing.path_editing import plants_kept
 from mocap.graphs import CompiledGraph
 from mocap.plotting import ASKED, CURVES, PATH
-from mocap.steering import BentWalk, Followed, follow_path
+from mocap.steering import Followed, follow_path
+from mocap.steering.bent_following import BentWalk
 from mocap.synthesis import to_motion
 
 OWN = ("walk_circle", "walk_curve_1", "walk_curve_2", "walk_straight", "stop_and_go")

@@ -39,7 +39,8 @@ from mocap.steering import (
     measure_delay,
     walk_crowd,
 )
-from mocap.synthesis import Budget, with_plants
+from mocap.synthesis import Budget
+from mocap.synthesis.walk_to_motion import with_plants
 
 FOLDER = Path(__file__).parent
 FREE = Settings(seam=0, match=0, width=200, tries=1)

@@ -51,6 +51,7 @@ from mocap import (
 from mocap.body import SHAPES, arcs, joint_positions, planar, rotations, spline, velocities
 from mocap.body.euler import from_euler
 from mocap.course import diagrams
+from mocap.course.diagrams.eight_nodes import EIGHT_PLACES
 from mocap.course.seam_trials import choose_matches, passage, walk_costs
 from mocap.matching import lower_bound
 from mocap.methods import groups, match_webs, motion_matching, parametric_graphs
@@ -241,7 +242,7 @@ def draw_most_pairs() -> Figure:
 
 def draw_pruning() -> Figure:
     """Draw the graph of eight nodes before and after pruning."""
-    graph, places = graphs.notes_example(), diagrams.EIGHT_PLACES
+    graph, places = graphs.notes_example(), EIGHT_PLACES
     figure = plt.figure(figsize=(8, 3.4), layout="constrained")
     before, after = figure.subplots(1, 2)
     plotting.node_link(graph, places=places, ax=before)

@@ -14,7 +14,8 @@ from asked_lines import LINES, random_line
 from mocap._shared.arrays import Array
 from mocap.body import GroundPath, Motion, on_ground
 from mocap.editing import LIMIT
-from mocap.steering import BentWalk, follow_path
+from mocap.steering import follow_path
+from mocap.steering.bent_following import BentWalk
 from tasks import WALKS, Case, graph
 from tasks._measures import jolting, skate
 from tasks.following import ALONG

@@ -33,7 +33,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "choice_points": ["merge_choice_points"],
         "graph_summary": ["summary", "write_graphml"],
         "storage": ["find_clips", "load", "read", "save"],
-        "edge_tables": ["edge_table", "frame_table", "require_node"],
+        "edge_tables": ["frame_table"],
         "compiled_graph": ["CompiledGraph", "compile_graph"],
         "homework_graph": [
             "Segment",

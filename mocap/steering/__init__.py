@@ -43,7 +43,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "layered_search": ["States", "select"],
         "followed": ["Followed"],
         "path_following": ["follow_as_2002", "follow_path"],
-        "bent_following": ["BentWalk"],
         "waypoints_and_crowds": ["Waypoint", "through_waypoints", "walk_crowd"],
         "in_betweens": ["in_between"],
         "moments": ["Moment"],

@@ -20,7 +20,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "walk_to_motion": ["seams", "sources", "to_motion", "with_plants"],
+        "walk_to_motion": ["seams", "sources", "to_motion"],
         "random_walks": ["dump", "random_walk"],
         "bounded_search": [
             "Budget",

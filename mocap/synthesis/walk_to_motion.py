@@ -188,7 +188,7 @@ def places(edges: EdgeTable, place: PlanarTransform = IDENTITY) -> PlanarTransfo
 
     Parameters
     ----------
-    edges : the walk's edges, from `graphs.edge_table`.
+    edges : the walk's edges, from `graphs.edge_tables.edge_table`.
     place : where the walk starts.
 
     Examples

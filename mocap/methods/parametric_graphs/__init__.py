@@ -34,7 +34,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "examples": ["Examples", "cut_actions", "mixed_way"],
         "strides": ["cut_strides"],
         "stride_spaces": ["bell_weights", "make_space", "measure_mixes"],
-        "made_motions": ["make_motion", "optimal_transitions"],
+        "made_motions": ["optimal_transitions"],
         "parametric_edges": ["Sampling", "build_edge", "shrink_box", "smallest_good"],
         "parametric_motion_graphs": ["ParametricGraph", "build_parametric"],
         "parametric_control": ["ParametricController"],

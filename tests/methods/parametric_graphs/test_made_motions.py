@@ -9,8 +9,14 @@ from mocap.body.motion import resample
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import distance_grid
 from mocap.methods.match_webs import weights_for
-from mocap.methods.parametric_graphs import make_motion
-from mocap.methods.parametric_graphs.made_motions import HALF, SPAN, WINDOW, near_end, optimal_transitions
+from mocap.methods.parametric_graphs.made_motions import (
+    HALF,
+    SPAN,
+    WINDOW,
+    make_motion,
+    near_end,
+    optimal_transitions,
+)
 from mocap.methods.parametric_graphs.stride_spaces import make_space, measure_mixes
 from mocap.methods.parametric_graphs.strides import cut_strides
 from tests.methods.parametric_graphs.built import space
