@@ -28,7 +28,7 @@ from mocap.plain import Found, Lay
 NAMES = (
     *("climb", "window_sums", "inner_minima", "best_angle", "best_shift", "undo", "choice_points"),
     *("successors_of", "tarjan", "component_to_keep", "edge_cost", "lengthen", "look_ahead"),
-    *("survivors", "product_of", "hamilton", "move_points", "quintic", "mix", "next_edge"),
+    *("survivors", "product_of", "hamilton", "quintic", "mix", "next_edge"),
 )
 """The exercises in the order in which a motion graph needs them."""
 
@@ -108,12 +108,12 @@ class Places:
         return _to_lay(*self._by.product_of(np.array([_to_angle(*first), _to_angle(*then)])))
 
     def lay(self, clip: Motion, frames: slice, turn: complex, move: complex) -> tuple[Array, Array]:
-        """Move the root, and turn it about the vertical."""
-        angle, x, z = _to_angle(turn, move)
-        about_y = np.array([np.cos(angle / 2), 0, np.sin(angle / 2), 0])
-        turns = clip.rotations[frames].copy()
-        turns[:, 0] = [self._by.hamilton(about_y, turn) for turn in turns[:, 0]]
-        return np.asarray(self._by.move_points(clip.root_positions[frames], angle, x, z)), turns
+        """Turn the root about the vertical by a product."""
+        roots, turns = plain.lay(clip, frames, turn, move)
+        half = np.angle(turn) / 2
+        about_y = np.array([np.cos(half), 0, np.sin(half), 0])
+        turns[:, 0] = [self._by.hamilton(about_y, own) for own in clip.rotations[frames, 0]]
+        return roots, turns
 
     def cubic_weights(self) -> Array:
         """Weigh by the polynomial of degree five."""

@@ -64,22 +64,22 @@ def test_the_check_judges_what_was_written_when_its_cell_runs_again(capsys):
 
 
 def test_a_function_uses_the_other_exercises_by_their_names(fresh):
-    move_points = lab.mine(written("move_points"))
+    best_shift = lab.mine(written("best_shift"))
     source = """
-def best_shift(points, others, angle):
-    apart = (points - move_points(others, angle, 0.0, 0.0)).mean(axis=0)
-    return apart[0], apart[2]
+def undo(angle, x, z):
+    there = np.array([[x, 0.0, z]])
+    return -angle, *best_shift(0 * there, there, -angle)
 """
-    lab.mine(written("best_shift", source, {"move_points": move_points}))
+    lab.mine(written("undo", source, {"best_shift": best_shift}))
     new_kernel()
-    assert lab.mine("best_shift").yours
-    arguments = checks.best_shift.draw(np.random.default_rng(1))
-    move_points = lab.mine("move_points")
-    called, right = [], move_points.own
-    move_points.own = lambda *given: called.append(given) or right(*given)
-    lab.mine("best_shift")(*arguments)
+    assert lab.mine("undo").yours
+    arguments = checks.undo.draw(np.random.default_rng(1))
+    best_shift = lab.mine("best_shift")
+    called, right = [], best_shift.own
+    best_shift.own = lambda *given: called.append(given) or right(*given)
+    lab.mine("undo")(*arguments)
     assert called
-    assert "move_points" not in fresh.read_text().partition("# ----")[0]
+    assert "best_shift" not in fresh.read_text().partition("# ----")[0]
 
 
 def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
