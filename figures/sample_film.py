@@ -1,7 +1,7 @@
-"""The film of the sample project: `python figures/sample_film.py` writes `notebooks/teaching/sample-film.mp4`.
+"""The film of the sample project: `python figures/sample_film.py` writes `teaching/sample-film.mp4`.
 
-Two scenes: one walk through one graph along a drawn line, which sneaks past a dog; and a jog that is bent onto
-a line. Beside the film stands a strip of its pictures, for pages that play no films.
+Two scenes: one walk through one graph along a drawn line, which sneaks past a dog; and a jog that is bent
+onto a line. Beside the film stands a strip of its pictures, for pages that play no films.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
-from mocap import Motion, MocapWarning, body, datasets, editing, graphs, resample
+from mocap import MocapWarning, Motion, body, datasets, editing, graphs, resample
 from mocap.graphs import compile_graph
 from mocap.plotting.stick_figures import StickFigure, filled, ground_axes, look_at, rims, to_picture
 from mocap.steering import Wishes, follow_path
@@ -33,7 +33,11 @@ HOME = [[0, 0], [0, 8], [2, 14], [6, 19], [6, 25], [2, 31], [-2, 33]]  # x and z
 RUN = [[-2, 33], [-8, 36], [-12, 31], [-8, 26], [-14, 22], [-10, 16], [-15, 12], [-12, 6]]
 SAID = {  # from these seconds on
     "home": {0: "It is late. The dog sleeps.", 6: "Quiet now.", 23: "Past it. Home is not far.", 40: ""},
-    "run": {0: "No: the last bus!", 4: "No clip runs round these bends:", 9: "the jog is bent onto the line."},
+    "run": {
+        0: "No: the last bus!",
+        4: "No clip runs round these bends:",
+        9: "the jog is bent onto the line.",
+    },
 }
 THANKS = "Clips: walk, sneak and jog,\ngenerated, bundled with mocap,\nBSD-3-Clause"
 
@@ -80,8 +84,7 @@ def pictures(motion: Motion, line: body.GroundPath, said: dict[int, str]) -> Ite
 def film() -> Iterator[NDArray[np.uint8]]:
     """Give all pictures, and three seconds of thanks."""
     for name, (motion, line) in scenes().items():
-        for picture in pictures(motion, line, SAID[name]):
-            yield picture
+        yield from pictures(motion, line, SAID[name])
     figure = Figure(figsize=(4.8, 4.8))
     canvas = FigureCanvasAgg(figure)
     figure.text(0.5, 0.5, THANKS, ha="center", va="center", fontsize=15)

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import importlib.util
+import shutil
 import subprocess
 import sys
 import tempfile
+from importlib.util import find_spec
 from pathlib import Path
 
 from mocap._shared.atomic import write_text
-from mocap.course.notebooks import read
+from mocap.course.notebooks import library, notebooks_in, read
 from mocap.errors import MocapError, missing, shortened
 
-WIDGETS = ["anywidget", "ipywidgets"]  # that the browser's Python does not have
-
-
-def found() -> bool:
-    """Check whether JupyterLite is installed."""
-    return importlib.util.find_spec("jupyterlite_pyodide_kernel") is not None
+INSTALL = "%pip install -q motion-graphs anywidget ipywidgets"  # which the browser's Python does not have
 
 
 def build_lite(notebooks: Path, out: Path) -> Path:
@@ -38,7 +34,7 @@ def build_lite(notebooks: Path, out: Path) -> Path:
     ------
     MocapError : if JupyterLite is not installed, there is no checkout, or the build fails.
     """
-    if not found():
+    if not find_spec("jupyterlite_pyodide_kernel"):
         raise missing("The site needs JupyterLite, which is not installed", "lite")
     checkout = notebooks.parent
     if not (checkout / "pyproject.toml").exists():
@@ -46,25 +42,17 @@ def build_lite(notebooks: Path, out: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder:
         wheels, contents = Path(folder, "wheels"), Path(folder, "contents")
         _call(folder, ["pip", "wheel", "--no-deps", "--wheel-dir", wheels, checkout.resolve()])
-        _copy(notebooks, contents)
+        contents.mkdir()
+        for file in notebooks_in(notebooks):
+            notebook = read(file)
+            notebook.cells.insert(1, library().v4.new_code_cell(INSTALL, id="install"))
+            write_text(contents / file.name, library().writes(notebook))
+        for page in notebooks.glob("[A-Z]*.md"):
+            shutil.copy(page, contents)
         (wheel,) = wheels.glob("*.whl")
         parts: list[str | Path] = ["--contents", contents, "--piplite-wheels", wheel]
         _call(folder, ["jupyterlite_core", "build", *parts, "--output-dir", out.resolve()])
     return out / "lab" / "index.html"
-
-
-def _copy(notebooks: Path, contents: Path) -> None:
-    """Copy the notebooks, each with a first cell that installs the package."""
-    import nbformat
-
-    contents.mkdir()
-    install = f"%pip install -q motion-graphs {' '.join(WIDGETS)}"
-    for file in sorted(notebooks.glob("*.ipynb")):
-        notebook = read(file)
-        notebook.cells.insert(1, nbformat.v4.new_code_cell(install, id="install"))
-        write_text(contents / file.name, nbformat.writes(notebook))
-    for page in notebooks.glob("[A-Z]*.md"):
-        write_text(contents / page.name, page.read_text("utf-8"))
 
 
 def _call(folder: str, command: list[str | Path]) -> None:

@@ -42,7 +42,7 @@ def course_folder(copy: Path) -> Path:
         return folder
     try:
         copy.mkdir(parents=True, exist_ok=True)
-        for file in sorted(folder.iterdir()):
+        for file in filter(Path.is_file, sorted(folder.iterdir())):
             if not (copy / file.name).exists():
                 shutil.copy(file, copy)
     except OSError as error:

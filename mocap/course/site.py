@@ -9,6 +9,7 @@ import io
 import json
 import pkgutil
 import re
+import shutil
 import tempfile
 from importlib.util import find_spec
 from pathlib import Path
@@ -27,7 +28,7 @@ from mocap.widgets.walking_page import walk_page
 HERE = Path(__file__).parent
 MOVING = HERE / "moving.js"
 STILL = "mocap-still"  # the class of a picture that stands in for a widget
-PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT")  # beside the notebooks
+PRIVATE = shutil.ignore_patterns("answers*", ".*")  # of the teachers' folder
 NOTE = '<p class="note">{}</p>'
 STILL_NOTES = {
     False: "A still picture: its controls move where the notebook runs.",
@@ -107,9 +108,11 @@ def build_site(notebooks: Path, out: Path, progress: Progress = iter, *, moving:
             _unpack_pictures(notebook, Path(folder), file.stem)
             notebook.cells.insert(1, nbformat.v4.new_markdown_cell(_note(notebook), id="note"))
             write_text(Path(folder, file.name), nbformat.writes(notebook))
-        for page in PAGES:
-            write_text(Path(folder, f"{page}.md"), (notebooks / f"{page}.md").read_text("utf-8"))
-        index = INDEX.format("\n".join([*titles, *PAGES]), "\n".join(_write_reference(Path(folder))))
+        for page in notebooks.glob("*.md"):
+            shutil.copy(page, folder)
+        shutil.copytree(notebooks / "teaching", Path(folder, "teaching"), ignore=PRIVATE)
+        titles += [page.relative_to(folder).as_posix() for page in sorted(Path(folder).rglob("*.md"))]
+        index = INDEX.format("\n".join(titles), "\n".join(_write_reference(Path(folder))))
         write_text(Path(folder, "index.md"), index)
         _run_sphinx(Path(folder), out)
     clips = [resample(sample(name), 30) for name in SAMPLES]

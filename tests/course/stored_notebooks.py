@@ -9,7 +9,7 @@ from tests.loops import for_each
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "notebooks"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
-PAGES = sorted(path.name for path in FOLDER.glob("*.md"))
+PAGES = sorted(path.relative_to(FOLDER).as_posix() for path in FOLDER.rglob("*.md"))
 every_notebook = for_each(NAMES)
 
 

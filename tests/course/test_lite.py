@@ -22,9 +22,11 @@ def test_jupyterlite_is_built_with_the_package_inside(tmp_path, capsys):
 
 
 def test_without_jupyterlite_or_a_checkout_one_sentence_says_what_to_do(tmp_path, monkeypatch):
-    with pytest.raises(MocapError, match="checkout" if lite.found() else "\\.\\[lite\\]"):
+    with pytest.raises(
+        MocapError, match="checkout" if lite.find_spec("jupyterlite_pyodide_kernel") else "\\.\\[lite\\]"
+    ):
         lite.build_lite(tmp_path / "notebooks", tmp_path / "out")
-    monkeypatch.setattr(lite, "found", lambda: False)
+    monkeypatch.setattr(lite, "find_spec", lambda name: None)
     with pytest.raises(MocapError, match="\\.\\[lite\\]"):
         lite.build_lite(tmp_path, tmp_path / "out")
 

@@ -116,7 +116,7 @@ def test_links_within_the_course_resolve(page):
         if re.match(r"https?:|attachment:", link):
             continue
         file, _, anchor = link.partition("#")
-        target = FOLDER / file if file else FOLDER / page
+        target = (FOLDER / page).parent / file if file else FOLDER / page
         assert target.exists(), link
         if anchor and target.suffix == ".md":
             assert anchor in map(slug, re.findall(r"^#+ (.*)", target.read_text("utf-8"), re.MULTILINE)), link

@@ -2,6 +2,7 @@
 
 import json
 import pkgutil
+import posixpath
 import re
 import shutil
 from html.parser import HTMLParser
@@ -14,11 +15,12 @@ from mocap import course
 from mocap.cli.main import main
 from mocap.course.formulas import to_mathml
 from mocap.course.opening import stored
-from mocap.course.site import PAGES, STILL, build_site
+from mocap.course.site import STILL, build_site
 from mocap.widgets import live
 from tests.refusals import refused
 
 NAMES = ("00-quickstart", "09b-blend-window")
+PAGES = ("GLOSSARY", "FORMULAS", "PAPERS", "PROJECT", "README")
 ROOMS = ("mocap.body", "mocap.blending")  # of the reference; the sweep makes all
 
 
@@ -27,6 +29,7 @@ def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("notebooks")
     for name in (*(f"{name}.ipynb" for name in NAMES), *(f"{name}.md" for name in PAGES)):
         shutil.copy(stored() / name, folder)
+    shutil.copytree(stored() / "teaching", folder / "teaching")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(course, "stored", lambda: folder)
         rooms = [pkgutil.ModuleInfo(None, room, ispkg=True) for room in ROOMS]
@@ -54,17 +57,22 @@ class Page(HTMLParser):
 
 
 def pages(site):
-    return {path.name: Page(path.read_text("utf-8")) for path in site.glob("[0-9A-Z]*.html")}
+    found = (*site.glob("[0-9A-Z]*.html"), *site.glob("teaching/*.html"))
+    return {path.relative_to(site).as_posix(): Page(path.read_text("utf-8")) for path in found}
 
 
 def dead(found):
     """Follow all links between the pages, and list those that lead to no page or to no place in it."""
     for name, page in found.items():
         for link in page.links:
-            file, _, anchor = link.partition("#")
-            if re.match("(https?|mailto):|reference/|(index|search|genindex|py-modindex).html", link):
+            if re.match(
+                r"(https?|mailto):|[./]*(reference/|_downloads/|(index|search|genindex|py-modindex)\.html)",
+                link,
+            ):
                 continue
-            if (file or name) not in found or (anchor and anchor not in found[file or name].ids):
+            file, _, anchor = link.partition("#")
+            file = posixpath.normpath(posixpath.join(posixpath.dirname(name), file)) if file else name
+            if file not in found or (anchor and anchor not in found[file].ids):
                 yield f"{name}: {link}"
 
 
@@ -76,6 +84,8 @@ def test_every_notebook_is_a_page_beside_the_reference_and_links_lead_somewhere(
     reference = (site / "reference" / "mocap.blending.html").read_text("utf-8")
     assert 'id="mocap.blending.join"' in reference and "Examples" in reference
     assert "L. Kovar, M. Gleicher" in reference
+    assert {"teaching/exam.html", "teaching/syllabus.html", "teaching/sample-report.html"} <= set(found)
+    assert not [path for path in site.rglob("*") if "answers" in path.name]  # they are the teachers'
 
 
 def test_the_menu_lists_the_pages_and_the_sections_of_its_own(site):
@@ -136,9 +146,7 @@ def test_names_of_functions_stand_apart_in_formulas(formula, expected):
 
 def write_course(folder, *cells):
     """Write a course of one notebook, and its pages."""
-    folder.mkdir()
-    for name in PAGES:
-        (folder / f"{name}.md").write_text(f"# {name.title()}\n")
+    (folder / "teaching").mkdir(parents=True)
     made = new_notebook(cells=list(cells))
     nbformat.write(made, folder / "00-one.ipynb")
     return folder
