@@ -8,10 +8,10 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from mocap.course.opening import stored
-from mocap.course.site import PAGES, build_site
+from mocap.course.site import build_site
 from tests.browser.conftest import wait_until, watched_page
 from tests.conftest import SWEEP
-from tests.course.test_site import dead, pages
+from tests.course.test_site import PAGES, dead, pages
 
 
 @pytest.fixture(scope="module")
@@ -21,6 +21,7 @@ def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("notebooks")
     for name in ("00-quickstart.ipynb", "04b-feet.ipynb", *(f"{page}.md" for page in PAGES)):
         shutil.copy(stored() / name, folder)
+    shutil.copytree(stored() / "teaching", folder / "teaching")
     return build_site(folder, tmp_path_factory.mktemp("site"))
 
 
@@ -103,8 +104,7 @@ def test_a_recorded_experiment_moves(page, tmp_path):
         new_code_cell(EXPERIMENT, outputs=[still], metadata={"tags": ["experiment:steps"]}),
     ]
     nbformat.write(new_notebook(cells=cells), tmp_path / "00-one.ipynb")
-    for name in PAGES:
-        (tmp_path / f"{name}.md").write_text("# A page\n")
+    (tmp_path / "teaching").mkdir()
     address = build_site(tmp_path, tmp_path / "out", moving=True).as_uri()
     page.goto(address)
     slider, picture = page.get_by_label("steps taken"), page.locator(".moving img")
