@@ -104,7 +104,7 @@ def measure(graph: CompiledGraph, path: GroundPath) -> tuple[Row, Followed, Bent
         100 * float(bent.off[as_asked].mean()),
         100 * float(bent.off[as_asked].max()),
         float(bent.bent.rounded.mean()),
-        100 * max((rounding.worst for rounding in bent.bent.line.roundings), default=0.0),
+        100 * max((worst for _, _, worst in bent.bent.line.roundings), default=0.0),
         bent.seams_per_second,
         1000 * slide(bent.motion()),
         accelerations(bent.motion()) / accelerations(before),

@@ -224,8 +224,8 @@ def draw_most_pairs() -> Figure:
     """Draw the lower bound of pairs of windows against their RMS distance, and the few below 4 cm."""
     clips = [resample(datasets.sample(name), 30)[:300] for name in ("walk_curve_1", "walk_curve_2")]
     points = [matching.point_cloud(clip) for clip in clips]
-    weights = lower_bound.Weights(np.full(31, 1 / 31), np.full(WINDOW, 1 / WINDOW))
-    ready = [matching.cloud(each, np.zeros(31), *weights, np.float64) for each in points]
+    weights = np.full(31, 1 / 31)
+    ready = [matching.cloud(each, np.zeros(31), weights, WINDOW, np.float64) for each in points]
     rows = [lower_bound.window_numbers(each, lower_bound.whole_windows(each)[::8], weights) for each in ready]
     bound = 100 * np.linalg.norm(rows[0][:, None] - rows[1], axis=-1)
     rms = 100 * np.sqrt(matching.distance_grid(*points, window=WINDOW)[::8, ::8])

@@ -19,9 +19,9 @@ def _windows(points, window, weights):
     return [np.ascontiguousarray(part * np.sqrt(weights)) for part in (x, y, z)]
 
 
-def distance_rows(a, b, window, rows, weights=None, taper=None):
+def distance_rows(a, b, window, rows, weights=None):
     """Some rows of the distance grid of points (F, P, 3): one window of a against all of b at a time."""
-    w = np.outer(unit_weights(taper, window), unit_weights(weights, a.shape[1])).ravel()
+    w = np.tile(unit_weights(weights, a.shape[1]) / window, window)
     xb, yb, zb = _windows(b, window, w)
     sizes = sum((part**2).sum(1) for part in (xb, yb, zb))
     for i in rows:
@@ -30,6 +30,6 @@ def distance_rows(a, b, window, rows, weights=None, taper=None):
         yield xa @ xa + ya @ ya + za @ za + sizes - 2 * yb @ ya - 2 * turned
 
 
-def distance_oracle(a, b, window, weights=None, taper=None):
+def distance_oracle(a, b, window, weights=None):
     """The whole grid, row by row."""
-    return np.array(list(distance_rows(a, b, window, range(len(a) - window + 1), weights, taper)))
+    return np.array(list(distance_rows(a, b, window, range(len(a) - window + 1), weights)))

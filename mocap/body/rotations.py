@@ -206,6 +206,19 @@ def continuous(quaternions: ArrayLike) -> Array:
     return np.concatenate([q[:1], q[1:] * signs])
 
 
+def nearest(matrices: Array) -> Array:
+    """Find the rotations R that maximise tr(Rᵀ M), (..., 3, 3): R = U diag(1, 1, ±1) Vᵀ of the SVD of M.
+
+    Examples
+    --------
+    >>> nearest(np.diag([2.0, 1.0, 0.5])).diagonal()
+    array([1., 1., 1.])
+    """
+    left, _, right = np.linalg.svd(matrices)
+    left[..., 2] *= np.linalg.det(left @ right)[..., None]
+    return np.asarray(left @ right)
+
+
 def mean(quaternions: ArrayLike, weights: ArrayLike | None = None, *, rounds: int = 1) -> Array:
     """Average rotations, each with its weight.
 

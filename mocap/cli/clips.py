@@ -114,7 +114,7 @@ def convert(source: Path, target: Path, *, reading: Reading, to: Literal["bvh", 
     """Convert clips from .amc, .bvh and AMASS .npz to .bvh or .glb; whole folders of them.
 
     Convert a clip, or all clips in a folder and the folders inside it. For one clip, the suffix of OUT is the
-    format; it may be .npz for a body of SMPL. Lengths in a .bvh are centimetres. A .glb is for engines and
+    format. Lengths in a .bvh are centimetres. A .glb is for engines and
     viewers, and shows a body of capsules.
 
     Parameters

@@ -16,7 +16,6 @@ from mocap.files.conversion import find_files, require_apart, with_file
 if TYPE_CHECKING:
     from mocap.editing.stances import Stance
 
-FORMATS = (".bvh", ".glb")
 LASTS = number(0.2, 600)  # seconds; no shorter than the seam
 POOR = 0.06  # metres RMS; the cycles of eight walks had seams of 0.5 to 3 cm
 LITTLE = 0.15  # metres; cycles of walks miss 1 to 9 cm, a pose held before a run misses 30
@@ -59,7 +58,7 @@ def warp(
 
     Example: mocap warp walk.bvh --keys keys.txt -o warped.bvh
     """
-    check_out("warped clip", out, FORMATS, [source])
+    check_out("warped clip", out, [source])
     from mocap.editing.warp_plans import load_plan  # the help needs no NumPy
 
     plan, motion = load_plan(keys), reading.load(source)
@@ -101,7 +100,7 @@ def bend(
     -----
     Example: mocap bend walk.bvh --along line.csv -o bent.bvh
     """
-    check_out("bent walk", out, FORMATS, [source])
+    check_out("bent walk", out, [source])
     line = files.load_path(along, scale=unit)
     bent = editing.bend(reading.load(source), line, limit=math.radians(limit))
     tell(bent=bent.report())
@@ -117,13 +116,12 @@ def loop(
     longest: Annotated[float, LASTS] = 3.0,
     straight: bool = False,
     clean: Clean = False,
-    inertialize: bool = False,
     times: Annotated[int, number(1, 1000, int)] = 1,
 ) -> None:
     """Cut the best cycle out of a clip and close it.
 
     Find the stretch of a clip that makes the best cycle: its ends are alike, and it holds most of what the
-    clip does. Close it, and write it as .bvh, .glb or .npz. Its last frame is its first one, farther on
+    clip does. Close it, and write it as .bvh or .glb. Its last frame is its first one, farther on
     over the ground.
 
     Parameters
@@ -133,14 +131,13 @@ def loop(
     shortest : seconds of a cycle at least.
     longest : seconds of a cycle at most.
     straight : take out the turn of a round: it goes on straight ahead.
-    inertialize : close it by an offset that fades, not by a blend.
     times : rounds to write.
 
     Notes
     -----
     Example: mocap loop walk.bvh --straight --clean -o loop.bvh
     """
-    check_out("cycle", out, (".bvh", ".glb", ".npz"), [clip])
+    check_out("cycle", out, [clip])
     motion = reading.load(clip)
     found = editing.find_loop(motion, seconds=(shortest, longest))
     seam, missed = (f"{100 * metres:.0f} cm" for metres in (found.seam, found.missed))
@@ -150,8 +147,7 @@ def loop(
     if found.missed > LITTLE:
         said = f"{clip}: the clip's other poses are {missed} away: it may hold no whole cycle."
         warnings.warn(said, MocapWarning, stacklevel=1)
-    way = "inertialize" if inertialize else "blend"
-    cycle = editing.loop(motion, found, way=way, straight=straight, clean=clean)
+    cycle = editing.loop(motion, found, straight=straight, clean=clean)
     turn = quality.inspect(cycle).turn
     step = math.hypot(*(cycle.root_positions[-1] - cycle.root_positions[0])[[0, 2]])
     side = "left" if turn > 0 else "right"
@@ -192,7 +188,7 @@ def blend(
     -----
     Example: mocap blend slow.bvh brisk.bvh --weights 0.3 0.7 -o walk.bvh
     """
-    check_out("blend", out, (".bvh", ".glb", ".npz"), clips)
+    check_out("blend", out, clips)
     if len(clips) < 2:
         raise MocapError("A blend needs two clips or more.")
     if weights and len(weights) != len(clips):

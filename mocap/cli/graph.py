@@ -97,7 +97,7 @@ def build(
     require_npz(out)
     require_writable(out)
     if graphml:
-        check_out("graph for other tools", graphml, [".graphml"])
+        check_out("graph for other tools", graphml, formats=[".graphml"])
     if by_labels and whole:
         raise MocapError("--by-labels says how to prune, --whole not to prune: give one of them.")
     found = find_files(clips)

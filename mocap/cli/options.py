@@ -147,12 +147,14 @@ def tell(**rows: object) -> None:
     print("\n".join(f"{name:<12} {printable(text)}" for name, text in rows.items()))
 
 
-def check_out(what: str, out: Path, formats: Sequence[str], read: Iterable[Path] = ()) -> None:
+def check_out(
+    what: str, out: Path, read: Iterable[Path] = (), formats: Sequence[str] = (".bvh", ".glb")
+) -> None:
     """Raise, before any work is done, where a file cannot be written, or is one of those to read.
 
     Examples
     --------
-    >>> check_out("walk", Path("walk.fbx"), [".bvh", ".glb"])
+    >>> check_out("walk", Path("walk.fbx"))
     Traceback (most recent call last):
     mocap.errors.MocapError: A walk is written as .bvh or .glb, got 'walk.fbx'.
     """

@@ -75,7 +75,7 @@ def walk(
         raise MocapError("--seed belongs to --random: a walk along a path leaves nothing to chance.")
     if scale and not clips:
         raise MocapError("--scale belongs to --clips: the graph remembers the unit of its own clips.")
-    options.check_out("walk", out, (".bvh", ".glb"))
+    options.check_out("walk", out)
     seconds, line = _seconds(random or "1s"), files.load_path(path, scale=unit) if path else None
     wishes = steering.Wishes(labels=[_label(text) for text in label])
     found = _graph(graph, clips, Sources(skeleton, scale), out)
@@ -106,7 +106,7 @@ def page(graph: Path, *, out: Path = Path("walk.html"), skeleton: Skeleton = Non
     -----
     Example: mocap page graph.npz -o walk.html
     """
-    options.check_out("page", out, (".html",))
+    options.check_out("page", out, formats=[".html"])
     made = widgets.walk_page(options.load_graph(graph, skeleton))
     with replacing(out) as beside:
         beside.write_text(made, "utf-8")

@@ -58,7 +58,7 @@ class Bent:
     @cached_property
     def rounded(self) -> Mask:
         """Whether the line is rounded where the walk is in each frame, shape (F,)."""
-        parts = [(r.start <= self.along) & (self.along <= r.end) for r in self.line.roundings]
+        parts = [(start <= self.along) & (self.along <= end) for start, end, _ in self.line.roundings]
         return np.asarray(np.any([np.zeros(len(self.along), bool), *parts], axis=0))
 
     @cached_property
@@ -73,7 +73,7 @@ class Bent:
         off, fastest = 100 * self.off[as_asked], np.degrees(np.abs(self.turned).max(initial=0.0))
         where, found = "", self.line.roundings
         if found:
-            parts = [f"{r.start:.1f} to {r.end:.1f} m by up to {100 * r.worst:.0f} cm" for r in found[:MOST]]
+            parts = [f"{a:.1f} to {b:.1f} m by up to {100 * far:.0f} cm" for a, b, far in found[:MOST]]
             more = f" and {len(found) - MOST} more" if len(found) > MOST else ""
             where = f"{'' if self.rounded.all() else ' elsewhere'}, rounded at {', '.join(parts)}{more}"
         return (

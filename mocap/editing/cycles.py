@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocap.blending.joining import inertialize, join
+from mocap.blending.joining import join
 from mocap.body import rotations
 from mocap.body.motion import Motion, concatenate, resample
 from mocap.body.planar import PlanarTransform, heading, lay_on
@@ -128,9 +128,7 @@ def _refined(motion: Motion, ends: tuple[float, float], shortest: float, missed:
     return Loop(around[0][int(i)], around[1][int(j)], float(np.sqrt(max(grid[i, j], 0.0))), missed)
 
 
-def loop(
-    motion: Motion, found: Loop, *, way: str = "blend", straight: bool = False, clean: bool = False
-) -> Motion:
+def loop(motion: Motion, found: Loop, *, straight: bool = False, clean: bool = False) -> Motion:
     """Cut a cycle out of a clip and close it.
 
     What follows the cycle in the clip passes into its beginning, within 0.2 s, as a transition of a motion
@@ -140,7 +138,6 @@ def loop(
     ----------
     motion : F frames.
     found : from `find_loop`, or frames of your own choice.
-    way : "blend", or "inertialize", which plays nothing from after the cycle but an offset that fades.
     straight : whether to take out the turn of one round, evenly, so that the cycle goes on straight ahead.
         Feet that stand are then turned with the body.
     clean : whether to mark the plants anew and remove footskate, as it would be in the midst of many rounds.
@@ -173,7 +170,7 @@ def loop(
             f"A cycle from frame {found.first} to {found.last} of {len(motion)} leaves no room for a seam of "
             f"{window} frames."
         )
-    joined = {"blend": join, "inertialize": inertialize}[way](motion, found.last, motion, found.first, window)
+    joined = join(motion, found.last, motion, found.first, window)
     cycle = joined[found.first + window : found.last + window + 1]
     cycle = replace(cycle, name=f"{motion.name}_loop")
     cycle = _straightened(cycle) if straight else cycle

@@ -35,20 +35,6 @@ SEEN = 0.01  # metres: a line that is moved by less is not called rounded
 JOINED = 0.5  # metres: rounded stretches nearer to each other count as one
 
 
-class Rounding(NamedTuple):
-    """A stretch where a line is rounded: its start and end, metres along it, and how far it is moved at most.
-
-    Examples
-    --------
-    >>> Rounding(start=1.8, end=3.1, worst=0.3).worst
-    0.3
-    """
-
-    start: float
-    end: float
-    worst: float
-
-
 class RoundedLine(NamedTuple):
     """A line that is rounded where needed, at n points that lie evenly on the line asked for.
 
@@ -60,7 +46,7 @@ class RoundedLine(NamedTuple):
     >>> moved = np.array([0, 0, 0.3, 0.4, 0])
     >>> line = RoundedLine(GroundPath([[0, 0], [0, 4]]), np.arange(5.0), np.arange(5.0), moved)
     >>> line.roundings
-    [Rounding(start=2.0, end=3.0, worst=0.4)]
+    [(2.0, 3.0, 0.4)]
     """
 
     path: GroundPath
@@ -69,13 +55,13 @@ class RoundedLine(NamedTuple):
     moved: Array
 
     @property
-    def roundings(self) -> list[Rounding]:
-        """The stretches that are moved by more than 1 cm."""
+    def roundings(self) -> list[tuple[float, float, float]]:
+        """The stretches moved by more than 1 cm: start, end, metres along the line, and how far at most."""
         far = np.flatnonzero(self.moved > SEEN)
         new = (np.diff(far) > 1) & (np.diff(self.asked[far]) >= JOINED)
         parts = [part for part in np.split(far, np.flatnonzero(new) + 1) if len(part)]
         asked = self.asked.tolist()
-        return [Rounding(asked[part[0]], asked[part[-1]], float(self.moved[part].max())) for part in parts]
+        return [(asked[part[0]], asked[part[-1]], float(self.moved[part].max())) for part in parts]
 
 
 def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> RoundedLine:
@@ -103,8 +89,8 @@ def round_line(path: GroundPath, ride: Ride, fps: float, limit: float) -> Rounde
     >>> walk = sample("walk_straight")
     >>> corner = GroundPath([[0, 0], [0, 5], [6, -3]])
     >>> line = round_line(corner, ride_of(walk), walk.fps, np.radians(60))
-    >>> where = line.roundings[0]
-    >>> round(where.start), round(where.end), round(where.worst, 1)
+    >>> start, end, worst = line.roundings[0]
+    >>> round(start), round(end), round(worst, 1)
     (5, 6, 0.4)
     """
     even = path.resampled(SPACING)

@@ -87,17 +87,10 @@ def _turns(skeleton: Skeleton, partners: NDArray[np.intp], across: Array) -> Arr
         elif joint:
             usual[joint] = usual[skeleton.parents[joint]]
     small = KEPT * np.linalg.norm(matrices, axis=(-2, -1), keepdims=True) + 1e-12
-    turns = _rotations(matrices + small * (usual + 0.1 * np.outer(upward, upward)))
+    turns = rotations.nearest(matrices + small * (usual + 0.1 * np.outer(upward, upward)))
     for _ in range(2):  # what the bones leave open stays as it is, and what they fix becomes exact
-        turns = _rotations(matrices + small * turns)
+        turns = rotations.nearest(matrices + small * turns)
     return rotations.from_matrix(turns)
-
-
-def _rotations(matrices: Array) -> Array:
-    """Give the rotations R that maximise tr(Rᵀ M), from the singular value decompositions of M (J, 3, 3)."""
-    left, _, right = np.linalg.svd(matrices)
-    left[..., 2] *= np.linalg.det(left @ right)[:, None]
-    return np.asarray(left @ right)
 
 
 def mirrored_name(name: str) -> str:

@@ -39,18 +39,6 @@ RATIOS = (0.3, 1.25)  # of speeds, after and before: a turn that is made straigh
 PELVIS, TRUNK = 0.5, 0.25  # of the lean; the legs take the whole of it, and the feet none
 
 
-class Bends(NamedTuple):
-    """How a line bends at n places: metres `along` it, `curvature` k (radians per metre), `pace` q.
-
-    `sharpest` is the largest curvature nearby, unsmoothed.
-    """
-
-    along: Array
-    curvature: Array
-    pace: Array
-    sharpest: Array
-
-
 class Places(NamedTuple):
     """Where a walk is on a line in each of its F frames, metres, and its speed there over its own, `ratio`.
 
@@ -61,26 +49,16 @@ class Places(NamedTuple):
     ratio: Array
 
 
-class Slowed(NamedTuple):
-    """A walk of F frames that is slowed for a line.
-
-    `own` (F,) are the metres along its own path in each frame, `along` (F,) those along the line, and `lean`
-    (F,) is by how much more than by itself it must lean to the left, radians.
-    """
-
-    motion: Motion
-    own: Array
-    along: Array
-    lean: Array
-
-
-def bends_of(path: GroundPath) -> Bends:
+def bends_of(path: GroundPath) -> tuple[Array, Array, Array, Array]:
     """Measure how a line bends, and how much slower than straight on people walk there.
+
+    Gives, for places along it, the metres, the curvature k (radians per metre), the pace q, and the largest
+    curvature nearby, unsmoothed.
 
     Examples
     --------
     >>> from mocap.body import circle
-    >>> bends_of(circle(1.0)).pace[100].round(2)
+    >>> bends_of(circle(1.0))[2][100].round(2)
     np.float64(0.8)
     """
     along = np.arange(0.0, path.length + CELL, CELL)
@@ -88,7 +66,7 @@ def bends_of(path: GroundPath) -> Bends:
     curvature = gaussian_filter1d(turning, SOFT / CELL, mode="nearest")
     sharpest = maximum_filter1d(abs(turning), 2 * round(SOFT / CELL) + 1)
     sharpest = gaussian_filter1d(sharpest, SOFT / CELL / 2, mode="nearest", truncate=2.0)
-    return Bends(along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25, sharpest)
+    return along, curvature, (1 + (RADIUS * curvature) ** 2) ** -0.25, sharpest
 
 
 def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -> Places:
@@ -98,13 +76,13 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
     Where a body stands, its path curls, and that says nothing: r = 1. Where it would turn faster than the
     limit, radians per second, and than by itself to the same side, r is smaller, down to `SLOWER` or `LEAST`.
     """
-    line, own = bends_of(path), bends_of(ride.path)
+    (_, curvature, slower, sharpest), (_, _, own, _) = bends_of(path), bends_of(ride.path)
     heads = moving_frames(ride.path, ride.along).angle
     speeds, turned = (np.gradient(some) * fps for some in (ride.along, heads))
     walks = np.clip((_speed(ride.along, fps) - STANDS) / (WALKS - STANDS), 0, 1)
-    paces = own.pace[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own.pace) - 1)]
-    here, ratio, last, (low, high) = 0.0, 1.0, len(line.pace) - 1, RATIOS
-    places, there = [], np.stack([line.pace, line.sharpest, np.sign(line.curvature)], axis=1).tolist()
+    paces = own[np.clip(np.round(ride.along / CELL).astype(int), 0, len(own) - 1)]
+    here, ratio, last, (low, high) = 0.0, 1.0, len(slower) - 1, RATIOS
+    places, there = [], np.stack([slower, sharpest, np.sign(curvature)], axis=1).tolist()
     steps = np.diff(ride.along, prepend=ride.along[:1])
     for step, pace, walk, speed, turn in np.stack([steps, paces, walks, speeds, turned], axis=1).tolist():
         here += ratio**0.5 * step
@@ -117,7 +95,9 @@ def places_on(path: GroundPath, ride: Ride, fps: float, limit: float = np.inf) -
     return Places(*np.array(places).T)
 
 
-def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.inf) -> Slowed:
+def slow_down(
+    motion: Motion, ride: Ride, path: GroundPath, limit: float = np.inf
+) -> tuple[Motion, Array, Array, Array]:
     """Slow a walk for the bends of a line.
 
     Parameters
@@ -128,7 +108,8 @@ def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.in
 
     Returns
     -------
-    The walk at its new times, where it is, and how it must lean.
+    The walk at its new times; in each of its frames the metres along its own path, those along the line, and
+    by how much more than by itself it must lean to the left, radians.
 
     Examples
     --------
@@ -136,8 +117,8 @@ def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.in
     >>> from mocap.datasets import sample
     >>> from mocap.editing import ride_of
     >>> walk = sample("walk_straight")[:480]
-    >>> slow = slow_down(walk, ride_of(walk), circle(1.0))
-    >>> round(slow.motion.duration / walk.duration, 2), np.degrees(slow.lean[200]).round()
+    >>> slow, _, _, leaning = slow_down(walk, ride_of(walk), circle(1.0))
+    >>> round(slow.duration / walk.duration, 2), np.degrees(leaning[200]).round()
     (1.11, np.float64(4.0))
     """
     places, numbers = places_on(path, ride, motion.fps, limit), np.arange(len(motion))
@@ -147,10 +128,10 @@ def slow_down(motion: Motion, ride: Ride, path: GroundPath, limit: float = np.in
     own, along = (np.interp(frames, numbers, some) for some in (ride.along, places.along))
     speeds = np.interp(frames, numbers, _speed(ride.along, motion.fps)), _speed(along, motion.fps)
     before, after = (
-        np.arctan(np.interp(where, bends.along, bends.curvature) * speed**2 / GRAVITY)
-        for where, bends, speed in zip((own, along), map(bends_of, (ride.path, path)), speeds, strict=True)
+        np.arctan(np.interp(where, *bends_of(line)[:2]) * speed**2 / GRAVITY)
+        for where, line, speed in zip((own, along), (ride.path, path), speeds, strict=True)
     )
-    return Slowed(at_frames(motion, frames), own, along, after - before)
+    return at_frames(motion, frames), own, along, after - before
 
 
 def lean(motion: Motion, way: Array, angle: Array) -> tuple[Motion, dict[int, Array]]:

@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mocap._shared.archives import Member, open_archive, pack
+from mocap._shared.archives import Member, open_archive
 from mocap._shared.arrays import Array
 from mocap.body import rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.errors import FormatError, MocapError, MocapWarning, shortened
+from mocap.errors import FormatError, MocapError, MocapWarning
 
 _JOINTS: dict[str, Any] = tomllib.loads(Path(__file__).with_name("smpl.toml").read_text("utf-8"))
 SKELETON = replace(Skeleton.from_table(_JOINTS), dofs=["xyz"] * len(_JOINTS))
@@ -124,31 +124,3 @@ def _rate(path: str | Path, members: Mapping[str, Member]) -> float:
         got = str(found) if rate is None else str(rate)
         raise FormatError(path, None, f"one number above 0 in '{key}'", got)
     return float(rate)
-
-
-def write(motion: Motion, path: str | Path) -> None:
-    """Write an archive, with a body of mean shape and fingers at rest.
-
-    Parameters
-    ----------
-    motion : F frames of a skeleton with the joints of `SKELETON`, of any size: the archive holds no bones.
-    path : the file; one that exists is replaced when the new one is whole.
-
-    Raises
-    ------
-    MocapError : for another skeleton: retarget the motion first.
-    """
-    ours = motion.skeleton
-    if ours.names != SKELETON.names or not np.array_equal(ours.parents, SKELETON.parents):
-        name = shortened(motion.name)
-        raise MocapError(
-            f"An .npz holds the {len(SKELETON)} joints of SMPL; '{name}' has others: write .bvh."
-        )
-    back = rotations.inverse(UPRIGHT)
-    turned = motion.rotations.copy()
-    turned[:, 0] = rotations.multiply(back, turned[:, 0])
-    poses = np.zeros((len(motion), 156))
-    poses[:, :WIDTH] = rotations.to_rotvec(turned).reshape(len(motion), -1)
-    trans = rotations.rotate(back, motion.root_positions) - PELVIS
-    facts = {"betas": np.zeros(16), "gender": "neutral", "mocap_framerate": motion.fps}
-    pack(path, {"poses": poses, "trans": trans, **facts})

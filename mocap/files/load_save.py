@@ -13,7 +13,7 @@ from mocap.files.asf import read_skeleton
 from mocap.files.rigid_bones import STRETCH
 from mocap.files.text import read_text
 
-READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".bvh, .glb and AMASS .npz"
+READ, WRITTEN = ".amc (with .asf), .bvh and AMASS .npz", ".bvh and .glb"
 
 
 def load(
@@ -166,9 +166,9 @@ def save(motion: Motion, path: str | Path, *, scale: float | None = None, precis
     Parameters
     ----------
     motion : F frames.
-    path : the file, `.bvh`, `.glb`, or AMASS `.npz`, which holds the 22 joints of SMPL only. A
-        `.glb` is for engines and viewers: it holds a body of capsules as well, and is not read.
-    scale : for `.bvh`, metres in one unit of the file, by default 0.01. The others are in metres.
+    path : the file, `.bvh` or `.glb`. A `.glb` is for engines and viewers: it is in metres, holds a body of
+        capsules as well, and is not read.
+    scale : for `.bvh`, metres in one unit of the file, by default 0.01.
     precision : for `.bvh`, digits after the point, by default 6, which keep joints to 1e-7 m; 9 keep them to
         1e-10 m.
 
@@ -195,9 +195,9 @@ def save(motion: Motion, path: str | Path, *, scale: float | None = None, precis
     match path.suffix.lower():
         case ".bvh":
             bvh.write(motion, path, scale=scale or 0.01, precision=precision)
-        case ".glb" | ".npz" as suffix:
-            _require_metres(suffix, scale)
-            (gltf if suffix == ".glb" else amass).write(motion, path)
+        case ".glb":
+            _require_metres(".glb", scale)
+            gltf.write(motion, path)
         case _:
             raise MocapError(f"Cannot write {path}: mocap writes {WRITTEN}.")
 

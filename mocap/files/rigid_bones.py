@@ -73,7 +73,7 @@ def fit(parents: NDArray[np.intp], places: Array, local: Array) -> Rigid:
         if len(below) and (bones**2).sum() > 0:
             aims = there[:, below] - here[:, joint, None]
             matrix = np.einsum("fci,cj->fij", aims, bones) + KEPT * (bones**2).sum() * turned[:, joint]
-            fitted[:, joint] = _nearest_rotation(matrix)
+            fitted[:, joint] = rotations.nearest(matrix)
         here[:, below] = here[:, joint, None] + np.einsum("fij,cj->fci", fitted[:, joint], bones)
     above = np.swapaxes(fitted[:, parents[1:]], -1, -2)
     own = np.concatenate([fitted[:, :1], above @ fitted[:, 1:]], axis=1)
@@ -98,10 +98,3 @@ def _in_world(parents: NDArray[np.intp], places: Array, local: Array) -> tuple[A
         at[:, joint] = at[:, above] + np.einsum("fij,fj->fi", turned[:, above], places[:, joint])
         turned[:, joint] = turned[:, above] @ turned[:, joint]
     return at, turned
-
-
-def _nearest_rotation(matrices: Array) -> Array:
-    """Find the rotations R that maximise tr(Rᵀ M), (F, 3, 3)."""
-    left, _, right = np.linalg.svd(matrices)
-    left[..., 2] *= np.linalg.det(left @ right)[..., None]
-    return np.asarray(left @ right)

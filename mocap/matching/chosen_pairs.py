@@ -9,7 +9,7 @@ from mocap.matching.distance_grids import Cloud, Floats
 AT_ONCE = 1024  # pairs measured together, to limit the memory
 
 
-def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Floats:
+def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
     """Measure D between the windows i of one cloud and j of another, as `cloud_distances` does for all.
 
     Pairs that follow each other on a diagonal, (i, j) and (i + 1, j + 1), share all pairs of frames but one.
@@ -19,7 +19,6 @@ def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> 
     ----------
     a, b : two clouds, or the same one twice.
     i, j : shape (N,), the first frames of the windows.
-    taper : shape (k,), as for `cloud`.
 
     Returns
     -------
@@ -29,22 +28,21 @@ def pair_distances(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> 
     --------
     >>> from mocap.matching.distance_grids import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])  # two frames of two points
-    >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), np.ones(1), np.float64)
-    >>> pair_distances(ready, ready, np.array([0]), np.array([1]), np.ones(1))
+    >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
+    >>> pair_distances(ready, ready, np.array([0]), np.array([1]))
     array([0.5])
     """
     order = np.lexsort((i, j - i))  # by diagonal, and by frame on each
-    weights = taper.astype(a.heights.dtype)
     distances = np.empty(len(i), a.heights.dtype)
     for start in range(0, len(i), AT_ONCE):
         some = order[start : start + AT_ONCE]
-        distances[some] = _in_runs(a, b, i[some], j[some], weights)
+        distances[some] = _in_runs(a, b, i[some], j[some])
     return distances
 
 
-def _in_runs(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Floats) -> Floats:
+def _in_runs(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Floats:
     """Measure D of pairs sorted by diagonal."""
-    window = len(taper)
+    window, share = a.window, a.heights.dtype.type(1 / a.window)
     step = np.diff(i, prepend=i[:1] - window)
     same = np.diff(j - i, prepend=(j - i)[:1]) == 0
     fresh = np.where(same & (step < window), step, window)  # pairs of frames that the pair before lacks
@@ -54,19 +52,19 @@ def _in_runs(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Floats) -> Float
     ground = np.vecdot(a.ground[rows], b.ground[columns])
     heights = np.vecdot(a.heights[rows], b.heights[columns])
     across = np.vecdot(a.paths[i], b.paths[j])
-    across += sum(weight * ground[starts + f] for f, weight in enumerate(taper))
-    up = sum(weight * heights[starts + f] for f, weight in enumerate(taper))
+    across += sum(share * ground[starts + f] for f in range(window))
+    up = sum(share * heights[starts + f] for f in range(window))
     return np.asarray(np.maximum(a.sizes[i] + b.sizes[j] - 2 * (np.abs(across) + up), 0))
 
 
-def fit(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
+def fit(a: Cloud, b: Cloud, i: Indices, j: Indices) -> Array:
     """Lay windows j on windows i: the RMS distance that is left, and the transform's angle, x and z.
 
     In the grid D is a difference of larger numbers. Measured point by point, as here, it is right down to 0.
 
     Parameters
     ----------
-    a, b, i, j, taper : as for `pair_distances`.
+    a, b, i, j : as for `pair_distances`.
 
     Returns
     -------
@@ -76,14 +74,14 @@ def fit(a: Cloud, b: Cloud, i: Indices, j: Indices, taper: Array) -> Array:
     --------
     >>> from mocap.matching.distance_grids import cloud
     >>> dot = np.array([[[0.0, 1, 0]], [[3, 1.5, 4]]])  # one point that moves
-    >>> ready = cloud(dot, np.zeros(1), np.ones(1), np.ones(1), np.float64)
-    >>> fit(ready, ready, np.array([0]), np.array([1]), np.ones(1))[[0, 2, 3], 0]
+    >>> ready = cloud(dot, np.zeros(1), np.ones(1), 1, np.float64)
+    >>> fit(ready, ready, np.array([0]), np.array([1]))[[0, 2, 3], 0]
     array([ 0.5, -3. , -4. ])
     """
     if len(i) > AT_ONCE:
         parts = [slice(start, start + AT_ONCE) for start in range(0, len(i), AT_ONCE)]
-        return np.concatenate([fit(a, b, i[part], j[part], taper) for part in parts], axis=1)
-    root, frames = np.sqrt(taper).astype(a.heights.dtype)[:, None], np.arange(len(taper))
+        return np.concatenate([fit(a, b, i[part], j[part]) for part in parts], axis=1)
+    root, frames = a.heights.dtype.type(np.sqrt(1 / a.window)), np.arange(a.window)
     ground, heights = [], []  # (N, k, P + 1) and (N, k, P) of each cloud
     for cloud, starts in ((a, i), (b, j)):
         each = starts[:, None] + frames

@@ -53,33 +53,38 @@ class Cloud(NamedTuple):
     sizes: Floats
     centres: NDArray[np.complex128]
 
+    @property
+    def window(self) -> int:
+        """The frames k of a window."""
+        return int(self.paths.shape[1])
+
     def part(self, windows: slice) -> "Cloud":
         """Take the windows that start at these frames, with all frames that they cover."""
-        frames = slice(windows.start, windows.stop + self.paths.shape[1] - 1)
+        frames = slice(windows.start, windows.stop + self.window - 1)
         parts: list[Any] = [*(array[frames] for array in self[:2]), *(array[windows] for array in self[2:])]
         return Cloud(*parts)
 
 
-def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type[np.floating[Any]]) -> Cloud:
+def cloud(points: Array, level: Array, weights: Array, window: int, dtype: type[np.floating[Any]]) -> Cloud:
     """Prepare a clip for matching.
 
     Parameters
     ----------
     points : shape (F, P, 3), metres.
     level : shape (P,), metres: heights to measure from, the same for all clips to be compared.
-    weights, taper : shapes (P,) and (k,), of the points and of the window's frames; each adds up to one.
+    weights : shape (P,), of the points; they add up to one.
+    window : frames of a window, which count alike.
     dtype : the precision of the result; the work is done in 64 bits.
     """
-    window = len(taper)
-    root = np.sqrt(weights)
+    root, each = np.sqrt(weights), np.full(window, 1 / window)
     ground = on_ground(points)
     centroids = ground @ weights  # (F,)
     heights, ground = (points[..., 1] - level) * root, (ground - centroids[:, None]) * root
     frame_sizes = (heights**2).sum(-1) + (np.abs(ground) ** 2).sum(-1)
     paths = sliding_window_view(centroids, window)
-    centres = paths @ taper
-    paths = (paths - centres[:, None]) * np.sqrt(taper)  # (F - k + 1, k)
-    sizes = sliding_window_view(frame_sizes, window) @ taper + (np.abs(paths) ** 2).sum(-1)
+    centres = paths @ each
+    paths = (paths - centres[:, None]) * np.sqrt(each)  # (F - k + 1, k)
+    sizes = sliding_window_view(frame_sizes, window) @ each + (np.abs(paths) ** 2).sum(-1)
     off = (0, window - 1)
     return Cloud(
         heights.astype(dtype),
@@ -90,13 +95,12 @@ def cloud(points: Array, level: Array, weights: Array, taper: Array, dtype: type
     )
 
 
-def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
+def cloud_distances(a: Cloud, b: Cloud) -> Floats:
     """Measure D between all windows of two clouds, by the three steps at the head of this module.
 
     Parameters
     ----------
     a, b : `Cloud.part`s of n and m windows.
-    taper : shape (k,), as for `cloud`.
 
     Returns
     -------
@@ -105,36 +109,20 @@ def cloud_distances(a: Cloud, b: Cloud, taper: Array) -> Floats:
     Examples
     --------
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])  # two frames of two points
-    >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), np.ones(1), np.float64)
-    >>> cloud_distances(ready, ready, np.ones(1)).round(6)
+    >>> ready = cloud(stick, np.zeros(2), np.full(2, 1 / 2), 1, np.float64)
+    >>> cloud_distances(ready, ready).round(6)
     array([[0. , 0.5],
            [0.5, 0. ]])
     """
-    ground = tapered_sum(a.ground @ b.ground.conj().T, taper)
+    share = a.heights.dtype.type(1 / a.window)
+    ground = diagonal_sum(a.ground @ b.ground.conj().T, a.window) * share
     ground += a.paths @ b.paths.conj().T
     grid: Floats = np.abs(ground)
-    grid += tapered_sum(a.heights @ b.heights.T, taper)
+    grid += diagonal_sum(a.heights @ b.heights.T, a.window) * share
     grid *= -2
     grid += a.sizes[:, None]
     grid += b.sizes
     return np.asarray(np.maximum(grid, 0, out=grid))
-
-
-def tapered_sum(products: NDArray[Any], taper: Array) -> NDArray[Any]:
-    """Add up taper[f] · products[i + f, j + f] over the frames f of a window.
-
-    Examples
-    --------
-    >>> tapered_sum(np.array([[1.0, 2, 0], [0, 3, 4], [0, 0, 5]]), np.array([0.25, 0.75]))
-    array([[2.5, 3.5],
-           [0. , 4.5]])
-    """
-    weights = taper.astype(products.real.dtype)
-    if np.ptp(weights) == 0:
-        return np.asarray(diagonal_sum(products, len(weights)) * weights[0])
-    rows, columns = (count - len(weights) + 1 for count in products.shape)
-    parts = (weight * products[f : f + rows, f : f + columns] for f, weight in enumerate(weights))
-    return np.asarray(sum(parts))
 
 
 def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
@@ -157,12 +145,7 @@ def diagonal_sum(products: NDArray[Any], window: int) -> NDArray[Any]:
 
 
 def distance_grid(
-    a: Motion | ArrayLike,
-    b: Motion | ArrayLike,
-    *,
-    window: int,
-    joint_weights: ArrayLike | None = None,
-    taper: ArrayLike | None = None,
+    a: Motion | ArrayLike, b: Motion | ArrayLike, *, window: int, joint_weights: ArrayLike | None = None
 ) -> Floats:
     """Measure the point cloud distance between all windows of two clips [KGP02, Eq. 1], [KGP02, 3.1].
 
@@ -175,8 +158,8 @@ def distance_grid(
     a, b : motions, or their points of shape (F, P, 3), metres. Two arrays of 32-bit points are compared in
         32 bits, twice as fast; everything else in 64.
     window : frames k in a window.
-    joint_weights : shape (P,), not negative, one for each point in the order of `distinct_joints`.
-    taper : shape (k,), not negative, one for each frame of a window. Equal weights by default.
+    joint_weights : shape (P,), not negative, one for each point in the order of `distinct_joints`; equal ones
+        by default. The frames of a window count alike; the paper lets them taper off as well.
 
     Returns
     -------
@@ -201,14 +184,14 @@ def distance_grid(
     Notebook: 02-matching
     """
     points = _matching_points(a, b, window)
-    weights, frames = unit_weights(joint_weights, points[0].shape[1]), unit_weights(taper, window)
+    weights = unit_weights(joint_weights, points[0].shape[1])
     dtype = np.result_type(*points).type
     level = (points[0][..., 1].mean(0, float) + points[1][..., 1].mean(0, float)) / 2
     same = np.array_equal(points[0], points[1])
-    rows, columns = (cloud(p.astype(float), level, weights, frames, dtype) for p in points)
+    rows, columns = (cloud(p.astype(float), level, weights, window, dtype) for p in points)
     grid = np.empty([len(p) - window + 1 for p in points], dtype)
     for tile in tiles(*grid.shape, upper=same):
-        grid[tile] = cloud_distances(rows.part(tile[0]), columns.part(tile[1]), frames)
+        grid[tile] = cloud_distances(rows.part(tile[0]), columns.part(tile[1]))
     return np.triu(grid) + np.triu(grid, 1).T if same else grid
 
 

@@ -30,8 +30,6 @@ Computers round, so `reach` is a little more than the threshold. Let u be the ro
 3. The sum of d squares is off by (d + 4) u, relative to itself.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
@@ -44,21 +42,14 @@ SAMPLE = 2000  # windows that decide on the directions: any orthonormal ones are
 AT_ONCE = 256  # windows whose f is held at a time
 
 
-class Weights(NamedTuple):
-    """The weights of the points, shape (P,), and of a window's frames, shape (k,); each adds up to one."""
-
-    points: Array
-    taper: Array
-
-
-def window_numbers(cloud: Cloud, starts: NDArray[np.intp], weights: Weights) -> Array:
+def window_numbers(cloud: Cloud, starts: NDArray[np.intp], weights: Array) -> Array:
     """Give f = (√w y, √w r) of windows: numbers that no planar transform changes.
 
     Parameters
     ----------
     cloud : of one clip or several.
     starts : shape (N,), the first frames of windows that do not run off a clip.
-    weights : those of the cloud.
+    weights : shape (P,), those of the cloud's points.
 
     Returns
     -------
@@ -69,14 +60,13 @@ def window_numbers(cloud: Cloud, starts: NDArray[np.intp], weights: Weights) -> 
     Two frames of one point at the height 1, 2 m apart: each is 1 m from the middle of the window.
 
     >>> from mocap.matching.distance_grids import cloud
-    >>> weights = Weights(np.ones(1), np.full(2, 1 / 2))
-    >>> walk = cloud(np.array([[[0.0, 1, 0]], [[0, 1, 2]]]), np.zeros(1), *weights, np.float64)
-    >>> window_numbers(walk, np.array([0]), weights) * np.sqrt(2)
+    >>> walk = cloud(np.array([[[0.0, 1, 0]], [[0, 1, 2]]]), np.zeros(1), np.ones(1), 2, np.float64)
+    >>> window_numbers(walk, np.array([0]), np.ones(1)) * np.sqrt(2)
     array([[1., 1., 1., 1.]])
     """
-    frames, root = starts[:, None] + np.arange(len(weights.taper)), np.sqrt(weights.taper)[:, None]
+    frames, root = starts[:, None] + np.arange(cloud.window), np.sqrt(1 / cloud.window)
     heights = cloud.heights[frames] * root
-    ground = cloud.ground[frames] * root + cloud.paths[starts][..., None] * np.sqrt(weights.points)
+    ground = cloud.ground[frames] * root + cloud.paths[starts][..., None] * np.sqrt(weights)
     return np.concatenate([heights, np.abs(ground)], axis=2).reshape(len(starts), -1).astype(float)
 
 
@@ -106,13 +96,13 @@ def principal_directions(numbers: Array, count: int = MOST) -> tuple[Array, Arra
     return mean, np.ascontiguousarray(axes[:, ::-1])
 
 
-def sample_directions(cloud: Cloud, weights: Weights) -> tuple[Array, Array]:
+def sample_directions(cloud: Cloud, weights: Array) -> tuple[Array, Array]:
     """Find the principal directions of a sample of a cloud's windows, evenly spaced."""
     return principal_directions(window_numbers(cloud, evenly(whole_windows(cloud), SAMPLE), weights))
 
 
 def projections(
-    cloud: Cloud, starts: NDArray[np.intp], weights: Weights, directions: tuple[Array, Array]
+    cloud: Cloud, starts: NDArray[np.intp], weights: Array, directions: tuple[Array, Array]
 ) -> Floats:
     """Project the f of windows, some at a time; in the cloud's precision, shape (N, d)."""
     mean, axes = directions
@@ -153,11 +143,11 @@ def reach(cloud: Cloud, below: float) -> float:
     --------
     >>> from mocap.matching.distance_grids import cloud
     >>> stick = np.array([[[0.0, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, 2, 0]]])
-    >>> single, double = (cloud(stick, np.zeros(2), np.full(2, 0.5), np.ones(1), t) for t in ("f4", "f8"))
+    >>> single, double = (cloud(stick, np.zeros(2), np.full(2, 0.5), 1, t) for t in ("f4", "f8"))
     >>> 0.04 < reach(double, 0.04) < 0.04 + 1e-12 < reach(single, 0.04) < 0.04 + 1e-4
     True
     """
-    points, window = cloud.heights.shape[1], cloud.paths.shape[1]
+    points, window = cloud.heights.shape[1], cloud.window
     unit = float(np.finfo(cloud.heights.dtype).eps) / 2
     size = float(cloud.sizes.max(where=np.isfinite(cloud.sizes), initial=0))
     measured = (points + window + 16) * unit * 2 * size  # 1., m²

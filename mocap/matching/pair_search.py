@@ -22,7 +22,7 @@ from mocap._shared.progress import Progress
 from mocap._shared.tasks import run_in_order
 from mocap.matching.chosen_pairs import fit, pair_distances
 from mocap.matching.distance_grids import Cloud, Floats, cloud_distances, tiles
-from mocap.matching.lower_bound import Weights, evenly, projections, reach, sample_directions, whole_windows
+from mocap.matching.lower_bound import evenly, projections, reach, sample_directions, whole_windows
 from mocap.matching.minima import listed_minima, local_minima
 
 BLOCK, WIDE_BLOCK = 1280, 16384  # windows of a stretch, by products and by the bound
@@ -57,7 +57,7 @@ class Stretch(NamedTuple):
 
 def find_minima(  # noqa: PLR0913 (what to find, how, and where to work)
     cloud: Cloud,
-    weights: Weights,
+    weights: Array,
     below: float,
     *,
     by_bound: bool = False,
@@ -69,7 +69,7 @@ def find_minima(  # noqa: PLR0913 (what to find, how, and where to work)
     Parameters
     ----------
     cloud : all clips one after the other.
-    weights : those of the cloud.
+    weights : shape (P,), those of the cloud's points.
     below : only minima whose RMS distance is under this one, metres.
     by_bound : measure only the pairs that the lower bound leaves.
     progress, executor : as for `find_transitions`.
@@ -85,16 +85,15 @@ def find_minima(  # noqa: PLR0913 (what to find, how, and where to work)
 
     >>> from mocap.matching.distance_grids import cloud as prepare
     >>> points = np.array([[[0, height, 0]] for height in (1.0, 1.3, 1.6, 1.9, 1.01)])
-    >>> weights = Weights(np.ones(1), np.ones(1))
-    >>> ready = prepare(points, np.zeros(1), *weights, np.float64)
-    >>> find_minima(ready, weights, 0.05)[:3].round(6)
+    >>> ready = prepare(points, np.zeros(1), np.ones(1), 1, np.float64)
+    >>> find_minima(ready, np.ones(1), 0.05)[:3].round(6)
     array([[0.  ],
            [4.  ],
            [0.01]])
     """
     if not len(whole_windows(cloud)):
         return np.empty((6, 0))
-    count = len(cloud.sizes) - len(weights.taper) + 1
+    count = len(cloud.sizes) - cloud.window + 1
     size, far = (WIDE_BLOCK, reach(cloud, below)) if by_bound else (BLOCK, None)
     places = _places(cloud, weights, count) if by_bound else np.empty((count, 0))
 
@@ -104,11 +103,11 @@ def find_minima(  # noqa: PLR0913 (what to find, how, and where to work)
         return Stretch(start, stop, first, cloud.part(windows), places[windows])
 
     pairs = [(row, column) for row in range(0, count, size) for column in range(row, count, size)]
-    tasks = ((stretch(i), stretch(j), weights.taper, below, far) for i, j in progress(pairs))
+    tasks = ((stretch(i), stretch(j), below, far) for i, j in progress(pairs))
     return np.concatenate(list(run_in_order(_block_minima, tasks, executor)), axis=1)
 
 
-def _places(cloud: Cloud, weights: Weights, count: int) -> Floats:
+def _places(cloud: Cloud, weights: Array, count: int) -> Floats:
     """Project the f of all windows; those that run off a clip are put far from everything."""
     starts, directions = whole_windows(cloud), sample_directions(cloud, weights)
     far = NOWHERE * np.arange(1, count + 1)[:, None]
@@ -117,33 +116,33 @@ def _places(cloud: Cloud, weights: Weights, count: int) -> Floats:
     return places
 
 
-def _block_minima(a: Stretch, b: Stretch, taper: Array, below: float, far: float | None) -> Array:
+def _block_minima(a: Stretch, b: Stretch, below: float, far: float | None) -> Array:
     """Find the minima between two stretches: what one worker does at a time."""
-    i, j = _by_products(a, b, taper, below) if far is None else _by_bound(a, b, taper, below, far)
+    i, j = _by_products(a, b, below) if far is None else _by_bound(a, b, below, far)
     row, column = i + a.first, j + b.first
     own = (row >= a.start) & (row < a.stop) & (column >= b.start) & (column < b.stop)
-    own &= column - row >= len(taper)  # no window overlaps itself, and each pair counts once
-    return np.concatenate([[row[own], column[own]], fit(a.cloud, b.cloud, i[own], j[own], taper)])
+    own &= column - row >= a.cloud.window  # no window overlaps itself, and each pair counts once
+    return np.concatenate([[row[own], column[own]], fit(a.cloud, b.cloud, i[own], j[own])])
 
 
-def _by_products(a: Stretch, b: Stretch, taper: Array, below: float) -> Indices:
+def _by_products(a: Stretch, b: Stretch, below: float) -> Indices:
     """Find the minima of a block, tile by tile: rows and columns of the stretches' clouds, shape (2, N)."""
     found = [np.empty((0, 2), np.intp)]
     for tile in tiles(a.stop - a.start, b.stop - b.start, upper=a.start == b.start):
         parts = [stretch.part(windows) for stretch, windows in zip((a, b), tile, strict=True)]
         corner, clouds = zip(*parts, strict=True)
-        minima = local_minima(cloud_distances(clouds[0], clouds[1], taper), below**2) + corner
+        minima = local_minima(cloud_distances(*clouds), below**2) + corner
         own = minima - [a.start - a.first, b.start - b.first]
         mine = (own >= [part.start for part in tile]) & (own < [part.stop for part in tile])
         found.append(minima[mine.all(axis=1)])  # those of the neighbours are found in their own tiles
     return np.concatenate(found).T
 
 
-def _by_bound(a: Stretch, b: Stretch, taper: Array, below: float, far: float) -> Indices:
+def _by_bound(a: Stretch, b: Stretch, below: float, far: float) -> Indices:
     """Find the minima of a block among the pairs within reach: rows and columns, shape (2, N)."""
     found, values = [np.empty((2, 0), np.intp)], [np.empty(0, a.cloud.heights.dtype)]
-    for pairs in _near_pairs(a, b, len(taper), far):
-        distances = pair_distances(a.cloud, b.cloud, pairs[0], pairs[1], taper)
+    for pairs in _near_pairs(a, b, far):
+        distances = pair_distances(a.cloud, b.cloud, pairs[0], pairs[1])
         low = distances < below**2
         found.append(pairs[:, low])
         values.append(distances[low])
@@ -151,14 +150,14 @@ def _by_bound(a: Stretch, b: Stretch, taper: Array, below: float, far: float) ->
     return every[:, listed_minima(every, np.concatenate(values))]
 
 
-def _near_pairs(a: Stretch, b: Stretch, window: int, far: float) -> Iterator[Indices]:
+def _near_pairs(a: Stretch, b: Stretch, far: float) -> Iterator[Indices]:
     """Give the pairs of windows within reach, (2, N); of those that overlap, only neighbours of others."""
     tree = cKDTree(b.places[:, :FIRST].astype(float), balanced_tree=False)
     for start in range(0, len(a.places), ROWS):
         some = cKDTree(a.places[start : start + ROWS, :FIRST].astype(float), balanced_tree=False)
         near = some.sparse_distance_matrix(tree, far, output_type="ndarray")
         pairs = np.stack([near["i"] + start, near["j"]])
-        pairs = pairs[:, pairs[1] + b.first - pairs[0] - a.first >= window - 2]
+        pairs = pairs[:, pairs[1] + b.first - pairs[0] - a.first >= a.cloud.window - 2]
         for part in range(0, pairs.shape[1], AT_ONCE):
             i, j = pairs[:, part : part + AT_ONCE]
             left = a.places[i] - b.places[j]
@@ -166,7 +165,7 @@ def _near_pairs(a: Stretch, b: Stretch, window: int, far: float) -> Iterator[Ind
             yield np.stack([i[close], j[close]])
 
 
-def is_quicker(cloud: Cloud, weights: Weights, below: float) -> bool:
+def is_quicker(cloud: Cloud, weights: Array, below: float) -> bool:
     """Say whether the bound is quicker than products: there are many windows, and it rules most pairs out.
 
     Parameters
@@ -176,8 +175,7 @@ def is_quicker(cloud: Cloud, weights: Weights, below: float) -> bool:
     Examples
     --------
     >>> from mocap.matching.distance_grids import cloud as prepare
-    >>> weights = Weights(np.ones(1), np.ones(1))
-    >>> is_quicker(prepare(np.zeros((5, 1, 3)), np.zeros(1), *weights, np.float64), weights, 0.04)
+    >>> is_quicker(prepare(np.zeros((5, 1, 3)), np.zeros(1), np.ones(1), 1, np.float64), np.ones(1), 0.04)
     False
     """
     windows = whole_windows(cloud)

@@ -16,7 +16,6 @@ from mocap.body.motion import Motion, require_alike
 from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapError
 from mocap.matching.distance_grids import Cloud, check_window, cloud
-from mocap.matching.lower_bound import Weights
 from mocap.matching.pair_search import find_minima, is_quicker
 from mocap.matching.point_clouds import distinct_joints, point_cloud, require_near, unit_weights
 
@@ -30,7 +29,6 @@ class Search(TypedDict, total=False):
     """How `find_transitions` searches: its parameters that have defaults, for functions that pass them on."""
 
     joint_weights: ArrayLike | None
-    taper: ArrayLike | None
     method: Method
     progress: Progress
     executor: Executor | None
@@ -121,7 +119,6 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     window: int,
     below: Thresholds,
     joint_weights: ArrayLike | None = None,
-    taper: ArrayLike | None = None,
     method: Method = "auto",
     progress: Progress = iter,
     executor: Executor | None = None,
@@ -139,7 +136,7 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
         "run"): 0.05, ...}: from windows in which the first label is on to windows with the second, or back
         where that pair is not named itself. Where several pairs apply the strictest counts; where none
         applies there is no transition.
-    joint_weights, taper : of the points and of the frames of a window, as for `distance_grid`.
+    joint_weights : of the points, as for `distance_grid`.
     method : how to search; the transitions are the same. "products" measures all pairs of windows by matrix
         products. "bound" measures only those that a lower bound of the distance leaves (`lower_bound` has
         the proof). "auto" is "bound" above 5 000 windows, if a sample says that it leaves few pairs.
@@ -188,9 +185,8 @@ def find_transitions(  # noqa: PLR0913 (what to find, how exactly, and where to 
     if not clips:
         return _both_ways(np.empty((6, 0)), clips, gap)
     double = sum(map(len, clips)) <= FEW
-    joints = len(distinct_joints(clips[0].skeleton))
-    weights = Weights(unit_weights(joint_weights, joints), unit_weights(taper, window))
-    ready = join_clouds(clips, weights, gap, np.float64 if double else np.float32)
+    weights = unit_weights(joint_weights, len(distinct_joints(clips[0].skeleton)))
+    ready = join_clouds(clips, weights, window, gap, np.float64 if double else np.float32)
     loosest = max(each.values())
     by_bound = method == "bound" or (method == "auto" and is_quicker(ready, weights, loosest))
     found = find_minima(ready, weights, loosest, by_bound=by_bound, progress=progress, executor=executor)
@@ -209,7 +205,9 @@ def _check_thresholds(below: Mapping[Any, float], clips: Sequence[Motion]) -> No
             raise MocapError(f"No clip has the label '{label}'; there are: {', '.join(known) or 'none'}.")
 
 
-def join_clouds(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type[np.floating[Any]]) -> Cloud:
+def join_clouds(
+    clips: Sequence[Motion], weights: Array, window: int, gap: int, dtype: type[np.floating[Any]]
+) -> Cloud:
     """Put all clips one after the other; windows that would run from one into the next have infinite size.
 
     After each clip `gap` more frames are infinite, so that no window is a neighbour of one of another clip.
@@ -220,8 +218,8 @@ def join_clouds(clips: Sequence[Motion], weights: Weights, gap: int, dtype: type
         require_near(points, f"'{clip.name}'")
         level = points[..., 1].mean(0) if level is None else level
         points = np.pad(points, ((0, gap), (0, 0), (0, 0)), mode="edge")
-        clouds.append(cloud(points, level, *weights, dtype))
-        clouds[-1].sizes[len(clip) - len(weights.taper) + 1 :] = np.inf
+        clouds.append(cloud(points, level, weights, window, dtype))
+        clouds[-1].sizes[len(clip) - window + 1 :] = np.inf
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*clouds, strict=True)))
 
 

@@ -1,15 +1,11 @@
 """Which plants belong together: whole, lacking, and split ones."""
 
 import numpy as np
-import pytest
 
 from mocap.blending.contact_matches import match_contacts
-from mocap.blending.mixing import mix
-from mocap.blending.registering import register
 from mocap.blending.timewarps import Curve
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from tests.blending.registered import HALF, slides, walks
 
 FPS, SPAN = 100.0, (0.0, 3.0)
 BODY = Skeleton(["foot", "other"], [-1, 0], [[0, 0, 0], [0, 1, 0]])
@@ -57,11 +53,3 @@ def test_a_part_of_a_split_group_that_a_clip_lacks_is_dropped():
 def test_plants_end_with_the_span_and_slivers_do_not_count():
     assert matched(standing((2.5, 4.0)), standing((2.6, 3.5))) == [([2.5, 2.6], [3.0, 3.0])]
     assert matched(standing((0.2, 0.21)), standing((0.2, 0.21))) == []
-
-
-@pytest.mark.parametrize("pair", [((0.8, 0), (1.4, 0)), ((1.1, -120), (1.1, 120))])
-def test_feet_hardly_slide_in_matched_plants(pair):
-    registration = register([walks()[which] for which in pair])
-    blend = mix(registration, HALF)
-    assert 10 <= len(registration.contacts) <= 14
-    assert slides(blend).mean() <= 0.7

@@ -17,7 +17,7 @@ from mocap.errors import SkeletonMismatch
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.point_clouds import point_cloud
 from tests.refusals import refused
-from tests.strategies import planar, random_motion, seeds, wave
+from tests.strategies import planar, random_motion, wave
 
 A, B = wave(120, name="a"), wave(90, phase=1.0, name="b", seed=1)
 GRIDS = {window: distance_grid(A, B, window=window) for window in (1, 8)}
@@ -103,25 +103,6 @@ def pair(seed):
     return a, random_motion(seed + 1, skeleton=a.skeleton)
 
 
-@given(seeds)
-def test_the_ends_are_the_motions_themselves(seed):
-    a, b = pair(seed)
-    for weight, source in ((1.0, a), (0.0, b)):
-        mixed = blend(a, b, np.full(5, weight))
-        assert mixed.root_positions == pytest.approx(source.root_positions)
-        assert rotations.angle_between(mixed.rotations, source.rotations) == pytest.approx(0, abs=1e-6)
-
-
-@given(seeds, planar)
-def test_moving_then_blending_is_blending_then_moving(seed, transform):
-    a, b = pair(seed)
-    weights = np.linspace(1, 0, 5)
-    first = blend(transform.apply_motion(a), transform.apply_motion(b), weights)
-    last = transform.apply_motion(blend(a, b, weights))
-    assert first.root_positions == pytest.approx(last.root_positions, abs=1e-9)
-    assert rotations.angle_between(first.rotations, last.rotations) == pytest.approx(0, abs=1e-6)
-
-
 def test_marks_come_from_the_larger_weight():
     a, b = pair(3)
     a = replace(a, contacts={"joint5": True}, labels={"walk": True})
@@ -158,15 +139,6 @@ def test_the_offset_dies_away_by_the_quintic():
     wanted = (np.arange(16)[:, None] / 16) ** np.arange(6) @ coefficients
     offset = inertialize(A, 60, B, 20, 16).root_positions[60:76] - laid.root_positions[20:36]
     assert offset == pytest.approx(wanted, abs=1e-9)
-
-
-@given(seeds, st.integers(1, 5))
-def test_any_two_poses_can_be_cut_without_a_spin(seed, window):
-    a = random_motion(seed, frames=10)
-    b = random_motion(seed + 1, frames=10, skeleton=a.skeleton)
-    cut = inertialize(a, 3, b, 2, window)
-    assert cut.root_positions[3] == pytest.approx(a.root_positions[3], abs=1e-9)
-    assert rotations.angle_between(cut.rotations[3], a.rotations[3]) == pytest.approx(0, abs=1e-6)
 
 
 AXES = np.array([[1, 0, 0], [0.6, 0, 0.8]])  # about which the knee and the foot turn

@@ -5,18 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from walking import generate_walk
 
-from mocap.blending.clocks import frame_times
 from mocap.blending.mixing import ground_course, mix
-from mocap.blending.registering import Warp, register
+from mocap.blending.registering import register
 from mocap.body.motion import resample
-from mocap.body.planar import PlanarTransform, on_ground
+from mocap.body.planar import PlanarTransform
 from mocap.errors import MocapWarning
-from mocap.feet import clean_up, mark_plants
-from mocap.files.load_save import load
+from mocap.feet import clean_up
 from mocap.matching.point_clouds import align, point_cloud
 from tests.blending.registered import (
     HALF,
@@ -27,12 +23,10 @@ from tests.blending.registered import (
     places_averaged,
     skate,
     slides,
-    slowest,
     turned,
     walks,
     way,
 )
-from tests.strategies import seeds
 
 LEFT_AND_RIGHT = (1.1, -120), (1.1, 120)
 
@@ -65,17 +59,6 @@ def test_a_left_and_a_right_quarter_make_a_straight_line_as_long_as_they_are():
     assert abs(course.centres[-1]) == pytest.approx(np.pi, abs=2e-5)
     assert np.abs(course.centres.imag).max() < 1e-12
     assert abs(centres.mean(axis=0)[-1]) == pytest.approx(2.0)  # the mean of the places: 0.64 of the way
-
-
-@given(seeds, st.floats(-3, 3), st.complex_numbers(max_magnitude=100))
-def test_a_course_does_not_depend_on_where_and_how_a_clip_lies(seed, turn, move):
-    rng = np.random.default_rng(seed)
-    turns, centres = np.cumsum(rng.normal(size=(2, 9)) / 9, axis=1), rng.normal(size=(2, 9, 2)) @ [1, 1j]
-    shares = rng.dirichlet([1, 1], 9)
-    course = ground_course(turns, centres, shares, (0.0, 0j))
-    moved = centres * [[1], [np.exp(1j * turn)]] + np.array([[0], [move]])
-    other = ground_course(turns - [[0], [turn]], moved, shares, (0.0, 0j))
-    np.testing.assert_allclose(other.centres, course.centres, atol=1e-9)
 
 
 @pytest.mark.parametrize("which", [0, 1])
@@ -123,27 +106,6 @@ def test_captured_walks_of_two_speeds_stay_in_step(real_data):
     assert knee.min() >= 0.9 > max(np.median(knee_of_frames), np.median(knee_stretched))
 
 
-def test_captured_turns_do_not_collapse(real_data):
-    for names in (("16_17", "16_19"), ("16_18", "16_20")):
-        registration = register([captured(real_data, name) for name in names])
-        blend, collapsed = mix(registration, HALF), places_averaged(registration, HALF)
-        length = of_parts(registration, way).mean()
-        assert way(blend) >= 0.97 * length and slowest(blend) >= 0.59
-        assert way(collapsed) <= 0.75 * length and slowest(collapsed) <= 0.1 and skate(collapsed) >= 40
-        assert abs(turned(blend)) < 5 < 170 < abs(turned(collapsed))  # as quaternions, ±90° have no mean
-
-
-def test_circles_to_the_right_and_the_left_make_a_straight_walk(real_data):
-    """Twelve seconds of the homework's circle to the right, and twelve to the left."""
-    folder = real_data / "hw3"
-    clip = load(folder / "walk_fwd_circle.AMC", fps=120.0, skeleton=folder / "walker.ASF")
-    circles = register([mark_plants(clip[480:1920]), mark_plants(clip[1920:3360])])
-    blend = mix(circles, HALF)
-    assert 0.97 <= way(blend) / of_parts(circles, way).mean() <= 1.03
-    assert turned(blend) == pytest.approx(of_parts(circles, turned).mean(), abs=2)
-    assert np.abs(of_parts(circles, turned)).min() > 500
-
-
 WEIGHTS = [[1 / 3] * 3, [0.6, 0.2, 0.2], [0.2, 0.2, 0.6], [0.5, -0.1, 0.6], [1.1, 0, -0.1]]
 
 
@@ -159,25 +121,6 @@ def three_are_as_asked(registration, skating):
 
 def test_three_captured_clips(real_data):
     three_are_as_asked(register([captured(real_data, n) for n in ("16_15", "16_21", "16_17")]), 1.1)
-
-
-@pytest.mark.sweep
-def test_punches_last_as_long_as_they_do_on_average_by_durations_and_less_by_rates(real_data):
-    """Nine punches of 1.2 s around their fastest moments: wiggling curves make the mean of rates too fast."""
-    clip = captured(real_data, "02_05")
-    fastest = [167, 342, 522, 691, 863, 1035, 1204, 1386, 1569]
-    nine = [clip[at - 72 : at + 73] for at in fastest]
-    weights = np.full(9, 1 / 9)
-    for spacing, most in ((0.12, 0.93), (0.3, 0.98)):
-        warp = Warp(window=9, spacing=spacing)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MocapWarning)
-            registration = register(nine, reference=4, slack=0, warp=warp)
-        lasts = [
-            len(frame_times(registration, weights, fps=120.0, pace=p)[0]) for p in ("rates", "durations")
-        ]
-        assert lasts[0] <= most * lasts[1]
-        assert (lasts[1] - 1) / 120 == pytest.approx(registration.durations.mean(), abs=1 / 120)
 
 
 def swinging(u, t):
@@ -228,11 +171,3 @@ def test_a_blend_may_have_another_rate_and_less_exact_rotations():
     fine, coarse = mix(registration, HALF), mix(registration, HALF, fps=30.0)
     assert coarse.fps == 30 and largest_gap(resample(fine, 30.0), coarse) < 0.01
     assert largest_gap(fine, mix(registration, HALF, rounds=0)) < 0.001
-
-
-def test_many_clips_have_a_short_name_and_the_course_starts_with_the_reference():
-    registration = register([walks()[speed, turn] for speed in (0.8, 1.4) for turn in (0, 120)], reference=2)
-    blend = mix(registration, np.full(4, 0.25), fps=30.0)
-    assert blend.name == "4 clips"
-    start = registration.centre(2, registration.span[0])
-    assert abs(on_ground(point_cloud(blend)[0]).mean() - start) < 0.1

@@ -59,16 +59,6 @@ def test_slopes_stay_within_bounds_and_no_curve_within_them_fits_better(seed, sp
         assert ((other(times) - values) ** 2).sum() >= best - 1e-9
 
 
-@given(seeds)
-def test_without_bounds_a_fit_is_that_of_least_squares(seed):
-    rng = np.random.default_rng(seed)
-    times, values = np.linspace(0, 3, 40), rng.normal(size=40)
-    curve = fit_curve(times, values, spacing=0.5)
-    knots = 0.5 * np.arange(-2, 9)
-    matrix = BSpline.design_matrix(np.minimum(times, 3 - 1e-12), knots, 2).toarray()
-    np.testing.assert_allclose(curve.coefficients, np.linalg.lstsq(matrix, values)[0], atol=1e-8)
-
-
 def test_one_moment_and_many_points_at_it_make_a_curve():
     for least in (-np.inf, 0.5):
         curve = fit_curve([2.0, 2.0], [1.0, 3.0], spacing=0.3, least=least)

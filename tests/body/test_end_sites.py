@@ -9,7 +9,7 @@ from mocap.blending import blend, mix, register
 from mocap.body.motion import Motion, concatenate, require_alike
 from mocap.body.skeleton import Skeleton
 from mocap.errors import SkeletonMismatch
-from mocap.graphs import build, storage
+from mocap.graphs import build
 from mocap.matching import find_transitions, rms_distance
 from mocap.methods.match_webs import build_web
 from tests.strategies import wave
@@ -71,11 +71,6 @@ def test_whose_skeletons_agree_are_left_as_they_are():
 def test_what_is_made_of_them_is_what_one_rig_gives(work):
     some, wanted = (np.array(work(clips)) for clips in (laboratory(), same_rig()))
     assert len(some) and np.array_equal(some, wanted)
-
-
-def test_graphs_are_loaded_with_the_clips_as_they_were(tmp_path):
-    storage.save(build(laboratory(), window=10, threshold=0.05), tmp_path / "graph.npz")
-    assert storage.load(tmp_path / "graph.npz", laboratory()).clips[2].skeleton.names[-1] == "side_end"
 
 
 @pytest.mark.parametrize(

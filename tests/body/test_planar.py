@@ -34,18 +34,6 @@ def test_transforms_form_a_group_and_keep_heights_and_distances(a, b, c):
     assert from_ground(on_ground(POINTS)) == pytest.approx(POINTS[..., [0, 2]])
 
 
-@given(st.floats(-3.1, 3.1), st.floats(-1.2, 1.2))
-def test_homework_heading_of_a_turned_body_leaning_forward(angle, lean):
-    body = rotations.multiply(rotations.about_y(angle), euler.from_euler("x", [lean]))
-    assert homework_heading(body) == pytest.approx(angle, abs=1e-9)
-
-
-@given(planar, st.floats(-3.1, 3.1))
-def test_a_transform_adds_its_angle_to_the_homework_heading(transform, angle):
-    after = homework_heading(transform.apply_orientations(rotations.about_y(angle)))
-    assert np.exp(1j * after) == pytest.approx(np.exp(1j * (transform.angle + angle)), abs=1e-9)
-
-
 def test_many_transforms_at_once():
     many = PlanarTransform(np.array([0.1, 0.2]), np.array([1.0, 2.0]), np.array([3.0, 4.0]))
     both = many @ many.inverse()

@@ -73,13 +73,6 @@ def test_rotation_vectors_keep_the_smallest_and_the_largest_turns(angle, sign):
     assert rotations.to_rotvec(-q) == pytest.approx(vector, rel=1e-13, abs=0) or angle == np.pi
 
 
-@given(seeds)
-def test_matrices_go_there_and_back(seed):
-    q = units(seed, 2, 7)
-    back = rotations.from_matrix(rotations.to_matrix(q))
-    assert rotations.angle_between(q, back) == pytest.approx(0, abs=1e-14)
-
-
 def test_scalar_first():
     assert rotations.about_y(np.pi) == pytest.approx([0, 0, 1, 0])
     assert rotations.rotate(rotations.about_y(np.pi / 2), [[0, 0, 1], [1, 0, 0]]) == (
@@ -113,15 +106,6 @@ def test_slerp_takes_the_short_way_whatever_the_signs(seed):
         assert np.sum(a * part, axis=-1).min() >= -1e-15  # on the same side of the sphere as the start
 
 
-@given(seeds)
-def test_slerp_ends_where_it_should(seed):
-    start, end = units(seed, 2, 5)
-    assert np.array_equal(rotations.slerp(start, end, np.zeros(5)), start)
-    nearer = end * np.sign(np.sum(start * end, axis=-1, keepdims=True))
-    assert rotations.slerp(start, end, np.ones(5)) == pytest.approx(nearer, abs=4e-15)
-    assert rotations.slerp(start, start, np.linspace(0, 1, 5)) == pytest.approx(start, abs=4e-15)
-
-
 @given(seeds, st.sampled_from([*TINY, *(np.pi - angle for angle in TINY)]), st.floats(0, 1))
 def test_slerp_between_nearly_equal_and_nearly_opposite_rotations(seed, angle, amount):
     random = np.random.default_rng(seed)
@@ -151,17 +135,6 @@ def test_the_angle_between_is_scipys(seed):
     assert rotations.angle_between(a, b) == pytest.approx(expected, abs=1e-14)
 
 
-def test_no_rotations_at_all_are_fine():
-    none, vectors = np.empty((2, 0, 4)), np.empty((2, 0, 3))
-    assert rotations.multiply(none, rotations.IDENTITY).shape == (2, 0, 4)
-    assert rotations.slerp(none, none, np.empty((2, 0))).shape == (2, 0, 4)
-    assert rotations.to_matrix(none).shape == (2, 0, 3, 3)
-    assert rotations.to_rotvec(none).shape == (2, 0, 3)
-    assert rotations.from_rotvec(vectors).shape == (2, 0, 4)
-    assert rotations.rotate(none, vectors).shape == (2, 0, 3)
-    assert rotations.angle_between(none, none).shape == (2, 0)
-
-
 @given(seeds, st.floats(0, 1))
 def test_the_mean_of_two_rotations_is_slerp(seed, amount):
     start, end = units(seed, 2, 20)
@@ -182,10 +155,3 @@ def test_rounds_lead_to_the_rotation_from_which_the_others_cancel_out(seed):
     once = rotations.mean(near, weights)
     bare = rotations.mean(near, weights, rounds=0)
     assert rotations.angle_between(once, mean).max() <= max(rotations.angle_between(bare, mean).max(), 1e-9)
-
-
-def test_the_bare_sum_is_off_by_degrees_for_rotations_far_apart():
-    pair = units(0, 2000, 2)
-    weights = np.random.default_rng(1).dirichlet([1, 1], 2000)
-    off = rotations.angle_between(rotations.mean(pair, weights), rotations.mean(pair, weights, rounds=0))
-    assert 4 < np.degrees(off.max()) < 10

@@ -95,18 +95,6 @@ def test_convert_a_folder_and_name_what_failed(folder, run):
     assert same("out/more/b.bvh", "clips/more/b.BVH")
 
 
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("clips/a.bvh a.fbx", "mocap writes .bvh"),
-        ("clips/a.bvh clips/a.bvh/b.bvh", "Cannot make the folder"),
-        ("clips/gone.bvh b.bvh", "Cannot read"),
-    ],
-)
-def test_a_single_failure_is_a_failure(folder, run, line, message):
-    assert message in run(f"convert {line}", 2).out
-
-
 def test_what_fails_names_options_not_arguments(folder, run, monkeypatch):
     monkeypatch.setattr("mocap.files.conversion.convert", lambda *_, **__: ["no rate: give fps="])
     assert "no rate: give --fps" in run("convert clips/a.bvh arm.glb", 2).out
@@ -251,10 +239,6 @@ def test_matches_are_listed_and_cut_out_as_files(walks, run):
     assert told.err == ""
 
 
-def test_the_shortest_query_lasts_as_long_as_a_path(walks, run):
-    assert "walk_straight" in run("find walks/walk_straight.bvh:120-138 walks").out
-
-
 def test_a_query_from_elsewhere_is_not_among_its_matches(walks, run):
     told = run(f"{walks} walks/stop_and_go.bvh --steps 1 --any-length").out
     assert "walk_straight" not in told and "stop_and_go" in told and "wrote" not in told
@@ -264,12 +248,3 @@ def test_a_query_that_finds_nothing_says_so(walks, run):
     told = run(f"{walks} walks --below 0.01")
     assert told.out.splitlines()[-1] == "found        0 in 0 clips"
     assert "only itself" in told.err
-
-
-@pytest.mark.parametrize("below", ["6", "12"])
-def test_a_stricter_limit_still_finds_the_near_ones(real_data, tmp_path, run, below):
-    clip = tmp_path / "punches.bvh"
-    load_save.save(datasets.cmu("02_05"), clip)
-    _, *rows, _ = run(f"find {clip}:614-704 {clip} --below {below}").out.splitlines()
-    assert rows[0].split()[1] == "796-876" and float(rows[0].split()[3]) < 4
-    assert len(rows) >= 2 and rows[1].split()[1].startswith("97")

@@ -1,7 +1,5 @@
 """`mocap demo` and `mocap graph`, as a person types them."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -9,14 +7,12 @@ from mocap.body import rotations
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import Motion, resample
 from mocap.body.skeleton import Skeleton
-from mocap.cli.main import main
 from mocap.cli.options import Building
 from mocap.datasets import samples
 from mocap.datasets.clip_origins import Origin, find_again, is_origin
 from mocap.errors import MocapError
 from mocap.files import load_save
 from mocap.graphs import storage
-from tests.strategies import wave
 
 
 def rows(told):
@@ -42,16 +38,6 @@ def test_a_demo_writes_a_walk_and_tells(clips, run):
 
 
 @pytest.mark.usefixtures("unseen")
-def test_many_clips_are_named_in_short(tmp_path, monkeypatch, run):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "many").mkdir()
-    for k in range(9):
-        load_save.save(replace(wave(60, phase=k, seed=k), name=f"clip{k}"), f"many/clip{k}.bvh")
-    told = run("demo many -o out --threshold 5").out
-    assert "9: clip0, clip1, clip2, clip3, clip4, clip5, clip6, … clip8" in told
-
-
-@pytest.mark.usefixtures("unseen")
 def test_a_threshold_that_leaves_no_cycle_is_told_with_one_that_does(clips, run):
     said = run("demo a.bvh b.bvh -o out --threshold 0.01", 2).err
     assert "at a threshold of 0.01 cm; these clips need at least" in said
@@ -72,16 +58,6 @@ def test_without_clips_a_demo_takes_the_bundled_ones(tmp_path, run):
     assert "walk_circle" in told
     assert int(rows(told)["transitions"].split()[1]) > 50
     check_walk(told, tmp_path / "walk.bvh", 20)
-
-
-@pytest.mark.usefixtures("unseen")
-@pytest.mark.parametrize("names", ["hw3/walk_fwd_*1 hw3/walk_fwd_circle", "cmu/16/16_15 cmu/16/16_31"])
-def test_real_clips_make_a_walk(real_data, tmp_path, run, names):
-    found = [file for name in names.split() for file in real_data.glob(f"{name}.*")]
-    files = [str(file) for file in found if file.suffix.lower() == ".amc"]
-    assert len(files) == 2
-    told = run(f"demo {' '.join(files)} --seconds 10 -o {tmp_path}").out
-    check_walk(told, tmp_path / "walk.bvh", 10)
 
 
 def test_a_graph_is_built_saved_and_told_about(clips, run):
@@ -113,13 +89,6 @@ def test_a_folder_of_clips_named_info_is_built(clips, tmp_path, run):
     (tmp_path / "info").symlink_to(clips)
     for words in ("graph build info", "graph ./info"):
         run(f"{words} -o g.npz")
-
-
-def test_the_usage_of_its_actions_is_in_one_piece(capsys):
-    for action in ("build", "info"):
-        with pytest.raises(SystemExit, match="0"):
-            main(["graph", action, "--help"])
-        assert capsys.readouterr().out.startswith(f"usage: mocap graph {action} [-h]")
 
 
 def test_a_graph_with_mirror_images_finds_its_clips_again(tmp_path, monkeypatch, run):

@@ -26,11 +26,6 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_it_walks_along_a_path(folder, run):
-    assert "walked" in run("walk graph.npz --path path.csv -o out.bvh --label 0:walk --clean").out
-    assert len(load_save.load("out.bvh")) > 90
-
-
 def test_it_wanders_and_writes_gltf_for_engines(folder, run):
     assert "at random" in run("walk graph.npz --random 0.1min -o out.glb --clean").out
     read = Glb((folder / "out.glb").read_bytes())

@@ -80,14 +80,6 @@ def test_the_motion_is_as_it_was_outside_the_window_unless_the_plan_says_from_wh
     assert len(changed("at 90 same\nat 100 same")) == 0
 
 
-def test_several_joints_at_one_moment(folder):
-    both = plan(folder, "at 1.5s lhand 0 0.1 0\nat 180 rhand 0 0.12 0")
-    right = WALK.skeleton.index("rhand")
-    for feet in (False, True):  # the clean-up raises the root by 4 mm, and the hands are brought back
-        change = joint_positions(warp(WALK, both, feet=feet))[180] - joint_positions(WALK)[180]
-        assert change[[HAND, right], 1] == pytest.approx([0.1, 0.12], abs=1e-5)
-
-
 def test_a_hand_at_its_place_leaves_the_feet_at_theirs(folder):
     warped = warp(WALK, plan(folder, "at 1.5s lhand 0.1 0.3 0.1\nat 2s root 0 -0.1 0"))
     assert slide(warped) < 1e-3

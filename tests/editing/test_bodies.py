@@ -78,9 +78,3 @@ def test_pins_farther_apart_than_the_bones_between_are_refused():
         pin(clip, "lfoot", [0], [-np.inf] * 3, [np.inf, 0.1, np.inf]),
     )
     refused(r"'lfoot' would be 8\.90 m from 'rwrist'", require_reachable, clip, high)
-
-
-def test_bad_bodies():
-    clip = walk()
-    refused("No joint 'knee'", body_of, clip, [4], still=["knee"])
-    refused("above 0", body_of, clip, [4], prices={"lfemur": 0.0})

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocap.body import rotations
 from mocap.datasets.samples import sample
 from mocap.editing.displacements import Displacement, difference, displaced, spline_basis
 from mocap.errors import MocapError, SkeletonMismatch
@@ -29,18 +28,6 @@ def test_adding_and_taking_the_difference_undo_each_other(motion, change):
     again = difference(displaced(base, change), base)
     np.testing.assert_allclose(again.root, change.root, atol=1e-14)
     np.testing.assert_allclose(again.turns, change.turns, atol=1e-12)
-
-
-def test_displacements_are_added_one_after_the_other_for_their_sum_is_something_else():
-    base, a, b = random_motion(1), random_change(2, most=1.0), random_change(3, most=1.0)
-    both = displaced(displaced(base, a), b)
-    together = displaced(base, Displacement(a.root + b.root, a.turns + b.turns))
-    assert rotations.angle_between(both.rotations, together.rotations).max() > 0.1
-    # About one axis they agree.
-    b = Displacement(b.root, 0.3 * a.turns)
-    both = displaced(displaced(base, a), b)
-    together = displaced(base, Displacement(a.root + b.root, a.turns + b.turns))
-    assert rotations.angle_between(both.rotations, together.rotations).max() < 1e-12
 
 
 def test_what_is_not_turned_keeps_its_numbers_to_the_last_bit():

@@ -73,19 +73,6 @@ def test_where_all_axes_of_a_side_point_the_other_way_a_knee_bends_as_its_partne
     assert rotations.angle_between(there.rotations, here.rotations).max() < 1e-6
 
 
-@pytest.mark.filterwarnings("ignore::mocap.errors.MocapWarning")
-def test_a_walk_and_its_mirror_image_turn_their_joints_alike(real_data):
-    for name in (
-        "bandai_namco/dataset-2_walk_normal_001",
-        "pymo/AV_8Walk_Meredith_HVHA_Rep1",
-        "imusim/16_15",
-    ):
-        walk = load_save.load(real_data / "bvh" / f"{name}.bvh")
-        even = np.full(len(walk), 1 / len(walk))
-        means = [rotations.mean(clip.rotations[:, 1:].swapaxes(0, 1), even) for clip in (walk, mirror(walk))]
-        assert np.degrees(rotations.angle_between(*means)).max() < 60
-
-
 def test_plants_and_words_change_sides():
     left = np.arange(len(WALK)) % 2 == 0
     marked = replace(WALK, labels={"turn left": left, "Right": ~left, "walk": True})

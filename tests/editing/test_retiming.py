@@ -6,20 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.interpolate import CubicSpline
 
 from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
 from mocap.editing.cycles import looped, repeated
-from mocap.editing.keys import cardinal
 from mocap.editing.retiming import at_frames, old_seconds, retime
 from mocap.errors import MocapError
 from tests.refusals import refused
-from tests.strategies import random_motion
 
 WALK = sample("walk_straight")[240:721]
-UNEVEN = [(0, 0), (100, 40), (130, 250), (300, 280), (400, 400)]
 
 
 def body(motion):
@@ -35,14 +31,6 @@ def acc99(motion):
 
 
 # -------------------------------------------------------------------------------------------- time
-def test_uneven_time_keys_run_backwards_by_cubic_splines_and_never_by_pchip():
-    new, old = np.array(UNEVEN, float).T
-    now = np.arange(401)
-    assert 0.25 < (np.diff(cardinal(new, old, now)) < -1e-9).mean() < 0.33
-    natural = CubicSpline(new, old, bc_type="natural")(now)
-    assert 0.40 < (np.diff(natural) < -1e-9).mean() < 0.46
-    assert (np.maximum.accumulate(natural) - natural).max() > 150
-    assert np.diff(old_seconds(UNEVEN, now)).min() > 0
 
 
 rising = st.lists(st.floats(0.01, 10), min_size=1, max_size=6).map(lambda gaps: np.cumsum([0.0, *gaps]))
@@ -85,13 +73,6 @@ def test_slow_motion_is_smooth_by_hermite_and_jolts_by_slerp(fps):
     smooth, straight = (replace(m, fps=4 * fps) for m in (at_frames(source, quarter), source.at(quarter)))
     assert acc99(smooth) < 1.1 * acc99(WALK)
     assert acc99(straight) > 1.5 * acc99(WALK)
-
-
-@pytest.mark.parametrize("frames", [1, 2, 3])
-def test_short_clips_can_be_shown_at_any_moment(frames):
-    motion = random_motion(7, frames)
-    shown = at_frames(motion, [-1.0, 0.0, frames - 1.0, 99.0])
-    assert joint_positions(shown) == pytest.approx(joint_positions(motion)[[0, 0, -1, -1]], abs=1e-12)
 
 
 def test_a_steady_glide_stays_steady_up_to_both_ends():

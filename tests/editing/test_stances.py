@@ -7,14 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocap import load
 from mocap.body import rotations
 from mocap.body.planar import PlanarTransform
 from mocap.editing.body_roles import FEET, roles
 from mocap.editing.stances import Stance, proportioned, stance_of, stance_of_zero, standing_heights
 from mocap.errors import MocapError
 from mocap.feet.footplants import mark_plants
-from tests.editing.bodies import adult, along_x, rested, walk, without
+from tests.editing.bodies import adult, along_x, rested, walk
 from tests.refusals import refused
 
 
@@ -99,27 +98,6 @@ def test_feet_that_never_stand_flat_and_feet_that_never_stand():
     assert np.isfinite(stance_of(loose, mean=True).turns).all()
 
 
-@pytest.mark.parametrize(
-    ("name", "stands"),
-    [
-        ("cmu/16/16_15.amc", True),
-        ("bvh/puppy0512_motion_graph/walk_normal_stright.bvh", True),
-        ("bvh/olaf_bvh_toolbox/walk01.bvh", True),
-        ("bvh/imusim/16_15.bvh", True),
-        ("bvh/bandai_namco/dataset-1_walk_normal_001.bvh", False),
-    ],
-)
-def test_which_rest_poses_stand(real_data, name, stands):
-    clip = load(real_data / name)
-    zero = stance_of(clip)
-    if stands:
-        assert stance_of_zero(clip.skeleton, 0.03).skeleton is clip.skeleton
-    else:
-        refused("hips are 90° off level, its thighs 90° off hanging", stance_of_zero, clip.skeleton, 0.03)
-        assert zero.height("ankle") == pytest.approx(0.117, abs=0.002)
-        assert zero.height("ball") == pytest.approx(0.042, abs=0.002)
-
-
 def lengths(stance, *roles):
     return [np.linalg.norm(stance.skeleton.offsets[stance.roles[role]]) for role in roles]
 
@@ -135,12 +113,6 @@ def test_each_part_has_its_share():
         assert lengths(new, *parts) == pytest.approx(share * np.array(lengths(adult(), *parts)))
     assert new.heights == pytest.approx({role: 0.5 * height for role, height in adult().heights.items()})
     assert new.leg == pytest.approx(0.5 * adult().leg)
-
-
-def test_a_body_without_a_neck_has_its_head_on_the_trunk():
-    body = without(walk(), "lowerneck", "upperneck")
-    new = proportioned(stance_of(body), head=0.5, trunk=0.9)
-    assert lengths(new, "head") == pytest.approx(0.9 * np.array(lengths(stance_of(body), "head")))
 
 
 @pytest.mark.parametrize("share", [0, -1, np.nan, np.inf])

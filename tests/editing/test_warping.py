@@ -89,20 +89,6 @@ def test_every_key_of_any_body_is_met(seed):
         assert warped[key.frame] == pytest.approx(asked, abs=1e-9)
 
 
-def test_without_a_pose_nothing_changes():
-    warped = displaced(WALK, offsets(WALK, [Key(10), Key(50), Key(100)]))
-    assert np.array_equal(warped.rotations, WALK.rotations)
-    assert np.array_equal(warped.root_positions, WALK.root_positions)
-
-
-def test_the_offset_on_the_other_side_misses():
-    pose = moved(WALK, 120, turn=(0.5, 0.5, 0.5))
-    change = offsets(WALK, keys_around(WALK, 120, pose))
-    left = replace(WALK, rotations=rotations.multiply(rotations.from_rotvec(change.turns), WALK.rotations))
-    miss = joint_positions(left)[120, HAND] - joint_positions(pose)[0, HAND]
-    assert np.linalg.norm(miss) > 0.02
-
-
 def test_a_change_near_an_end_of_the_clip_holds_to_the_end():
     keys = keys_around(WALK, 20, moved(WALK, 20, up=0.1))
     assert [key.frame for key in keys] == [20, 80]

@@ -13,7 +13,6 @@ from mocap.body.kinematics import joint_positions
 from mocap.body.motion import resample
 from mocap.datasets.samples import SAMPLES, sample
 from mocap.feet.footplants import find_footprints, hysteresis, mark_plants, settle, standing_tracks
-from mocap.files.load_save import load
 from tests.refusals import refused
 from tests.strategies import random_motion, seeds, wave
 
@@ -57,30 +56,6 @@ def test_feet_that_are_never_slow_have_no_plants():
     jog = sample("jog")
     ride = jog.root_positions + np.arange(len(jog))[:, None] / jog.fps * [0.0, 1.5, 3.0]
     assert not any(mark_plants(replace(jog, root_positions=ride)).contacts[joint].any() for joint in JOINTS)
-
-
-def stance(clip):
-    """Give the shares of the time in which a foot stands, and none stands; and plants per second."""
-    marks = mark_plants(clip).contacts
-    left, right = (marks[side + "foot"] | marks[side + "toes"] for side in "lr")
-    plants = (len(runs(left)) + len(runs(right))) / clip.duration
-    return (left.mean() + right.mean()) / 2, (~left & ~right).mean(), plants
-
-
-@pytest.mark.parametrize(
-    ("trials", "stands", "flight", "steps"),
-    [
-        (("16_15", "16_16", "16_31", "16_47"), (0.48, 0.66), (0, 0.1), (1.6, 2.1)),  # 99-109 per minute
-        (("16_21", "16_22"), (0.42, 0.6), (0, 0.1), (1.9, 2.4)),  # brisk: 125 per minute
-        (("16_35", "16_45"), (0.2, 0.4), (0.25, 0.6), (2.5, 3.1)),  # runs: 152-176 per minute
-    ],
-)
-def test_people_stand_as_people_do(real_data, trials, stands, flight, steps):
-    for trial in trials:
-        stood, none, plants = stance(load(real_data / "cmu" / "16" / f"{trial}.amc"))
-        assert stands[0] < stood < stands[1]
-        assert flight[0] <= none < flight[1]
-        assert steps[0] < plants < steps[1]
 
 
 @given(masks, st.integers(1, 8))

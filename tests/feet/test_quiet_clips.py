@@ -7,8 +7,6 @@ import pytest
 
 from mocap.body.motion import resample
 from mocap.datasets.samples import sample
-from mocap.feet.footplants import mark_plants
-from mocap.files.load_save import load
 from tests.feet.quiet_clips import check_clean_up, slowed, standing, unbent
 
 POSE = sample("stop_and_go")[100:101]
@@ -31,21 +29,3 @@ HERE = {
 @pytest.mark.parametrize("kind", HERE)
 def test_all_plants_of_quiet_clips_are_held(kind, fps):
     check_clean_up(HERE[kind](fps), 0.995)
-
-
-@pytest.mark.filterwarnings("ignore:.*let go")
-@RATES
-@pytest.mark.parametrize("name", ["16/16_15", "16/16_21", "02/02_01"])
-def test_captured_walks_slow_and_straight_legged(real_data, name, fps):
-    clip = resample(load(real_data / "cmu" / f"{name}.amc"), fps)
-    others = (slowed(clip, 3), unbent(clip, 0.0), unbent(clip, 4.0))
-    counts = [check_clean_up(m, 0.95) for m in (mark_plants(clip), *others)]
-    kept, asked = np.sum(counts, axis=0)
-    assert kept >= 0.99 * asked
-
-
-@pytest.mark.filterwarnings("ignore:.*let go")
-@pytest.mark.parametrize("fps", [60.0, 120.0])
-@pytest.mark.parametrize(("name", "least"), [("127/127_30", 0.965), ("127/127_10", 0.995)])
-def test_a_runner_who_ducks_or_turns_keeps_nearly_all_plants(real_data, name, least, fps):
-    check_clean_up(mark_plants(resample(load(real_data / "cmu" / f"{name}.amc"), fps)), least)

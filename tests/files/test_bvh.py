@@ -286,11 +286,7 @@ def test_what_is_written_reads_back(tmp_path_factory, motion):
 
 
 def test_curves_are_continuous(tmp_path):
-    steps = np.arange(400)[:, None] * [3.0, 2.0, -1.0] + [
-        0.3,
-        0.7,
-        0.2,
-    ]  # x goes through ±90° again and again
+    steps = np.arange(400)[:, None] * [3.0, 2.0, -1.0] + [0.3, 0.7, 0.2]  # x passes ±90° again and again
     turns = euler.from_euler("ZXY", np.radians(steps))[:, None]
     spinning = Motion(Skeleton(["a"], [-1], np.zeros((1, 3))), np.zeros((400, 3)), turns, 30.0)
     bvh.write(spinning, tmp_path / "a.bvh")

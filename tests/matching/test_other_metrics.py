@@ -9,9 +9,7 @@ from hypothesis import given
 from mocap.body import euler, rotations
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.datasets import sample
 from mocap.errors import MocapError, SkeletonMismatch
-from mocap.matching import distance_grids
 from mocap.matching.distance_grids import distance_grid
 from mocap.matching.other_metrics import HOMEWORK_WEIGHTS, euler_grid, file_angles, root_grid
 from tests.refusals import refused
@@ -54,14 +52,6 @@ def test_all_metrics_have_one_interface(metric):
     for window, message in ((8, "'body0' has 7 frames, too few for a window of 8"), (0, "got 0")):
         refused(message, metric, a, b, window=window)
     refused("elbow", metric, a, wave(9), window=2, kind=SkeletonMismatch)
-
-
-@pytest.mark.parametrize("metric", [root_grid, euler_grid])
-def test_tiles_do_not_show(metric, monkeypatch):
-    a, _ = body_motion(0, 20)
-    whole = metric(a, a, window=3)
-    monkeypatch.setattr(distance_grids, "TILE", (4, 6))
-    assert metric(a, a, window=3) == pytest.approx(whole)
 
 
 def test_root_grid_adds_metres_and_radians():
@@ -107,10 +97,3 @@ def test_the_euler_grid_takes_weights_by_name():
     with pytest.raises(MocapError, match="none of the bones with a weight: root, rhumerus_end"):
         euler_grid(a, a, window=2, weights={"root": 1.0, "rhumerus_end": 1.0})
     refused(r"got \{'ltibia': -1.0\}", euler_grid, a, a, window=2, weights={"lfemur": 1.0, "ltibia": -1.0})
-
-
-def test_the_homework_weighs_bones_of_its_skeleton_left_and_right_alike():
-    assert set(HOMEWORK_WEIGHTS) < set(sample("walk_circle").skeleton.names)
-    for name, weight in HOMEWORK_WEIGHTS.items():
-        assert HOMEWORK_WEIGHTS.get("r" + name[1:], weight) == weight
-    assert sum(HOMEWORK_WEIGHTS.values()) == pytest.approx(460 / 480)  # so it is there: not quite 1

@@ -13,7 +13,6 @@ from mocap._shared import tasks
 from mocap.graphs.motion_graph import build
 from mocap.matching import distance_grids, pair_search, transitions
 from mocap.matching.distance_grids import Cloud, cloud, cloud_distances, distance_grid
-from mocap.matching.lower_bound import Weights
 from mocap.matching.minima import local_minima
 from mocap.matching.pair_search import find_minima, is_quicker
 from mocap.matching.transitions import find_transitions
@@ -31,13 +30,12 @@ def smooth_points(seed, frames):
     return np.sin(t + random.uniform(0, 6, (4, 3))) + random.normal(size=(frames, 4, 3)) * 0.01
 
 
-def equal(window):
-    return Weights(np.full(4, 0.25), np.full(window, 1 / window))
+EQUAL = np.full(4, 0.25)
 
 
 def clouds(lengths, window, seed):
     parts = [
-        cloud(smooth_points(seed + n, length), np.zeros(4), *equal(window), np.float32)
+        cloud(smooth_points(seed + n, length), np.zeros(4), EQUAL, window, np.float32)
         for n, length in enumerate(lengths)
     ]
     return Cloud(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
@@ -50,13 +48,13 @@ def test_blocks_and_tiles_do_not_show(by_bound, below, seed, lengths, window, bl
     """Minima at every border are found once, whichever way the grid is cut."""
     whole = clouds(lengths, window, seed)
     count = sum(lengths) - window + 1
-    grid = cloud_distances(*[whole.part(slice(0, count))] * 2, np.full(window, 1 / window))
+    grid = cloud_distances(*[whole.part(slice(0, count))] * 2)
     expected = [[i, j] for i, j in local_minima(grid, below**2).tolist() if j - i >= window]
     with pytest.MonkeyPatch.context() as patch:
         for name, value in (("BLOCK", block), ("WIDE_BLOCK", block), ("ROWS", 5), ("AT_ONCE", 20)):
             patch.setattr(pair_search, name, value)
         patch.setattr(distance_grids, "TILE", (5, 7))
-        found = find_minima(whole, equal(window), below, by_bound=by_bound)
+        found = find_minima(whole, EQUAL, below, by_bound=by_bound)
     order = np.lexsort(found[1::-1])
     i, j = found[:2].astype(int)
     assert np.stack([i, j], 1)[order].tolist() == expected
@@ -68,7 +66,7 @@ def test_blocks_and_tiles_do_not_show(by_bound, below, seed, lengths, window, bl
 def test_clips_without_a_whole_window_have_no_minima(by_bound):
     short = clouds([3], 3, 0)
     short.sizes[:] = np.inf
-    assert find_minima(short, equal(3), 1.0, by_bound=by_bound).shape == (6, 0)
+    assert find_minima(short, EQUAL, 1.0, by_bound=by_bound).shape == (6, 0)
 
 
 class Late:
@@ -95,10 +93,10 @@ def test_only_a_few_blocks_are_out_at_once_and_they_are_shown(by_bound, monkeypa
     monkeypatch.setattr(pair_search, "WIDE_BLOCK" if by_bound else "BLOCK", 10)
     monkeypatch.setattr(tasks, "AHEAD", 4)
     whole, executor, seen = clouds([30], 2, 0), Late(), []
-    expected = find_minima(whole, equal(2), 2.0, by_bound=by_bound)
+    expected = find_minima(whole, EQUAL, 2.0, by_bound=by_bound)
     found = find_minima(
         whole,
-        equal(2),
+        EQUAL,
         2.0,
         by_bound=by_bound,
         executor=executor,
@@ -137,8 +135,8 @@ def test_in_32_bits_both_methods_differ_in_flat_valleys_only(window):
 
 
 @pytest.mark.parametrize("method", ["products", "bound"])
-def test_weights_of_joints_and_frames_are_those_of_the_grid(method):
-    weights = {"joint_weights": [1, 0, 5, 2], "taper": [1, 2, 3, 4, 4, 3, 2, 0]}
+def test_weights_of_joints_are_those_of_the_grid(method):
+    weights = {"joint_weights": [1, 0, 5, 2]}
     grid = distance_grid(*CLIPS, window=8, **weights)
     found = find_transitions(CLIPS, window=8, below=0.1, method=method, **weights)
     across = found[(found.source == 0) & (found.target == 1)]
@@ -151,13 +149,13 @@ def test_weights_of_joints_and_frames_are_those_of_the_grid(method):
 
 def test_the_bound_is_taken_for_many_windows_of_which_few_are_near(monkeypatch):
     whole = clouds([200], 2, 0)
-    assert not is_quicker(whole, equal(2), 0.01)
+    assert not is_quicker(whole, EQUAL, 0.01)
     monkeypatch.setattr(pair_search, "MANY", 100)
-    assert not is_quicker(whole, equal(2), 0.3)  # each window is near itself: 1 pair in 200
+    assert not is_quicker(whole, EQUAL, 0.3)  # each window is near itself: 1 pair in 200
     monkeypatch.setattr(pair_search, "LOOSE", 0.02)
-    assert is_quicker(whole, equal(2), 0.01)
-    assert not is_quicker(whole, equal(2), 10.0)
-    assert not is_quicker(whole, equal(2), np.inf)
+    assert is_quicker(whole, EQUAL, 0.01)
+    assert not is_quicker(whole, EQUAL, 10.0)
+    assert not is_quicker(whole, EQUAL, np.inf)
 
 
 def test_auto_asks_which_is_quicker(monkeypatch):

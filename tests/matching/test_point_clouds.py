@@ -29,14 +29,6 @@ def test_no_optimiser_finds_a_better_alignment(seed):
         assert best <= found.fun + 1e-6
 
 
-def test_alignment_works_on_many_clouds_at_once():
-    a, b = np.random.default_rng(0).normal(size=(2, 3, 4, 9, 3))
-    together = align(a, b)
-    assert np.shape(together.angle) == (3, 4)
-    one = align(a[2, 1], b[2, 1])
-    assert [field[2, 1] for field in together] == pytest.approx(list(one))
-
-
 def test_of_many_senseless_weights_the_message_shows_the_range():
     refused(re.escape(f"got {[1.0] * 7 + [-1.0]}."), unit_weights, [1.0] * 7 + [-1.0], 8)
     refused(re.escape("got an array of shape (9,) from -1 to 1."), unit_weights, [1.0] * 8 + [-1.0], 9)

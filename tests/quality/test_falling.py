@@ -1,13 +1,10 @@
 """The centre of mass, and the gravity that a flight shows."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from mocap.body.motion import Motion
 from mocap.body.skeleton import Skeleton
-from mocap.datasets.samples import sample
 from mocap.files import load_save
 from mocap.quality.falling import SEGMENTS, centre_of_mass, gravity
 from tests.refusals import refused
@@ -39,11 +36,6 @@ def test_a_thrown_stick_falls_at_g_about_its_middle():
     assert centre_of_mass(ball(), parts)[0] == pytest.approx([0, 1.1, 0])
     assert gravity(ball(), 3, 30, parts) == pytest.approx(9.81)
     assert gravity(ball(g=16.7), 0, 39, parts) == pytest.approx(16.7)
-
-
-def test_half_the_time_is_four_times_the_gravity():
-    jump = sample("jump")
-    assert gravity(replace(jump, fps=240.0), 215, 262) == pytest.approx(4 * gravity(jump, 215, 262))
 
 
 def test_captured_jumps_fall_at_about_g(real_data):

@@ -7,14 +7,10 @@ import pytest
 from walking import generate
 
 from mocap.blending import join
-from mocap.body.motion import Motion, concatenate, resample
+from mocap.body.motion import Motion, concatenate
 from mocap.body.skeleton import Skeleton
 from mocap.datasets.samples import sample
 from mocap.errors import SkeletonMismatch
-from mocap.feet.footplants import mark_plants
-from mocap.feet.footskate import clean_up
-from mocap.files.load_save import load
-from mocap.matching.transitions import Transition, find_transitions
 from mocap.quality.seam_measures import Spread, jumps, knee_turns, seam_quality, spread
 from tests.refusals import refused
 from tests.strategies import random_motion
@@ -86,14 +82,6 @@ def test_a_leap_in_the_data_is_neither_usual_nor_hides_a_seam():
     assert usual.within(42)[-1] == USUAL.within(42)[-1]
 
 
-def test_windows_are_compared_with_windows_as_long():
-    one, many = (USUAL.within(frames) for frames in (1, 42))
-    assert len(one) == len(WALK)
-    assert len(many) == len(WALK) - 41
-    assert np.median(many) > 1.5 * np.median(one)
-    assert USUAL.within(10**6).tolist() == [one.max()]
-
-
 def test_a_knee_that_is_turned_by_hand_turns_as_far():
     knee, rotations = WALK.skeleton.index("ltibia"), WALK.rotations.copy()
     rotations[600:, knee] = rotations[599, knee]
@@ -108,70 +96,7 @@ WINDOW = 10
 SHARES = np.array([50, 75, 90, 95])
 
 
-@pytest.fixture(scope="module")
-def captured(real_data) -> tuple[list[Motion], Spread, list[Transition], list[Transition]]:
-    """Return CMU 16's walks, what is usual in them, and transitions below 4 cm and far above."""
-    walks = [load(real_data / "cmu" / "16" / f"16_{trial}.amc") for trial in TRIALS]
-    clips = [mark_plants(resample(walk, 30.0)) for walk in walks]
-    usual = spread(clips)
-    every = find_transitions(clips, window=WINDOW, below=1.0)
-
-    def leaps(t: Transition) -> bool:
-        """Tell whether the data leap in one of the windows: then the seam has it from them."""
-        around = ((t.source, t.leave), (t.target, t.enter))
-        return any(np.isnan(usual.velocity[clip][max(a - 1, 0) : a + WINDOW + 1]).any() for clip, a in around)
-
-    good, bad = ([t for t in every if low < t.cost < high] for low, high in ((0, 0.04), (0.2, 1)))
-    whole = [[t for t in some if not leaps(t)] for some in (good, bad)]
-    assert len(whole[0]) > 0.95 * len(good)  # few are left out
-    return clips, usual, *whole
-
-
-def measured(clips: list[Motion], usual: Spread, chosen: list[Transition]):
-    """Return the qualities of seams before and after clean-up, (N, 2) each, and largest jumps, (2, N)."""
-    rows, largest = [], []
-    for t in chosen:
-        start = max(0, t.leave - 15)
-        skating = join(
-            clips[t.source][start:], t.leave - start, clips[t.target][: t.enter + 25], t.enter, WINDOW
-        )
-        seam = (t.leave - start, t.leave - start + WINDOW)
-        around = slice(max(seam[0] - 1, 0), seam[1] + 1)
-        both = skating, clean_up(skating)
-        rows.append([seam_quality(motion, seam, usual) for motion in both])
-        largest.append([jumps(motion)[0][around].max() for motion in both])
-    before, after = np.moveaxis(np.array(rows), 1, 0)
-    return before, after, np.array(largest).T
-
-
 def beyond(usual: Spread, largest: np.ndarray) -> np.ndarray:
     """Return by how many percent more seams than windows of the clips jump further than each of `SHARES`."""
     limits = np.percentile(usual.within(WINDOW + 2), SHARES)
     return 100 * (largest[:, None] > limits).mean(axis=0) - (100 - SHARES)
-
-
-@pytest.mark.sweep
-@pytest.mark.filterwarnings("ignore:.*let go")
-@pytest.mark.parametrize("seed", range(3))
-def test_two_hundred_seams_of_real_walks_are_as_smooth_as_the_clips(captured, seed):
-    clips, usual, good, _ = captured
-    some = np.random.default_rng(seed).permutation(len(good))[:200]
-    before, after, largest = measured(clips, usual, [good[i] for i in some])
-    velocity, slide = 0, 1
-    assert before[:, velocity].max() <= 1
-    assert after[:, velocity].max() <= 1
-    for jump in largest:
-        assert np.all(beyond(usual, jump) < 5)  # of 200, by chance
-    assert before[:, slide].mean() > 1
-    assert after[:, slide].max() < 0.1
-
-
-@pytest.mark.filterwarnings("ignore:.*let go")
-@pytest.mark.sweep
-@pytest.mark.parametrize("seed", range(3))
-def test_seams_over_a_bad_threshold_show(captured, seed):
-    clips, usual, _, bad = captured
-    some = np.random.default_rng(seed).permutation(len(bad))[:40]
-    _, _, largest = measured(clips, usual, [bad[i] for i in some])
-    for jump in largest:
-        assert np.all(beyond(usual, jump)[:3] > 25)

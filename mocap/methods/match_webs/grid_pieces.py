@@ -18,14 +18,13 @@ NEAR = 3  # frames; a path of which more than half lies so close to a better one
 OFF_MINIMUM = 0.5  # by how much a cell that is no one-dimensional minimum costs more, in units of `below`
 
 
-def find_paths(cloud: Cloud, starts: Indices, taper: Array, below: float, progress: Progress) -> list[Array]:
+def find_paths(cloud: Cloud, starts: Indices, below: float, progress: Progress) -> list[Array]:
     """Find the paths above the diagonal, each of shape (K, 3): two windows and their RMS distance.
 
     Parameters
     ----------
     cloud : all windows of some clips in a row.
     starts : where each clip begins, and where the last ends.
-    taper : shape (k,), the weights of a window's frames.
     below : the mean distance that a path may have, metres.
     progress : as for `build_web`.
     """
@@ -36,11 +35,11 @@ def find_paths(cloud: Cloud, starts: Indices, taper: Array, below: float, progre
         for column in columns
         if column.stop > row.start
     ]
-    last = len(cloud.sizes) - len(taper) + 1
+    last = len(cloud.sizes) - cloud.window + 1
     found = []
     for pair in progress(pairs):
         a, b = (cloud.part(slice(part.start, min(part.stop, last))) for part in pair)
-        cells = paths_between(a, b, (pair[0].start, pair[1].start), taper, below)
+        cells = paths_between(a, b, (pair[0].start, pair[1].start), below)
         ends = np.flatnonzero(np.diff(cells[:, 0])) + 1
         found += [path for path in np.split(cells[:, 1:], ends) if len(path)]
     if np.diff(starts).max() > ROWS:  # then parts of a clip may have found the same
@@ -75,14 +74,14 @@ def pieces(starts: Sequence[int], most: int, overlap: int) -> list[slice]:
     return [*found, slice(begin, starts[-1])]
 
 
-def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], taper: Array, below: float) -> Array:
+def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], below: float) -> Array:
     """Find the paths in the grid of two pieces.
 
     Parameters
     ----------
     a, b : the same piece twice, or a later one second.
     corner : their first windows, in the numbering of all.
-    taper, below : as for `find_paths`.
+    below : as for `find_paths`.
 
     Returns
     -------
@@ -91,7 +90,7 @@ def paths_between(a: Cloud, b: Cloud, corner: tuple[int, int], taper: Array, bel
     """
     grid = np.empty((len(a.sizes), len(b.sizes)), a.heights.dtype)
     for tile in tiles(*grid.shape):
-        grid[tile] = cloud_distances(a.part(tile[0]), b.part(tile[1]), taper)
+        grid[tile] = cloud_distances(a.part(tile[0]), b.part(tile[1]))
     np.sqrt(grid, out=grid)
     first = corner[0] - corner[1] + LEAST  # the second window is at least so much later
     if first + len(grid) > 0:

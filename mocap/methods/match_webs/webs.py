@@ -14,7 +14,6 @@ from mocap._shared.arrays import Array, Indices, Mask, frozen
 from mocap._shared.progress import Progress
 from mocap.body.motion import Motion, require_alike, resample
 from mocap.errors import MocapError, MocapWarning
-from mocap.matching.lower_bound import Weights
 from mocap.matching.point_clouds import distinct_joints, unit_weights
 from mocap.matching.transitions import join_clouds
 from mocap.methods.match_webs.grid_pieces import LEAST, find_paths
@@ -115,10 +114,10 @@ def build_web(clips: Sequence[Motion], *, below: float = 0.12, progress: Progres
     clips = require_alike(clips)
     low = [resample(clip, MatchWeb.rate) for clip in clips]
     long = _long_enough(low, WINDOW + LEAST)
-    weights = Weights(unit_weights(None, len(distinct_joints(clips[0].skeleton))), unit_weights(None, WINDOW))
-    ready = join_clouds([clip for clip, use in zip(low, long, strict=True) if use], weights, 0, np.float32)
+    weights, some = unit_weights(None, len(distinct_joints(clips[0].skeleton))), zip(low, long, strict=True)
+    ready = join_clouds([clip for clip, use in some if use], weights, WINDOW, 0, np.float32)
     starts = np.cumsum([0, *(len(clip) * use for clip, use in zip(low, long, strict=True))])
-    paths = find_paths(ready, np.unique(starts), weights.taper, below, progress)
+    paths = find_paths(ready, np.unique(starts), below, progress)
     cells = np.concatenate([np.empty((0, 3)), *paths])
     offsets = np.cumsum([0, *map(len, paths)])
     return MatchWeb(clips, starts, float(below), cells[:, :2] + WINDOW // 2, cells[:, 2], offsets)
