@@ -215,6 +215,14 @@ class Naming(Live):
     shared: ClassVar = {"alt": ""}
 
 
+def lay_out_like(figure: Figure, before: Figure) -> None:
+    """Give the axes of a figure the places of those drawn before: a layout takes as long as the drawing."""
+    if len(figure.axes) == len(before.axes) and (figure.get_size_inches() == before.get_size_inches()).all():
+        figure.set_layout_engine("none")
+        for axes, placed in zip(figure.axes, before.axes, strict=True):
+            axes.set_position(placed.get_position(original=True))
+
+
 class BlittedFigure:
     """Turns what a `draw` function returned into a PNG, and draws again only what moved.
 
@@ -232,6 +240,8 @@ class BlittedFigure:
         artists = sorted(drawn, key=Artist.get_zorder) if moved else []
         if figure is not self.figure:
             plt.close(figure)  # or the notebook shows it a second time, and pyplot keeps it for ever
+            if self.figure is not None:
+                lay_out_like(figure, self.figure)
             self.figure, self.canvas = figure, FigureCanvasAgg(figure)
             figure.stale = True
         for artist in artists:
