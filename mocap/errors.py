@@ -73,20 +73,31 @@ class NoWalk(MocapError):
     """The graph has no walk of the kind that was asked for."""
 
 
-def missing(what: str, extra: str) -> MocapError:
-    """Say what is not installed, and how to install it: by its name on the index, or from a checkout.
+def requirement(extra: str) -> str:
+    """Name this package with an extra as pip wants it: by its name on the index, or from a checkout.
 
     Examples
     --------
-    >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace("'.[", "'motion-graphs["))
-    Films need imageio-ffmpeg: pip install 'motion-graphs[video]'.
+    >>> requirement("video") in ("motion-graphs[video]", ".[video]")
+    True
     """
     from importlib.metadata import distributions  # only here: it takes a while
 
     # What was installed from a folder says so.
     noted = [found.read_text("direct_url.json") or "" for found in distributions(name="motion-graphs")]
     local = all("dir_info" in note for note in noted)
-    return MocapError(f"{what}: pip install '{'.' if local else 'motion-graphs'}[{extra}]'.")
+    return f"{'.' if local else 'motion-graphs'}[{extra}]"
+
+
+def missing(what: str, extra: str) -> MocapError:
+    """Say what is not installed, and how to install it.
+
+    Examples
+    --------
+    >>> print(str(missing("Films need imageio-ffmpeg", "video")).replace("'.[", "'motion-graphs["))
+    Films need imageio-ffmpeg: pip install 'motion-graphs[video]'.
+    """
+    return MocapError(f"{what}: pip install '{requirement(extra)}'.")
 
 
 class MocapWarning(UserWarning):

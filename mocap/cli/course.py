@@ -10,21 +10,39 @@ from typing import Annotated
 
 from mocap import course
 from mocap._shared.atomic import require_writable, write_text
-from mocap.cli.options import bar
+from mocap.cli.options import bar, number
 from mocap.cli.typed_commands import Group
 from mocap.course import marking, teaching
+from mocap.errors import printable
 
+Points = Annotated[Path | None, "a .toml file of lines EXERCISE = POINTS (default: 1 each)"]
 Moving = Annotated[bool, "run the notebooks (minutes) and record the experiments' sliders"]
 
 
-def handout(*, out: Path = Path("mocap-handout")) -> None:
+def handout(
+    notebooks: Sequence[Path] = (),
+    *,
+    out: Path = Path("mocap-handout"),
+    nbgrader: bool = False,
+    points: Points = None,
+) -> None:
     """Copy the notebooks without their solutions.
+
+    Copy the notebooks without their solutions, hints and outcomes, and with what JupyterHub, Binder and Colab
+    need to run them.
 
     Parameters
     ----------
+    notebooks : files to copy (default: the whole course).
     out : where to write.
+    nbgrader : write the folder of a course for nbgrader, with solutions, checks and points marked.
+
+    Notes
+    -----
+    For example: mocap course handout notebooks/02-matching.ipynb --nbgrader -o my-course
     """
-    print(f"wrote {len(course.hand_out(course.stored(), out))} notebooks to {out}")
+    worth = marking.read_points(points)
+    print(f"wrote {len(course.hand_out(notebooks, out, worth, nbgrader=nbgrader))} notebooks to {out}")
 
 
 def site(*, out: Path = Path("mocap-site"), moving: Moving = False) -> None:
@@ -95,15 +113,23 @@ def board(*, out: Path = Path("mocap-board")) -> None:
     print(f"wrote {len(files)} pictures to {out}; {files[-1]} shows all")
 
 
-def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
-    """Mark a folder of handed-in notebooks into a .csv.
+def mark(
+    folder: Path,
+    *,
+    out: Path = Path("marks.csv"),
+    points: Points = None,
+    roster: Annotated[Path | None, "the .csv file of students that Moodle or Canvas has written"] = None,
+    feedback: Annotated[Path | None, "a folder for a page of HTML per student"] = None,
+    jobs: Annotated[int, number(1, 64, int), "notebooks that are marked at a time"] = 1,
+) -> None:
+    """Mark a folder of handed-in notebooks into .csv files.
 
-    Mark a folder of handed-in notebooks into two .csv files: OUT has a line for each exercise, and OUT-table
-    a line for each student. Each notebook runs in a process of its own, with a new folder as its home, few
-    variables in its environment, and limits of time, memory, processes and files. The first line printed says
-    what else this system can do: whether a notebook can read or write anything but Python and its home, and
-    whether it has a network. If you do not trust those who hand in, read "Hand out, and mark" in
-    notebooks/README.md first.
+    Mark a folder of handed-in notebooks into four .csv files: OUT has a line for each exercise, OUT-table a
+    line for each student, OUT-moodle and OUT-canvas have the columns that these import. Each notebook runs in
+    a process of its own, with a new folder as its home, few variables in its environment, and limits of time,
+    memory, processes and files. The first line printed says what else this system can do: whether a notebook
+    can read or write anything but Python and its home, and whether it has a network. If you do not trust
+    those who hand in, read "Hand out, and mark" in notebooks/README.md first.
 
     Parameters
     ----------
@@ -112,17 +138,23 @@ def mark(folder: Path, *, out: Path = Path("marks.csv")) -> None:
 
     Notes
     -----
-    For example: mocap course mark handed-in -o marks.csv
+    For example: mocap course mark handed-in -o marks.csv --points points.toml --feedback feedback
     """
-    table = out.with_stem(f"{out.stem}-table")
+    worth, students = marking.read_points(points), marking.read_roster(roster)
     require_writable(out)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends it as Ctrl-C does
     marks: list[marking.Mark] = []
-    for some in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr)):
+    grades: list[marking.Grade] = []
+    for some in marking.mark(folder, bar("marking"), partial(print, file=sys.stderr), jobs):
         marks += some
-        write_text(out, marking.to_csv(marks))  # before the next notebook runs
-        write_text(table, marking.to_table(marks))
-    print(f"wrote {out} and {table}: {sum(one.right for one in marks)} of {len(marks)} are right")
+        grades = marking.grade(marks, worth, students)
+        for end, text in marking.tables(marks, grades, worth, out.stem).items():
+            write_text(out.with_stem(f"{out.stem}{end}"), text)  # before the next notebook runs
+    if unknown := [one.sent for one in grades if students and not one.listed]:
+        print(f"not in {roster}: {printable(', '.join(unknown))}", file=sys.stderr)
+    if feedback:
+        print(f"wrote {len(marking.write_feedback(grades, worth, feedback))} pages to {feedback}")
+    print(f"wrote {out} and three more: {sum(one.right for one in marks)} of {len(marks)} are right")
 
 
 def run(notebooks: Sequence[Path] = ()) -> None:

@@ -1,23 +1,53 @@
-"""For teachers: copies of the notebooks without solutions."""
+"""For teachers: copies of the notebooks without solutions, hints and outcomes, and the folder of nbgrader."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping, Sequence
+from difflib import SequenceMatcher
 from pathlib import Path
+from typing import Any
 
 from mocap._shared.atomic import make_folder, write_text
-from mocap.course.notebooks import library, notebooks_in, read, tagged
-from mocap.errors import MocapError
+from mocap.course.notebooks import library, notebooks_in, read, solution, tagged
+from mocap.course.opening import stored
+from mocap.errors import MocapError, requirement
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
+TELLING = re.compile(r"checks\.|lab\.(bets?|quiz)\(")  # how cells begin whose outputs hold hints or outcomes
+INSTALL = """# The notebook needs the package: this installs it where it is missing, as in Colab.
+try:
+    import mocap
+except ImportError:
+    %pip install -q '{}'"""
+MARKS = """# nbgrader puts the check here.
+### BEGIN HIDDEN TESTS
+from mocap.course import checks
+
+checks.{0}.require({0})
+### END HIDDEN TESTS"""
+CONFIG = """c = get_config()
+c.CourseDirectory.course_id = "motion-graphs"
+c.ClearSolutions.code_stub = {"python": "return ..."}
+c.Execute.timeout = 120
+"""
 
 
-def hand_out(notebooks: Path, out: Path) -> list[Path]:
-    """Copy the course without its solutions.
+def hand_out(
+    notebooks: Sequence[Path], out: Path, points: Mapping[str, float] | None = None, *, nbgrader: bool = False
+) -> list[Path]:
+    """Copy notebooks without their solutions, and with a first cell that installs the package.
+
+    What runs them finds beside them what it asks for: a hub and Binder a `requirements.txt`, Binder the
+    version of Python, too. Colab runs the first cell.
 
     Parameters
     ----------
-    notebooks : the course's folder.
+    notebooks : files; by default those of the course.
     out : the folder for the copies; no file in it is replaced, as it may be a student's work.
+    points : of exercises, by their names, for nbgrader; 1 for those that are not named.
+    nbgrader : make the folder of a course for nbgrader instead, with the solutions marked. It has an
+        assignment for each notebook, and after each check a cell that gives its points.
 
     Returns
     -------
@@ -29,20 +59,67 @@ def hand_out(notebooks: Path, out: Path) -> list[Path]:
 
     Examples
     --------
-    >>> hand_out(Path("nowhere"), Path("out"))
+    >>> hand_out([Path("nowhere.ipynb")], Path("out"))
     Traceback (most recent call last):
-    mocap.errors.MocapError: The folder nowhere holds no notebooks.
+    mocap.errors.MocapError: nowhere.ipynb: No such file or directory.
     """
-    nbformat, files = library(), notebooks_in(notebooks)
-    make_folder(out)
-    for file in (*files, *(notebooks / page for page in PAGES)):
-        if (out / file.name).exists():
-            raise MocapError(f"{out / file.name} exists already; choose another folder.")
-    for file in files:
-        notebook = read(file)
-        solutions = [cell for _, cell in tagged(notebook, "solution")]
-        notebook.cells = [cell for cell in notebook.cells if cell not in solutions]
-        write_text(out / file.name, nbformat.writes(notebook) + "\n")
-    for page in PAGES:
-        write_text(out / page, (notebooks / page).read_text("utf-8"))
-    return [out / file.name for file in files]
+    nbformat, new, course = library(), dict[Path, str](), stored()
+    copies, needs = [], requirement("notebooks")
+    for file in notebooks or notebooks_in(course):
+        notebook, folder = read(file), out / "source" / file.stem if nbgrader else out
+        answers = list(tagged(notebook, "solution"))
+        notebook.cells = [cell for cell in notebook.cells if cell not in [cell for _, cell in answers]]
+        for cell in notebook.cells:
+            if cell.cell_type == "code" and TELLING.match(cell.source):
+                cell.outputs, cell.execution_count = [], None
+        if nbgrader:
+            _prepare(notebook, {name: solution(cell) for name, cell in answers}, points or {})
+        notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.format(needs), id="install"))
+        copies.append(folder / file.name)
+        new[copies[-1]] = nbformat.writes(notebook) + "\n"
+        new |= {folder / page: (course / page).read_text("utf-8") for page in PAGES}
+        new |= {folder / "requirements.txt": f"{needs}\n", folder / "runtime.txt": "python-3.11\n"}
+    if nbgrader:
+        new[out / "nbgrader_config.py"] = CONFIG
+    if there := [file for file in new if file.exists()]:
+        raise MocapError(f"{there[0]} exists already; choose another folder.")
+    for file, text in new.items():
+        make_folder(file.parent)
+        write_text(file, text)
+    return copies
+
+
+def _prepare(notebook: Any, solutions: Mapping[str, str], points: Mapping[str, float]) -> None:  # noqa: ANN401
+    """Mark solutions and lock questions and checks, as nbgrader wants it; add cells that give points."""
+    new_cell = library().v4.new_code_cell
+    for name, cell in tagged(notebook, "exercise"):
+        cell.source = _merged(cell.source, solutions[name])
+        cell.metadata.nbgrader = _role(f"exercise-{name}", solution=True)
+    for name, cell in tagged(notebook, "ask"):
+        cell.metadata.nbgrader = _role(f"ask-{name}", locked=True)
+    for name, cell in tagged(notebook, "check"):
+        cell.metadata.nbgrader = _role(f"check-{name}", locked=True)
+        role = _role(f"marks-{name}", locked=True, grade=True, points=points.get(name, 1))
+        marks = new_cell(MARKS.format(name), id=f"marks-{name}"[:64], metadata={"nbgrader": role})
+        notebook.cells.insert(notebook.cells.index(cell) + 1, marks)
+
+
+def _role(name: str, **given: float) -> dict[str, Any]:
+    """Say what a cell is to nbgrader."""
+    plain = {"schema_version": 3, "grade": False, "locked": False, "solution": False, "task": False}
+    return plain | {"grade_id": name} | given
+
+
+def _merged(stub: str, right: str) -> str:
+    """Mark in a solution what the stub of its function does not have."""
+    head = stub[: stub.index("...")].rpartition("\n")[0] + "\n"  # with the docstring
+    if not right.startswith(head):
+        right = head + right.partition("\n")[2]
+    old, new, merged = stub.splitlines(), right.strip().splitlines(), list[str]()
+    for kind, *_, start, stop in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
+        if kind == "equal":
+            merged += new[start:stop]
+        elif lines := new[start:stop]:
+            indent = " " * min(len(line) - len(line.lstrip()) for line in lines if line)
+            merged += [f"{indent}### BEGIN SOLUTION", *lines, f"{indent}### END SOLUTION"]
+    return "\n".join(merged)

@@ -42,7 +42,7 @@ def test_the_right_answer_passes_and_each_mistake_gets_its_own_hint(name):
 
 
 def test_an_unknown_check_names_those_there_are():
-    with pytest.raises(AttributeError, match=r"no check 'spede'; it has: .*speed"):
+    with pytest.raises(AttributeError, match=r"no check 'spede'; it has: .*speed.*; write `speed`$"):
         checks.spede  # noqa: B018
 
 

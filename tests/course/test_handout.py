@@ -1,37 +1,64 @@
-"""The course handed out."""
+"""The course handed out, to students and to nbgrader."""
 
+import json
+import os
 import sys
+from pathlib import Path
 
 import nbformat
 import pytest
 
 from mocap.cli.main import main
-from mocap.course.handout import hand_out
-from mocap.course.notebooks import read, tagged
+from mocap.course.handout import PAGES, TELLING, _merged, hand_out
+from mocap.course.notebooks import notebooks_in, read, solution, tagged
 from mocap.course.opening import stored
 from mocap.errors import MocapError
+
+COURSE = {file.stem: read(file) for file in notebooks_in(stored())}
+INSTALLS = "'.[notebooks]'"
 
 
 @pytest.fixture(scope="module")
 def copies(tmp_path_factory):
-    return hand_out(stored(), tmp_path_factory.mktemp("handout") / "course")
+    return hand_out((), tmp_path_factory.mktemp("handout") / "course")
 
 
-def test_a_handout_has_everything_but_the_solutions(copies):
-    for copy, original in zip(copies, sorted(stored().glob("*.ipynb")), strict=True):
-        notebook, whole = read(copy), read(original)
+def test_a_handout_has_everything_but_solutions_hints_and_outcomes(copies):
+    for copy, whole in zip(copies, COURSE.values(), strict=True):
+        notebook = read(copy)
         nbformat.validate(notebook)
         assert list(tagged(notebook, "solution")) == []
         solutions = len(list(tagged(whole, "solution")))
-        assert len(notebook.cells) == len(whole.cells) - solutions
+        assert len(notebook.cells) == 1 + len(whole.cells) - solutions
         assert "<summary>Solution" not in copy.read_text("utf-8")
-    assert {"GLOSSARY.md", "FORMULAS.md"} <= {path.name for path in copies[0].parent.iterdir()}
-    assert not (copies[0].parent / "README.md").exists()  # the instructors'
+        assert f"%pip install -q {INSTALLS}" in notebook.cells[0].source
+        outputs = json.dumps([cell.get("outputs") for cell in notebook.cells])
+        assert "Hint:" not in outputs and "mocap-question" not in outputs  # where bets and answers are
+        pictures = [sum(map(str(nb).count, ("image/png", "text/html"))) for nb in (notebook, whole)]
+        told = [c for c in whole.cells if c.cell_type == "code" and TELLING.match(c.source)]
+        assert pictures[0] == pictures[1] - sum(map(str(told).count, ("image/png", "text/html")))
+    beside = {path.name: path for path in copies[0].parent.iterdir()}
+    assert {*beside} == {*PAGES, "requirements.txt", "runtime.txt", *(copy.name for copy in copies)}
+    assert beside["requirements.txt"].read_text() == ".[notebooks]\n"
+    assert beside["runtime.txt"].read_text() == (stored().parent / ".binder" / "runtime.txt").read_text()
 
 
 def test_a_handout_replaces_nothing(copies):
+    before = copies[0].read_text("utf-8")
     with pytest.raises(MocapError, match=r"00-quickstart.ipynb exists already; choose another folder"):
-        hand_out(stored(), copies[0].parent)
+        hand_out((), copies[0].parent)
+    assert copies[0].read_text("utf-8") == before
+
+
+def test_the_first_cell_installs_only_where_the_package_is_missing(copies, monkeypatch):
+    from IPython.core.interactiveshell import InteractiveShell
+
+    shell, installed = InteractiveShell(), []
+    monkeypatch.setattr(shell, "run_line_magic", lambda name, line, **_: installed.append(f"{name} {line}"))
+    for there in (sys.modules["mocap"], None):
+        monkeypatch.setitem(sys.modules, "mocap", there)
+        assert shell.run_cell(read(copies[0]).cells[0].source, silent=True).success
+    assert installed == [f"pip install -q {INSTALLS}"]
 
 
 @pytest.mark.parametrize("command", ["handout", "site"])
@@ -52,3 +79,77 @@ def test_without_the_notebooks_libraries_one_sentence_says_what_to_install(
     assert main(["course", *command]) != 0
     assert "pip install '.[notebooks]'" in capsys.readouterr().err
     assert not list(tmp_path.glob("out/*"))
+
+
+@pytest.mark.parametrize("stem", COURSE)
+def test_a_solution_without_what_is_marked_is_the_stub_again(stem):
+    """As nbgrader cuts it out, with our stub and with its own, which raises an error."""
+    clear = pytest.importorskip("nbgrader.preprocessors", reason="pip install '.[test]'").ClearSolutions
+    right = {name: solution(cell) for name, cell in tagged(COURSE[stem], "solution")}
+    for name, cell in tagged(COURSE[stem], "exercise"):
+        merged = nbformat.v4.new_code_cell(_merged(cell.source, right[name]))
+        compile(merged.source, name, "exec")
+        for stub in ("return ...", "# YOUR CODE HERE\nraise NotImplementedError()"):
+            cut, cutter = merged.copy(), clear()
+            cutter.code_stub = {"python": stub}
+            assert cutter._replace_solution_region(cut, "python")
+            compile(cut.source, name, "exec")
+            if stub == "return ..." and name != "tarjan":  # whose stub shows where its cases go
+                assert cut.source == cell.source
+
+
+def test_nbgrader_gives_full_marks_for_right_answers_and_none_for_wrong_or_empty_ones(tmp_path, monkeypatch):
+    """It makes the assignment, grades three students and writes feedback, as at a university."""
+    pytest.importorskip("nbgrader", reason="pip install '.[test]'")
+    import alembic
+    from nbgrader.apps.api import NbGraderAPI
+    from traitlets.config import Config
+
+    small = COURSE["00-quickstart"].copy()
+    wanted = ("ask", "exercise", "check", "solution")
+    kept = [cell for kind in wanted for name, cell in tagged(small, kind) if name in ("speed", "cheapest")]
+    imports = "import numpy as np\n\nfrom mocap.course import checks, lab"
+    small.cells = [nbformat.v4.new_code_cell(imports), *(cell for cell in small.cells if cell in kept)]
+    nbformat.write(small, tmp_path / "small.ipynb")
+    (tmp_path / "points.toml").write_text("speed = 2.5")
+    line = ["handout", tmp_path / "small.ipynb", "--nbgrader", "-o", tmp_path / "course"]
+    assert main(["course", *map(str, line), "--points", str(tmp_path / "points.toml")]) == 0
+
+    at = Path(alembic.__file__).parents[4]  # where nbgrader finds commands and templates
+    monkeypatch.setenv("PATH", os.pathsep.join([str(at / "bin"), os.environ["PATH"]]))
+    monkeypatch.setenv("JUPYTER_PATH", str(at / "share" / "jupyter"))
+    monkeypatch.chdir(tmp_path / "course")
+    config = Config()
+    exec((tmp_path / "course" / "nbgrader_config.py").read_text(), {"get_config": lambda: config})
+    config.CourseDirectory.root = str(tmp_path / "course")
+    api = NbGraderAPI(config=config)
+    assert api.generate_assignment("small")["success"]
+    source, release = (
+        read(tmp_path / "course" / kind / "small" / "small.ipynb") for kind in ("source", "release")
+    )
+    assert "require" not in str(release) and "SOLUTION" not in str(release) and "return ..." in str(release)
+    right = {
+        name: f"import sys\nsys.stderr.write('slow')\n{cell.source}"
+        for name, cell in tagged(source, "exercise")
+    }
+    students = {
+        "right": lambda name, _: right[name].replace("steps =", "print('!', file=sys.stderr)\n    steps ="),
+        "wrong": lambda name, stub: (
+            stub.replace("...", "7") if name == "speed" else f"{name} = lab.mine('{name}')"
+        ),
+        "empty": lambda _, stub: stub,
+    }
+    for student, answer in students.items():
+        sent = nbformat.reads(nbformat.writes(release), 4)
+        for name, cell in tagged(sent, "exercise"):
+            cell.source = answer(name, cell.source)
+        (folder := tmp_path / "course" / "submitted" / student / "small").mkdir(parents=True)
+        nbformat.write(sent, folder / "small.ipynb")
+        assert api.autograde("small", student)["success"]
+    done = api.generate_feedback("small", "wrong")
+    assert done["success"], done
+    with api.gradebook as book:
+        scores = {one.student.id: (one.score, one.max_score) for one in book.assignment_submissions("small")}
+    assert scores == {"right": (3.5, 3.5), "wrong": (0, 3.5), "empty": (0, 3.5)}
+    page = (tmp_path / "course" / "feedback" / "wrong" / "small" / "small.html").read_text("utf-8")
+    assert "your answer has the shape (); it should be" in page

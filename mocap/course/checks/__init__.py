@@ -9,6 +9,7 @@ that students make, each with its hint. Beside them, five files have what takes 
 """
 
 import tomllib
+from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -31,7 +32,20 @@ def all_checks() -> dict[str, Check]:
     return found
 
 
+def nearest(name: str) -> str:
+    """Say what to do about a name that no exercise has.
+
+    Examples
+    --------
+    >>> nearest("sped"), nearest("<lambda>")
+    ('write `speed`', 'write `def` and the name that the exercise gives')
+    """
+    near = get_close_matches(name, all_checks(), 1)
+    return f"write `{near[0]}`" if near else "write `def` and the name that the exercise gives"
+
+
 def __getattr__(name: str) -> Check:
     if name not in all_checks():
-        raise AttributeError(f"the course has no check '{name}'; it has: {', '.join(all_checks())}")
+        known = ", ".join(all_checks())
+        raise AttributeError(f"the course has no check '{name}'; it has: {known}; {nearest(name)}")
     return all_checks()[name]

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any
 
 from mocap.course.check import Verdict
-from mocap.course.checks import all_checks
+from mocap.course.checks import all_checks, nearest
 from mocap.course.lab.guarding import Slot
 from mocap.course.lab.kept_functions import keep, place, plain_source, read_text, run_sections
 from mocap.errors import MocapError
@@ -67,7 +67,7 @@ def slots(*names: str) -> list[Slot]:
     MocapError : for a name that no exercise has.
     """
     if unknown := [name for name in names if name not in all_checks()]:
-        raise MocapError(f"The course has no exercise '{unknown[0][:60]}'.")
+        raise MocapError(f"The course has no exercise '{unknown[0][:40]}'; {nearest(unknown[0])}.")
     _refresh()
     return [_slots()[name] for name in names]
 

@@ -85,7 +85,7 @@ class Slot:
         wanted = np.zeros(shape) if shape else self.stand_in(*arguments)
         if not same_form(given, wanted):
             return self._give_up("", arguments, given)
-        return np.asarray(given, wanted.dtype) if isinstance(wanted, np.ndarray) else given  # a list will do
+        return in_form(given, wanted)
 
     def _give_up(self, why: str, arguments: tuple[Any, ...], given: Any = None) -> Any:  # noqa: ANN401
         if not why:
@@ -117,6 +117,24 @@ def same_form(given: Any, wanted: Any) -> bool:  # noqa: ANN401
     if there is None:  # items of different kinds
         return listed and len(given) == len(wanted) and all(map(same_form, given, wanted))
     return here is not None and here.shape == there.shape and not (np.isnan(here) & ~np.isnan(there)).any()
+
+
+def in_form(given: Any, wanted: Any) -> Any:  # noqa: ANN401
+    """Give an answer of the same form the types of another, as what follows may need an array or a set.
+
+    Examples
+    --------
+    >>> in_form([[1, 2], (3,)], ({0}, np.zeros(1)))
+    ({1, 2}, array([3.]))
+    """
+    try:
+        if isinstance(wanted, np.ndarray):
+            return np.asarray(given, wanted.dtype)
+        if type(wanted) in (list, tuple) and len(given) == len(wanted):
+            return type(wanted)(map(in_form, given, wanted))
+        return given if wanted is None or isinstance(given, type(wanted)) else type(wanted)(given)
+    except (TypeError, ValueError):
+        return given
 
 
 def _numbers(value: Any) -> Any:  # noqa: ANN401

@@ -1,8 +1,7 @@
 """The file beside the notebooks that keeps what students wrote, so that it survives a restart of the kernel.
 
-It is plain Python: the imports, and each function, with its helpers and constants, under a heading with its
-name. Who deletes a function, or the file, starts anew. What is read from it counts only if it passes its
-check again.
+It is plain Python: each function, with its imports, helpers and constants, under a heading with its name. Who
+deletes a function, or the file, starts anew. What is read from it counts only if it passes its check again.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from collections.abc import Collection, Mapping
 from importlib import import_module
 from pathlib import Path
 from types import FunctionType, ModuleType
-from typing import Any, NamedTuple
+from typing import Any
 
 from mocap._shared.atomic import write_text
 from mocap.course.names import names_of
@@ -98,15 +97,8 @@ def run_sections(file: Path, text: str, known: Mapping[str, Any]) -> tuple[dict[
     return found, said
 
 
-class Plain(NamedTuple):
-    """What a function needs, as text: lines of imports, and its source after that of its helpers."""
-
-    imports: frozenset[str]
-    source: str
-
-
-def plain_source(function: FunctionType, known: Collection[str] = ()) -> Plain:
-    """Write down a function so that a new Python can run it.
+def plain_source(function: FunctionType, known: Collection[str] = ()) -> str:
+    """Write down a function so that a new Python can run it: imports, helpers, and its source.
 
     Parameters
     ----------
@@ -119,13 +111,13 @@ def plain_source(function: FunctionType, known: Collection[str] = ()) -> Plain:
 
     Examples
     --------
-    >>> sorted(plain_source(textwrap.shorten).imports)
-    ['from textwrap import TextWrapper']
+    >>> plain_source(textwrap.shorten).splitlines()[0]
+    'from textwrap import TextWrapper'
     """
     imports: set[str] = set()
     helpers: dict[str, str] = {}
     _gather(inspect.unwrap(function), {*known, function.__name__}, imports, helpers)
-    return Plain(frozenset(imports), "\n\n".join([*helpers.values(), _source(function)]))
+    return "\n\n".join(["".join(sorted(imports))] * bool(imports) + [*helpers.values(), _source(function)])
 
 
 def _gather(function: FunctionType, known: set[str], imports: set[str], helpers: dict[str, str]) -> None:
@@ -140,7 +132,7 @@ def _gather(function: FunctionType, known: set[str], imports: set[str], helpers:
             _gather(own, known, imports, helpers)
             helpers[name] = _source(own)
         elif line := _import(name, value):
-            imports.add(line)
+            imports.add(f"{line}\n")
         elif _is_plain(value):
             helpers[name] = f"{name} = {value!r}\n"
         else:
@@ -181,7 +173,7 @@ def _source(function: FunctionType) -> str:
     return source.rstrip() + "\n"
 
 
-def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
+def keep(file: Path, name: str, notebook: str, source: str) -> str:
     """Write a function into the file, in place of an earlier one of its name, and return the new text.
 
     Parameters
@@ -189,7 +181,7 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     file : the file; it is made where there is none.
     name : the function's.
     notebook : the number of the notebook that asks for it; the functions stand in this order.
-    plain : its imports and its source.
+    source : from `plain_source`. Its imports stay with it, as another's may have the same names.
 
     Raises
     ------
@@ -197,14 +189,13 @@ def keep(file: Path, name: str, notebook: str, plain: Plain) -> str:
     """
     head, sections = split(read_text(file))
     try:
-        lines = {ast.unparse(node) for node in ast.parse(head).body if not isinstance(node, ast.Expr)}
+        ast.parse(head)
     except SyntaxError as error:
         raise MocapError(f"{file}, line {error.lineno}: {error.msg}; correct it, or delete it.") from error
-    new = name, f"# ---- {name} (notebook {notebook}) ----\n", f"\n{plain.source}"
+    new = name, f"# ---- {name} (notebook {notebook}) ----\n", f"\n{source}"
     kept = [*(part for part in sections if part[0] != name), new]
     kept.sort(key=lambda part: part[1].partition("(")[2])  # by notebook
-    imports = "\n".join(sorted(lines | plain.imports))
-    start = f"{HEAD}\n{imports}\n" if imports else HEAD
+    start = head.rstrip() + "\n" if head.strip() else HEAD
     text = "\n\n".join([start, *(heading + body.rstrip() + "\n" for _, heading, body in kept)]) + FOOT
     try:
         write_text(file, text)

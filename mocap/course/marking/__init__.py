@@ -12,11 +12,16 @@ Reading order
 4. `walls`: what the kernel keeps from that process
 5. `keeper`: the start of that process, and the end of all that it started
 6. `sealed`: the marker's side: start, ask, stop in time
-7. `marks`: judge each exercise of each notebook, and write the marks as .csv
+7. `grades`: points, tables for spreadsheets, Moodle and Canvas, and a page for each student
+8. `marks`: judge each exercise of each notebook
 """
 
 import lazy_loader
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submod_attrs={"marks": ["Mark", "mark", "to_csv", "to_table"]}
+    __name__,
+    submod_attrs={
+        "marks": ["mark"],
+        "grades": ["Grade", "Mark", "grade", "read_points", "read_roster", "tables", "write_feedback"],
+    },
 )

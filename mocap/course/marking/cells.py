@@ -18,6 +18,9 @@ ORACLES = (
 """Ways to a right answer: a check that is not just called, its parts, and what can hide such names."""
 
 
+STUB = re.compile(r"(^|\s)\.\.\.[ \t]*(#.*)?$", re.MULTILINE)  # a line that ends as stubs do
+
+
 class Cell(NamedTuple):
     """A cell of code: the exercises that its tags name, and its source."""
 
@@ -83,8 +86,9 @@ def _traits(notebook: Any) -> frozenset[str]:  # noqa: ANN401
 def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = str) -> list[int]:
     """Find the cells that an exercise needs, in order: its own, and those that define the names it uses.
 
-    Of the cells that define a name, those before the one that uses it count, or else those after it. Without
-    a cell of its own an exercise has those that define a function with its name.
+    Of the cells that define a name, those before the one that uses it count, or else those after it. An
+    exercise has the cells with its tag, and those that define its function. Where one of them is finished,
+    those that still have the `...` of the stub are left out: the function was written elsewhere.
 
     Parameters
     ----------
@@ -103,8 +107,10 @@ def needed(cells: Sequence[Cell], exercise: str, plain: Callable[[str], str] = s
     ([0, 1], [])
     """
     known = [names_of(plain(cell.source)) for cell in cells]
-    own = [number for number, cell in enumerate(cells) if exercise in cell.exercises]
-    left = own or [number for number, (defined, _) in enumerate(known) if exercise in defined]
+    written = re.compile(rf"^(def {exercise}\b|{exercise} = lambda\b)", re.MULTILINE)
+    own = [n for n, cell in enumerate(cells) if exercise in cell.exercises or written.search(cell.source)]
+    left = [n for n in own if not STUB.search(cells[n].source)] or own
+    left = left or [number for number, (defined, _) in enumerate(known) if exercise in defined]
     found: set[int] = set()
     while left:
         number = left.pop()

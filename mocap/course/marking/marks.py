@@ -1,17 +1,19 @@
-"""Marks for the notebooks in a folder, exercise by exercise, and as .csv files for spreadsheets."""
+"""Marks for the notebooks in a folder, exercise by exercise."""
 
 from __future__ import annotations
 
 import copy
-import csv
 import hashlib
-import io
+import multiprocessing
+import signal
 import stat
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import closing
 from functools import partial
+from itertools import repeat
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,10 +21,12 @@ import numpy as np
 
 import mocap
 from mocap._shared.progress import Progress
+from mocap._shared.tasks import serve
 from mocap.course import stored
 from mocap.course.check import Verdict
 from mocap.course.checks import all_checks
 from mocap.course.marking.cells import Cell, Sheet, code_cells, course_sheets, named_oracle, sheet_of
+from mocap.course.marking.grades import Mark, sent_by
 from mocap.course.marking.plain_data import unpack
 from mocap.course.marking.sealed import Ended, Sealed, protection
 from mocap.course.notebooks import library
@@ -31,24 +35,7 @@ from mocap.errors import MocapError
 SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
 LARGEST, MOST_PARTS, MOST_CODE = 100 << 20, 2_000_000, 1 << 20  # bytes, lists and texts, bytes of code
-LONGEST = 300  # characters of a cell
-FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
 MISSING = "its cell is missing."
-
-
-class Mark(NamedTuple):
-    """The mark of an exercise: whose notebook, which exercise, right or not, and what the check said.
-
-    Examples
-    --------
-    >>> Mark("ada/02.ipynb", "align", True, "✓ align: right on 40 random inputs.").right
-    True
-    """
-
-    handed_in: str
-    exercise: str
-    right: bool
-    said: str
 
 
 class _Handed(NamedTuple):
@@ -61,7 +48,10 @@ class _Handed(NamedTuple):
 
 
 def mark(
-    folder: Path, progress: Progress = iter, tell: Callable[[str], object] = lambda _: None
+    folder: Path,
+    progress: Progress = iter,
+    tell: Callable[[str], object] = lambda _: None,
+    jobs: int = 1,
 ) -> Iterator[list[Mark]]:
     """Mark the exercises of all notebooks in a folder and in the folders inside it.
 
@@ -74,9 +64,11 @@ def mark(
 
     Parameters
     ----------
-    folder : the notebooks handed in; the folder in it that holds a notebook says whose it is.
+    folder : the notebooks handed in; the folder in it that holds a notebook says whose it is, or the name of
+        the file, as Canvas gives it.
     progress : wraps the notebooks while they are marked.
     tell : gets a sentence that says what walls there are, before the first notebook runs.
+    jobs : how many notebooks are marked at a time; one, where no wall keeps them apart.
 
     Yields
     ------
@@ -100,24 +92,57 @@ def mark(
     sheets, marked = course_sheets(stored()), list[Mark]()
     handed = [_read(file, file.relative_to(folder).as_posix(), sheets) for file in files]
     seed = int(np.random.default_rng().integers(2**32))
-    with closing(Sealed([stored(), *{folder / one.path.split("/")[0] for one in handed}])) as student:
+    hidden = [stored(), *{folder / one.path.split("/")[0] for one in handed}]
+    with closing(Sealed(hidden)) as student:
         tell(protection(student.walls))
         before = _fingerprint(student.walls)
-        for one in progress(handed):
-            try:
-                marks = list(_marks(one, seed, student))
-            except Exception as error:  # costs this notebook only
-                marks = [Mark(one.path, "", False, f"cannot be marked: {type(error).__name__}.")]
-            if _fingerprint(student.walls) != before:
-                yield [mark._replace(right=False, said="✗ changes the installed package.") for mark in marks]
-                raise MocapError(f"{one.path} has changed the package: install it anew, mark in a container.")
-            yield marks
-            marked += marks
+        apart = jobs > 1 and not before
+        work = _together(handed, seed, hidden, jobs) if apart else (_marks(o, seed, student) for o in handed)
+        with closing(work):
+            for one, marks in zip(progress(handed), work, strict=False):
+                if _fingerprint(student.walls) != before:
+                    yield [
+                        mark._replace(right=False, said="✗ changes the installed package.") for mark in marks
+                    ]
+                    raise MocapError(
+                        f"{one.path} has changed the package: install it anew, mark in a container."
+                    )
+                yield marks
+                marked += marks
     asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
-    for who in dict.fromkeys(one.path.split("/")[0] for one in handed if "/" in one.path):
-        done = {mark.exercise for mark in marked if mark.handed_in.startswith(f"{who}/")}
-        left = [name for name in asked if name not in done]
-        yield [Mark(f"{who}/", name, False, f"✗ {name}: not handed in.") for name in left]
+    students = {sent_by(one.path): one.path.split("/")[0] for one in handed}
+    for who, sent in students.items():
+        done = {mark.exercise for mark in marked if sent_by(mark.handed_in) == who}
+        if who[1] or any("/" in one.path for one in handed if sent_by(one.path) == who):
+            left = [name for name in asked if name not in done]
+            yield [Mark(f"{sent}/", name, False, f"✗ {name}: not handed in.") for name in left]
+
+
+_own: list[Sealed] = []  # of a process that marks one notebook after another
+
+
+def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: int) -> Generator[list[Mark]]:
+    """Mark several notebooks at a time; at the end, also an early one, no process is left."""
+    fork = multiprocessing.get_context("fork")
+    with ProcessPoolExecutor(jobs, fork, _begin, (hidden,)) as pool:
+        try:
+            yield from pool.map(_mark_one, handed, repeat(seed))
+        except BrokenExecutor as error:
+            raise MocapError("A worker was ended from outside: is there enough memory?") from error
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for worker in multiprocessing.active_children():
+                worker.terminate()
+
+
+def _begin(hidden: Sequence[Path]) -> None:
+    serve()
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    _own.append(Sealed(hidden))
+
+
+def _mark_one(one: _Handed, seed: int) -> list[Mark]:
+    return _marks(one, seed, _own[0])
 
 
 def _fingerprint(walls: Iterable[str]) -> bytes:
@@ -151,7 +176,15 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
     return _Handed(path, [], None, wrong)
 
 
-def _marks(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
+def _marks(one: _Handed, seed: int, student: Sealed) -> list[Mark]:
+    """Mark a notebook; an error costs this notebook only."""
+    try:
+        return list(_marks_of(one, seed, student))
+    except Exception as error:
+        return [Mark(one.path, "", False, f"cannot be marked: {type(error).__name__}.")]
+
+
+def _marks_of(one: _Handed, seed: int, student: Sealed) -> Iterator[Mark]:
     """Mark the exercises of the course's notebook, and those of others of which it has cells."""
     asked = one.sheet.exercises if one.sheet else ()
     names = [*dict.fromkeys((*asked, *(name for cell in one.cells for name in cell.exercises)))]
@@ -211,54 +244,3 @@ def call(student: Sealed, name: str, *arguments: Any) -> Any:  # noqa: ANN401
     for number, changed in changes:
         np.copyto(arguments[number], unpack(changed))
     return unpack(given)
-
-
-def to_csv(marks: Iterable[Mark]) -> str:
-    """Write marks as the text of a .csv file, one line per mark.
-
-    Texts stay on one line, and an apostrophe stands before one that a spreadsheet would take for a formula.
-
-    Examples
-    --------
-    >>> print(to_csv([Mark("=ada/02.ipynb", "align", True, "✓ align: right on 40 random inputs.")]))
-    handed in,exercise,right,said
-    '=ada/02.ipynb,align,1,✓ align: right on 40 random inputs.
-    """
-    rows = [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks]
-    return _text([("handed in", "exercise", "right", "said"), *rows])
-
-
-def to_table(marks: Iterable[Mark]) -> str:
-    """Write marks as the text of a .csv file, a line for each student and a column for each exercise.
-
-    Examples
-    --------
-    >>> print(to_table([Mark("ada/00.ipynb", "speed", True, ""), Mark("ada/02.ipynb", "align", False, "")]))
-    student,speed,align,right
-    ada,1,0,1
-    """
-    marks = list(marks)
-    names = [*dict.fromkeys(mark.exercise for mark in marks if mark.exercise)]
-    table: dict[str, dict[str, int]] = {}
-    for mark in marks:
-        row = table.setdefault(mark.handed_in.split("/")[0], {})
-        if mark.exercise:
-            row[mark.exercise] = max(int(mark.right), row.get(mark.exercise, 0))
-    rows = [[who, *(row.get(name, "") for name in names), sum(row.values())] for who, row in table.items()]
-    return _text([["student", *names, "right"], *rows])
-
-
-def _text(rows: Iterable[Iterable[str | int]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
-    return text.getvalue()
-
-
-def _cell(value: str | int) -> str | int:
-    """Make a text safe: one line of visible characters, and no formula."""
-    if isinstance(value, int):
-        return value
-    line = "".join(sign if sign.isprintable() else " " for sign in value[: 10 * LONGEST])
-    line = " ".join(line.split())
-    line = f"{line[: LONGEST - 1]}…" if len(line) > LONGEST else line
-    return f"'{line}" if line.startswith(FORMULA) or value.startswith(FORMULA) else line

@@ -24,9 +24,10 @@ def test_a_function_that_passes_is_used_from_then_on_and_kept_in_a_readable_file
     assert lab.mine("hamilton") is hamilton
     assert hamilton(X, Y).tolist() == Z.tolist()
     text = fresh.read_text()
-    assert "import numpy as np\n" in text
     assert "\n\n\n\n" not in text
-    assert f"# ---- hamilton (notebook 01) ----\n\n{solutions()['hamilton'][1]}" in text
+    assert (
+        f"# ---- hamilton (notebook 01) ----\n\nimport numpy as np\n\n\n{solutions()['hamilton'][1]}" in text
+    )
     assert lab.whose("hamilton", "climb") == "hamilton: yours · climb: the package's"
 
 
@@ -94,8 +95,8 @@ def test_without_a_file_nothing_is_read_or_written(monkeypatch, fresh, capsys):
 
 
 def test_a_name_that_no_exercise_has_is_refused():
-    refused(r"no exercise 'hamiltion'\.$", lab.mine, "hamiltion")
-    refused("no exercise '<lambda>'", lab.mine, lambda a, b: a)
+    refused(r"no exercise 'hamiltion'; write `hamilton`\.$", lab.mine, "hamiltion")
+    refused("no exercise '<lambda>'; write `def` and the name that the", lab.mine, lambda a, b: a)
 
 
 def test_what_cannot_be_kept_is_used_until_the_kernel_ends(capsys, fresh):
@@ -138,14 +139,19 @@ def test_a_file_that_was_saved_on_windows_is_read(change, capsys, fresh):
 
 
 @pytest.mark.parametrize(
-    ("old", "new"), [("import numpy", "exit()\nimport numpy"), ("return", "exit()\n    return")]
+    ("old", "new", "said", "yours"),
+    [
+        ('\n"""\n', '\n"""\nexit()\n', "SystemExit, None; this section is not used", True),
+        ("import numpy", "exit()\nimport numpy", "SystemExit, None; this section is not used", False),
+        ("return", "exit()\n    return", "does not pass its check any more", False),
+    ],
 )
-def test_a_file_that_ends_python_does_not(old, new, capsys, fresh):
+def test_a_file_that_ends_python_does_not(old, new, said, yours, capsys, fresh):
     lab.mine(written("hamilton"))
     fresh.write_text(fresh.read_text().replace(old, new))
     new_kernel()
-    assert not lab.mine("hamilton").yours
-    assert "does not pass its check any more" in capsys.readouterr().out
+    assert lab.mine("hamilton").yours == yours
+    assert said in capsys.readouterr().out
 
 
 def test_what_a_kept_function_prints_is_not_shown_when_the_file_is_read(capsys, fresh):

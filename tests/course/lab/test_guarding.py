@@ -7,7 +7,7 @@ import pytest
 from mocap._shared.limits import time_limit
 from mocap.course import checks
 from mocap.course.lab import guarding
-from mocap.course.lab.guarding import Slot, same_form
+from mocap.course.lab.guarding import Slot, in_form, same_form
 
 
 def slot(name, own):
@@ -50,6 +50,23 @@ def test_an_answer_that_is_a_list_becomes_an_array():
         own = slot(name, lambda *given, check=check: check.truth(*given).tolist())
         given, wanted = own(*arguments), check.truth(*arguments)
         assert own.yours and given.dtype == wanted.dtype and given.tolist() == wanted.tolist()
+
+
+@pytest.mark.parametrize(
+    ("given", "wanted"),
+    [
+        ([[1, 2], [3]], [{1, 2}, {3}]),
+        ([1, [2.0, 3]], (1, np.array([2.0, 3.0]))),
+        (np.array([1, 2]), (1, 2.0)),
+        (np.array(3.0), 3),
+        (np.float64(2), 2),
+        ({(0, 1): 2}, {(0, 1): 2}),
+        (None, None),
+    ],
+)
+def test_an_answer_of_another_type_is_converted(given, wanted):
+    assert same_form(given, wanted)
+    assert repr(in_form(given, wanted)) == repr(wanted)
 
 
 def test_what_a_function_prints_is_dropped_with_one_sentence(capsys):

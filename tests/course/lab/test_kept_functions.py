@@ -6,24 +6,27 @@ import pytest
 
 from mocap.body import rotations
 from mocap.body.rotations import slerp as between
-from mocap.course.lab.kept_functions import Plain, keep, plain_source, run_sections, split
+from mocap.course.lab.kept_functions import keep, plain_source, run_sections, split
 from tests.refusals import refused
 
-ONE = Plain(frozenset(["import math"]), "def one(x):\n    return math.floor(x)\n")
-TWO = Plain(frozenset(["import numpy as np"]), "def two(x):\n    return np.sum(x)\n")
+ONE = "from math import dist\n\n\ndef one(x):\n    return dist([0, 0], x)\n"
+TWO = "from numpy.linalg import norm as dist\n\n\ndef two(x):\n    return dist(x)\n"
 
 
-def test_functions_stand_in_the_order_of_their_notebooks_with_their_imports_above(tmp_path):
+def test_functions_stand_in_the_order_of_their_notebooks_each_with_its_imports(tmp_path):
     file = tmp_path / "mine.py"
     keep(file, "two", "08b", TWO)
     keep(file, "one", "02", ONE)
     text = keep(file, "two", "08b", TWO)
     assert text == file.read_text()
     assert [name for name, *_ in split(text)[1]] == ["one", "two"]
-    assert "import math\nimport numpy as np\n" in text
     found, said = run_sections(file, text, {})
     assert said == []
-    assert (found["one"](2.5), found["two"]([1, 2])) == (2, 3)
+    assert (found["one"]([3, 4]), found["two"]([3, 4, 12])) == (5, 13)  # each by its own `dist`
+    file.write_text(text.replace("# ---- one", "import math\n\n# ---- one"))
+    assert (
+        "import math\n" in keep(file, "one", "02", ONE).partition("# ----")[0]
+    )  # what is written above stays
 
 
 def test_a_section_that_fails_is_left_out_with_its_line(tmp_path):
@@ -79,19 +82,19 @@ def known(x):
 
 def test_imports_helpers_and_constants_are_written_before_the_function():
     plain = plain_source(asked, {"known"})
-    assert plain.imports == {
-        "import math",
-        "import numpy as np",
+    assert plain.partition("\n\n")[0].splitlines() == [
         "from mocap.body import rotations",
         "from mocap.body.rotations import slerp as between",
-    }
+        "import math",
+        "import numpy as np",
+    ]
     for first, then in (
         ("def inner", "def helper"),
         ("EPSILON = 1e-06", "def helper"),
         ("AXES = (", "def asked"),
     ):
-        assert plain.source.index(first) < plain.source.index(then)
-    assert "def known" not in plain.source
+        assert plain.index(first) < plain.index(then)
+    assert "def known" not in plain
 
 
 def doubled(function):
@@ -116,7 +119,7 @@ def decorated(x, y=EPSILON, *, axis=AXES[0]):
 def test_what_is_written_runs_alone_with_what_stands_around_it(function):
     plain = plain_source(function)
     space = {}
-    exec("\n".join(plain.imports) + "\n" + plain.source, space)
+    exec(plain, space)
     assert space[function.__name__](3.5) == function(3.5)
 
 
@@ -132,8 +135,7 @@ real = [object()]
 
 def test_an_attribute_is_not_taken_for_a_value_of_its_name():
     plain = plain_source(uses_an_attribute)
-    assert not plain.imports
-    assert plain.source.startswith("AXES = ('x', 'y')\n\n\ndef uses_an_attribute")
+    assert plain.startswith("AXES = ('x', 'y')\n\n\ndef uses_an_attribute")
 
 
 def uses_an_array(x):

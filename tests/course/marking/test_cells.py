@@ -47,6 +47,24 @@ def test_an_exercise_needs_the_cells_that_define_what_it_uses(sources, wanted):
     assert needed(cells, "f") == wanted
 
 
+@pytest.mark.parametrize(
+    ("tagged", "others", "wanted"),
+    [
+        ("def f(x):\n    return ...", ["def f(x): return 2 * x"], [1]),
+        ("def f(x):\n    return ...", ["def g(x): return 2", "f = lambda x: g(x)"], [1, 2]),
+        ("def f(x):\n    return ...", ["f = lab.mine(f)", "f = [3]"], [0]),
+        ("def f(x):\n    ...  # case 1\n    return x", ["def f(x):\n    return ..."], [0, 1]),
+        ("def f(x):\n    return x[..., 0]", ["def f(x):\n    return ..."], [0]),
+        ("def f(x): return 1", ["def f(x): return 2"], [0, 1]),  # the last one counts, as in the notebook
+    ],
+)
+def test_a_function_that_is_written_in_a_new_cell_counts(tagged, others, wanted):
+    cells = [Cell(("f",), tagged), *(Cell((), source) for source in others)]
+    assert needed(cells, "f") == wanted
+    backwards = [cells[0]._replace(exercises=()), *cells[:0:-1], cells[0]]
+    assert len(needed(backwards[1:], "f")) == len(wanted)
+
+
 def test_nothing_is_needed_for_what_is_not_there():
     assert needed([Cell((), "f(1)")], "f") == []
 

@@ -1,0 +1,262 @@
+"""What marks are worth: points, tables for spreadsheets, Moodle and Canvas, and a page for each student."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import NamedTuple
+
+from mocap._shared.atomic import make_folder, write_text
+from mocap.course.checks import all_checks
+from mocap.errors import MocapError
+
+LONGEST = 300  # characters of a cell
+FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet computes
+MOODLE = ("Identifier", "Full name", "Email address", "Last modified (grade)")
+CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+NAMES = {*MOODLE[:3], *CANVAS[:4], "Username", "ID number"}  # columns that say who a student is
+SENT = re.compile(r"(.+?)_(\d+)_assignsubmission_.*|([^_]+)_(?:LATE_)?(\d+)_\d+_.*", re.DOTALL)
+"""How Moodle and Canvas call what was handed in: NAME_NUMBER_assignsubmission_…, and NAME_NUMBER_NUMBER_…"""
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>{title}</title>
+<style>
+:root {{ color-scheme: light dark; font: 1rem/1.5 system-ui, sans-serif }}
+body {{ max-width: 42rem; margin: 2rem auto; padding: 0 1rem; overflow-wrap: anywhere }}
+h2 {{ font-size: 1rem; margin: 1.5rem 0 0; border-top: 1px solid #8886; padding-top: 0.5rem }}
+b {{ float: right }}
+p {{ margin: 0 }}
+</style>
+<h1>{title}</h1>
+{body}
+</html>
+"""
+
+
+class Mark(NamedTuple):
+    """The mark of an exercise: whose notebook, which exercise, right or not, and what the check said.
+
+    Examples
+    --------
+    >>> Mark("ada/02.ipynb", "align", True, "✓ align: right on 40 random inputs.").right
+    True
+    """
+
+    handed_in: str
+    exercise: str
+    right: bool
+    said: str
+
+
+class Grade(NamedTuple):
+    """A student's grade.
+
+    Attributes
+    ----------
+    sent : the folder or file that was handed in.
+    known : the columns of Moodle and Canvas that say who it is.
+    listed : whether the roster has the student.
+    best : the best mark of each exercise; at "" what was said of a notebook as a whole.
+    points : of all exercises.
+    """
+
+    sent: str
+    known: Mapping[str, str]
+    listed: bool
+    best: Mapping[str, Mark]
+    points: float
+
+
+def read_points(file: Path | None) -> dict[str, float]:
+    """Read how many points exercises are worth, from lines `speed = 2`; those that are not named are worth 1.
+
+    Raises
+    ------
+    MocapError : where the file cannot be read, names what is no exercise, or gives no number.
+
+    Examples
+    --------
+    >>> read_points(None)
+    {}
+    """
+    try:
+        table = tomllib.loads(file.read_text("utf-8")) if file else {}
+    except (OSError, ValueError) as error:
+        raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
+    for name, worth in table.items():
+        if name not in all_checks() or type(worth) not in (int, float) or not 0 <= worth < 1e6:
+            raise MocapError(
+                f"{file}: '{name:.40}' is no exercise of the course, or {worth!r:.40} no points."
+            )
+    return table
+
+
+def read_roster(file: Path | None) -> list[dict[str, str]]:
+    """Read who the students are from a .csv file that Moodle or Canvas has written.
+
+    Raises
+    ------
+    MocapError : where the file cannot be read, or none of its columns says who a student is.
+
+    Examples
+    --------
+    >>> read_roster(None)
+    []
+    """
+    try:
+        lines = io.StringIO(file.read_text("utf-8-sig") if file else ",".join(CANVAS))
+        roster = csv.DictReader(lines, restkey="", restval="")
+        if not NAMES & {*(roster.fieldnames or ())}:
+            raise ValueError("no column such as 'Email address' or 'SIS Login ID'")
+        return [{name: f"{value}" for name, value in row.items()} for row in roster]
+    except (OSError, ValueError, csv.Error) as error:
+        raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
+
+
+def sent_by(handed_in: str) -> tuple[str, str]:
+    """Give the name of who handed a file in, and the number in Moodle or Canvas, if any.
+
+    Examples
+    --------
+    >>> sent_by("ada/02.ipynb"), sent_by("Ada Lovelace_815_assignsubmission_file/02.ipynb")
+    (('ada', ''), ('Ada Lovelace', '815'))
+    >>> sent_by("lovelaceada_LATE_815_4711_02-matching.ipynb")
+    ('lovelaceada', '815')
+    """
+    sent = handed_in.split("/")[0]
+    if found := SENT.fullmatch(sent):
+        return found[1] or found[3], found[2] or found[4]
+    return sent.removesuffix(".ipynb"), ""
+
+
+def grade(
+    marks: Iterable[Mark], points: Mapping[str, float], roster: Sequence[Mapping[str, str]] = ()
+) -> list[Grade]:
+    """Sum up the marks of each student; of several copies of an exercise the best one counts.
+
+    Parameters
+    ----------
+    marks : of all students.
+    points : from `read_points`.
+    roster : from `read_roster`; a student is found there by the number or by one of the names.
+
+    Examples
+    --------
+    >>> grade([Mark("ada/00.ipynb", "speed", True, "")], {"speed": 2})[0].points
+    2
+    """
+    sent: dict[tuple[str, str], str] = {}
+    best: dict[tuple[str, str], dict[str, Mark]] = {}
+    for mark in marks:
+        who = sent_by(mark.handed_in)
+        sent.setdefault(who, mark.handed_in.split("/")[0])
+        own = best.setdefault(who, {})
+        if mark.right or mark.exercise not in own:
+            own[mark.exercise] = mark
+    grades = []
+    for (name, number), own in best.items():
+        row = next((row for row in roster if _is(row, name, number)), {})
+        known = {"Identifier": f"Participant {number}" * bool(number), "Full name": name, "Student": name}
+        known |= {"ID": number, "SIS Login ID": "" if number else name, "Email address": name * ("@" in name)}
+        total = sum(points.get(exercise, 1) * mark.right for exercise, mark in own.items())
+        grades.append(Grade(sent[name, number], known | {**row}, bool(row), own, round(total, 4)))
+    return grades
+
+
+def _is(row: Mapping[str, str], name: str, number: str) -> bool:
+    """Check whether a line of a roster is a student's."""
+    if number:
+        return number in re.findall(r"\d+", row.get("Identifier", "") or row.get("ID", ""))
+    names = [row.get(column, "").casefold() for column in NAMES]
+    return name.casefold() in {*names, *(one.split("@")[0] for one in names)}
+
+
+def tables(
+    marks: Sequence[Mark], grades: Sequence[Grade], points: Mapping[str, float], title: str = "points"
+) -> dict[str, str]:
+    """Write marks as the texts of .csv files, by the ends of their names.
+
+    Parameters
+    ----------
+    marks : of all students: the first text has a line for each.
+    grades : of the same students; `-table` has a line for each and a column for each exercise, `-moodle` and
+        `-canvas` have the columns that these import.
+    points : as for `grade`.
+    title : the name of the assignment in Canvas.
+
+    Texts stay on one line, and an apostrophe stands before one that a spreadsheet would take for a formula.
+
+    Examples
+    --------
+    >>> marks = [Mark("=ada/00.ipynb", "speed", True, "✓ speed: right on 40 random inputs.")]
+    >>> made = tables(marks, grade(marks, {"speed": 2}), {"speed": 2})
+    >>> print(made[""] + made["-table"])
+    handed in,exercise,right,said
+    '=ada/00.ipynb,speed,1,✓ speed: right on 40 random inputs.
+    student,speed,points
+    '=ada,2,2
+    """
+    names = [*dict.fromkeys(mark.exercise for mark in marks if mark.exercise)]
+    worth = {name: points.get(name, 1) for name in names}
+    made: dict[str, list[Sequence[str | float]]] = {
+        "": [("handed in", "exercise", "right", "said")],
+        "-table": [("student", *names, "points")],
+        "-moodle": [(*MOODLE, "Grade")],
+        "-canvas": [(*CANVAS, title), ("Points Possible", "", "", "", "", round(sum(worth.values()), 4))],
+    }
+    made[""] += [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks]
+    for one in grades:
+        row = [worth[name] * one.best[name].right if name in one.best else "" for name in names]
+        made["-table"].append((one.known["Student"], *row, one.points))
+        made["-moodle"].append((*(one.known.get(name, "") for name in MOODLE), one.points))
+        made["-canvas"].append((*(one.known.get(name, "") for name in CANVAS), one.points))
+    return {end: _text(rows) for end, rows in made.items()}
+
+
+def _text(rows: Iterable[Iterable[str | float]]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
+    return text.getvalue()
+
+
+def _cell(value: str | float) -> str | float:
+    """Make a text safe: one line of visible characters, and no formula."""
+    if not isinstance(value, str):
+        return value
+    line = "".join(sign if sign.isprintable() else " " for sign in value[: 10 * LONGEST])
+    line = " ".join(line.split())
+    line = f"{line[: LONGEST - 1]}…" if len(line) > LONGEST else line
+    return f"'{line}" if line.startswith(FORMULA) or value.startswith(FORMULA) else line
+
+
+def write_feedback(grades: Iterable[Grade], points: Mapping[str, float], folder: Path) -> list[Path]:
+    """Write a page for each student: what the check of each exercise said, its points, and their sum.
+
+    The name of each begins as that of what was handed in, by which Moodle finds whose it is.
+    """
+    make_folder(folder)
+    files: list[Path] = []
+    for one in grades:
+        most = {name: points.get(name, 1) if name else 0 for name in one.best}
+        parts = [f"<p><b>{one.points:g} of {sum(most.values()):g}</b>All points</p>"]
+        for name, mark in one.best.items():
+            earned = f"<b>{most[name] * mark.right:g} of {most[name]:g}</b>" * bool(name)
+            said = mark.said.removeprefix(f"✗ {name}: ").removeprefix(f"✓ {name}: ")
+            parts.append(
+                f"<h2>{earned}{'✓' if mark.right else '✗'} {escape(name)}</h2>\n<p>{escape(said)}</p>"
+            )
+        title = escape(one.known.get("Full name") or one.known["Student"])
+        start = re.sub(r"[^\w .@-]", "_", one.sent).lstrip(".")[:100]
+        file = folder / f"{start}_feedback.html"
+        while file in files:  # of another name with other signs
+            file = file.with_stem(f"{file.stem}_")
+        write_text(file, PAGE.format(title=title, body="\n".join(parts)))
+        files.append(file)
+    return files

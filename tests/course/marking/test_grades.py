@@ -1,0 +1,165 @@
+"""Marks as points, as .csv files that no spreadsheet computes, and as pages for students."""
+
+import csv
+import io
+from html.parser import HTMLParser
+
+import pytest
+
+from mocap.cli.main import main
+from mocap.course.marking import Mark, grade, read_points, read_roster, tables, write_feedback
+from tests.course.marking.students import HONEST, SPEED, START, hand_in
+from tests.refusals import refused
+
+MOODLE = "Identifier,Full name,Email address,Status,Grade,Last modified (grade)\n"
+MOODLE += "Participant 7,Ada Lovelace,ada@b.org,Submitted,-,-\nParticipant 71,Bob,bob@b.org,Submitted,-,-\n"
+CANVAS = "Student,ID,SIS User ID,SIS Login ID,Section,Homework (5)\n    Points Possible,,,,,9\n"
+CANVAS += '"Lovelace, Ada",7,S7,ada,A,\n"B, Bob",71,S71,bob,A,\n'
+
+
+def read(text):
+    return list(csv.reader(io.StringIO(text)))
+
+
+def table(marks, points=(), roster=(), end="-table"):
+    points = dict(points)
+    return read(tables(marks, grade(marks, points, roster), points, "Homework")[end])
+
+
+def test_the_table_keeps_commas():
+    assert table([Mark("a", "f", False, "✗ f: one, two")], end="")[1] == ["a", "f", "0", "✗ f: one, two"]
+
+
+@pytest.mark.parametrize("start", ["=", "+", "-", "@", "\t", "\t=", " =", "\r=", "\n@"])
+def test_no_cell_is_a_formula(start):
+    text = f"{start}HYPERLINK(1)"
+    for end in ("", "-table", "-moodle", "-canvas"):
+        cells = [cell for line in table([Mark(text, "f", False, text)], end=end) for cell in line]
+        assert any(cell.startswith("'") for cell in cells)
+        assert not any(cell.startswith(("=", "+", "-", "@", "\t", "\r")) for cell in cells)
+
+
+def test_a_text_stays_on_one_line_and_is_short():
+    said = table([Mark("a", "f", False, "one\ntwo\r\n\x1b[2J\u2028\ud800" + "x" * 10_000)], end="")[1][3]
+    assert said.startswith("one two [2J")
+    assert len(said) == 300
+    said.encode("utf-8")
+
+
+def test_of_two_copies_the_better_one_counts():
+    marks = [Mark("ada/1.ipynb", "f", right, "") for right in (False, True, False)]
+    assert table(marks)[1] == ["ada", "1", "1"]
+
+
+def test_a_student_without_marks_has_a_line():
+    assert table([Mark("ada/1.ipynb", "", False, "")]) == [["student", "points"], ["ada", "0"]]
+
+
+@pytest.mark.parametrize(
+    ("text", "sent"),
+    [
+        (MOODLE, ["Ada Lovelace_7_assignsubmission_file/1.ipynb", "Bob_71_assignsubmission_file/1.ipynb"]),
+        (MOODLE, ["ADA/1.ipynb", "bob@b.org/1.ipynb"]),
+        (CANVAS, ["lovelaceada_7_99_1.ipynb", "bbob_LATE_71_99_1.ipynb"]),
+        (CANVAS, ["ada/1.ipynb", "S71.ipynb"]),
+    ],
+)
+def test_students_are_found_in_what_moodle_and_canvas_wrote(text, sent, tmp_path):
+    (tmp_path / "roster.csv").write_text(text, "utf-8-sig")
+    marks = [Mark(one, name, one is sent[0], "") for one in (*sent, "eve") for name in ("f", "g")]
+    made = (marks, {"f": 2.5}, read_roster(tmp_path / "roster.csv"))
+    if text is MOODLE:
+        assert table(*made, end="-moodle") == [
+            ["Identifier", "Full name", "Email address", "Last modified (grade)", "Grade"],
+            ["Participant 7", "Ada Lovelace", "ada@b.org", "'-", "3.5"],
+            ["Participant 71", "Bob", "bob@b.org", "'-", "0.0"],
+            ["", "eve", "", "", "0.0"],
+        ]
+    else:
+        assert table(*made, end="-canvas") == [
+            ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Homework"],
+            ["Points Possible", "", "", "", "", "3.5"],
+            ["Lovelace, Ada", "7", "S7", "ada", "A", "3.5"],
+            ["B, Bob", "71", "S71", "bob", "A", "0.0"],
+            ["eve", "", "", "eve", "", "0.0"],
+        ]
+
+
+@pytest.mark.parametrize(
+    "text", ["spede = 1", "speed = 'x'", "speed = -1", "speed = nan", "speed", "speed = true"]
+)
+def test_points_are_of_exercises_and_no_less_than_0(text, tmp_path):
+    (tmp_path / "points.toml").write_text(text)
+    refused(r"points.toml", read_points, tmp_path / "points.toml")
+
+
+def test_a_roster_says_who_students_are(tmp_path):
+    refused("gone.csv: cannot be read", read_roster, tmp_path / "gone.csv")
+    (tmp_path / "a.csv").write_text("a,b\n1,2\n")
+    refused("no column such as 'Email address'", read_roster, tmp_path / "a.csv")
+
+
+class Texts(HTMLParser):
+    """The texts of a page, and the names of its elements."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.texts, self.elements = [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, _):
+        self.elements.add(tag)
+
+    def handle_data(self, data):
+        self.texts += [data.strip()] * bool(data.strip())
+
+
+def test_a_page_says_what_the_check_said_and_runs_nothing(tmp_path):
+    evil = "<script>alert(1)</script><img src=x onerror=alert(1)>&amp;"
+    marks = [Mark(evil, "speed", True, "✓ speed: right."), Mark(evil, "mix", False, f"✗ mix: {evil}")]
+    marks += [Mark("../a", "", False, "../a: is not a notebook."), Mark(".._a", "mix", False, "")]
+    files = write_feedback(grade(marks, {"mix": 2.5}), {"mix": 2.5}, tmp_path / "pages")
+    assert len({*files}) == 3 and {file.parent for file in files} == {tmp_path / "pages"}
+    page = Texts(files[0].read_text("utf-8"))
+    assert not page.elements & {"script", "img"}
+    assert page.texts[-9:] == [
+        *(
+            evil.split("/")[0],
+            "1 of 3.5",
+            "All points",
+            "1 of 1",
+            "✓ speed",
+            "right.",
+            "0 of 2.5",
+            "✗ mix",
+            evil,
+        )
+    ]
+    assert "../a: is not a notebook." in Texts(files[1].read_text("utf-8")).texts
+
+
+def test_the_command_writes_points_pages_and_who_is_unknown(tmp_path, capsys):
+    hand_in(HONEST, tmp_path / "in" / "ada" / "00.ipynb")
+    hand_in([START, SPEED], tmp_path / "in" / "eve" / "00.ipynb")
+    (tmp_path / "roster.csv").write_text(MOODLE)
+    (tmp_path / "points.toml").write_text("speed = 3")
+    options = {"points": "points.toml", "roster": "roster.csv", "feedback": "pages", "out": "Sheet 1.csv"}
+    paths = [part for name, file in options.items() for part in (f"--{name}", str(tmp_path / file))]
+    assert main(["course", "mark", str(tmp_path / "in"), *paths, "--jobs", "2"]) == 0
+    out, err = capsys.readouterr()
+    assert "2 pages" in out and err.endswith("roster.csv: eve\n")
+    made = {
+        end: read((tmp_path / f"Sheet 1{end}.csv").read_text("utf-8")) for end in ("", "-moodle", "-canvas")
+    }
+    assert [line[:3] for line in made[""][1:]] == [
+        [f"{who}/00.ipynb", name, right]
+        for who, rights in (("ada", "11"), ("eve", "10"))
+        for name, right in zip(("speed", "cheapest"), rights, strict=True)
+    ]
+    assert made["-moodle"][1:] == [
+        ["Participant 7", "Ada Lovelace", "ada@b.org", "'-", "4"],
+        ["", "eve", "", "", "3"],
+    ]
+    assert made["-canvas"][0][-1] == "Sheet 1"
+    page = Texts((tmp_path / "pages" / "eve_feedback.html").read_text("utf-8"))
+    assert page.texts[-2:] == ["✗ cheapest", "its cell is missing."]
