@@ -15,17 +15,10 @@ from mocap.errors import MocapError, requirement
 
 PAGES = ("GLOSSARY.md", "FORMULAS.md")  # the README is for teachers
 TELLING = re.compile(r"checks\.|lab\.(bets?|quiz)\(")  # how cells begin whose outputs hold hints or outcomes
-INSTALL = """# The notebook needs the package: this installs it where it is missing, as in Colab.
-try:
-    import mocap
-except ImportError:
-    %pip install -q '{}'"""
-MARKS = """# nbgrader puts the check here.
-### BEGIN HIDDEN TESTS
-from mocap.course import checks
-
-checks.{0}.require({0})
-### END HIDDEN TESTS"""
+INSTALL = "try:\n    import mocap\nexcept ImportError:  # as in Colab\n    %pip install -q '{}'"
+MARKS = (
+    "### BEGIN HIDDEN TESTS\nfrom mocap.course import checks as c\n\nc.{0}.require({0})\n### END HIDDEN TESTS"
+)
 CONFIG = """c = get_config()
 c.CourseDirectory.course_id = "motion-graphs"
 c.ClearSolutions.code_stub = {"python": "return ..."}

@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
+from string import Template
 from typing import NamedTuple
 
 from mocap._shared.atomic import make_folder, write_text
@@ -20,24 +21,13 @@ FORMULA = ("=", "+", "-", "@", "\t")  # how cells begin that a spreadsheet compu
 MOODLE = ("Identifier", "Full name", "Email address", "Last modified (grade)")
 CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 NAMES = {*MOODLE[:3], *CANVAS[:4], "Username", "ID number"}  # columns that say who a student is
-SENT = re.compile(r"(.+?)_(\d+)_assignsubmission_.*|([^_]+)_(?:LATE_)?(\d+)_\d+_.*", re.DOTALL)
+SENT = re.compile(r"(.+?)_(?:LATE_)?(\d+)_(?:assignsubmission_|\d+_).*", re.DOTALL)
 """How Moodle and Canvas call what was handed in: NAME_NUMBER_assignsubmission_…, and NAME_NUMBER_NUMBER_…"""
-PAGE = """<!DOCTYPE html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>{title}</title>
-<style>
-:root {{ color-scheme: light dark; font: 1rem/1.5 system-ui, sans-serif }}
-body {{ max-width: 42rem; margin: 2rem auto; padding: 0 1rem; overflow-wrap: anywhere }}
-h2 {{ font-size: 1rem; margin: 1.5rem 0 0; border-top: 1px solid #8886; padding-top: 0.5rem }}
-b {{ float: right }}
-p {{ margin: 0 }}
-</style>
-<h1>{title}</h1>
-{body}
-</html>
-"""
+PAGE = Template(Path(__file__).with_name("feedback.html").read_text("utf-8"))
+
+
+Points = Mapping[str, float]  # of exercises, by their names; 1 for those that are missing
+Roster = Sequence[Mapping[str, str]]  # a line for each student, by the names of the columns
 
 
 class Mark(NamedTuple):
@@ -60,18 +50,21 @@ class Grade(NamedTuple):
 
     Attributes
     ----------
-    sent : the folder or file that was handed in.
     known : the columns of Moodle and Canvas that say who it is.
     listed : whether the roster has the student.
     best : the best mark of each exercise; at "" what was said of a notebook as a whole.
     points : of all exercises.
     """
 
-    sent: str
     known: Mapping[str, str]
     listed: bool
     best: Mapping[str, Mark]
     points: float
+
+    @property
+    def sent(self) -> str:
+        """The folder or file that was handed in."""
+        return next(iter(self.best.values())).handed_in.split("/")[0]
 
 
 def read_points(file: Path | None) -> dict[str, float]:
@@ -92,9 +85,7 @@ def read_points(file: Path | None) -> dict[str, float]:
         raise MocapError(f"{file}: cannot be read ({error})."[:200]) from error
     for name, worth in table.items():
         if name not in all_checks() or type(worth) not in (int, float) or not 0 <= worth < 1e6:
-            raise MocapError(
-                f"{file}: '{name:.40}' is no exercise of the course, or {worth!r:.40} no points."
-            )
+            raise MocapError(f"{file}: '{name:.40}' is no exercise, or {f'{worth}':.40} no number of points.")
     return table
 
 
@@ -131,14 +122,11 @@ def sent_by(handed_in: str) -> tuple[str, str]:
     ('lovelaceada', '815')
     """
     sent = handed_in.split("/")[0]
-    if found := SENT.fullmatch(sent):
-        return found[1] or found[3], found[2] or found[4]
-    return sent.removesuffix(".ipynb"), ""
+    found = SENT.fullmatch(sent)
+    return (found[1], found[2]) if found else (sent.removesuffix(".ipynb"), "")
 
 
-def grade(
-    marks: Iterable[Mark], points: Mapping[str, float], roster: Sequence[Mapping[str, str]] = ()
-) -> list[Grade]:
+def grade(marks: Iterable[Mark], points: Points, roster: Roster = ()) -> list[Grade]:
     """Sum up the marks of each student; of several copies of an exercise the best one counts.
 
     Parameters
@@ -152,35 +140,30 @@ def grade(
     >>> grade([Mark("ada/00.ipynb", "speed", True, "")], {"speed": 2})[0].points
     2
     """
-    sent: dict[tuple[str, str], str] = {}
-    best: dict[tuple[str, str], dict[str, Mark]] = {}
+    all_best: dict[tuple[str, str], dict[str, Mark]] = {}
     for mark in marks:
-        who = sent_by(mark.handed_in)
-        sent.setdefault(who, mark.handed_in.split("/")[0])
-        own = best.setdefault(who, {})
-        if mark.right or mark.exercise not in own:
-            own[mark.exercise] = mark
+        best = all_best.setdefault(sent_by(mark.handed_in), {})
+        if mark.right or mark.exercise not in best:
+            best[mark.exercise] = mark
     grades = []
-    for (name, number), own in best.items():
-        row = next((row for row in roster if _is(row, name, number)), {})
+    for (name, number), best in all_best.items():
+        row = next((row for row in roster if (number or name.casefold()) in _names(row, number)), {})
         known = {"Identifier": f"Participant {number}" * bool(number), "Full name": name, "Student": name}
         known |= {"ID": number, "SIS Login ID": "" if number else name, "Email address": name * ("@" in name)}
-        total = sum(points.get(exercise, 1) * mark.right for exercise, mark in own.items())
-        grades.append(Grade(sent[name, number], known | {**row}, bool(row), own, round(total, 4)))
+        total = sum(points.get(exercise, 1) * mark.right for exercise, mark in best.items())
+        grades.append(Grade(known | {**row}, bool(row), best, round(total, 4)))
     return grades
 
 
-def _is(row: Mapping[str, str], name: str, number: str) -> bool:
-    """Check whether a line of a roster is a student's."""
+def _names(row: Mapping[str, str], number: str) -> list[str]:
+    """List the numbers of a student in a roster, or else the names, with those of e-mail addresses."""
     if number:
-        return number in re.findall(r"\d+", row.get("Identifier", "") or row.get("ID", ""))
+        return re.findall(r"\d+", row.get("Identifier", "") or row.get("ID", ""))
     names = [row.get(column, "").casefold() for column in NAMES]
-    return name.casefold() in {*names, *(one.split("@")[0] for one in names)}
+    return [*names, *(name.split("@")[0] for name in names)]
 
 
-def tables(
-    marks: Sequence[Mark], grades: Sequence[Grade], points: Mapping[str, float], title: str = "points"
-) -> dict[str, str]:
+def tables(marks: Sequence[Mark], grades: Iterable[Grade], points: Points, title: str = "") -> dict[str, str]:
     """Write marks as the texts of .csv files, by the ends of their names.
 
     Parameters
@@ -205,24 +188,24 @@ def tables(
     """
     names = [*dict.fromkeys(mark.exercise for mark in marks if mark.exercise)]
     worth = {name: points.get(name, 1) for name in names}
-    made: dict[str, list[Sequence[str | float]]] = {
-        "": [("handed in", "exercise", "right", "said")],
-        "-table": [("student", *names, "points")],
-        "-moodle": [(*MOODLE, "Grade")],
-        "-canvas": [(*CANVAS, title), ("Points Possible", "", "", "", "", round(sum(worth.values()), 4))],
-    }
-    made[""] += [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks]
+    lines: list[Sequence[str | float]] = [("handed in", "exercise", "right", "said")]
+    lines += [(mark.handed_in, mark.exercise, int(mark.right), mark.said) for mark in marks]
+    table: list[Sequence[str | float]] = [("student", *names, "points")]
+    moodle: list[Sequence[str | float]] = [(*MOODLE, "Grade")]
+    canvas: list[Sequence[str | float]] = [(*CANVAS, title)]
+    canvas.append(("Points Possible", "", "", "", "", round(sum(worth.values()), 4)))
     for one in grades:
         row = [worth[name] * one.best[name].right if name in one.best else "" for name in names]
-        made["-table"].append((one.known["Student"], *row, one.points))
-        made["-moodle"].append((*(one.known.get(name, "") for name in MOODLE), one.points))
-        made["-canvas"].append((*(one.known.get(name, "") for name in CANVAS), one.points))
-    return {end: _text(rows) for end, rows in made.items()}
+        table.append((one.known["Student"], *row, one.points))
+        moodle.append((*(one.known.get(name, "") for name in MOODLE), one.points))
+        canvas.append((*(one.known.get(name, "") for name in CANVAS), one.points))
+    made = {"": lines, "-table": table, "-moodle": moodle, "-canvas": canvas}
+    return {end: "".join(map(_line, rows)) for end, rows in made.items()}
 
 
-def _text(rows: Iterable[Iterable[str | float]]) -> str:
+def _line(values: Iterable[str | float]) -> str:
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
+    csv.writer(text, lineterminator="\n").writerow(map(_cell, values))
     return text.getvalue()
 
 
@@ -236,7 +219,7 @@ def _cell(value: str | float) -> str | float:
     return f"'{line}" if line.startswith(FORMULA) or value.startswith(FORMULA) else line
 
 
-def write_feedback(grades: Iterable[Grade], points: Mapping[str, float], folder: Path) -> list[Path]:
+def write_feedback(grades: Iterable[Grade], points: Points, folder: Path) -> list[Path]:
     """Write a page for each student: what the check of each exercise said, its points, and their sum.
 
     The name of each begins as that of what was handed in, by which Moodle finds whose it is.
@@ -249,14 +232,15 @@ def write_feedback(grades: Iterable[Grade], points: Mapping[str, float], folder:
         for name, mark in one.best.items():
             earned = f"<b>{most[name] * mark.right:g} of {most[name]:g}</b>" * bool(name)
             said = mark.said.removeprefix(f"✗ {name}: ").removeprefix(f"✓ {name}: ")
-            parts.append(
-                f"<h2>{earned}{'✓' if mark.right else '✗'} {escape(name)}</h2>\n<p>{escape(said)}</p>"
-            )
+            parts += [
+                f"<h2>{earned}{'✓' if mark.right else '✗'} {escape(name)}</h2>",
+                f"<p>{escape(said)}</p>",
+            ]
         title = escape(one.known.get("Full name") or one.known["Student"])
         start = re.sub(r"[^\w .@-]", "_", one.sent).lstrip(".")[:100]
         file = folder / f"{start}_feedback.html"
         while file in files:  # of another name with other signs
             file = file.with_stem(f"{file.stem}_")
-        write_text(file, PAGE.format(title=title, body="\n".join(parts)))
+        write_text(file, PAGE.substitute(title=title, body="\n".join(parts)))
         files.append(file)
     return files

@@ -36,6 +36,7 @@ SECONDS = 30  # time limit of an exercise
 STARTING = 120  # time limit of the first cell, which imports much
 LARGEST, MOST_PARTS, MOST_CODE = 100 << 20, 2_000_000, 1 << 20  # bytes, lists and texts, bytes of code
 MISSING = "its cell is missing."
+_own: list[Sealed] = []  # by which this process marks one notebook after another
 
 
 class _Handed(NamedTuple):
@@ -97,28 +98,30 @@ def mark(
         tell(protection(student.walls))
         before = _fingerprint(student.walls)
         apart = jobs > 1 and not before
-        work = _together(handed, seed, hidden, jobs) if apart else (_marks(o, seed, student) for o in handed)
+        _own[:] = [student]
+        work = _together(handed, seed, hidden, jobs) if apart else (_marks(one, seed) for one in handed)
         with closing(work):
             for one, marks in zip(progress(handed), work, strict=False):
-                if _fingerprint(student.walls) != before:
-                    yield [
-                        mark._replace(right=False, said="✗ changes the installed package.") for mark in marks
-                    ]
+                if changed := _fingerprint(student.walls) != before:
+                    marks = [m._replace(right=False, said="✗ changes the installed package.") for m in marks]
+                yield marks
+                marked += marks
+                if changed:
                     raise MocapError(
                         f"{one.path} has changed the package: install it anew, mark in a container."
                     )
-                yield marks
-                marked += marks
+    yield from _missing(handed, marked)
+
+
+def _missing(handed: list[_Handed], marked: list[Mark]) -> Iterator[list[Mark]]:
+    """Mark as wrong what others handed in and a student did not."""
     asked = [name for name in all_checks() if any(mark.exercise == name for mark in marked)]
     students = {sent_by(one.path): one.path.split("/")[0] for one in handed}
     for who, sent in students.items():
-        done = {mark.exercise for mark in marked if sent_by(mark.handed_in) == who}
-        if who[1] or any("/" in one.path for one in handed if sent_by(one.path) == who):
+        if who[1] or sent == who[0]:  # no file without a folder
+            done = {mark.exercise for mark in marked if sent_by(mark.handed_in) == who}
             left = [name for name in asked if name not in done]
             yield [Mark(f"{sent}/", name, False, f"✗ {name}: not handed in.") for name in left]
-
-
-_own: list[Sealed] = []  # of a process that marks one notebook after another
 
 
 def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: int) -> Generator[list[Mark]]:
@@ -126,7 +129,7 @@ def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: in
     fork = multiprocessing.get_context("fork")
     with ProcessPoolExecutor(jobs, fork, _begin, (hidden,)) as pool:
         try:
-            yield from pool.map(_mark_one, handed, repeat(seed))
+            yield from pool.map(_marks, handed, repeat(seed))
         except BrokenExecutor as error:
             raise MocapError("A worker was ended from outside: is there enough memory?") from error
         finally:
@@ -138,11 +141,7 @@ def _together(handed: list[_Handed], seed: int, hidden: Sequence[Path], jobs: in
 def _begin(hidden: Sequence[Path]) -> None:
     serve()
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    _own.append(Sealed(hidden))
-
-
-def _mark_one(one: _Handed, seed: int) -> list[Mark]:
-    return _marks(one, seed, _own[0])
+    _own[:] = [Sealed(hidden)]
 
 
 def _fingerprint(walls: Iterable[str]) -> bytes:
@@ -176,10 +175,10 @@ def _read(file: Path, path: str, sheets: Sequence[Sheet]) -> _Handed:
     return _Handed(path, [], None, wrong)
 
 
-def _marks(one: _Handed, seed: int, student: Sealed) -> list[Mark]:
+def _marks(one: _Handed, seed: int) -> list[Mark]:
     """Mark a notebook; an error costs this notebook only."""
     try:
-        return list(_marks_of(one, seed, student))
+        return list(_marks_of(one, seed, _own[0]))
     except Exception as error:
         return [Mark(one.path, "", False, f"cannot be marked: {type(error).__name__}.")]
 

@@ -184,8 +184,8 @@ def test_no_line_is_a_formula_or_two_lines(marked):
 
 def test_the_table_has_a_line_for_each_student_and_a_column_for_each_exercise(marked):
     table = {row["student"]: row for row in rows(marked / "marks-table.csv")}
-    assert table["zoe"] == {"student": "zoe", **dict.fromkeys(EXERCISES, "1"), "right": "2"}
-    assert table["is cut"] == {"student": "is cut", **dict.fromkeys(EXERCISES, "0"), "right": "0"}
+    assert table["zoe"] == {"student": "zoe", **dict.fromkeys(EXERCISES, "1"), "points": "2"}
+    assert table["is cut"] == {"student": "is cut", **dict.fromkeys(EXERCISES, "0"), "points": "0"}
     assert len(table) == len(DISHONEST) + len(UNLUCKY) + len(SPOILED) + 2
 
 
